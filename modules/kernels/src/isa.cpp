@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Names of instruction sets and what this machine has of them.
+
+#include "pcl_bv/kernels/isa.h"
+
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "targets.h"
+// Order matters: targets.h configures Highway.
+#include <hwy/highway.h>
+#include <hwy/targets.h>
+
+namespace pcl_bv {
+namespace {
+
+struct Entry {
+  Isa isa;
+  std::string_view name;
+  std::int64_t target;  // Highway's bit; 0 for those that are always there.
+};
+
+constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
+                                            {Isa::scalar, "scalar", 0},
+                                            {Isa::sse4, "sse4", HWY_SSE4},
+                                            {Isa::avx2, "avx2", HWY_AVX2},
+                                            {Isa::avx512, "avx512", HWY_AVX3},
+                                            {Isa::neon, "neon", HWY_NEON},
+                                            {Isa::sve, "sve", HWY_SVE},
+                                            {Isa::sve2, "sve2", HWY_SVE2}}};
+
+bool usable(const Entry& entry) {
+  if (entry.isa == Isa::scalar) return true;
+  return (entry.target & HWY_TARGETS & hwy::SupportedTargets()) != 0;
+}
+
+template <typename Range>
+std::string list_names(const Range& isas) {
+  std::string text;
+  for (const Isa isa : isas) text.append(text.empty() ? "" : ", ").append(isa_name(isa));
+  return text;
+}
+
+}  // namespace
+
+std::string_view isa_name(Isa isa) { return kEntries[static_cast<std::size_t>(isa)].name; }
+
+Isa parse_isa(std::string_view name) {
+  std::string known;
+  for (const Entry& entry : kEntries) {
+    if (entry.name == name) return entry.isa;
+    known.append(known.empty() ? "" : ", ").append(entry.name);
+  }
+  throw std::invalid_argument("unknown instruction set '" + std::string(name) + "' (known: " + known + ")");
+}
+
+std::vector<Isa> usable_isas() {
+  std::vector<Isa> isas;
+  for (const Entry& entry : kEntries) {
+    if (usable(entry)) isas.push_back(entry.isa);
+  }
+  return isas;
+}
+
+Isa resolve_isa(Isa isa) {
+  if (isa == Isa::automatic) {
+    const char* name = std::getenv("PCL_BV_ISA");
+    if (name != nullptr && *name != '\0') isa = parse_isa(name);
+  }
+  if (isa == Isa::automatic) return usable_isas().back();
+  if (usable(kEntries[static_cast<std::size_t>(isa)])) return isa;
+  throw std::invalid_argument("instruction set '" + std::string(isa_name(isa)) +
+                              "' is not usable here (usable: " + list_names(usable_isas()) + ")");
+}
+
+}  // namespace pcl_bv
