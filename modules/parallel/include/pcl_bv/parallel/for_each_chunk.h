@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Chunk and merge (paper §5): work in fixed chunks, results by chunk number, merged in order. Which thread does what
+// can then not change a bit.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "pcl_bv/parallel/policy.h"
+
+namespace pcl_bv {
+namespace internal {
+void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t), void* body);
+}  // namespace internal
+
+/// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads; returns when all
+/// are done. Serial if the policy has one thread, if there is one chunk, or inside another parallel region (no
+/// oversubscription). If bodies throw, every chunk is still tried and the exception of the lowest chunk is rethrown.
+template <typename Body>
+void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
+  using Callable = std::remove_reference_t<Body>;
+  internal::run_chunks(
+      policy, chunks, [](void* callable, std::size_t chunk) { (*static_cast<Callable*>(callable))(chunk); },
+      const_cast<void*>(static_cast<const void*>(&body)));
+}
+
+/// merge(...merge(merge(identity, map(0)), map(1))..., map(chunks - 1)): the maps in parallel, the merges in order.
+template <typename Partial, typename Map, typename Merge>
+Partial reduce_chunks(const ParallelPolicy& policy, std::size_t chunks, Partial identity, Map&& map, Merge&& merge) {
+  std::vector<Partial> partials(chunks, identity);
+  for_each_chunk(policy, chunks, [&](std::size_t chunk) { partials[chunk] = map(chunk); });
+  Partial result = std::move(identity);
+  for (Partial& partial : partials) merge(result, std::move(partial));
+  return result;
+}
+
+}  // namespace pcl_bv

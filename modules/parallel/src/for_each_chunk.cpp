@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The only OpenMP pragma of the repository, and its twin on std::thread.
+
+#include "pcl_bv/parallel/for_each_chunk.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+
+namespace pcl_bv::internal {
+namespace {
+
+// Hands out chunks and keeps the exception of the lowest one that failed, whichever thread met it first.
+class ChunkQueue {
+ public:
+  ChunkQueue(std::size_t chunks, void (*call)(void*, std::size_t), void* body)
+      : chunks_(chunks), call_(call), body_(body) {}
+
+  void work() {
+    for (std::size_t chunk; (chunk = next_.fetch_add(1, std::memory_order_relaxed)) < chunks_;) {
+      try {
+        call_(body_, chunk);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!failure_ || chunk < failed_chunk_) {
+          failure_ = std::current_exception();
+          failed_chunk_ = chunk;
+        }
+      }
+    }
+  }
+
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  const std::size_t chunks_;
+  void (*const call_)(void*, std::size_t);
+  void* const body_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  std::size_t failed_chunk_ = 0;
+};
+
+void work_with_openmp(ChunkQueue& queue, unsigned threads) {
+#pragma omp parallel num_threads(static_cast<int>(threads))
+  queue.work();
+}
+
+// Set while a thread works for a Threads region, which OpenMP does not know of.
+thread_local bool inside_region = false;
+
+void work_in_region(ChunkQueue& queue) {
+  inside_region = true;
+  queue.work();
+  inside_region = false;
+}
+
+// The system may refuse a thread; those that started, and this one, do the work then.
+void work_with_threads(ChunkQueue& queue, unsigned threads) {
+  std::vector<std::thread> others;
+  try {
+    others.reserve(threads - 1);
+    while (others.size() + 1 < threads) others.emplace_back(work_in_region, std::ref(queue));
+  } catch (const std::system_error&) {
+  }
+  work_in_region(queue);
+  for (std::thread& other : others) other.join();
+}
+
+}  // namespace
+
+void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t), void* body) {
+  const bool nested = inside_region || omp_in_parallel();
+  const unsigned threads =
+      nested || chunks <= 1 ? 1U : static_cast<unsigned>(std::min<std::size_t>(thread_count(policy), chunks));
+  ChunkQueue queue(chunks, call, body);
+  if (threads == 1) {
+    queue.work();
+  } else if (std::holds_alternative<OpenMP>(policy)) {
+    work_with_openmp(queue, threads);
+  } else {
+    work_with_threads(queue, threads);
+  }
+  queue.rethrow();
+}
+
+}  // namespace pcl_bv::internal

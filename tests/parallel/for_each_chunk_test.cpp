@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/parallel/for_each_chunk.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace pcl_bv {
+namespace {
+
+// ThreadSanitizer does not understand libgomp's barriers and would report races that are none.
+#if defined(__SANITIZE_THREAD__)
+constexpr bool kOpenMpIsUnderstood = false;
+#else
+constexpr bool kOpenMpIsUnderstood = true;
+#endif
+
+std::vector<ParallelPolicy> policies() {
+  std::vector<ParallelPolicy> all = {Serial{}};
+  for (const unsigned threads : {0U, 1U, 2U, 3U, 7U}) {
+    all.emplace_back(Threads{threads});
+    if (kOpenMpIsUnderstood) all.emplace_back(OpenMP{threads});
+  }
+  return all;
+}
+
+TEST(ForEachChunk, CallsEachChunkOnce) {
+  for (const ParallelPolicy& policy : policies()) {
+    for (const std::size_t chunks : {0, 1, 2, 5, 100}) {
+      std::vector<std::atomic<int>> calls(chunks);
+      for_each_chunk(policy, chunks, [&](std::size_t chunk) { ++calls.at(chunk); });
+      for (const auto& count : calls) EXPECT_EQ(count, 1);
+    }
+  }
+}
+
+TEST(ForEachChunk, RunsInTheCallingThreadWhenSerial) {
+  std::set<std::thread::id> threads;
+  for_each_chunk(Serial{}, 10, [&](std::size_t) { threads.insert(std::this_thread::get_id()); });
+  EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
+}
+
+TEST(ForEachChunk, TriesEveryChunkAndRethrowsTheExceptionOfTheLowest) {
+  for (const ParallelPolicy& policy : policies()) {
+    std::atomic<int> calls{0};
+    try {
+      for_each_chunk(policy, 50, [&](std::size_t chunk) {
+        ++calls;
+        if (chunk % 7 == 3) throw std::runtime_error(std::to_string(chunk));
+      });
+      FAIL() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "3");
+    }
+    EXPECT_EQ(calls, 50);
+  }
+}
+
+TEST(ForEachChunk, DoesNotNest) {
+  for (const ParallelPolicy& policy : policies()) {
+    std::atomic<int> strangers{0};
+    for_each_chunk(policy, 8, [&](std::size_t) {
+      const auto outer = std::this_thread::get_id();
+      for_each_chunk(policy, 8, [&](std::size_t) { strangers += std::this_thread::get_id() != outer ? 1 : 0; });
+    });
+    // With one thread there is no parallel region to nest in; with more, the inner loop must stay where it is.
+    EXPECT_EQ(strangers, 0);
+  }
+}
+
+TEST(ReduceChunks, SameOrderForAnyThreadCount) {
+  const auto map = [](std::size_t chunk) { return "<" + std::to_string(chunk) + ">"; };
+  const auto merge = [](std::string& all, std::string part) { all += part; };
+  const std::string expected = reduce_chunks(Serial{}, 40, std::string("start"), map, merge);
+  EXPECT_EQ(expected.substr(0, 11), "start<0><1>");
+  for (const ParallelPolicy& policy : policies()) {
+    EXPECT_EQ(reduce_chunks(policy, 40, std::string("start"), map, merge), expected);
+  }
+}
+
+TEST(LimitThreads, NeverRaisesAndNeverReachesZero) {
+  EXPECT_EQ(thread_count(limit_threads(OpenMP{4}, 2)), 2U);
+  EXPECT_EQ(thread_count(limit_threads(Threads{4}, 9)), 4U);
+  EXPECT_EQ(thread_count(limit_threads(Threads{4}, 0)), 1U);
+  EXPECT_EQ(thread_count(limit_threads(Serial{}, 9)), 1U);
+}
+
+}  // namespace
+}  // namespace pcl_bv
