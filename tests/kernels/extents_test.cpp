@@ -17,7 +17,8 @@ namespace {
 using test::Records;
 using test::TestCloud;
 
-constexpr DirectionSet kSets[] = {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18, DirectionSet::dop26};
+constexpr DirectionSet kSets[] = {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18,
+                                  DirectionSet::dop26};
 
 std::vector<BlockExtents> run(Isa isa, const PointView& points, DirectionSet set) {
   std::vector<BlockExtents> blocks(block_count(points.count));
@@ -26,7 +27,8 @@ std::vector<BlockExtents> run(Isa isa, const PointView& points, DirectionSet set
 }
 
 // Bits, not values: -0 differs from 0.
-void expect_same_bits(const std::vector<BlockExtents>& a, const std::vector<BlockExtents>& b, DirectionSet set) {
+void expect_same_bits(const std::vector<BlockExtents>& a, const std::vector<BlockExtents>& b,
+                      DirectionSet set) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].dropped, b[i].dropped) << "block " << i;
@@ -76,8 +78,12 @@ void expect_reference_follows_definition() {
   }
 }
 
-TEST(ExtentsReference, FollowsTheDefinitionForFloat) { expect_reference_follows_definition<float>(); }
-TEST(ExtentsReference, FollowsTheDefinitionForDouble) { expect_reference_follows_definition<double>(); }
+TEST(ExtentsReference, FollowsTheDefinitionForFloat) {
+  expect_reference_follows_definition<float>();
+}
+TEST(ExtentsReference, FollowsTheDefinitionForDouble) {
+  expect_reference_follows_definition<double>();
+}
 
 class Parity : public testing::TestWithParam<Isa> {
  protected:
@@ -107,8 +113,17 @@ TEST_P(Parity, ExtentsEqualReferenceBitForBitForDouble) {
 TEST_P(Parity, ExtentsEqualReferenceForEveryStrideOffsetAndTail) {
   for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
     const TestCloud<float> cloud = test::gaussian<float>(n, n);
-    for (const auto& [stride, offset] : std::vector<std::pair<std::size_t, std::size_t>>{
-             {12, 0}, {16, 0}, {16, 4}, {20, 0}, {29, 13}, {31, 3}, {32, 0}, {32, 16}, {32, 20}, {48, 0}, {48, 32}}) {
+    for (const auto& [stride, offset] : std::vector<std::pair<std::size_t, std::size_t>>{{12, 0},
+                                                                                         {16, 0},
+                                                                                         {16, 4},
+                                                                                         {20, 0},
+                                                                                         {29, 13},
+                                                                                         {31, 3},
+                                                                                         {32, 0},
+                                                                                         {32, 16},
+                                                                                         {32, 20},
+                                                                                         {48, 0},
+                                                                                         {48, 32}}) {
       SCOPED_TRACE(testing::Message() << n << " points, stride " << stride << ", offset " << offset);
       expect_parity<float>(Records<float>(cloud, stride, offset).view());
     }

@@ -42,19 +42,24 @@ std::string error_of(const auto& call) {
 }
 
 TEST(Isa, EveryNameParsesBackToItsSet) {
-  for (const Isa isa : {Isa::automatic, Isa::scalar, Isa::sse4, Isa::avx2, Isa::avx512, Isa::neon, Isa::sve, Isa::sve2}) {
+  for (const Isa isa :
+       {Isa::automatic, Isa::scalar, Isa::sse4, Isa::avx2, Isa::avx512, Isa::neon, Isa::sve, Isa::sve2}) {
     EXPECT_EQ(parse_isa(isa_name(isa)), isa) << isa_name(isa);
   }
 }
 
 TEST(Isa, UnknownNamesAreErrorsThatListTheKnownOnes) {
   for (const char* name : {"", "AVX2", "avx", "sse", "best", "avx512 "}) {
-    EXPECT_THAT(error_of([&] { parse_isa(name); }), HasSubstr("unknown instruction set '" + std::string(name) + "'"));
+    EXPECT_THAT(error_of([&] { parse_isa(name); }),
+                HasSubstr("unknown instruction set '" + std::string(name) + "'"));
   }
-  EXPECT_THAT(error_of([] { parse_isa("foo"); }), HasSubstr("auto, scalar, sse4, avx2, avx512, neon, sve, sve2"));
+  EXPECT_THAT(error_of([] { parse_isa("foo"); }),
+              HasSubstr("auto, scalar, sse4, avx2, avx512, neon, sve, sve2"));
 }
 
-TEST(Isa, ScalarIsAlwaysUsableAndFirst) { EXPECT_EQ(usable_isas().front(), Isa::scalar); }
+TEST(Isa, ScalarIsAlwaysUsableAndFirst) {
+  EXPECT_EQ(usable_isas().front(), Isa::scalar);
+}
 
 #if defined(__x86_64__)
 TEST(Isa, ThisBuildHasSimdKernelsForThisProcessor) {
@@ -64,7 +69,8 @@ TEST(Isa, ThisBuildHasSimdKernelsForThisProcessor) {
 }
 
 TEST(Isa, SetsOfOtherProcessorsAreErrorsThatListTheUsableOnes) {
-  EXPECT_THAT(error_of([] { resolve_isa(Isa::neon); }), HasSubstr("'neon' is not usable here (usable: scalar"));
+  EXPECT_THAT(error_of([] { resolve_isa(Isa::neon); }),
+              HasSubstr("'neon' is not usable here (usable: scalar"));
 }
 #endif
 

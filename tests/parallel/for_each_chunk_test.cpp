@@ -35,7 +35,8 @@ TEST(ForEachChunk, CallsEachChunkOnce) {
     for (const std::size_t chunks : {0, 1, 2, 5, 100}) {
       std::vector<std::atomic<int>> calls(chunks);
       for_each_chunk(policy, chunks, [&](std::size_t chunk) { ++calls.at(chunk); });
-      for (const auto& count : calls) EXPECT_EQ(count, 1);
+      for (const auto& count : calls)
+        EXPECT_EQ(count, 1);
     }
   }
 }
@@ -67,9 +68,11 @@ TEST(ForEachChunk, DoesNotNest) {
     std::atomic<int> strangers{0};
     for_each_chunk(policy, 8, [&](std::size_t) {
       const auto outer = std::this_thread::get_id();
-      for_each_chunk(policy, 8, [&](std::size_t) { strangers += std::this_thread::get_id() != outer ? 1 : 0; });
+      for_each_chunk(policy, 8,
+                     [&](std::size_t) { strangers += std::this_thread::get_id() != outer ? 1 : 0; });
     });
-    // With one thread there is no parallel region to nest in; with more, the inner loop must stay where it is.
+    // With one thread there is no parallel region to nest in; with more, the inner loop must stay where it
+    // is.
     EXPECT_EQ(strangers, 0);
   }
 }

@@ -27,12 +27,13 @@ struct TestCloud {
 
 template <typename T>
 TestCloud<T> gaussian(std::size_t n, std::uint64_t seed, double scale = 1, double offset = 0) {
-  TestCloud<T> cloud{"gaussian n=" + std::to_string(n) + " seed=" + std::to_string(seed) + " scale=" +
-                         std::to_string(scale) + " offset=" + std::to_string(offset),
+  TestCloud<T> cloud{"gaussian n=" + std::to_string(n) + " seed=" + std::to_string(seed) +
+                         " scale=" + std::to_string(scale) + " offset=" + std::to_string(offset),
                      {}};
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  for (std::size_t i = 0; i < 3 * n; ++i) cloud.xyz.push_back(static_cast<T>(offset + scale * normal(random)));
+  for (std::size_t i = 0; i < 3 * n; ++i)
+    cloud.xyz.push_back(static_cast<T>(offset + scale * normal(random)));
   return cloud;
 }
 
@@ -42,7 +43,8 @@ std::vector<TestCloud<T>> nasty_clouds() {
   const T nan = std::numeric_limits<T>::quiet_NaN();
   const T inf = std::numeric_limits<T>::infinity();
   std::vector<TestCloud<T>> clouds;
-  for (const std::size_t n : {1, 2, 3, 5, 17, 300, 1024, 1025, 5000}) clouds.push_back(gaussian<T>(n, 100 + n));
+  for (const std::size_t n : {1, 2, 3, 5, 17, 300, 1024, 1025, 5000})
+    clouds.push_back(gaussian<T>(n, 100 + n));
   for (const double scale : {1e-41, 1e-30, 1e-20, 1e-3, 1e3, 1e18, 1e20, 2e37}) {
     clouds.push_back(gaussian<T>(700, 7, scale));
   }
@@ -51,8 +53,10 @@ std::vector<TestCloud<T>> nasty_clouds() {
   clouds.push_back({"one point far away", {T(5e6), T(-4e6), T(123.25)}});
   clouds.push_back({"equal points", std::vector<T>(3 * 50, T(0.1))});
   clouds.push_back({"mixed zeros", {T(-0.0), T(0.0), T(-0.0), T(0.0), T(-0.0), T(-0.0)}});
-  clouds.push_back({"cancelling", {T(1e20), T(1), T(1e20), T(1e20), T(2), T(1e20), T(-1e20), T(3), T(-1e20)}});
-  clouds.push_back({"huge", {T(1.2e38), T(1.2e38), T(1.2e38), T(-1.2e38), T(3e38), T(1), T(3e38), T(3e38), T(-3e38)}});
+  clouds.push_back(
+      {"cancelling", {T(1e20), T(1), T(1e20), T(1e20), T(2), T(1e20), T(-1e20), T(3), T(-1e20)}});
+  clouds.push_back(
+      {"huge", {T(1.2e38), T(1.2e38), T(1.2e38), T(-1.2e38), T(3e38), T(1), T(3e38), T(3e38), T(-3e38)}});
   TestCloud<T> line{"line", {}}, plane{"tilted plane", {}}, lattice{"lattice", {}}, circle{"circle", {}};
   for (int i = 0; i < 200; ++i) {
     const T t = static_cast<T>(i * 0.37);
@@ -84,7 +88,10 @@ std::vector<TestCloud<T>> nasty_clouds() {
 template <typename T>
 struct Records {
   Records(const TestCloud<T>& cloud, std::size_t stride_bytes, std::size_t offset_bytes = 0)
-      : stride(stride_bytes), offset(offset_bytes), bytes(cloud.size() * stride, std::byte{0xFF}), count(cloud.size()) {
+      : stride(stride_bytes),
+        offset(offset_bytes),
+        bytes(cloud.size() * stride, std::byte{0xFF}),
+        count(cloud.size()) {
     for (std::size_t i = 0; i < count; ++i) {
       std::memcpy(bytes.data() + i * stride + offset, cloud.xyz.data() + 3 * i, 3 * sizeof(T));
     }
@@ -99,7 +106,8 @@ struct Records {
 
   std::size_t stride;
   std::size_t offset;
-  std::vector<std::byte> bytes;  // exactly as long as the points: a read past the end is caught by AddressSanitizer
+  std::vector<std::byte>
+      bytes;  // exactly as long as the points: a read past the end is caught by AddressSanitizer
   std::size_t count;
 };
 

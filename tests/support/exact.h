@@ -32,11 +32,15 @@ Rational exact_squared_distance(const Vector& center, const Coordinates& p) {
 inline double least_double_above(const Rational& exact) {
   double d = static_cast<double>(exact);
   const double inf = std::numeric_limits<double>::infinity();
-  while (Rational(d) < exact) d = std::nextafter(d, inf);
-  while (Rational(std::nextafter(d, -inf)) >= exact) d = std::nextafter(d, -inf);
+  while (Rational(d) < exact)
+    d = std::nextafter(d, inf);
+  while (Rational(std::nextafter(d, -inf)) >= exact)
+    d = std::nextafter(d, -inf);
   return d;
 }
 
-inline double greatest_double_below(const Rational& exact) { return -least_double_above(-exact); }
+inline double greatest_double_below(const Rational& exact) {
+  return -least_double_above(-exact);
+}
 
 }  // namespace pcl_bv::test

@@ -16,14 +16,20 @@ namespace pcl_bv::test {
 class FlushToZero {
  public:
 #if defined(__x86_64__)
-  FlushToZero() : saved_(_mm_getcsr()) { _mm_setcsr(static_cast<unsigned>(saved_) | 0x8040U); }
-  ~FlushToZero() { _mm_setcsr(static_cast<unsigned>(saved_)); }
+  FlushToZero() : saved_(_mm_getcsr()) {
+    _mm_setcsr(static_cast<unsigned>(saved_) | 0x8040U);
+  }
+  ~FlushToZero() {
+    _mm_setcsr(static_cast<unsigned>(saved_));
+  }
 #else
   FlushToZero() {
     asm volatile("mrs %0, fpcr" : "=r"(saved_));
     asm volatile("msr fpcr, %0" : : "r"(saved_ | (1ULL << 24)) : "memory");
   }
-  ~FlushToZero() { asm volatile("msr fpcr, %0" : : "r"(saved_) : "memory"); }
+  ~FlushToZero() {
+    asm volatile("msr fpcr, %0" : : "r"(saved_) : "memory");
+  }
 #endif
   FlushToZero(const FlushToZero&) = delete;
   FlushToZero& operator=(const FlushToZero&) = delete;

@@ -44,17 +44,19 @@ ExactSum exact_projection(const std::array<std::int8_t, 3>& direction, const Coo
   return {head.sum, head.error, errors.error};
 }
 
-// tail + rest is at most half a step of head and a tiny bit, and its rounded sum has its exact sign, so that sign
-// alone says on which side of head the exact value lies, never farther than the next double.
+// tail + rest is at most half a step of head and a tiny bit, and its rounded sum has its exact sign, so that
+// sign alone says on which side of head the exact value lies, never farther than the next double.
 double round_down(const ExactSum& sum) {
   const double below = sum.tail + sum.rest;
-  const double bound = below < 0.0 ? std::nextafter(sum.head, -std::numeric_limits<double>::infinity()) : sum.head;
+  const double bound =
+      below < 0.0 ? std::nextafter(sum.head, -std::numeric_limits<double>::infinity()) : sum.head;
   return bound + 0.0;
 }
 
 double round_up(const ExactSum& sum) {
   const double above = sum.tail + sum.rest;
-  const double bound = above > 0.0 ? std::nextafter(sum.head, std::numeric_limits<double>::infinity()) : sum.head;
+  const double bound =
+      above > 0.0 ? std::nextafter(sum.head, std::numeric_limits<double>::infinity()) : sum.head;
   return bound + 0.0;
 }
 
@@ -63,7 +65,8 @@ int compare(const ExactSum& a, const ExactSum& b) {
   if (a.tail == 0.0 && a.rest == 0.0 && b.tail == 0.0 && b.rest == 0.0) return sign(a.head - b.head);
   std::array<double, 6> difference{};
   std::size_t used = 0;
-  for (const double term : {a.rest, -b.rest, a.tail, -b.tail, a.head, -b.head}) grow(difference, used++, term);
+  for (const double term : {a.rest, -b.rest, a.tail, -b.tail, a.head, -b.head})
+    grow(difference, used++, term);
   for (std::size_t i = used; i-- > 0;) {
     if (difference[i] != 0.0) return sign(difference[i]);
   }

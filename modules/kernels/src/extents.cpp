@@ -37,37 +37,41 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
   return -1;
 }
 
-// The 13 projections of a packet, with the sums x + y and x - y shared. Named variables, not arrays: vectors of SVE
-// have no size that the compiler knows.
-#define PCL_BV_EACH_DIRECTION(DO)                                                                                \
-  DO(0, x) DO(1, y) DO(2, z) DO(3, hn::Add(sum, z)) DO(4, hn::Sub(sum, z)) DO(5, hn::Add(difference, z))         \
-  DO(6, hn::Sub(difference, z)) DO(7, sum) DO(8, difference) DO(9, hn::Add(x, z)) DO(10, hn::Sub(x, z))          \
-  DO(11, hn::Add(y, z)) DO(12, hn::Sub(y, z))
+// The 13 projections of a packet, with the sums x + y and x - y shared. Named variables, not arrays: vectors
+// of SVE have no size that the compiler knows.
+// clang-format off
+#define PCL_BV_EACH_DIRECTION(DO)                                                                 \
+  DO(0, x) DO(1, y) DO(2, z)                                                                      \
+  DO(3, hn::Add(sum, z)) DO(4, hn::Sub(sum, z)) DO(5, hn::Add(difference, z)) DO(6, hn::Sub(difference, z)) \
+  DO(7, sum) DO(8, difference)                                                                    \
+  DO(9, hn::Add(x, z)) DO(10, hn::Sub(x, z)) DO(11, hn::Add(y, z)) DO(12, hn::Sub(y, z))
+// clang-format on
 
-#define PCL_BV_DECLARE(i, projection)                                   \
-  [[maybe_unused]] auto low##i = hn::Set(d, std::numeric_limits<T>::infinity());    \
+#define PCL_BV_DECLARE(i, projection)                                            \
+  [[maybe_unused]] auto low##i = hn::Set(d, std::numeric_limits<T>::infinity()); \
   [[maybe_unused]] auto high##i = hn::Set(d, -std::numeric_limits<T>::infinity());
 
-#define PCL_BV_STEP(i, projection)         \
-  if constexpr (slot(set, i) >= 0) {       \
-    const auto p = projection;             \
-    low##i = hn::Min(low##i, p);           \
-    high##i = hn::Max(high##i, p);         \
+#define PCL_BV_STEP(i, projection)   \
+  if constexpr (slot(set, i) >= 0) { \
+    const auto p = projection;       \
+    low##i = hn::Min(low##i, p);     \
+    high##i = hn::Max(high##i, p);   \
   }
 
 // + 0.0: sets differ in the sign of a zero that min and max keep.
-#define PCL_BV_STORE(i, projection)                                                     \
-  if constexpr (slot(set, i) >= 0) {                                                    \
-    out.low[slot(set, i)] = hn::GetLane(hn::MinOfLanes(d, low##i)) + 0.0;               \
-    out.high[slot(set, i)] = hn::GetLane(hn::MaxOfLanes(d, high##i)) + 0.0;             \
+#define PCL_BV_STORE(i, projection)                                         \
+  if constexpr (slot(set, i) >= 0) {                                        \
+    out.low[slot(set, i)] = hn::GetLane(hn::MinOfLanes(d, low##i)) + 0.0;   \
+    out.high[slot(set, i)] = hn::GetLane(hn::MaxOfLanes(d, high##i)) + 0.0; \
   }
 
-// Extents of one block. Returns whether all its points are valid; if not, `out` means nothing. With `masked`, `pad`
-// must be a valid point: it takes the place of the others, which are counted.
+// Extents of one block. Returns whether all its points are valid; if not, `out` means nothing. With `masked`,
+// `pad` must be a valid point: it takes the place of the others, which are counted.
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
 bool extents_of_block(D d, const PointView& points, const T* pad, BlockExtents& out) {
   const std::size_t n = hn::Lanes(d);
-  [[maybe_unused]] const auto limit = hn::Set(d, sizeof(T) == 4 ? hwy::HighestValue<T>() : static_cast<T>(1e100));
+  [[maybe_unused]] const auto limit =
+      hn::Set(d, sizeof(T) == 4 ? hwy::HighestValue<T>() : static_cast<T>(1e100));
   PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
   auto total = hn::Zero(d);
   std::size_t dropped = 0;
@@ -79,7 +83,8 @@ bool extents_of_block(D d, const PointView& points, const T* pad, BlockExtents& 
       load_few(d, points, i, points.count - i, pad, x, y, z);
     }
     if constexpr (masked) {
-      const auto valid = hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
+      const auto valid =
+          hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
       dropped += n - hn::CountTrue(d, valid);
       x = hn::IfThenElse(valid, x, hn::Set(d, pad[0]));
       y = hn::IfThenElse(valid, y, hn::Set(d, pad[1]));
@@ -87,7 +92,8 @@ bool extents_of_block(D d, const PointView& points, const T* pad, BlockExtents& 
     }
     const auto sum = hn::Add(x, y);
     [[maybe_unused]] const auto difference = hn::Sub(x, y);
-    // One invalid coordinate makes the total NaN or infinite for good; an overflow of the total is a false alarm.
+    // One invalid coordinate makes the total NaN or infinite for good; an overflow of the total is a false
+    // alarm.
     if constexpr (!masked) total = hn::Add(total, hn::Add(sum, z));
     PCL_BV_EACH_DIRECTION(PCL_BV_STEP)
   }
@@ -134,20 +140,28 @@ void extents_of_blocks(const PointView& points, BlockExtents* blocks) {
 template <Layout layout, typename T>
 void extents_of_set(const PointView& points, DirectionSet set, BlockExtents* blocks) {
   switch (set) {
-    case DirectionSet::dop6: return extents_of_blocks<layout, DirectionSet::dop6, T>(points, blocks);
-    case DirectionSet::dop14: return extents_of_blocks<layout, DirectionSet::dop14, T>(points, blocks);
-    case DirectionSet::dop18: return extents_of_blocks<layout, DirectionSet::dop18, T>(points, blocks);
-    case DirectionSet::dop26: return extents_of_blocks<layout, DirectionSet::dop26, T>(points, blocks);
+    case DirectionSet::dop6:
+      return extents_of_blocks<layout, DirectionSet::dop6, T>(points, blocks);
+    case DirectionSet::dop14:
+      return extents_of_blocks<layout, DirectionSet::dop14, T>(points, blocks);
+    case DirectionSet::dop18:
+      return extents_of_blocks<layout, DirectionSet::dop18, T>(points, blocks);
+    case DirectionSet::dop26:
+      return extents_of_blocks<layout, DirectionSet::dop26, T>(points, blocks);
   }
 }
 
 void block_extents(const PointView& points, DirectionSet set, BlockExtents* blocks) {
   if (points.scalar == ScalarType::float64) return extents_of_set<Layout::any, double>(points, set, blocks);
   switch (layout_of(points)) {
-    case Layout::packed12: return extents_of_set<Layout::packed12, float>(points, set, blocks);
-    case Layout::packed16: return extents_of_set<Layout::packed16, float>(points, set, blocks);
-    case Layout::wide: return extents_of_set<Layout::wide, float>(points, set, blocks);
-    case Layout::any: return extents_of_set<Layout::any, float>(points, set, blocks);
+    case Layout::packed12:
+      return extents_of_set<Layout::packed12, float>(points, set, blocks);
+    case Layout::packed16:
+      return extents_of_set<Layout::packed16, float>(points, set, blocks);
+    case Layout::wide:
+      return extents_of_set<Layout::wide, float>(points, set, blocks);
+    case Layout::any:
+      return extents_of_set<Layout::any, float>(points, set, blocks);
   }
 }
 

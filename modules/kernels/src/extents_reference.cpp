@@ -83,10 +83,14 @@ void reference_blocks(const PointView& points, BlockExtents* blocks) {
 template <typename T>
 void reference_set(const PointView& points, DirectionSet set, BlockExtents* blocks) {
   switch (set) {
-    case DirectionSet::dop6: return reference_blocks<T, DirectionSet::dop6>(points, blocks);
-    case DirectionSet::dop14: return reference_blocks<T, DirectionSet::dop14>(points, blocks);
-    case DirectionSet::dop18: return reference_blocks<T, DirectionSet::dop18>(points, blocks);
-    case DirectionSet::dop26: return reference_blocks<T, DirectionSet::dop26>(points, blocks);
+    case DirectionSet::dop6:
+      return reference_blocks<T, DirectionSet::dop6>(points, blocks);
+    case DirectionSet::dop14:
+      return reference_blocks<T, DirectionSet::dop14>(points, blocks);
+    case DirectionSet::dop18:
+      return reference_blocks<T, DirectionSet::dop18>(points, blocks);
+    case DirectionSet::dop26:
+      return reference_blocks<T, DirectionSet::dop26>(points, blocks);
   }
 }
 

@@ -9,7 +9,8 @@ namespace pcl_bv {
 namespace {
 
 template <typename T>
-void find(const PointView& points, const std::array<std::int8_t, 3>& direction, double threshold, ExtremePoint& best) {
+void find(const PointView& points, const std::array<std::int8_t, 3>& direction, double threshold,
+          ExtremePoint& best) {
   const T a = direction[0];
   const T b = direction[1];
   const T c = direction[2];
@@ -29,8 +30,8 @@ void find(const PointView& points, const std::array<std::int8_t, 3>& direction, 
 
 }  // namespace
 
-void find_extreme_point(const PointView& points, const std::array<std::int8_t, 3>& direction, double threshold,
-                        ExtremePoint& best) {
+void find_extreme_point(const PointView& points, const std::array<std::int8_t, 3>& direction,
+                        double threshold, ExtremePoint& best) {
   if (points.scalar == ScalarType::float32) return find<float>(points, direction, threshold, best);
   find<double>(points, direction, threshold, best);
 }

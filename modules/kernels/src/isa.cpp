@@ -33,21 +33,30 @@ constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
                                             {Isa::sve, "sve", HWY_SVE},
                                             {Isa::sve2, "sve2", HWY_SVE2}}};
 
+// Asking the processor costs 15 us in a virtual machine, where CPUID traps; its answer does not change.
 bool usable(const Entry& entry) {
-  if (entry.isa == Isa::scalar) return true;
-  return (entry.target & HWY_TARGETS & hwy::SupportedTargets()) != 0;
+  static const std::int64_t supported = HWY_TARGETS & hwy::SupportedTargets();
+  return entry.isa == Isa::scalar || (entry.target & supported) != 0;
+}
+
+Isa best_isa() {
+  static const Isa best = usable_isas().back();
+  return best;
 }
 
 template <typename Range>
 std::string list_names(const Range& isas) {
   std::string text;
-  for (const Isa isa : isas) text.append(text.empty() ? "" : ", ").append(isa_name(isa));
+  for (const Isa isa : isas)
+    text.append(text.empty() ? "" : ", ").append(isa_name(isa));
   return text;
 }
 
 }  // namespace
 
-std::string_view isa_name(Isa isa) { return kEntries[static_cast<std::size_t>(isa)].name; }
+std::string_view isa_name(Isa isa) {
+  return kEntries[static_cast<std::size_t>(isa)].name;
+}
 
 Isa parse_isa(std::string_view name) {
   std::string known;
@@ -71,7 +80,7 @@ Isa resolve_isa(Isa isa) {
     const char* name = std::getenv("PCL_BV_ISA");
     if (name != nullptr && *name != '\0') isa = parse_isa(name);
   }
-  if (isa == Isa::automatic) return usable_isas().back();
+  if (isa == Isa::automatic) return best_isa();
   if (usable(kEntries[static_cast<std::size_t>(isa)])) return isa;
   throw std::invalid_argument("instruction set '" + std::string(isa_name(isa)) +
                               "' is not usable here (usable: " + list_names(usable_isas()) + ")");

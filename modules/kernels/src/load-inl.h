@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points in memory to packets of x, y and z lanes, for the target being compiled. The order of points inside a packet
-// is free: minima and maxima do not care.
+// Points in memory to packets of x, y and z lanes, for the target being compiled. The order of points inside
+// a packet is free: minima and maxima do not care.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -48,12 +48,14 @@ HWY_INLINE V<D> load_blocks(D d, const PointView& points, std::size_t first) {
     return hn::LoadU(d, reinterpret_cast<const float*>(points.address(first)));
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, load_blocks(half, points, first + hn::Lanes(half) / 4), load_blocks(half, points, first));
+    return hn::Combine(d, load_blocks(half, points, first + hn::Lanes(half) / 4),
+                       load_blocks(half, points, first));
   }
 }
 
-// Four registers of whole points (x y z and a fourth lane of anything) to x, y and z: a transpose inside each 128-bit
-// block. At 26-DOP on AVX-512 it is as fast as structure-of-arrays input; a transpose that keeps the order is not.
+// Four registers of whole points (x y z and a fourth lane of anything) to x, y and z: a transpose inside each
+// 128-bit block. At 26-DOP on AVX-512 it is as fast as structure-of-arrays input; a transpose that keeps the
+// order is not.
 template <class D>
 HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y, V<D>& z) {
   const hn::Repartition<double, D> pairs;
@@ -68,13 +70,14 @@ HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y,
 
 /// Loads up to one packet, point by point; lanes past `count` repeat the point at `pad` (never zeros).
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void load_few(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad, V<D>& x,
-                         V<D>& y, V<D>& z) {
+HWY_INLINE void load_few(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad,
+                         V<D>& x, V<D>& y, V<D>& z) {
   HWY_ALIGN T lanes[3][HWY_MAX_BYTES / sizeof(T)];
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
     T v[3];
     std::memcpy(v, i < count ? points.address(first + i) : reinterpret_cast<const std::byte*>(pad), sizeof v);
-    for (std::size_t axis = 0; axis < 3; ++axis) lanes[axis][i] = v[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      lanes[axis][i] = v[axis];
   }
   x = hn::Load(d, lanes[0]);
   y = hn::Load(d, lanes[1]);
@@ -90,11 +93,13 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
   } else if constexpr (layout == Layout::packed16) {
     const std::size_t n = hn::Lanes(d);
     const float* p = reinterpret_cast<const float*>(points.data) + 4 * first;
-    transpose(d, hn::LoadU(d, p), hn::LoadU(d, p + n), hn::LoadU(d, p + 2 * n), hn::LoadU(d, p + 3 * n), x, y, z);
+    transpose(d, hn::LoadU(d, p), hn::LoadU(d, p + n), hn::LoadU(d, p + 2 * n), hn::LoadU(d, p + 3 * n), x, y,
+              z);
   } else if constexpr (layout == Layout::wide) {
     const std::size_t quarter = hn::Lanes(d) / 4;
     transpose(d, load_blocks(d, points, first), load_blocks(d, points, first + quarter),
-              load_blocks(d, points, first + 2 * quarter), load_blocks(d, points, first + 3 * quarter), x, y, z);
+              load_blocks(d, points, first + 2 * quarter), load_blocks(d, points, first + 3 * quarter), x, y,
+              z);
   } else {
     load_few(d, points, first, hn::Lanes(d), static_cast<const T*>(nullptr), x, y, z);
   }

@@ -23,10 +23,10 @@ struct KernelTable {
 }  // namespace pcl_bv
 
 /// A KernelTable of a function that each HWY_NAMESPACE of this file defines; use inside HWY_ONCE.
-#define PCL_BV_KERNEL_TABLE(function, reference)                                                     \
-  {                                                                                                  \
-    {                                                                                                \
+#define PCL_BV_KERNEL_TABLE(function, reference)                                                           \
+  {                                                                                                        \
+    {                                                                                                      \
       nullptr, reference, HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function), \
-          HWY_CHOOSE_NEON(function), HWY_CHOOSE_SVE(function), HWY_CHOOSE_SVE2(function)             \
-    }                                                                                                \
+          HWY_CHOOSE_NEON(function), HWY_CHOOSE_SVE(function), HWY_CHOOSE_SVE2(function)                   \
+    }                                                                                                      \
   }

@@ -53,7 +53,7 @@ class ChunkQueue {
 };
 
 void work_with_openmp(ChunkQueue& queue, unsigned threads) {
-#pragma omp parallel num_threads(static_cast<int>(threads))
+#pragma omp parallel num_threads(static_cast <int>(threads))
   queue.work();
 }
 
@@ -71,16 +71,19 @@ void work_with_threads(ChunkQueue& queue, unsigned threads) {
   std::vector<std::thread> others;
   try {
     others.reserve(threads - 1);
-    while (others.size() + 1 < threads) others.emplace_back(work_in_region, std::ref(queue));
+    while (others.size() + 1 < threads)
+      others.emplace_back(work_in_region, std::ref(queue));
   } catch (const std::system_error&) {
   }
   work_in_region(queue);
-  for (std::thread& other : others) other.join();
+  for (std::thread& other : others)
+    other.join();
 }
 
 }  // namespace
 
-void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t), void* body) {
+void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t),
+                void* body) {
   const bool nested = inside_region || omp_in_parallel();
   const unsigned threads =
       nested || chunks <= 1 ? 1U : static_cast<unsigned>(std::min<std::size_t>(thread_count(policy), chunks));

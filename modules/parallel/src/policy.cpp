@@ -13,7 +13,9 @@ namespace pcl_bv {
 namespace {
 
 // Follows the process's CPU affinity, unlike std::thread::hardware_concurrency.
-unsigned or_all(unsigned threads) { return threads != 0 ? threads : static_cast<unsigned>(omp_get_num_procs()); }
+unsigned or_all(unsigned threads) {
+  return threads != 0 ? threads : static_cast<unsigned>(omp_get_num_procs());
+}
 
 }  // namespace
 

@@ -11,8 +11,8 @@
 
 namespace pcl_bv {
 
-/// The exact sum of three doubles, kept unevaluated as head + tail + rest with head the rounded sum. Valid for
-/// |terms| <= 1e100.
+/// The exact sum of three doubles, kept unevaluated as head + tail + rest with head the rounded sum. Valid
+/// for |terms| <= 1e100.
 struct ExactSum {
   double head, tail, rest;
 };

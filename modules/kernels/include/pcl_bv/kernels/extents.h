@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The first kernel: how far do points reach along fixed directions? Its results are floating-point extents by block,
-// which exact_extents.h turns into exact ones.
+// The first kernel: how far do points reach along fixed directions? Its results are floating-point extents by
+// block, which exact_extents.h turns into exact ones.
 #pragma once
 
 #include <array>
@@ -14,13 +14,15 @@
 
 namespace pcl_bv {
 
-/// The directions of the paper's k-DOPs, taken from the unit cube and not normalised; all coefficients are -1, 0, 1.
-/// Sums are always formed as (x +- y) +- z.
+/// The directions of the paper's k-DOPs, taken from the unit cube and not normalised; all coefficients are
+/// -1, 0, 1. Sums are always formed as (x +- y) +- z.
+// clang-format off
 inline constexpr std::array<std::array<std::int8_t, 3>, 13> kCubeDirections = {{
-    {1, 0, 0}, {0, 1, 0}, {0, 0, 1},                                            // faces
-    {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1},                             // corners
-    {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1},        // edges
+    {1, 0, 0}, {0, 1, 0}, {0, 0, 1},                                      // through the faces
+    {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1},                       // through the corners
+    {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1},  // through the edges
 }};
+// clang-format on
 inline constexpr std::size_t kMaxDirections = kCubeDirections.size();
 
 /// A choice of kCubeDirections, in that order.
@@ -37,18 +39,22 @@ constexpr std::size_t cube_direction(DirectionSet set, std::size_t k) {
   return set == DirectionSet::dop18 && k >= 3 ? k + 4 : k;
 }
 
-/// Points per block. Large enough to hide the reduction of 26 vectors, small enough that a rescan of the blocks that
-/// hold the extremes is cheap.
+/// Points per block. Large enough to hide the reduction of 26 vectors, small enough that a rescan of the
+/// blocks that hold the extremes is cheap.
 inline constexpr std::size_t kBlockPoints = 1024;
 
-constexpr std::size_t block_count(std::size_t points) { return (points + kBlockPoints - 1) / kBlockPoints; }
+constexpr std::size_t block_count(std::size_t points) {
+  return (points + kBlockPoints - 1) / kBlockPoints;
+}
 
-/// Least and greatest projection of one block's valid points, in the arithmetic of the view's scalar type (float sums
-/// of float coordinates), for the first direction_count() entries. No valid point: +infinity and -infinity. Never -0.
+/// Least and greatest projection of one block's valid points, in the arithmetic of the view's scalar type
+/// (float sums of float coordinates), for the first direction_count() entries. No valid point: +infinity and
+/// -infinity. Never -0.
 struct BlockExtents {
   std::array<double, kMaxDirections> low;
   std::array<double, kMaxDirections> high;
-  std::size_t dropped;  ///< Points of the block with a coordinate that is not valid (is_valid() in point_view.h).
+  std::size_t
+      dropped;  ///< Points of the block with a coordinate that is not valid (is_valid() in point_view.h).
 };
 
 /// Fills block_count(points.count) entries of `blocks`; block b holds the points [b, b + 1) * kBlockPoints.

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Flush-to-zero set by a host program would turn coordinates of 1e-41 into 0: every public entry and every worker
-// thread runs under this guard.
+// Flush-to-zero set by a host program would turn coordinates of 1e-41 into 0: every public entry and every
+// worker thread runs under this guard.
 #pragma once
 
 #include <cstdint>
 
 namespace pcl_bv {
 
-/// While it lives, this thread computes in the IEEE default environment: denormals kept (no FTZ, no DAZ), rounding
-/// to nearest, no traps. The previous environment returns at destruction. Costs a few nanoseconds.
+/// While it lives, this thread computes in the IEEE default environment: denormals kept (no FTZ, no DAZ),
+/// rounding to nearest, no traps. The previous environment returns at destruction. Costs a few nanoseconds.
 class FloatEnvironment {
  public:
   FloatEnvironment();

@@ -14,8 +14,9 @@ enum class ScalarType : std::uint8_t { float32, float64 };
 
 /// A read-only view of points in memory, whole or by an index list. Does not own; the memory must outlive it.
 ///
-/// Each point is three consecutive coordinates x, y, z (metres by convention, any unit works) of type `scalar`;
-/// they need no alignment. Coordinates may be NaN or infinite: such points are dropped by whoever reads them.
+/// Each point is three consecutive coordinates x, y, z (metres by convention, any unit works) of type
+/// `scalar`; they need no alignment. Coordinates may be NaN or infinite: such points are dropped by whoever
+/// reads them.
 struct PointView {
   const std::byte* data = nullptr;        ///< x of point 0.
   std::size_t stride = 0;                 ///< Bytes from one point's x to the next one's; >= 3 scalars.
@@ -25,12 +26,18 @@ struct PointView {
   std::size_t first = 0;                  ///< Without indices: point number of data[0], after slice().
   ScalarType scalar = ScalarType::float32;
 
-  /// Points whose x is at `xyz`, `stride` bytes apart, with all of `stride` readable (x comes first in the record).
+  /// Points whose x is at `xyz`, `stride` bytes apart, with all of `stride` readable (x comes first in the
+  /// record).
   template <typename T>
   static PointView of(const T* xyz, std::size_t stride, std::size_t count,
                       const std::int32_t* indices = nullptr) {
     static_assert(sizeof(T) == 4 || sizeof(T) == 8, "coordinates are float or double");
-    return {reinterpret_cast<const std::byte*>(xyz), stride, stride, count, indices, 0,
+    return {reinterpret_cast<const std::byte*>(xyz),
+            stride,
+            stride,
+            count,
+            indices,
+            0,
             sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64};
   }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Chunk and merge (paper §5): work in fixed chunks, results by chunk number, merged in order. Which thread does what
-// can then not change a bit.
+// Chunk and merge (paper §5): work in fixed chunks, results by chunk number, merged in order. Which thread
+// does what can then not change a bit.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,14 @@
 
 namespace pcl_bv {
 namespace internal {
-void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t), void* body);
+void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t),
+                void* body);
 }  // namespace internal
 
-/// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads; returns when all
-/// are done. Serial if the policy has one thread, if there is one chunk, or inside another parallel region (no
-/// oversubscription). If bodies throw, every chunk is still tried and the exception of the lowest chunk is rethrown.
+/// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads; returns
+/// when all are done. Serial if the policy has one thread, if there is one chunk, or inside another parallel
+/// region (no oversubscription). If bodies throw, every chunk is still tried and the exception of the lowest
+/// chunk is rethrown.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
   using Callable = std::remove_reference_t<Body>;
@@ -28,13 +30,16 @@ void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& bod
       const_cast<void*>(static_cast<const void*>(&body)));
 }
 
-/// merge(...merge(merge(identity, map(0)), map(1))..., map(chunks - 1)): the maps in parallel, the merges in order.
+/// merge(...merge(merge(identity, map(0)), map(1))..., map(chunks - 1)): the maps in parallel, the merges in
+/// order.
 template <typename Partial, typename Map, typename Merge>
-Partial reduce_chunks(const ParallelPolicy& policy, std::size_t chunks, Partial identity, Map&& map, Merge&& merge) {
+Partial reduce_chunks(const ParallelPolicy& policy, std::size_t chunks, Partial identity, Map&& map,
+                      Merge&& merge) {
   std::vector<Partial> partials(chunks, identity);
   for_each_chunk(policy, chunks, [&](std::size_t chunk) { partials[chunk] = map(chunk); });
   Partial result = std::move(identity);
-  for (Partial& partial : partials) merge(result, std::move(partial));
+  for (Partial& partial : partials)
+    merge(result, std::move(partial));
   return result;
 }
 
