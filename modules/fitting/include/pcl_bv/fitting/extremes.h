@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How far a cloud reaches along the cube's directions, exactly, and which points reach there: what boxes,
+// k-DOPs and the seeds of spheres are made of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/fitting/result.h"
+#include "pcl_bv/kernels/extents.h"
+#include "pcl_bv/kernels/extreme_point.h"
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv {
+
+enum class ExtremeDetail {
+  bounds,  ///< How far only.
+  points   ///< Also the points; for equal projections the one with the smallest index.
+};
+
+/// The first direction_count(set) entries count; they follow kCubeDirections as cube_direction() says.
+struct Extremes {
+  DirectionSet set = DirectionSet::dop6;
+  std::size_t used = 0;
+  std::size_t dropped = 0;
+  std::array<double, kMaxDirections> low{};  ///< Exact least projection, rounded down to a double; never -0.
+  std::array<double, kMaxDirections>
+      high{};  ///< Exact greatest projection, rounded up to a double; never -0.
+  std::array<bool, kMaxDirections> constant{};  ///< Whether all points have exactly the same projection.
+  std::array<ExtremePoint, kMaxDirections> low_point{};   ///< With ExtremeDetail::points.
+  std::array<ExtremePoint, kMaxDirections> high_point{};  ///< With ExtremeDetail::points.
+};
+
+/// Finds the extremes of all valid points; `used` is 0 and nothing else is set if there is none. The same
+/// bits for every execution. One SIMD pass over the points, then a rescan of the few blocks that can hold an
+/// extreme: the rounded sum of two terms is monotone, so only blocks that attain the rounded extreme qualify;
+/// of three terms it is off by at most 2.01 u (Mx + My + Mz), for each of the two points compared, u = 2^-24
+/// (2^-53 for double).
+///
+/// Throws std::invalid_argument for an unusable instruction set.
+Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,
+                       const Execution& execution);
+
+/// Status and rank as result.h defines them, from what the extremes saw.
+EstimationResult result_of(const Extremes& extremes);
+
+}  // namespace pcl_bv

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The one table of methods: names, aliases, shapes and fits. Commands, files and `all` read it.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace pcl_bv {
+
+struct Method {
+  std::string_view name;                  ///< The canonical name, as written into results: "dop26".
+  std::vector<std::string_view> aliases;  ///< Other names that mean it.
+  std::string_view shape;                 ///< "aabb", "kdop" or "sphere".
+  EstimationResult (*fit)(const PointView&, AnyVolume&, const Execution&);
+};
+
+/// All methods of this build, in the order of the documentation.
+const std::vector<Method>& methods();
+
+/// The method with this name or alias, or null.
+const Method* find_method(std::string_view name);
+
+}  // namespace pcl_bv

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Boxes: the extremes along three axes are the answer.
+
+#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/fit.h"
+
+namespace pcl_bv {
+
+EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution) {
+  const Extremes extremes = find_extremes(points, DirectionSet::dop6, ExtremeDetail::bounds, execution);
+  box = extremes.used == 0 ? Aabb()
+                           : Aabb({extremes.low[0], extremes.low[1], extremes.low[2]},
+                                  {extremes.high[0], extremes.high[1], extremes.high[2]});
+  return result_of(extremes);
+}
+
+}  // namespace pcl_bv

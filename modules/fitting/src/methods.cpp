@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The table of methods.
+
+#include "pcl_bv/fitting/methods.h"
+
+#include <algorithm>
+
+namespace pcl_bv {
+namespace {
+
+EstimationResult aabb(const PointView& points, AnyVolume& volume, const Execution& execution) {
+  return fit_aabb(points, volume.emplace<Aabb>(), execution);
+}
+
+template <const std::shared_ptr<const KdopSet>& (*set)()>
+EstimationResult kdop(const PointView& points, AnyVolume& volume, const Execution& execution) {
+  return fit_kdop(points, set(), volume.emplace<Kdop>(set()), execution);
+}
+
+template <SphereMethod method>
+EstimationResult sphere(const PointView& points, AnyVolume& volume, const Execution& execution) {
+  return fit_sphere(points, method, volume.emplace<Sphere>(), execution);
+}
+
+}  // namespace
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> table = {
+      {"aabb", {}, "aabb", aabb},
+      {"dop6", {}, "kdop", kdop<KdopSet::dop6>},
+      {"dop14", {}, "kdop", kdop<KdopSet::dop14>},
+      {"dop18", {}, "kdop", kdop<KdopSet::dop18>},
+      {"dop26", {}, "kdop", kdop<KdopSet::dop26>},
+      {"sphere-epos26", {}, "sphere", sphere<SphereMethod::epos26>},
+  };
+  return table;
+}
+
+const Method* find_method(std::string_view name) {
+  for (const Method& method : methods()) {
+    const auto& aliases = method.aliases;
+    if (method.name == name || std::find(aliases.begin(), aliases.end(), name) != aliases.end())
+      return &method;
+  }
+  return nullptr;
+}
+
+}  // namespace pcl_bv

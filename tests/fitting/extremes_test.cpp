@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/fitting/extremes.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "clouds.h"
+#include "exact.h"
+#include "executions.h"
+#include "flush_to_zero.h"
+
+namespace pcl_bv {
+namespace {
+
+using test::Rational;
+using test::TestCloud;
+
+constexpr DirectionSet kSets[] = {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18,
+                                  DirectionSet::dop26};
+
+// The definition, in rationals.
+void expect_exact(const PointView& points, const Extremes& extremes) {
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < points.count; ++i)
+    used += is_valid(load_point(points, i)) ? 1 : 0;
+  ASSERT_EQ(extremes.used, used);
+  ASSERT_EQ(extremes.dropped, points.count - used);
+  if (used == 0) return;
+  for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
+    const auto& d = kCubeDirections[cube_direction(extremes.set, k)];
+    Rational low, high;
+    bool first = true;
+    for (std::size_t i = 0; i < points.count; ++i) {
+      const Coordinates p = load_point(points, i);
+      if (!is_valid(p)) continue;
+      const Rational projection = test::exact_dot(std::array<int, 3>{d[0], d[1], d[2]}, p);
+      low = first ? projection : std::min(low, projection);
+      high = first ? projection : std::max(high, projection);
+      first = false;
+    }
+    EXPECT_EQ(extremes.low[k], test::greatest_double_below(low)) << "direction " << k;
+    EXPECT_EQ(extremes.high[k], test::least_double_above(high)) << "direction " << k;
+    EXPECT_FALSE(extremes.low[k] == 0 && std::signbit(extremes.low[k]));
+    EXPECT_FALSE(extremes.high[k] == 0 && std::signbit(extremes.high[k]));
+    EXPECT_EQ(extremes.constant[k], low == high) << "direction " << k;
+  }
+}
+
+template <typename T>
+void expect_exact_on_nasty_clouds() {
+  for (const TestCloud<T>& cloud : test::nasty_clouds<T>()) {
+    SCOPED_TRACE(cloud.name);
+    expect_exact(cloud.view(), find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::bounds, {}));
+  }
+}
+
+TEST(Extremes, AreTheTrueOnesRoundedOutwardForFloat) {
+  expect_exact_on_nasty_clouds<float>();
+}
+TEST(Extremes, AreTheTrueOnesRoundedOutwardForDouble) {
+  expect_exact_on_nasty_clouds<double>();
+}
+
+TEST(Extremes, OfASetAreThoseOfItsDirections) {
+  const TestCloud<float> cloud = test::gaussian<float>(5000, 1, 1, 5e6);
+  for (const DirectionSet set : kSets) {
+    expect_exact(cloud.view(), find_extremes(cloud.view(), set, ExtremeDetail::bounds, {}));
+  }
+}
+
+void expect_same(const Extremes& a, const Extremes& b) {
+  EXPECT_EQ(a.used, b.used);
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_EQ(a.high, b.high);
+  for (std::size_t k = 0; k < kMaxDirections; ++k) {
+    EXPECT_EQ(a.low_point[k].index, b.low_point[k].index) << "direction " << k;
+    EXPECT_EQ(a.high_point[k].index, b.high_point[k].index) << "direction " << k;
+  }
+}
+
+TEST(Extremes, SameBitsForEveryInstructionSetAndThreadCount) {
+  std::vector<TestCloud<float>> clouds = test::nasty_clouds<float>();
+  clouds.push_back(test::gaussian<float>(1'100'000, 77));  // large enough to be threaded on every set
+  for (const TestCloud<float>& cloud : clouds) {
+    const Execution reference{Serial{}, Isa::scalar};
+    const Extremes expected =
+        find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, reference);
+    for (const auto& [name, execution] : test::every_execution()) {
+      SCOPED_TRACE(cloud.name + ", " + name);
+      expect_same(find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, execution),
+                  expected);
+    }
+  }
+}
+
+TEST(Extremes, TiesGoToTheSmallestIndexWhereverTheBlocksLie) {
+  TestCloud<float> cloud{"all equal but one", std::vector<float>(3 * 5000, 1.0F)};
+  cloud.xyz[3 * 2500] = 2.0F;
+  const Extremes extremes = find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {});
+  EXPECT_EQ(extremes.high_point[0].index, 2500U);
+  EXPECT_EQ(extremes.low_point[0].index, 0U);
+  EXPECT_EQ(extremes.high_point[1].index, 0U);
+  EXPECT_EQ(extremes.high_point[12].index, 0U);
+}
+
+TEST(Extremes, DoNotDependOnTheOrderOfAnIndexList) {
+  const TestCloud<float> cloud = test::gaussian<float>(3000, 6);
+  std::vector<std::int32_t> indices(3000);
+  std::iota(indices.rbegin(), indices.rend(), 0);
+  const PointView reversed = PointView::of(cloud.xyz.data(), 12, indices.size(), indices.data());
+  expect_same(find_extremes(reversed, DirectionSet::dop26, ExtremeDetail::points, {}),
+              find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {}));
+}
+
+TEST(Extremes, TranslateExactlyByPowersOfTwo) {
+  // Coordinates on a grid of 2^-10 stay exact when 2^12 is added, so every extreme moves by just that.
+  TestCloud<float> cloud = test::gaussian<float>(4000, 12);
+  for (float& c : cloud.xyz)
+    c = std::round(c * 1024.0F) / 1024.0F;
+  TestCloud<float> moved = cloud;
+  for (std::size_t i = 0; i < moved.xyz.size(); i += 3)
+    moved.xyz[i] += 4096.0F;
+  const Extremes a = find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {});
+  const Extremes b = find_extremes(moved.view(), DirectionSet::dop26, ExtremeDetail::points, {});
+  for (std::size_t k = 0; k < kMaxDirections; ++k) {
+    EXPECT_EQ(b.low[k], a.low[k] + 4096.0 * kCubeDirections[k][0]);
+    EXPECT_EQ(b.high[k], a.high[k] + 4096.0 * kCubeDirections[k][0]);
+    EXPECT_EQ(b.high_point[k].index, a.high_point[k].index);
+  }
+}
+
+TEST(Extremes, SurviveAHostThatFlushesDenormals) {
+  const TestCloud<float> cloud = test::gaussian<float>(700, 7, 1e-41);
+  const Extremes expected = find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {});
+  ASSERT_GT(expected.high[0], 0);
+  for (const auto& [name, execution] : test::every_execution()) {
+    SCOPED_TRACE(name);
+    const test::FlushToZero host;
+    expect_same(find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, execution), expected);
+  }
+}
+
+TEST(Extremes, RankCountsTheDirectionsWithAnyExtent) {
+  const auto rank = [](std::vector<float> xyz, DirectionSet set) {
+    const PointView points = PointView::of(xyz.data(), 12, xyz.size() / 3);
+    return result_of(find_extremes(points, set, ExtremeDetail::bounds, {})).rank;
+  };
+  EXPECT_EQ(rank({1, 2, 3}, DirectionSet::dop6), 0);
+  EXPECT_EQ(rank({0, 0, 0, 5, 0, 0}, DirectionSet::dop26), 1);
+  EXPECT_EQ(rank({0, 0, 0, 1, 1, 0, 3, 1, 0}, DirectionSet::dop6), 2);
+  EXPECT_EQ(rank({0, 0, 0, 1, -1, 0, 0, 0, 1}, DirectionSet::dop6), 3) << "a box does not see a tilted plane";
+  EXPECT_EQ(rank({0, 0, 0, 1, -1, 0, 0, 0, 1}, DirectionSet::dop26), 2) << "a 26-DOP does";
+  EXPECT_EQ(rank({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, DirectionSet::dop26), 3);
+}
+
+TEST(Extremes, AnUnusableInstructionSetIsAnError) {
+  const TestCloud<float> cloud = test::gaussian<float>(10, 1);
+  const Isa foreign =
+      usable_isas().back() == Isa::neon || usable_isas().back() > Isa::neon ? Isa::avx2 : Isa::neon;
+  EXPECT_THROW(find_extremes(cloud.view(), DirectionSet::dop6, ExtremeDetail::bounds, {Serial{}, foreign}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace pcl_bv

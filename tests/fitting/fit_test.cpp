@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/fitting/fit.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <bit>
+#include <cstdint>
+
+#include "clouds.h"
+#include "exact.h"
+#include "executions.h"
+#include "flush_to_zero.h"
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/fitting/small_ball.h"
+
+namespace pcl_bv {
+namespace {
+
+using test::Rational;
+using test::TestCloud;
+
+// The predicates of the documentation, in rationals and independent of verify().
+bool holds(const Aabb& box, const Coordinates& p) {
+  return box.min().x() <= p.x && p.x <= box.max().x() && box.min().y() <= p.y && p.y <= box.max().y() &&
+         box.min().z() <= p.z && p.z <= box.max().z();
+}
+
+bool holds(const Kdop& kdop, const Coordinates& p) {
+  for (std::size_t k = 0; k < kdop.size(); ++k) {
+    const Rational s = test::exact_dot(kdop.set()->direction(k), p);
+    if (s < Rational(kdop.min(k)) || s > Rational(kdop.max(k))) return false;
+  }
+  return true;
+}
+
+bool holds(const Sphere& sphere, const Coordinates& p) {
+  return test::exact_squared_distance(sphere.center(), p) <=
+         Rational(sphere.radius()) * Rational(sphere.radius());
+}
+
+void expect_encloses(const AnyVolume& volume, const PointView& points) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) continue;
+    ASSERT_TRUE(std::visit([&p](const auto& shape) { return holds(shape, p); }, volume)) << "point " << i;
+    ASSERT_TRUE(contains(volume, {p.x, p.y, p.z})) << "contains() denies point " << i;
+  }
+}
+
+std::vector<double> numbers(const Aabb& box) {
+  return {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
+}
+
+std::vector<double> numbers(const Kdop& kdop) {
+  std::vector<double> all;
+  for (std::size_t k = 0; k < kdop.size(); ++k)
+    all.insert(all.end(), {kdop.min(k), kdop.max(k)});
+  return all;
+}
+
+std::vector<double> numbers(const Sphere& sphere) {
+  return {sphere.center().x(), sphere.center().y(), sphere.center().z(), sphere.radius()};
+}
+
+std::vector<double> numbers(const AnyVolume& volume) {
+  return std::visit([](const auto& shape) { return numbers(shape); }, volume);
+}
+
+// Bits, not values: the centre of an empty sphere is NaN, and -0 is not 0.
+std::vector<std::uint64_t> bits(const AnyVolume& volume) {
+  std::vector<std::uint64_t> all;
+  for (const double number : numbers(volume))
+    all.push_back(std::bit_cast<std::uint64_t>(number));
+  return all;
+}
+
+template <typename T>
+void expect_every_method_encloses() {
+  for (const Method& method : methods()) {
+    for (const TestCloud<T>& cloud : test::nasty_clouds<T>()) {
+      SCOPED_TRACE(std::string(method.name) + ", " + cloud.name);
+      AnyVolume volume;
+      const EstimationResult result = method.fit(cloud.view(), volume, {});
+      EXPECT_EQ(result.used + result.dropped, cloud.size());
+      EXPECT_EQ(result.status == EstimationStatus::no_valid_points, result.used == 0);
+      EXPECT_EQ(empty(volume), result.used == 0);
+      expect_encloses(volume, cloud.view());
+    }
+  }
+}
+
+TEST(Fit, EveryMethodEnclosesEveryFloatPointInExactArithmetic) {
+  expect_every_method_encloses<float>();
+}
+TEST(Fit, EveryMethodEnclosesEveryDoublePointInExactArithmetic) {
+  expect_every_method_encloses<double>();
+}
+
+TEST(Fit, SameBitsForEveryInstructionSetAndThreadCount) {
+  std::vector<TestCloud<float>> clouds = test::nasty_clouds<float>();
+  clouds.push_back(test::gaussian<float>(400'000, 78));
+  for (const Method& method : methods()) {
+    for (const TestCloud<float>& cloud : clouds) {
+      AnyVolume expected;
+      method.fit(cloud.view(), expected, {Serial{}, Isa::scalar});
+      for (const auto& [name, execution] : test::every_execution()) {
+        SCOPED_TRACE(std::string(method.name) + ", " + cloud.name + ", " + name);
+        AnyVolume volume;
+        method.fit(cloud.view(), volume, execution);
+        EXPECT_EQ(bits(volume), bits(expected));
+      }
+    }
+  }
+}
+
+TEST(Fit, SurvivesAHostThatFlushesDenormals) {
+  const TestCloud<float> cloud = test::gaussian<float>(700, 7, 1e-41);
+  for (const Method& method : methods()) {
+    SCOPED_TRACE(method.name);
+    AnyVolume expected, volume;
+    method.fit(cloud.view(), expected, {});
+    {
+      const test::FlushToZero host;
+      method.fit(cloud.view(), volume, {});
+    }
+    EXPECT_EQ(numbers(volume), numbers(expected));
+    expect_encloses(volume, cloud.view());
+  }
+}
+
+TEST(Fit, ScalesExactlyByPowersOfTwo) {
+  TestCloud<float> cloud = test::gaussian<float>(2000, 13);
+  TestCloud<float> scaled = cloud;
+  for (float& c : scaled.xyz)
+    c *= 0x1p-60F;
+  for (const Method& method : methods()) {
+    SCOPED_TRACE(method.name);
+    AnyVolume a, b;
+    method.fit(cloud.view(), a, {});
+    method.fit(scaled.view(), b, {});
+    std::vector<double> expected = numbers(a);
+    for (double& v : expected)
+      v *= 0x1p-60;
+    EXPECT_EQ(numbers(b), expected);
+  }
+}
+
+TEST(Fit, APointThatIsNoDoubleSumIsEnclosedByTheNextDouble) {
+  const TestCloud<double> cloud{"third bit", {1, 0x1p-60, 0, 1, 0x1p-60, 0}};
+  Kdop kdop;
+  const EstimationResult result = fit_kdop(cloud.view(), KdopSet::dop26(), kdop);
+  EXPECT_EQ(kdop.min(7), 1.0);
+  EXPECT_EQ(kdop.max(7), std::nextafter(1.0, 2.0));
+  EXPECT_EQ(result.rank, 0) << "the slab has a width, the points have none";
+}
+
+TEST(Fit, AKdopOfAnyDirectionsEnclosesInExactArithmetic) {
+  const auto set = std::make_shared<const KdopSet>(std::vector<Eigen::Vector3d>{
+      {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.3, 0.4, 0.5}, {-0.1, 0.7, 0.2}, {2, -1, 0.001}});
+  for (const TestCloud<float>& cloud : test::nasty_clouds<float>()) {
+    SCOPED_TRACE(cloud.name);
+    Kdop kdop;
+    const EstimationResult result = fit_kdop(cloud.view(), set, kdop);
+    EXPECT_EQ(kdop.set(), set);
+    EXPECT_EQ(kdop.empty(), result.used == 0);
+    expect_encloses(kdop, cloud.view());
+  }
+}
+
+TEST(Fit, StatusTellsFlatFromSolidFromNothing) {
+  Aabb box;
+  EXPECT_EQ(fit_aabb(test::gaussian<float>(10, 1).view(), box).status, EstimationStatus::ok);
+  const float flat[] = {0, 0, 1, 1, 0, 1, 0, 1, 1};
+  EXPECT_EQ(fit_aabb(PointView::of(flat, 12, 3), box).status, EstimationStatus::degenerate);
+  EXPECT_EQ(fit_aabb(PointView::of(flat, 12, 3), box).rank, 2);
+  EXPECT_EQ(fit_aabb(PointView(), box).status, EstimationStatus::no_valid_points);
+  EXPECT_TRUE(box.empty());
+}
+
+TEST(Sphere, Epos26OfOnePointIsThatPoint) {
+  const float point[] = {5e6F, -3, 0.1F};
+  Sphere sphere;
+  fit_sphere(PointView::of(point, 12, 1), SphereMethod::epos26, sphere);
+  EXPECT_EQ(sphere.center(), Eigen::Vector3d(5e6F, -3, static_cast<double>(0.1F)));
+  EXPECT_EQ(sphere.radius(), 0.0);
+}
+
+TEST(Sphere, Epos26IsTheOptimumWhereTheExtremalPointsDecide) {
+  // The 8 corners of a cube among inner points: corners are extremal along the corner directions.
+  TestCloud<float> cloud{"cube", {}};
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<float> inside(-0.9F, 0.9F);
+  for (int i = 0; i < 5000; ++i)
+    cloud.xyz.push_back(inside(random));
+  cloud.xyz.resize(cloud.xyz.size() / 3 * 3);
+  for (int i = 0; i < 8; ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      cloud.xyz.push_back((i >> axis & 1) != 0 ? 1.0F : -1.0F);
+  }
+  Sphere sphere;
+  fit_sphere(cloud.view(), SphereMethod::epos26, sphere);
+  EXPECT_NEAR(sphere.radius(), std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(sphere.center().norm(), 0, 1e-12);
+}
+
+TEST(Sphere, Epos26IsWithinAHundredthOfTheOptimum) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const TestCloud<float> cloud = test::gaussian<float>(3000, seed, 4, 100);
+    std::vector<Eigen::Vector3d> points;
+    const Eigen::Vector3d origin(100, 100, 100);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Coordinates p = load_point(cloud.view(), i);
+      points.push_back(Eigen::Vector3d(p.x, p.y, p.z) - origin);
+    }
+    const double optimum = std::sqrt(smallest_ball(points).squared_radius);
+    Sphere sphere;
+    fit_sphere(cloud.view(), SphereMethod::epos26, sphere);
+    EXPECT_GE(sphere.radius(), optimum * (1 - 1e-12));
+    EXPECT_LE(sphere.radius(), optimum * 1.01);
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv

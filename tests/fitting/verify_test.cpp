@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/fitting/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "clouds.h"
+#include "executions.h"
+
+namespace pcl_bv {
+namespace {
+
+TEST(Verify, CountsPointsThatAreOneDoubleOutside) {
+  const double p[] = {1, 2, 3, 0.5, 2, 3};
+  const PointView points = PointView::of(p, 24, 2);
+  const Aabb tight({0.5, 2, 3}, {1, 2, 3});
+  EXPECT_EQ(verify(tight, points).outside, 0U);
+  const Verification result = verify(Aabb({0.5, 2, 3}, {std::nextafter(1.0, 0.0), 2, 3}), points);
+  EXPECT_EQ(result.checked, 2U);
+  EXPECT_EQ(result.outside, 1U);
+  EXPECT_EQ(result.worst, 0x1p-53);
+}
+
+TEST(Verify, DecidesSlabsThatRoundingCannotTell) {
+  // x + y - z is exactly 1, which double arithmetic computes as 0.
+  const double p[] = {1e20, 1, 1e20};
+  const PointView points = PointView::of(p, 24, 1);
+  Kdop kdop(KdopSet::dop14());
+  kdop.extend({1e20, 1, 1e20});
+  EXPECT_EQ(kdop.max(4), 1.0);
+  EXPECT_EQ(verify(kdop, points).outside, 0U);
+  SlabVector min(7), max(7);
+  for (Eigen::Index k = 0; k < 7; ++k) {
+    min[k] = kdop.min(static_cast<std::size_t>(k));
+    max[k] = kdop.max(static_cast<std::size_t>(k));
+  }
+  max[4] = std::nextafter(1.0, 0.0);
+  min[4] = 0;
+  EXPECT_EQ(verify(Kdop(KdopSet::dop14(), min, max), points).outside, 1U);
+}
+
+TEST(Verify, DecidesSpheresThatRoundingCannotTell) {
+  const double p[] = {3, 4, 0, 0, 0, 5};
+  const PointView points = PointView::of(p, 24, 2);
+  EXPECT_EQ(verify(Sphere({0, 0, 0}, 5), points).outside, 0U) << "both points are exactly on it";
+  EXPECT_EQ(verify(Sphere({0, 0, 0}, std::nextafter(5.0, 0.0)), points).outside, 2U);
+  EXPECT_EQ(verify(Sphere({0x1p-80, 0, 0}, 5), points).outside, 1U)
+      << "only the second has x = 0 and moves outward";
+}
+
+TEST(Verify, EverythingIsOutsideAnEmptyVolume) {
+  const float p[] = {1, 2, 3};
+  EXPECT_EQ(verify(Aabb(), PointView::of(p, 12, 1)).outside, 1U);
+  EXPECT_EQ(verify(Sphere(), PointView::of(p, 12, 1)).outside, 1U);
+  EXPECT_EQ(verify(Kdop(), PointView::of(p, 12, 1)).outside, 1U);
+}
+
+TEST(Verify, IgnoresPointsThatAreNotFinite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float p[] = {nan, 2, 3, 1, 1, 1};
+  const Verification result = verify(Aabb({1, 1, 1}, {1, 1, 1}), PointView::of(p, 12, 2));
+  EXPECT_EQ(result.checked, 1U);
+  EXPECT_EQ(result.outside, 0U);
+}
+
+TEST(Verify, CountsTheSameOnEveryThread) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(20'000, 5);
+  const Verification expected = verify(Sphere({0, 0, 0}, 2), cloud.view());
+  EXPECT_GT(expected.outside, 1000U);
+  for (const auto& [name, execution] : test::every_execution()) {
+    const Verification result = verify(Sphere({0, 0, 0}, 2), cloud.view(), execution);
+    EXPECT_EQ(result.outside, expected.outside) << name;
+    EXPECT_EQ(result.worst, expected.worst) << name;
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
