@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Bounding volumes the PCL way: set a cloud, set indices, compute.
+#pragma once
+
+#include <pcl/PointIndices.h>
+#include <pcl/pcl_base.h>
+// Without the implementation, own point types do not link (PCL instantiates PCLBase for its own types only).
+#include <pcl/impl/pcl_base.hpp>
+
+#include <cstddef>
+#include <vector>
+
+#include "pcl_bv/fitting/fit.h"
+
+namespace pcl_bv {
+
+/// Base of the estimators: holds the input, and knows how to run one fit or a batch.
+///
+/// \tparam PointT any point type with x, y, z of float or double, PCL's or an own one. Volumes are in the
+/// unit and frame of these coordinates; the cloud's sensor pose is not applied. \tparam VolumeT the volume
+/// that compute() fills.
+template <typename PointT, typename VolumeT>
+class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
+ public:
+  using Base = pcl::PCLBase<PointT>;
+  using PointCloud = typename Base::PointCloud;
+  using PointCloudConstPtr = typename Base::PointCloudConstPtr;
+
+  /// Restricts the fit to some points, or, with a null pointer, lifts the restriction.
+  void setIndices(const pcl::IndicesPtr& indices) override;
+  void setIndices(const pcl::IndicesConstPtr& indices) override;
+  void setIndices(const pcl::PointIndicesConstPtr& indices) override;
+  using Base::setIndices;
+
+  /// Threads for compute(): 0 means all processors, 1 (the default) the calling thread. Never changes the
+  /// result; clouds that are done in less than about 200 us are not threaded.
+  void setNumberOfThreads(unsigned threads) { execution_.parallel = OpenMP{threads}; }
+
+  /// The instruction set, Isa::automatic by default. Never changes the result.
+  /// Throws std::invalid_argument if this build or machine does not have it.
+  void setInstructionSet(Isa isa);
+
+  /// Fits the volume to the input cloud, or to those points of it that the indices name.
+  ///
+  /// Points with a coordinate that is not finite are dropped, whatever is_dense says. No point left: an empty
+  /// volume and `no_valid_points`. Throws std::logic_error if no cloud was set, std::out_of_range for an
+  /// index outside the cloud.
+  EstimationResult compute(VolumeT& volume) const;
+
+  /// Fits one volume to each cluster (index lists into the input cloud; setIndices() does not matter here),
+  /// in order. The same bits as one compute() per cluster. Throws as compute() does, before anything is
+  /// written.
+  std::vector<EstimationResult> compute(const std::vector<pcl::PointIndices>& clusters,
+                                        std::vector<VolumeT>& volumes) const;
+
+ protected:
+  virtual EstimationResult fit(const PointView& points, VolumeT& volume,
+                               const Execution& execution) const = 0;
+
+ private:
+  const PointCloud& cloud() const;
+
+  Execution execution_;
+};
+
+/// The axis-aligned box. See fit_aabb().
+template <typename PointT>
+class AabbEstimation : public BoundingVolumeEstimation<PointT, Aabb> {
+ protected:
+  EstimationResult fit(const PointView& points, Aabb& box, const Execution& execution) const override {
+    return fit_aabb(points, box, execution);
+  }
+};
+
+/// The k-DOP along K / 2 directions, K = 6, 14, 18 or 26. See fit_kdop().
+template <typename PointT, int K = 26>
+class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
+  static_assert(K == 6 || K == 14 || K == 18 || K == 26, "K is 6, 14, 18 or 26");
+
+ protected:
+  EstimationResult fit(const PointView& points, Kdop& kdop, const Execution& execution) const override;
+};
+
+/// A bounding sphere. See fit_sphere().
+template <typename PointT>
+class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
+ public:
+  void setMethod(SphereMethod method) { method_ = method; }
+  SphereMethod getMethod() const { return method_; }
+
+ protected:
+  EstimationResult fit(const PointView& points, Sphere& sphere, const Execution& execution) const override {
+    return fit_sphere(points, method_, sphere, execution);
+  }
+
+ private:
+  SphereMethod method_ = SphereMethod::epos26;
+};
+
+}  // namespace pcl_bv
+
+#include "pcl_bv/estimation/impl/bounding_volume_estimation.hpp"

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// One call per volume for those who need no class: fit_aabb(cloud, box), fit_aabb(cloud, indices, box).
+#pragma once
+
+#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/fitting/fit.h"
+
+namespace pcl_bv {
+
+/// As fit_aabb(), fit_kdop() and fit_sphere() of fitting/fit.h, for a pcl::PointCloud or the points of it
+/// that an index list names. Throws std::out_of_range for an index outside the cloud.
+template <typename PointT>
+EstimationResult fit_aabb(const pcl::PointCloud<PointT>& cloud, Aabb& box, const Execution& execution = {}) {
+  return fit_aabb(point_view(cloud), box, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_aabb(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices, Aabb& box,
+                          const Execution& execution = {}) {
+  return fit_aabb(point_view(cloud, indices), box, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_kdop(const pcl::PointCloud<PointT>& cloud, const std::shared_ptr<const KdopSet>& set,
+                          Kdop& kdop, const Execution& execution = {}) {
+  return fit_kdop(point_view(cloud), set, kdop, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_kdop(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                          const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
+                          const Execution& execution = {}) {
+  return fit_kdop(point_view(cloud, indices), set, kdop, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_sphere(const pcl::PointCloud<PointT>& cloud, SphereMethod method, Sphere& sphere,
+                            const Execution& execution = {}) {
+  return fit_sphere(point_view(cloud), method, sphere, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_sphere(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                            SphereMethod method, Sphere& sphere, const Execution& execution = {}) {
+  return fit_sphere(point_view(cloud, indices), method, sphere, execution);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "pcl_bv/estimation/bounding_volume_estimation.h"
+#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+
+namespace pcl_bv {
+
+// PCLBase remembers that indices were set, but not that they were taken away again: null means the whole
+// cloud here.
+template <typename PointT, typename VolumeT>
+void BoundingVolumeEstimation<PointT, VolumeT>::setIndices(const pcl::IndicesPtr& indices) {
+  this->indices_ = indices;
+}
+
+template <typename PointT, typename VolumeT>
+void BoundingVolumeEstimation<PointT, VolumeT>::setIndices(const pcl::IndicesConstPtr& indices) {
+  this->indices_ = indices ? pcl::make_shared<pcl::Indices>(*indices) : nullptr;
+}
+
+template <typename PointT, typename VolumeT>
+void BoundingVolumeEstimation<PointT, VolumeT>::setIndices(const pcl::PointIndicesConstPtr& indices) {
+  this->indices_ = indices ? pcl::make_shared<pcl::Indices>(indices->indices) : nullptr;
+}
+
+template <typename PointT, typename VolumeT>
+void BoundingVolumeEstimation<PointT, VolumeT>::setInstructionSet(Isa isa) {
+  if (isa != Isa::automatic) resolve_isa(isa);
+  execution_.isa = isa;
+}
+
+template <typename PointT, typename VolumeT>
+auto BoundingVolumeEstimation<PointT, VolumeT>::cloud() const -> const PointCloud& {
+  if (!this->input_) throw std::logic_error("BoundingVolumeEstimation: compute() before setInputCloud()");
+  return *this->input_;
+}
+
+template <typename PointT, typename VolumeT>
+EstimationResult BoundingVolumeEstimation<PointT, VolumeT>::compute(VolumeT& volume) const {
+  const PointView points = this->indices_ ? point_view(cloud(), *this->indices_) : point_view(cloud());
+  return fit(points, volume, execution_);
+}
+
+template <typename PointT, typename VolumeT>
+std::vector<EstimationResult> BoundingVolumeEstimation<PointT, VolumeT>::compute(
+    const std::vector<pcl::PointIndices>& clusters, std::vector<VolumeT>& volumes) const {
+  std::vector<PointView> views;
+  views.reserve(clusters.size());
+  for (const pcl::PointIndices& cluster : clusters)
+    views.push_back(point_view(cloud(), cluster.indices));
+  volumes.assign(clusters.size(), VolumeT());
+  std::vector<EstimationResult> results(clusters.size());
+  const Execution serial{Serial{}, execution_.isa};
+  for_each_chunk(execution_.parallel, clusters.size(),
+                 [&](std::size_t c) { results[c] = fit(views[c], volumes[c], serial); });
+  return results;
+}
+
+template <typename PointT, int K>
+EstimationResult KdopEstimation<PointT, K>::fit(const PointView& points, Kdop& kdop,
+                                                const Execution& execution) const {
+  const auto& set = K == 6    ? KdopSet::dop6()
+                    : K == 14 ? KdopSet::dop14()
+                    : K == 18 ? KdopSet::dop18()
+                              : KdopSet::dop26();
+  return fit_kdop(points, set, kdop, execution);
+}
+
+}  // namespace pcl_bv

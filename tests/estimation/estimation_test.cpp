@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/estimation/bounding_volume_estimation.h"
+
+#include <gtest/gtest.h>
+#include <pcl/common/common.h>
+#include <pcl/point_types.h>
+
+#include <limits>
+#include <memory>
+#include <random>
+
+#include "pcl_bv/estimation/fit_cloud.h"
+
+namespace pcl_bv {
+namespace {
+
+template <typename PointT>
+typename pcl::PointCloud<PointT>::Ptr random_cloud(std::size_t points, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<float> normal(3, 2);
+  typename pcl::PointCloud<PointT>::Ptr cloud(new pcl::PointCloud<PointT>);
+  for (std::size_t i = 0; i < points; ++i) {
+    PointT p;
+    p.x = normal(random);
+    p.y = normal(random);
+    p.z = normal(random);
+    cloud->push_back(p);
+  }
+  return cloud;
+}
+
+template <typename PointT>
+class EveryPointType : public testing::Test {};
+
+struct Packed {
+  float x, y, z;
+};
+struct Behind {
+  char id[8];
+  float x, y, z;
+  float age;
+};
+using PointTypes = testing::Types<pcl::PointXYZ, pcl::PointXYZI, pcl::PointXYZRGB, pcl::PointNormal,
+                                  pcl::PointXYZRGBNormal, pcl::PointXYZL, Packed, Behind>;
+TYPED_TEST_SUITE(EveryPointType, PointTypes);
+
+TYPED_TEST(EveryPointType, AabbIsTheMinimumAndMaximum) {
+  const auto cloud = random_cloud<TypeParam>(1003, 1);
+  Eigen::Vector3f low = Eigen::Vector3f::Constant(1e9F), high = -low;
+  for (const auto& p : *cloud) {
+    low = low.cwiseMin(Eigen::Vector3f(p.x, p.y, p.z));
+    high = high.cwiseMax(Eigen::Vector3f(p.x, p.y, p.z));
+  }
+  AabbEstimation<TypeParam> estimation;
+  estimation.setInputCloud(cloud);
+  Aabb box;
+  const EstimationResult result = estimation.compute(box);
+  EXPECT_EQ(result.status, EstimationStatus::ok);
+  EXPECT_EQ(result.used, 1003U);
+  EXPECT_EQ(box.min(), low.cast<double>());
+  EXPECT_EQ(box.max(), high.cast<double>());
+}
+
+TEST(Estimation, AgreesWithGetMinMax3DOnACloudWithNaN) {
+  const auto cloud = random_cloud<pcl::PointXYZ>(5000, 2);
+  for (std::size_t i = 0; i < cloud->size(); i += 7)
+    (*cloud)[i].y = std::numeric_limits<float>::quiet_NaN();
+  cloud->is_dense = false;
+  pcl::PointXYZ low, high;
+  pcl::getMinMax3D(*cloud, low, high);
+  for (const bool dense : {false, true}) {
+    cloud->is_dense = dense;  // what it says must not matter
+    Aabb box;
+    const EstimationResult result = fit_aabb(*cloud, box);
+    EXPECT_EQ(result.dropped, 715U);
+    EXPECT_EQ(box.min(), low.getVector3fMap().cast<double>());
+    EXPECT_EQ(box.max(), high.getVector3fMap().cast<double>());
+  }
+}
+
+TEST(Estimation, IndicesRestrictAndNullLiftsTheRestriction) {
+  const auto cloud = random_cloud<pcl::PointXYZ>(1000, 3);
+  const auto indices = std::make_shared<pcl::Indices>(pcl::Indices{5, 17, 900});
+  KdopEstimation<pcl::PointXYZ, 14> estimation;
+  estimation.setInputCloud(cloud);
+  Kdop all, some, expected;
+  estimation.compute(all);
+  estimation.setIndices(pcl::IndicesPtr(indices));
+  EXPECT_EQ(estimation.compute(some).used, 3U);
+  pcl::PointCloud<pcl::PointXYZ> three;
+  for (const int i : *indices)
+    three.push_back((*cloud)[static_cast<std::size_t>(i)]);
+  fit_kdop(three, KdopSet::dop14(), expected);
+  for (std::size_t k = 0; k < 7; ++k) {
+    EXPECT_EQ(some.min(k), expected.min(k));
+    EXPECT_EQ(some.max(k), expected.max(k));
+  }
+  estimation.setIndices(pcl::IndicesPtr());
+  EXPECT_EQ(estimation.compute(some).used, 1000U);
+  EXPECT_EQ(some.max(3), all.max(3));
+}
+
+TEST(Estimation, TakesIndicesInEveryFormOfPcl) {
+  const auto cloud = random_cloud<pcl::PointXYZ>(12, 3);
+  cloud->width = 4;
+  cloud->height = 3;
+  AabbEstimation<pcl::PointXYZ> estimation;
+  estimation.setInputCloud(cloud);
+  Aabb box;
+  estimation.setIndices(pcl::IndicesConstPtr(new pcl::Indices{1, 2}));
+  EXPECT_EQ(estimation.compute(box).used, 2U);
+  const pcl::PointIndices::Ptr point_indices(new pcl::PointIndices);
+  point_indices->indices = {1, 2, 3};
+  estimation.setIndices(pcl::PointIndicesConstPtr(point_indices));
+  EXPECT_EQ(estimation.compute(box).used, 3U);
+  estimation.setIndices(1, 1, 2, 2);
+  EXPECT_EQ(estimation.compute(box).used, 4U);
+}
+
+TEST(Estimation, ABatchEqualsOneByOne) {
+  const auto cloud = random_cloud<pcl::PointXYZI>(3000, 4);
+  std::vector<pcl::PointIndices> clusters(40);
+  for (std::size_t i = 0; i < cloud->size(); ++i)
+    clusters[i * i % 39].indices.push_back(static_cast<int>(i));
+  ASSERT_TRUE(clusters[39].indices.empty());
+  SphereEstimation<pcl::PointXYZI> estimation;
+  estimation.setInputCloud(cloud);
+  for (const unsigned threads : {1U, 2U, 0U}) {
+    estimation.setNumberOfThreads(threads);
+    std::vector<Sphere> spheres;
+    const std::vector<EstimationResult> results = estimation.compute(clusters, spheres);
+    ASSERT_EQ(spheres.size(), clusters.size());
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+      Sphere sphere;
+      fit_sphere(*cloud, clusters[c].indices, SphereMethod::epos26, sphere);
+      EXPECT_EQ(results[c].used, clusters[c].indices.size());
+      EXPECT_EQ(spheres[c].radius(), sphere.radius()) << "cluster " << c;
+      if (!sphere.empty()) {
+        EXPECT_EQ(spheres[c].center(), sphere.center());
+      }
+    }
+  }
+}
+
+TEST(Estimation, AnEmptyCloudGivesAnEmptyVolumeAndSaysSo) {
+  SphereEstimation<pcl::PointXYZ> estimation;
+  estimation.setInputCloud(pcl::PointCloud<pcl::PointXYZ>::ConstPtr(new pcl::PointCloud<pcl::PointXYZ>));
+  Sphere sphere({1, 2, 3}, 4);
+  EXPECT_EQ(estimation.compute(sphere).status, EstimationStatus::no_valid_points);
+  EXPECT_TRUE(sphere.empty());
+}
+
+TEST(Estimation, NoCloudIsALogicError) {
+  AabbEstimation<pcl::PointXYZ> estimation;
+  Aabb box;
+  EXPECT_THROW(estimation.compute(box), std::logic_error);
+  std::vector<Aabb> boxes;
+  EXPECT_THROW(estimation.compute({pcl::PointIndices()}, boxes), std::logic_error);
+}
+
+TEST(Estimation, AnIndexOutsideTheCloudIsAnErrorThatNamesIt) {
+  const auto cloud = random_cloud<pcl::PointXYZ>(10, 5);
+  Aabb box;
+  for (const int bad : {-1, 10, 1'000'000}) {
+    try {
+      fit_aabb(*cloud, pcl::Indices{0, bad}, box);
+      FAIL() << "accepted " << bad;
+    } catch (const std::out_of_range& error) {
+      EXPECT_NE(std::string(error.what()).find(std::to_string(bad)), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Estimation, RefusesAnInstructionSetThatIsNotUsable) {
+  AabbEstimation<pcl::PointXYZ> estimation;
+  EXPECT_NO_THROW(estimation.setInstructionSet(Isa::scalar));
+#if defined(__x86_64__)
+  EXPECT_THROW(estimation.setInstructionSet(Isa::neon), std::invalid_argument);
+#else
+  EXPECT_THROW(estimation.setInstructionSet(Isa::avx2), std::invalid_argument);
+#endif
+}
+
+}  // namespace
+}  // namespace pcl_bv
