@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Fits volumes to a cloud of a point type that neither PCL nor pcl_bv has ever seen.
+#define PCL_NO_PRECOMPILE
+#include <pcl/point_types.h>
+#include <pcl_bv/estimation/bounding_volume_estimation.h>
+#include <pcl_bv/estimation/fit_cloud.h>
+#include <pcl_bv/segmentation/extract_clusters.h>
+
+#include <cstdio>
+
+struct RadarPoint {
+  float doppler;
+  float x, y, z;
+  unsigned char quality;
+};
+
+struct SurveyPoint {
+  double x, y, z;
+};
+
+int main() {
+  pcl::PointCloud<RadarPoint>::Ptr cloud(new pcl::PointCloud<RadarPoint>);
+  for (int i = 0; i < 1000; ++i) {
+    const float side = i < 500 ? 0.0F : 10.0F;
+    cloud->push_back(
+        {0.5F, side + 0.001F * static_cast<float>(i % 100), 0.2F * static_cast<float>(i % 7), 1.0F, 3});
+  }
+
+  pcl_bv::EuclideanClusterExtraction<RadarPoint> extraction;
+  extraction.setClusterTolerance(0.5);
+  extraction.setInputCloud(cloud);
+  std::vector<pcl::PointIndices> clusters;
+  extraction.extract(clusters);
+
+  pcl_bv::KdopEstimation<RadarPoint, 26> estimation;
+  estimation.setInputCloud(cloud);
+  std::vector<pcl_bv::Kdop> kdops;
+  estimation.compute(clusters, kdops);
+  if (kdops.size() != 2 || kdops[0].max(0) > 1 || kdops[1].min(0) < 9) {
+    std::puts("wrong clusters");
+    return 1;
+  }
+
+  pcl::PointCloud<SurveyPoint> survey;
+  survey.push_back({5e6, 4e5, 100});
+  survey.push_back({5e6 + 1e-9, 4e5, 100});
+  pcl_bv::Aabb box;
+  const pcl_bv::EstimationResult result = pcl_bv::fit_aabb(survey, box);
+  if (result.rank != 1 || box.max().x() != 5e6 + 1e-9) {
+    std::puts("wrong box");
+    return 1;
+  }
+  std::puts("ok");
+  return 0;
+}
