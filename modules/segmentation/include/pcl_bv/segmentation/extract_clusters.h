@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The clusterer as a PCL class: change the namespace, get the same clusters sooner.
+#pragma once
+
+#include <pcl/PointIndices.h>
+#include <pcl/pcl_base.h>
+#include <pcl/point_cloud.h>
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <pcl/impl/pcl_base.hpp>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/segmentation/euclidean_clusters.h"
+
+namespace pcl::search {
+template <typename PointT>
+class Search;
+}  // namespace pcl::search
+
+namespace pcl_bv {
+
+/// Drop-in for pcl::EuclideanClusterExtraction: the same partition (see EuclideanClusterer), the same setters
+/// and defaults. Any point type with float x, y, z in a row works, without instantiation.
+///
+/// Different from PCL: points that are not finite are skipped, instead of being undefined behaviour; clusters
+/// of equal size come in the order of their smallest index; the result replaces what the vector held, where
+/// PCL appends; no search tree is needed or used; errors are exceptions.
+template <typename PointT>
+class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
+ public:
+  using PointCloud = pcl::PointCloud<PointT>;
+  using PointCloudPtr = typename PointCloud::Ptr;
+  using PointCloudConstPtr = typename PointCloud::ConstPtr;
+  using KdTree = pcl::search::Search<PointT>;
+  using KdTreePtr = std::shared_ptr<KdTree>;
+
+  /// Kept for getSearchMethod(), so that code written for PCL compiles; never used.
+  void setSearchMethod(const KdTreePtr& tree) { tree_ = tree; }
+  KdTreePtr getSearchMethod() const { return tree_; }
+
+  /// Points nearer to each other than this belong together; unit of the points, used as float like PCL does.
+  void setClusterTolerance(double tolerance) { tolerance_ = tolerance; }
+  double getClusterTolerance() const { return tolerance_; }
+
+  /// Clusters of fewer points are dropped. Default 1.
+  void setMinClusterSize(pcl::uindex_t size) { min_size_ = size; }
+  pcl::uindex_t getMinClusterSize() const { return min_size_; }
+
+  /// Clusters of more points are dropped. Default: no limit.
+  void setMaxClusterSize(pcl::uindex_t size) { max_size_ = size; }
+  pcl::uindex_t getMaxClusterSize() const { return max_size_; }
+
+  /// Replaces `clusters` with those of the input cloud, or of its points in setIndices() (null: the whole
+  /// cloud): largest first, indices ascending, each with the cloud's header. No finite point: no clusters.
+  ///
+  /// Throws std::logic_error without an input cloud, std::out_of_range for an index outside it,
+  /// std::invalid_argument if the tolerance is not finite and > 0 as a float.
+  void extract(std::vector<pcl::PointIndices>& clusters);
+
+ private:
+  PointView view() const;
+
+  using pcl::PCLBase<PointT>::input_;
+  using pcl::PCLBase<PointT>::indices_;
+
+  KdTreePtr tree_;
+  double tolerance_ = 0;
+  pcl::uindex_t min_size_ = 1;
+  pcl::uindex_t max_size_ = std::numeric_limits<pcl::uindex_t>::max();
+  EuclideanClusterer clusterer_;
+  Clusters found_;
+};
+
+template <typename PointT>
+PointView EuclideanClusterExtraction<PointT>::view() const {
+  static_assert(std::is_same_v<std::remove_reference_t<decltype((std::declval<PointT&>().x))>, float>,
+                "the point type needs float x, y, z");
+  static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t), "PCL is built with 32-bit indices");
+  if (!input_) throw std::logic_error("EuclideanClusterExtraction: no input cloud set");
+  if (indices_) {
+    for (const pcl::index_t index : *indices_) {
+      if (index >= 0 && static_cast<std::size_t>(index) < input_->size()) continue;
+      throw std::out_of_range("EuclideanClusterExtraction: index " + std::to_string(index) +
+                              " is outside the cloud of " + std::to_string(input_->size()) + " points");
+    }
+  }
+  if (input_->empty()) return {};
+  const PointT& first = input_->points.front();
+  PointView view = PointView::of(&first.x, sizeof(PointT), input_->size());
+  view.readable -= static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&first.x) -
+                                            reinterpret_cast<const std::byte*>(&first));
+  if (indices_) {
+    view.indices = indices_->data();
+    view.count = indices_->size();
+  }
+  return view;
+}
+
+template <typename PointT>
+void EuclideanClusterExtraction<PointT>::extract(std::vector<pcl::PointIndices>& clusters) {
+  const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_};
+  clusterer_.extract(view(), settings, found_);
+  clusters.resize(found_.size());
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    clusters[i].header = input_->header;
+    clusters[i].indices.assign(found_.cluster(i), found_.cluster(i) + found_.cluster_size(i));
+  }
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The rare and the once-a-call half of the cell grid.
+#include "cell_grid.h"
+
+#include <bit>
+
+namespace pcl_bv {
+
+std::int64_t far_cell_number(double cells) {
+  // The bits of a positive double grow with it, 2^52 to an octave; 2^28 remain, the step being 2^12 cells at
+  // least.
+  const auto steps = [](double v) { return std::bit_cast<std::int64_t>(v) >> 24; };
+  const std::int64_t magnitude =
+      static_cast<std::int64_t>(far_cells) + steps(std::abs(cells)) - steps(far_cells);
+  return cells < 0 ? -magnitude : magnitude;
+}
+
+void CellGrid::add_axis(std::size_t axis, double min, double max) {
+  origin[axis] = cell_number(min, inverse_side) - 2;
+  shift[axis] = key_bits;
+  const std::int64_t last = cell_number(max, inverse_side) + 2 - origin[axis];
+  key_bits += static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(last)));
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// From a PointView to its valid points in a row, ascending by point number.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "distance.h"
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv {
+
+template <typename T>
+struct ValidPoints {
+  std::vector<Point<T>> points;
+  std::vector<std::int32_t> numbers;      ///< Number in the cloud of each point; strictly ascending.
+  std::vector<std::int32_t> sorted_list;  ///< Room for a sorted copy of the view's index list.
+};
+
+/// Fills `valid` with each valid point of `view` once. T is the scalar of the view. Throws std::length_error
+/// if a point number exceeds 2^31 - 1.
+template <typename T>
+void gather(const PointView& view, ValidPoints<T>& valid);
+
+extern template void gather(const PointView&, ValidPoints<float>&);
+extern template void gather(const PointView&, ValidPoints<double>&);
+
+}  // namespace pcl_bv
