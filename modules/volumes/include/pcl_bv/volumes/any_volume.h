@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Any one of the volumes, for code that handles them alike: tables of methods, writers, commands.
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <variant>
+
+#include "pcl_bv/volumes/aabb.h"
+#include "pcl_bv/volumes/kdop.h"
+#include "pcl_bv/volumes/mesh.h"
+#include "pcl_bv/volumes/sphere.h"
+
+namespace pcl_bv {
+
+using AnyVolume = std::variant<Aabb, Kdop, Sphere>;
+
+/// Each forwards to the verb of the volume held.
+bool empty(const AnyVolume& volume);
+bool contains(const AnyVolume& volume, const Eigen::Vector3d& point);
+double volume(const AnyVolume& volume);
+double surface_area(const AnyVolume& volume);
+Eigen::Vector3d center(const AnyVolume& volume);
+Aabb aabb(const AnyVolume& volume);
+Mesh mesh(const AnyVolume& volume);
+
+/// The shape's name in results: "aabb", "kdop" or "sphere".
+std::string_view shape_name(const AnyVolume& volume);
+
+}  // namespace pcl_bv

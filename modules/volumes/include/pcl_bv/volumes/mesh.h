@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The surface of a volume, for drawing and export.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_bv {
+
+/// A closed polygon mesh in the frame and unit of the volume it came from. Faces are convex, counter-clockwise seen
+/// from outside. An empty volume has an empty mesh; a flat one has faces of area 0 or two that coincide.
+struct Mesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::vector<std::int32_t>> faces;  ///< Vertex numbers around each face.
+};
+
+}  // namespace pcl_bv

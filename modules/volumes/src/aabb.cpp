@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Aabb's arithmetic, compiled here so that the user's compiler flags cannot change it.
+#include "pcl_bv/volumes/aabb.h"
+
+#include <limits>
+#include <stdexcept>
+
+#include "directed.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Eigen::Vector3d without_negative_zero(const Eigen::Vector3d& v) {
+  return v.array() + 0.0;
+}
+
+}  // namespace
+
+Aabb::Aabb() : min_(Eigen::Vector3d::Constant(infinity)), max_(Eigen::Vector3d::Constant(-infinity)) {}
+
+Aabb::Aabb(const Eigen::Vector3d& min, const Eigen::Vector3d& max) : Aabb() {
+  if ((min.array() > max.array()).any()) return;
+  if (!min.allFinite() || !max.allFinite()) {
+    throw std::invalid_argument(
+        "Aabb: min and max must be finite (or any min above its max, for an empty box)");
+  }
+  min_ = without_negative_zero(min);
+  max_ = without_negative_zero(max);
+}
+
+bool Aabb::empty() const {
+  return min_.x() > max_.x();
+}
+
+bool Aabb::contains(const Eigen::Vector3d& p) const {
+  return min_.x() <= p.x() && p.x() <= max_.x() && min_.y() <= p.y() && p.y() <= max_.y() &&
+         min_.z() <= p.z() && p.z() <= max_.z();
+}
+
+double Aabb::volume() const {
+  if (empty()) return 0;
+  return (max_ - min_).prod();
+}
+
+double Aabb::surface_area() const {
+  if (empty()) return 0;
+  const Eigen::Vector3d size = max_ - min_;
+  return 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+}
+
+Eigen::Vector3d Aabb::center() const {
+  if (empty()) return Eigen::Vector3d::Constant(nan);
+  return 0.5 * (min_ + max_);
+}
+
+Eigen::Vector3d Aabb::support(const Eigen::Vector3d& direction) const {
+  if (empty()) return Eigen::Vector3d::Constant(nan);
+  return (direction.array() < 0).select(min_, max_);
+}
+
+double Aabb::distance(const Eigen::Vector3d& point) const {
+  if (point.hasNaN()) return nan;
+  if (empty()) return infinity;
+  const Eigen::Vector3d excess = (min_ - point).cwiseMax(point - max_).cwiseMax(0.0);
+  return excess.stableNorm();
+}
+
+std::array<Eigen::Vector3d, 8> Aabb::corners() const {
+  std::array<Eigen::Vector3d, 8> result;
+  for (unsigned i = 0; i < 8; ++i) {
+    result[i] = {i & 1 ? max_.x() : min_.x(), i & 2 ? max_.y() : min_.y(), i & 4 ? max_.z() : min_.z()};
+  }
+  return result;
+}
+
+Mesh Aabb::mesh() const {
+  if (empty()) return {};
+  const std::array<Eigen::Vector3d, 8> c = corners();
+  return {{c.begin(), c.end()},
+          {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+}
+
+Aabb Aabb::transformed(const Eigen::Isometry3d& transform) const {
+  if (empty()) return {};
+  Eigen::Vector3d lower, upper;
+  for (int i = 0; i < 3; ++i) {
+    ExactSum low, high;
+    low.add(transform(i, 3));
+    high.add(transform(i, 3));
+    for (int j = 0; j < 3; ++j) {
+      const double m = transform(i, j);
+      low.add_product(m, m < 0 ? max_[j] : min_[j]);
+      high.add_product(m, m < 0 ? min_[j] : max_[j]);
+    }
+    lower[i] = low.down();
+    upper[i] = high.up();
+  }
+  return {lower, upper};
+}
+
+Aabb& Aabb::extend(const Eigen::Vector3d& point) {
+  return point.allFinite() ? merge({point, point}) : *this;
+}
+
+Aabb& Aabb::merge(const Aabb& other) {
+  min_ = min_.cwiseMin(other.min_);
+  max_ = max_.cwiseMax(other.max_);
+  return *this;
+}
+
+FloatAabb Aabb::cast_float() const {
+  return {min_.unaryExpr([](double x) { return float_down(x); }),
+          max_.unaryExpr([](double x) { return float_up(x); })};
+}
+
+bool operator==(const Aabb& a, const Aabb& b) {
+  return a.min() == b.min() && a.max() == b.max();
+}
+
+}  // namespace pcl_bv

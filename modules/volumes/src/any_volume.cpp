@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The one place that visits the variant.
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace pcl_bv {
+namespace {
+
+std::string_view name_of(const Aabb&) {
+  return "aabb";
+}
+std::string_view name_of(const Kdop&) {
+  return "kdop";
+}
+std::string_view name_of(const Sphere&) {
+  return "sphere";
+}
+
+}  // namespace
+
+bool empty(const AnyVolume& volume) {
+  return std::visit([](const auto& v) { return v.empty(); }, volume);
+}
+
+bool contains(const AnyVolume& volume, const Eigen::Vector3d& point) {
+  return std::visit([&](const auto& v) { return v.contains(point); }, volume);
+}
+
+double volume(const AnyVolume& volume) {
+  return std::visit([](const auto& v) { return v.volume(); }, volume);
+}
+
+double surface_area(const AnyVolume& volume) {
+  return std::visit([](const auto& v) { return v.surface_area(); }, volume);
+}
+
+Eigen::Vector3d center(const AnyVolume& volume) {
+  return std::visit([](const auto& v) -> Eigen::Vector3d { return v.center(); }, volume);
+}
+
+Aabb aabb(const AnyVolume& volume) {
+  return std::visit([](const auto& v) { return v.aabb(); }, volume);
+}
+
+Mesh mesh(const AnyVolume& volume) {
+  return std::visit([](const auto& v) { return v.mesh(); }, volume);
+}
+
+std::string_view shape_name(const AnyVolume& volume) {
+  return std::visit([](const auto& v) { return name_of(v); }, volume);
+}
+
+}  // namespace pcl_bv

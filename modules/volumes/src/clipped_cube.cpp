@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Topology first: a vertex is above, on or below the plane once and for all, and the rest follows from that.
+#include "clipped_cube.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace pcl_bv::volumes_internal {
+
+ClippedCube::ClippedCube()
+    : loops_{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}} {
+  for (int i = 0; i < 8; ++i)
+    vertices_.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+}
+
+void ClippedCube::cut(const Eigen::Vector3d& normal, double offset, double rounding) {
+  const double scale = normal.cwiseAbs().maxCoeff();
+  if (scale == 0) return;
+  const Eigen::Vector3d unit = normal / scale;
+  const double unit_offset = offset / scale;
+  const double on_plane = 0x1p-42 + rounding / scale;
+  heights_.resize(vertices_.size());
+  for (std::size_t i = 0; i < heights_.size(); ++i) {
+    const double h = unit.dot(vertices_[i]) - unit_offset;
+    heights_[i] = std::abs(h) <= on_plane ? 0 : h;
+  }
+  bool above = false, below = false;
+  for (const Loop& loop : loops_) {
+    for (const std::int32_t v : loop) {
+      above |= height(v) > 0;
+      below |= height(v) < 0;
+    }
+  }
+  if (!above) return;
+  if (below) {
+    clip();
+  } else {
+    collapse();
+  }
+}
+
+// Nothing is below the plane: what remains is the face, edge or vertex on it.
+void ClippedCube::collapse() {
+  Loop remaining;
+  for (const Loop& loop : loops_) {
+    Loop on;
+    std::copy_if(loop.begin(), loop.end(), std::back_inserter(on), [&](auto v) { return height(v) == 0; });
+    if (on.size() > remaining.size()) remaining = on;
+  }
+  rank_ = std::min(static_cast<int>(remaining.size()) - 1, 2);
+  loops_.clear();
+  if (rank_ >= 0) loops_.push_back(remaining);
+  if (rank_ == 2) loops_.emplace_back(remaining.rbegin(), remaining.rend());
+}
+
+void ClippedCube::clip() {
+  crossings_.clear();
+  std::vector<Loop> kept;
+  for (Loop& loop : loops_) {
+    if (std::none_of(loop.begin(), loop.end(), [&](auto v) { return height(v) < 0; })) continue;
+    const bool whole = std::none_of(loop.begin(), loop.end(), [&](auto v) { return height(v) > 0; });
+    kept.push_back(whole ? std::move(loop) : clip_loop(loop));
+  }
+  loops_ = std::move(kept);
+  close();
+}
+
+ClippedCube::Loop ClippedCube::clip_loop(const Loop& loop) {
+  Loop part;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const std::int32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+    if (height(a) <= 0) part.push_back(a);
+    if ((height(a) < 0 && height(b) > 0) || (height(a) > 0 && height(b) < 0)) part.push_back(crossing(a, b));
+  }
+  // An edge seen from both sides meets its crossing twice.
+  part.erase(std::unique(part.begin(), part.end()), part.end());
+  return part;
+}
+
+// The new vertex on an edge, the same from either of its faces.
+std::int32_t ClippedCube::crossing(std::int32_t a, std::int32_t b) {
+  if (a > b) std::swap(a, b);
+  for (const Crossing& c : crossings_) {
+    if (c.a == a && c.b == b) return c.vertex;
+  }
+  const auto vertex = static_cast<std::int32_t>(vertices_.size());
+  const Eigen::Vector3d p = vertices_[static_cast<std::size_t>(a)],
+                        q = vertices_[static_cast<std::size_t>(b)];
+  vertices_.push_back(p + (height(a) / (height(a) - height(b))) * (q - p));
+  heights_.push_back(0);
+  crossings_.push_back({a, b, vertex});
+  return vertex;
+}
+
+// Adds the loops that close the surface: the edges that lack their opposite, run the other way round. Both
+// ends of such an edge are on the plane.
+void ClippedCube::close() {
+  std::vector<std::pair<std::int32_t, std::int32_t>> open;
+  for (const Loop& loop : loops_) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::int32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+      if (height(a) != 0 || height(b) != 0) continue;
+      const auto opposite = std::find(open.begin(), open.end(), std::pair(b, a));
+      if (opposite == open.end()) {
+        open.emplace_back(a, b);
+      } else {
+        open.erase(opposite);
+      }
+    }
+  }
+  while (!open.empty()) {
+    Loop cap;
+    auto edge = open.begin();
+    std::int32_t vertex = edge->second;
+    while (edge != open.end()) {
+      cap.push_back(vertex);
+      vertex = edge->first;
+      open.erase(edge);
+      edge = std::find_if(open.begin(), open.end(), [&](const auto& e) { return e.second == vertex; });
+    }
+    loops_.push_back(std::move(cap));
+  }
+}
+
+}  // namespace pcl_bv::volumes_internal

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The verbs of Kdop that look at the polytope as a whole.
+#include <limits>
+#include <utility>
+
+#include "directed.h"
+#include "kdop_support.h"
+#include "pcl_bv/volumes/kdop.h"
+#include "polytope.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// The first slab along axis k, or size().
+std::size_t axis_slab(const KdopSet& set, int k) {
+  std::size_t i = 0;
+  while (i < set.size() && set.direction(i) != Eigen::Vector3d(Eigen::Vector3d::Unit(k)))
+    ++i;
+  return i;
+}
+
+}  // namespace
+
+double Kdop::volume() const {
+  return empty() ? 0 : intersect_slabs(*this).volume;
+}
+
+double Kdop::surface_area() const {
+  return empty() ? 0 : volumes_internal::surface_area(intersect_slabs(*this));
+}
+
+Eigen::Vector3d Kdop::center() const {
+  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const Polytope polytope = intersect_slabs(*this);
+  return polytope.origin + polytope.centroid;
+}
+
+Eigen::Vector3d Kdop::support(const Eigen::Vector3d& direction) const {
+  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const LocalSlabs slabs = local_slabs(*this);
+  return slabs.origin + farthest(slabs, direction).corner;
+}
+
+double Kdop::distance(const Eigen::Vector3d& point) const {
+  if (point.hasNaN()) return nan;
+  if (empty()) return infinity;
+  if (contains(point)) return 0;
+  const Polytope polytope = intersect_slabs(*this);
+  return volumes_internal::distance(polytope, point - polytope.origin);
+}
+
+Aabb Kdop::aabb() const {
+  if (empty()) return {};
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d lower, upper;
+  for (int k = 0; k < 3; ++k) {
+    if (const std::size_t i = axis_slab(*set_, k); i < size()) {
+      lower[k] = min(i);
+      upper[k] = max(i);
+    } else {
+      const LocalSlabs slabs = local_slabs(*this);
+      lower[k] = -support_up(*this, slabs, identity, -identity.col(k));
+      upper[k] = support_up(*this, slabs, identity, identity.col(k));
+    }
+  }
+  return {lower, upper};
+}
+
+std::vector<Eigen::Vector3d> Kdop::corners() const {
+  return mesh().vertices;
+}
+
+Mesh Kdop::mesh() const {
+  if (empty()) return {};
+  Polytope polytope = intersect_slabs(*this);
+  for (Eigen::Vector3d& v : polytope.vertices)
+    v += polytope.origin;
+  return {std::move(polytope.vertices), std::move(polytope.faces)};
+}
+
+Kdop Kdop::transformed(const Eigen::Isometry3d& transform) const {
+  if (empty()) return Kdop(set_);
+  const LocalSlabs slabs = local_slabs(*this);
+  SlabVector lower(min_.size()), upper(min_.size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Eigen::Vector3d& n = set_->direction(i);
+    const auto reach = [&](const Eigen::Vector3d& direction) {
+      ExactSum sum;
+      sum.add(support_up(*this, slabs, transform.linear(), direction));
+      for (int k = 0; k < 3; ++k)
+        sum.add_product(direction[k], transform(k, 3));
+      return sum.up();
+    };
+    lower[static_cast<Eigen::Index>(i)] = -reach(-n);
+    upper[static_cast<Eigen::Index>(i)] = reach(n);
+  }
+  return {set_, lower, upper};
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The three basis slabs span a parallelepiped. Mapped to the unit cube, everything is well scaled however
+// long, thin or far from the origin the volume is; there the other slabs cut.
+#include "polytope.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "clipped_cube.h"
+#include "kdop_support.h"
+
+namespace pcl_bv::volumes_internal {
+namespace {
+
+// p = corner + edges * y takes the unit cube to the parallelepiped of the basis slabs.
+struct CubeMap {
+  Eigen::Vector3d corner;
+  Eigen::Matrix3d edges;
+};
+
+CubeMap cube_map(const LocalSlabs& slabs) {
+  Eigen::Vector3d low, width;
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t i = slabs.set.basis()[static_cast<std::size_t>(k)];
+    low[k] = slabs.min[i];
+    width[k] = slabs.max[i] - slabs.min[i];
+  }
+  return {slabs.basis_inverse * low, slabs.basis_inverse * width.asDiagonal()};
+}
+
+struct MappedSlab {
+  Eigen::Vector3d normal;
+  double min, max;
+  double rounding;  // of both: much, where an extent is near a unit in the last place of the coordinates
+
+  double width() const { return (max - min) / normal.cwiseAbs().maxCoeff(); }
+};
+
+// The slabs that cut the cube: not those of the basis, which made it, nor those along which it has no extent.
+std::vector<MappedSlab> mapped_slabs(const LocalSlabs& slabs, const CubeMap& map) {
+  std::vector<MappedSlab> result;
+  for (std::size_t i = 0; i < slabs.set.size(); ++i) {
+    const auto& basis = slabs.set.basis();
+    if (std::find(basis.begin(), basis.end(), i) != basis.end()) continue;
+    const Eigen::Vector3d& n = slabs.set.direction(i);
+    const double shift = n.dot(map.corner);
+    const double magnitude =
+        n.cwiseAbs().dot(map.corner.cwiseAbs()) + std::abs(slabs.min[i]) + std::abs(slabs.max[i]);
+    const Eigen::Vector3d normal = map.edges.transpose() * n;
+    if (normal.isZero(0)) continue;
+    result.push_back({normal, slabs.min[i] - shift, slabs.max[i] - shift, 0x1p-48 * magnitude});
+  }
+  // Thin slabs first: a cap that the other side then collapses is one whole face.
+  std::stable_sort(result.begin(), result.end(),
+                   [](const MappedSlab& a, const MappedSlab& b) { return a.width() < b.width(); });
+  return result;
+}
+
+ClippedCube clipped(const LocalSlabs& slabs, const CubeMap& map) {
+  ClippedCube cube;
+  for (int k = 0; k < 3; ++k) {
+    if (map.edges.col(k).isZero(0)) cube.cut(Eigen::Vector3d::Unit(k), 0);
+  }
+  for (const MappedSlab& slab : mapped_slabs(slabs, map)) {
+    cube.cut(slab.normal, slab.max, slab.rounding);
+    cube.cut(-slab.normal, -slab.min, slab.rounding);
+  }
+  return cube;
+}
+
+struct Measure {
+  double size = 0;  // volume, area or length by rank
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+
+  void add(double part, const Eigen::Vector3d& center) {
+    size += part;
+    moment += part * center;
+  }
+};
+
+// Of rank 3 by tetrahedra from the first vertex, of rank 2 by triangles.
+Measure measure(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces, int rank) {
+  Measure result;
+  const auto at = [&](const Face& f, std::size_t i) { return vertices[static_cast<std::size_t>(f[i])]; };
+  const Eigen::Vector3d apex = vertices.front();
+  for (const Face& face : faces) {
+    const Eigen::Vector3d a = at(face, 0);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      const Eigen::Vector3d b = at(face, i), c = at(face, i + 1);
+      const Eigen::Vector3d area = (b - a).cross(c - a);
+      if (rank == 3) {
+        result.add(area.dot(a - apex) / 6, (a + b + c + apex) / 4);
+      } else {
+        result.add(area.stableNorm() / 2, (a + b + c) / 3);
+      }
+    }
+  }
+  return result;
+}
+
+// Keeps the vertices that faces use, renumbered in order.
+void compact(const ClippedCube& cube, std::vector<Eigen::Vector3d>& vertices, std::vector<Face>& faces) {
+  std::vector<std::int32_t> number(cube.vertices().size(), -1);
+  for (const Face& loop : cube.loops()) {
+    Face face;
+    for (const std::int32_t v : loop) {
+      std::int32_t& n = number[static_cast<std::size_t>(v)];
+      if (n < 0) {
+        n = static_cast<std::int32_t>(vertices.size());
+        vertices.push_back(cube.vertices()[static_cast<std::size_t>(v)]);
+      }
+      face.push_back(n);
+    }
+    if (face.size() > 1) faces.push_back(std::move(face));
+  }
+}
+
+double distance_to_edge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d edge = b - a;
+  const double length = edge.stableNorm();
+  if (length == 0) return (p - a).stableNorm();
+  const Eigen::Vector3d unit = edge / length;
+  const double along = std::clamp(unit.dot(p - a), 0.0, length);
+  return (p - a - along * unit).stableNorm();
+}
+
+// Twice the vector area of a face.
+Eigen::Vector3d twice_area(const Polytope& polytope, const Face& face) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d& a = polytope.vertices[static_cast<std::size_t>(face[0])];
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    sum += (polytope.vertices[static_cast<std::size_t>(face[i])] - a)
+               .cross(polytope.vertices[static_cast<std::size_t>(face[i + 1])] - a);
+  }
+  return sum;
+}
+
+double distance_to_face(const Polytope& polytope, const Face& face, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d normal = twice_area(polytope, face).stableNormalized();
+  bool over_face = !normal.isZero(0);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const Eigen::Vector3d& a = polytope.vertices[static_cast<std::size_t>(face[i])];
+    const Eigen::Vector3d& b = polytope.vertices[static_cast<std::size_t>(face[(i + 1) % face.size()])];
+    nearest = std::min(nearest, distance_to_edge(p, a, b));
+    over_face = over_face && normal.dot((b - a).cross(p - a)) >= 0;
+  }
+  if (!over_face) return nearest;
+  return std::min(nearest, std::abs(normal.dot(p - polytope.vertices[static_cast<std::size_t>(face[0])])));
+}
+
+}  // namespace
+
+Polytope intersect_slabs(const Kdop& kdop) {
+  const LocalSlabs slabs = local_slabs(kdop);
+  const CubeMap map = cube_map(slabs);
+  const ClippedCube cube = clipped(slabs, map);
+  Polytope result;
+  result.origin = slabs.origin;
+  compact(cube, result.vertices, result.faces);
+  if (result.vertices.empty()) return result;
+
+  // The centroid is affine, so it is taken where the scale is good.
+  const Measure m = measure(result.vertices, result.faces, cube.rank());
+  Eigen::Vector3d centroid = m.moment / m.size;
+  if (!(m.size > 0)) {
+    centroid =
+        std::accumulate(result.vertices.begin(), result.vertices.end(), Eigen::Vector3d::Zero().eval()) /
+        static_cast<double>(result.vertices.size());
+  }
+  result.centroid = map.corner + map.edges * centroid;
+  if (cube.rank() == 3) result.volume = std::max(0.0, m.size) * std::abs(map.edges.determinant());
+  if (slabs.basis_inverse.determinant() < 0) {  // a left-handed basis mirrors the cube
+    for (Face& face : result.faces)
+      std::reverse(face.begin(), face.end());
+  }
+  for (Eigen::Vector3d& v : result.vertices)
+    v = map.corner + map.edges * v;
+  return result;
+}
+
+double surface_area(const Polytope& polytope) {
+  double twice = 0;
+  for (const Face& face : polytope.faces)
+    twice += twice_area(polytope, face).stableNorm();
+  return twice / 2;
+}
+
+double distance(const Polytope& polytope, const Eigen::Vector3d& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Face& face : polytope.faces)
+    nearest = std::min(nearest, distance_to_face(polytope, face, point));
+  if (polytope.vertices.size() == 1) nearest = (point - polytope.vertices.front()).stableNorm();
+  return nearest;
+}
+
+}  // namespace pcl_bv::volumes_internal

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Sphere's arithmetic, compiled here so that the user's compiler flags cannot change it.
+#include "pcl_bv/volumes/sphere.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "directed.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double pi = 3.14159265358979323846;
+
+// An order of spheres in which the bigger comes first, total so that merge() is commutative.
+bool precedes(const Sphere& a, const Sphere& b) {
+  if (a.radius() != b.radius()) return a.radius() > b.radius();
+  return std::lexicographical_compare(a.center().begin(), a.center().end(), b.center().begin(),
+                                      b.center().end());
+}
+
+// The smallest sphere around both, neither of which holds the other. Its centre is rounded as it comes; its
+// radius is measured from there to the far side of either sphere, each step rounded up, so it encloses both
+// whatever the centre's error.
+Sphere around(const Sphere& big, const Sphere& small) {
+  const Eigen::Vector3d step = small.center() - big.center();
+  const double d = step.stableNorm();
+  const double part = std::clamp(((d - big.radius()) + small.radius()) / (2 * d), 0.0, 1.0);
+  const Eigen::Vector3d center = big.center() + part * step;
+  const auto reach = [&](const Sphere& s) { return add_up(distance_up(center, s.center()), s.radius()); };
+  return {center, std::max(reach(big), reach(small))};
+}
+
+// How much the matrix stretches any vector: |M| <= sqrt(max row sum of |M'M|), rounded up; 1 for the
+// identity.
+double stretch_up(const Eigen::Matrix3d& m) {
+  double result = 0;
+  for (int i = 0; i < 3; ++i) {
+    double row = 0;
+    for (int j = 0; j < 3; ++j) {
+      ExactSum dot;
+      for (int k = 0; k < 3; ++k)
+        dot.add_product(m(k, i), m(k, j));
+      row = add_up(row, std::max(dot.up(), -dot.down()));
+    }
+    result = std::max(result, row);
+  }
+  return sqrt_up(result);
+}
+
+}  // namespace
+
+Sphere::Sphere() : center_(Eigen::Vector3d::Constant(nan)), radius_(-1) {}
+
+Sphere::Sphere(const Eigen::Vector3d& center, double radius) : Sphere() {
+  if (radius < 0) return;
+  if (!center.allFinite() || !std::isfinite(radius)) {
+    throw std::invalid_argument(
+        "Sphere: center and radius must be finite (or the radius negative, for an empty sphere)");
+  }
+  center_ = center.array() + 0.0;
+  radius_ = radius + 0.0;
+}
+
+bool Sphere::contains(const Eigen::Vector3d& point) const {
+  // Each q is off by 1 unit of 2^-53, so d2 by 5; the limit loses 3 at most. 16 covers both.
+  const double qx = point.x() - center_.x(), qy = point.y() - center_.y(), qz = point.z() - center_.z();
+  const double d2 = (qx * qx + qy * qy) + qz * qz;
+  return !empty() && d2 <= radius_ * radius_ * (1 + 0x1p-49) + std::numeric_limits<double>::min();
+}
+
+double Sphere::volume() const {
+  return empty() ? 0 : 4 * pi / 3 * radius_ * radius_ * radius_;
+}
+
+double Sphere::surface_area() const {
+  return empty() ? 0 : 4 * pi * radius_ * radius_;
+}
+
+Eigen::Vector3d Sphere::support(const Eigen::Vector3d& direction) const {
+  return center_ + radius_ * direction.stableNormalized();
+}
+
+double Sphere::distance(const Eigen::Vector3d& point) const {
+  if (point.hasNaN()) return nan;
+  if (empty()) return infinity;
+  if (contains(point)) return 0;
+  return std::max(0.0, (point - center_).stableNorm() - radius_);
+}
+
+Aabb Sphere::aabb() const {
+  if (empty()) return {};
+  Eigen::Vector3d lower, upper;
+  for (int i = 0; i < 3; ++i) {
+    lower[i] = -add_up(-center_[i], radius_);
+    upper[i] = add_up(center_[i], radius_);
+  }
+  return {lower, upper};
+}
+
+Sphere Sphere::transformed(const Eigen::Isometry3d& transform) const {
+  if (empty()) return {};
+  const Eigen::Vector3d center = transform * center_;
+  Eigen::Vector3d error;
+  for (int i = 0; i < 3; ++i) {
+    ExactSum sum;
+    sum.add(transform(i, 3)).add(-center[i]);
+    for (int j = 0; j < 3; ++j)
+      sum.add_product(transform(i, j), center_[j]);
+    error[i] = std::max(sum.up(), -sum.down());
+  }
+  return {center, add_up(multiply_up(radius_, stretch_up(transform.linear())), norm_up(error))};
+}
+
+Sphere& Sphere::extend(const Eigen::Vector3d& point) {
+  return point.allFinite() ? merge({point, 0.0}) : *this;
+}
+
+Sphere& Sphere::merge(const Sphere& other) {
+  if (other.empty()) return *this;
+  if (empty()) return *this = other;
+  const bool this_first = precedes(*this, other);
+  const Sphere big = this_first ? *this : other;
+  const Sphere small = this_first ? other : *this;
+  return *this = within(small.center_, big.center_, big.radius_, small.radius_) ? big : around(big, small);
+}
+
+FloatSphere Sphere::cast_float() const {
+  if (empty()) return {Eigen::Vector3f::Constant(static_cast<float>(nan)), -1.0f};
+  constexpr double limit = std::numeric_limits<float>::max();
+  const Eigen::Vector3f center = center_.cwiseMax(-limit).cwiseMin(limit).cast<float>();
+  return {center, float_up(add_up(radius_, distance_up(center_, center.cast<double>())))};
+}
+
+bool operator==(const Sphere& a, const Sphere& b) {
+  if (a.empty() || b.empty()) return a.empty() && b.empty();
+  return a.center() == b.center() && a.radius() == b.radius();
+}
+
+}  // namespace pcl_bv

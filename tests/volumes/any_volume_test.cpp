@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Claims of the variant: it forwards.
+#include <gtest/gtest.h>
+
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace pcl_bv {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(AnyVolume, NamesItsShape) {
+  EXPECT_EQ(shape_name(Aabb()), "aabb");
+  EXPECT_EQ(shape_name(Kdop()), "kdop");
+  EXPECT_EQ(shape_name(Sphere()), "sphere");
+}
+
+TEST(AnyVolume, ForwardsToTheVolumeHeld) {
+  const Aabb box({0, 0, 0}, {1, 2, 4});
+  const AnyVolume volumes[] = {box, Kdop().extend(box.min()).extend(box.max()), Sphere({0.5, 1, 2}, 3)};
+  for (const AnyVolume& v : volumes) {
+    SCOPED_TRACE(shape_name(v));
+    EXPECT_FALSE(empty(v));
+    EXPECT_TRUE(contains(v, {0.5, 1, 2}));
+    EXPECT_FALSE(contains(v, {9, 9, 9}));
+    EXPECT_TRUE(center(v).isApprox(Vector3d(0.5, 1, 2)));
+    EXPECT_EQ(volume(v), std::visit([](const auto& held) { return held.volume(); }, v));
+    EXPECT_EQ(surface_area(v), std::visit([](const auto& held) { return held.surface_area(); }, v));
+    EXPECT_EQ(aabb(v), std::visit([](const auto& held) { return held.aabb(); }, v));
+    EXPECT_FALSE(mesh(v).vertices.empty());
+  }
+}
+
+TEST(AnyVolume, IsAnEmptyBoxAtFirst) {
+  EXPECT_TRUE(empty(AnyVolume()));
+  EXPECT_EQ(shape_name(AnyVolume()), "aabb");
+}
+
+}  // namespace
+}  // namespace pcl_bv

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Claims of the k-DOP slab by slab; those of its shape are in kdop_geometry_test.cpp.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "exact.h"
+#include "kdop_sets.h"
+#include "pcl_bv/volumes/kdop.h"
+
+namespace pcl_bv {
+namespace {
+
+using namespace pcl_bv::testing;
+using Eigen::Vector3d;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+SlabVector slabs(std::initializer_list<double> values) {
+  SlabVector result(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), result.begin());
+  return result;
+}
+
+TEST(Kdop, DefaultIsAnEmpty26Dop) {
+  const Kdop kdop;
+  EXPECT_TRUE(kdop.empty());
+  EXPECT_EQ(kdop.size(), 13u);
+  EXPECT_EQ(kdop.min(12), infinity);
+  EXPECT_EQ(kdop.max(12), -infinity);
+}
+
+TEST(Kdop, EmptyHasNoExtentAndHoldsNothing) {
+  const Kdop kdop(KdopSet::dop14());
+  EXPECT_EQ(kdop.volume(), 0);
+  EXPECT_EQ(kdop.surface_area(), 0);
+  EXPECT_EQ(kdop.width(3), 0);
+  EXPECT_FALSE(kdop.contains(Vector3d::Zero()));
+  EXPECT_EQ(kdop.distance(Vector3d::Zero()), infinity);
+  EXPECT_TRUE(kdop.center().hasNaN());
+  EXPECT_TRUE(kdop.support(Vector3d::UnitX()).hasNaN());
+  EXPECT_TRUE(kdop.corners().empty());
+  EXPECT_TRUE(kdop.mesh().faces.empty());
+  EXPECT_TRUE(kdop.aabb().empty());
+  EXPECT_TRUE(kdop.transformed(Eigen::Isometry3d::Identity()).empty());
+}
+
+TEST(Kdop, RefusesWhatIsNoSlabs) {
+  EXPECT_THROW(Kdop(nullptr), std::invalid_argument);
+  EXPECT_THROW(Kdop(KdopSet::dop6(), slabs({0, 0}), slabs({1, 1, 1})), std::invalid_argument);
+  EXPECT_THROW(Kdop(KdopSet::dop6(), slabs({0, 0, 0}), slabs({1, 1})), std::invalid_argument);
+  EXPECT_THROW(Kdop(KdopSet::dop6(), slabs({0, nan, 0}), slabs({1, 1, 1})), std::invalid_argument);
+  EXPECT_THROW(Kdop(KdopSet::dop6(), slabs({0, 0, -infinity}), slabs({1, 1, 1})), std::invalid_argument);
+}
+
+TEST(Kdop, AnyMinAboveItsMaxIsTheEmptyKdop) {
+  EXPECT_EQ(Kdop(KdopSet::dop6(), slabs({0, 2, 0}), slabs({1, 1, 1})), Kdop(KdopSet::dop6()));
+}
+
+TEST(Kdop, StoresNoNegativeZero) {
+  const Kdop kdop = Kdop().extend({-0.0, -0.0, -0.0});
+  for (std::size_t i = 0; i < kdop.size(); ++i) {
+    EXPECT_FALSE(std::signbit(kdop.min(i)) || std::signbit(kdop.max(i))) << i;
+  }
+  const Kdop stored(KdopSet::dop6(), slabs({-0.0, 0, -1}), slabs({1, 1, -0.0}));
+  EXPECT_FALSE(std::signbit(stored.min(0)) || std::signbit(stored.max(2)));
+}
+
+TEST(Kdop, WidthIsThatOfAUnitDirection) {
+  const Kdop kdop = Kdop().extend({0, 0, 0}).extend({1, 1, 1});
+  EXPECT_EQ(kdop.width(0), 1);
+  EXPECT_DOUBLE_EQ(kdop.width(3), std::sqrt(3));
+  EXPECT_DOUBLE_EQ(kdop.width(7), std::sqrt(2));
+  EXPECT_EQ(kdop.width(8), 0);
+}
+
+TEST(Kdop, ExtendTakesTheExactProjectionWhereItIsADouble) {
+  const Kdop kdop = Kdop().extend({1e20, 1, 1e20});
+  EXPECT_EQ(kdop.min(4), 1) << "(1, 1, -1): plain double says 0";
+  EXPECT_EQ(kdop.max(4), 1);
+}
+
+TEST(Kdop, ExtendRoundsEachSlabToTheNextDoubleOutward) {
+  Random random(21);
+  for (const auto& set : kdop_sets()) {
+    for (const Scale& scale : scales()) {
+      SCOPED_TRACE(scale.name + ", " + std::to_string(set->size()));
+      for (int i = 0; i < 20; ++i) {
+        const Vector3d p = random.point(scale);
+        const Kdop kdop = Kdop(set).extend(p);
+        ASSERT_TRUE(inside(kdop, exact(p)));
+        ASSERT_TRUE(kdop.contains(p));
+        if (scale.extent < 1e-150) continue;  // where products lose their last bits a margin is added
+        for (std::size_t k = 0; k < kdop.size(); ++k) {
+          const Rational s = dot(set->direction(k), exact(p));
+          EXPECT_TRUE(Rational(std::nextafter(kdop.min(k), infinity)) > s);
+          EXPECT_TRUE(Rational(std::nextafter(kdop.max(k), -infinity)) < s);
+        }
+      }
+    }
+  }
+}
+
+TEST(Kdop, ExtendHoldsEveryPointByExactArithmetic) {
+  Random random(22);
+  for (const auto& set : kdop_sets()) {
+    for (const Scale& scale : scales()) {
+      for (const Span span : spans()) {
+        SCOPED_TRACE(scale.name + ", span " + std::to_string(static_cast<int>(span)));
+        const auto points = random.cloud(scale, span, 20);
+        const Kdop kdop = around(Kdop(set), points);
+        for (const Vector3d& p : points) {
+          ASSERT_TRUE(inside(kdop, exact(p)));
+          ASSERT_TRUE(kdop.contains(p));
+          EXPECT_EQ(kdop.distance(p), 0);
+        }
+        EXPECT_EQ(around(kdop, points), kdop) << "all are inside: no change";
+      }
+    }
+  }
+}
+
+TEST(Kdop, ContainsErrsOnlyTowardsTrueAtTheSurface) {
+  // A point whose plain projection x + y + z is off by more than a unit in the last place of the result.
+  Random random(23);
+  int inexact = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d p(random.uniform(1e6, 5e6), random.uniform(-1, 1), -random.uniform(1e6, 5e6));
+    const Kdop kdop = Kdop(KdopSet::dop14()).extend(p);
+    const double plain = (p.x() + p.y()) + p.z();
+    inexact += plain < kdop.min(3) || plain > kdop.max(3);
+    ASSERT_TRUE(kdop.contains(p)) << i;
+  }
+  EXPECT_GT(inexact, 100) << "the cases are too easy";
+}
+
+TEST(Kdop, DoesNotContainWhatIsOutside) {
+  const Kdop kdop =
+      Kdop(KdopSet::dop26()).extend({0, 0, 0}).extend({1, 0, 0}).extend({0, 1, 0}).extend({0, 0, 1});
+  EXPECT_TRUE(kdop.contains({0.25, 0.25, 0.25}));
+  EXPECT_FALSE(kdop.contains({0.5, 0.5, 0.5})) << "inside the box but beyond (1, 1, 1)";
+  EXPECT_FALSE(kdop.contains({0.25, 0.25, 0.5 + 1e-14}));
+  for (int i = 0; i < 3; ++i)
+    EXPECT_FALSE(kdop.contains(nan * Vector3d::Unit(i)));
+  EXPECT_FALSE(kdop.contains({infinity, 0, 0}));
+}
+
+TEST(Kdop, ExtendIgnoresPointsThatAreNotFinite) {
+  const Kdop kdop = Kdop().extend({1, 2, 3});
+  EXPECT_EQ(Kdop(kdop).extend({nan, 0, 0}), kdop);
+  EXPECT_EQ(Kdop(kdop).extend({0, infinity, 0}), kdop);
+}
+
+TEST(Kdop, MergeIsCommutativeAssociativeAndHasAnIdentity) {
+  Random random(24);
+  for (int i = 0; i < 50; ++i) {
+    SCOPED_TRACE(i);
+    const auto cloud = random.cloud({"", 0, 1}, Span::solid, 6);
+    const Kdop a = Kdop().extend(cloud[0]).extend(cloud[1]), b = Kdop().extend(cloud[2]).extend(cloud[3]),
+               c = Kdop().extend(cloud[4]).extend(cloud[5]);
+    EXPECT_EQ(Kdop(a).merge(b), Kdop(b).merge(a));
+    EXPECT_EQ(Kdop(a).merge(b).merge(c), Kdop(a).merge(Kdop(b).merge(c)));
+    EXPECT_EQ(Kdop(a).merge(b).merge(c), around(Kdop(), cloud));
+    EXPECT_EQ(Kdop(a).merge(Kdop()), a);
+    EXPECT_EQ(Kdop().merge(a), a);
+  }
+}
+
+TEST(Kdop, MergeNeedsEqualSets) {
+  EXPECT_THROW(Kdop(KdopSet::dop14()).merge(Kdop(KdopSet::dop26())), std::invalid_argument);
+  const auto own = std::make_shared<const KdopSet>(*KdopSet::dop6());
+  EXPECT_NO_THROW(Kdop(KdopSet::dop6()).merge(Kdop(own).extend({1, 2, 3})));
+}
+
+TEST(Kdop, FloatCopyEncloses) {
+  Random random(25);
+  for (const Scale& scale : scales()) {
+    SCOPED_TRACE(scale.name);
+    const Kdop kdop = around(Kdop(), random.cloud(scale, Span::solid, 5));
+    const FloatKdop f = kdop.cast_float();
+    EXPECT_EQ(f.set, kdop.set());
+    for (int i = 0; i < 13; ++i) {
+      EXPECT_LE(f.min[i], kdop.min()[i]);
+      EXPECT_GE(f.max[i], kdop.max()[i]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
