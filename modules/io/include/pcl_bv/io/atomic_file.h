@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Output files that are either whole or not there.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string_view>
+
+namespace pcl_bv {
+
+/// Makes `content` the content of the file: written to a new file in the same folder, which then takes the
+/// name. At every moment, and after an error, the name stands for the old content (or nothing) or for all of
+/// the new one.
+///
+/// A new file has mode 0644 less the umask; one that was there keeps its mode, and if it may not be written
+/// by this process it is left alone. What is not a regular file (a device, a pipe) or is a symbolic link
+/// (/dev/stdout among them) is opened and written directly, without that promise.
+///
+/// Throws IoError with the reason. Does not wait for the disk (no fsync).
+void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// The same for a content in pieces, such as a header and a body, without joining them in memory.
+void write_file_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces);
+
+}  // namespace pcl_bv

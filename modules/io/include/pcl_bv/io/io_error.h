@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The one error of reading and writing files.
+#pragma once
+
+#include <stdexcept>
+
+namespace pcl_bv {
+
+/// A file that cannot be read or written. what() is the reason in one line, without the file's name.
+class IoError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The recorded frames of a folder, in the order in which a person counts them.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace pcl_bv {
+
+/// Natural order: runs of digits compare as whole numbers of any length, all else byte by byte, so frame2
+/// comes before frame10. Names that differ only in leading zeros (frame01, frame1) compare byte by byte.
+bool natural_less(std::string_view a, std::string_view b);
+
+/// The cloud files directly in a folder (extension .pcd, in any case), each as folder/name, in natural order
+/// of their names. Folders and hidden files (names starting with a dot) are left out. Empty if there are
+/// none; throws IoError if the folder cannot be listed.
+std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& folder);
+
+}  // namespace pcl_bv

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Reader and writer of the Point Cloud Data format, version 0.7.
+#pragma once
+
+#include <filesystem>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
+
+namespace pcl_bv {
+
+/// Reads a .pcd file: ascii, binary or binary_compressed, with float32 fields x, y and z among any others.
+///
+/// Sizes in the header are held against the size of the file before anything is allocated. A file of 0 points
+/// gives an empty cloud. Numbers in ascii are rounded to the nearest value of their field's type, to infinity
+/// or zero where they are beyond it; "nan" and "inf" are read, in any case, for floating-point fields only.
+/// Bytes after the last point of a binary file are ignored; rows after the last point of an ascii file are an
+/// error.
+///
+/// Throws IoError, naming the reason, for a file that is missing, unreadable, empty, truncated, inconsistent
+/// or of an unsupported type.
+RawCloud read_pcd(const std::filesystem::path& path);
+
+enum class PcdEncoding { ascii, binary, binary_compressed };
+
+/// Writes all fields of the cloud, with width, height and viewpoint, as write_file_atomically() does. What is
+/// written reads back equal to the bit, except that ascii keeps of a NaN only that it is one, and that
+/// binary_compressed leaves out padding (fields named "_"), which PCL's reader does not expect there.
+///
+/// Throws IoError if the file cannot be written, if it is ascii with a field of type F and size 1 or 2, or
+/// binary_compressed with more than 4e9 bytes of points; std::invalid_argument for a cloud that breaks the
+/// rules of RawCloud.
+void write_pcd(const std::filesystem::path& path, const RawCloud& cloud,
+               PcdEncoding encoding = PcdEncoding::binary);
+
+}  // namespace pcl_bv

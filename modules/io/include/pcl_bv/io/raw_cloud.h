@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A cloud as a file holds it: every field kept, in records, with a view of its coordinates.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv {
+
+/// One field of a point record, with the letters and sizes of the .pcd format.
+struct PointField {
+  std::string name;         ///< Without white space; "_" marks padding and may occur more than once.
+  char type = 'F';          ///< 'F' floating point, 'I' signed, 'U' unsigned.
+  std::uint32_t size = 4;   ///< Bytes of one element: 1, 2, 4 or 8.
+  std::uint32_t count = 1;  ///< Elements per point.
+  std::size_t offset = 0;   ///< Bytes from the start of the record.
+
+  /// Bytes of all its elements.
+  std::size_t bytes() const { return std::size_t{size} * count; }
+};
+
+/// Points in records of `point_step` bytes, row by row; organised clouds have height > 1. The fields lie one
+/// after the other without gaps and fill the record.
+struct RawCloud {
+  std::vector<PointField> fields;
+  std::size_t width = 0;
+  std::size_t height = 1;
+  std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz qw qx qy qz; kept, never applied.
+  std::size_t point_step = 0;
+  std::vector<std::byte> data;  ///< width * height * point_step bytes, little-endian.
+  std::vector<float>
+      packed_xyz;  ///< x y z of all points, only where the record does not hold them side by side.
+
+  std::size_t size() const { return width * height; }
+
+  /// The coordinates of all points, in their order; views `data` (or `packed_xyz`), so it dies with the
+  /// cloud. Empty for an empty cloud, and for one without float32 x, y and z.
+  PointView xyz() const;
+};
+
+/// The first field of this name, or null.
+const PointField* find_field(const RawCloud& cloud, std::string_view name);
+
+}  // namespace pcl_bv

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Building and extending clouds for the writers: labels beside the input's own fields, generated points.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/io/raw_cloud.h"
+
+namespace pcl_bv {
+
+/// A cloud of width n and height 1 with the float32 fields x, y, z, from n triples "x y z", kept to the bit.
+/// Throws std::invalid_argument if the number of floats is no multiple of three.
+RawCloud make_cloud(const std::vector<float>& xyz);
+
+/// Gives every point a uint32 `name`: in the place of the field of that name, whatever its type was, else at
+/// the end of the record. All other fields keep their values and order.
+///
+/// Throws std::invalid_argument if there is not one value per point, or if the name is empty, holds white
+/// space, is
+/// "_" (padding) or is that of a coordinate (x, y, z).
+void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<std::uint32_t>& values);
+
+/// Brings `packed_xyz` in line with `data`, as every reader does last: filled if float32 fields x, y and z
+/// exist but do not lie side by side in that order, else empty.
+void update_packed_xyz(RawCloud& cloud);
+
+}  // namespace pcl_bv

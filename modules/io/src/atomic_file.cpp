@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A temporary file beside the target, on the same file system, makes the final rename one step.
+#include "pcl_bv/io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <random>
+#include <string>
+
+#include "file_descriptor.h"
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+using Pieces = std::initializer_list<std::string_view>;
+
+const char cannot_write[] = "cannot write: ";
+
+void fail_if(int error) {
+  if (error != 0) throw IoError(cannot_write + system_reason(error));
+}
+
+void write_and_close(FileDescriptor& file, Pieces pieces) {
+  for (std::string_view rest : pieces) {
+    while (!rest.empty()) {
+      const ssize_t written = ::write(file.get(), rest.data(), rest.size());
+      if (written < 0 && errno == EINTR) continue;
+      fail_if(written < 0 ? errno : 0);
+      rest.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  fail_if(file.close());
+}
+
+// 64 random bits, and O_EXCL when it is opened: no two writers, on whatever machines, share a temporary file.
+fs::path temporary_name() {
+  std::random_device random;
+  return ".pcl_bv-" + std::to_string(random()) + "-" + std::to_string(random()) + ".tmp";
+}
+
+// Removes the file unless it has been renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& folder)
+      : path_(folder / temporary_name()), file_(path_, O_WRONLY | O_CREAT | O_EXCL, 0644, cannot_write) {}
+  ~TemporaryFile() {
+    if (!renamed_) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  FileDescriptor& file() { return file_; }
+
+  void rename_to(const fs::path& target) {
+    fail_if(::rename(path_.c_str(), target.c_str()) == 0 ? 0 : errno);
+    renamed_ = true;
+  }
+
+ private:
+  fs::path path_;
+  FileDescriptor file_;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+  write_file_atomically(path, {content});
+}
+
+void write_file_atomically(const fs::path& path, Pieces pieces) {
+  struct stat old;
+  const bool exists = ::lstat(path.c_str(), &old) == 0;
+  if (exists && !S_ISREG(old.st_mode)) {
+    FileDescriptor direct(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0644, cannot_write);
+    return write_and_close(direct, pieces);
+  }
+  if (exists) fail_if(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? 0 : errno);
+  TemporaryFile temporary(path.parent_path());
+  if (exists) fail_if(::fchmod(temporary.file().get(), old.st_mode & 0777) == 0 ? 0 : errno);
+  write_and_close(temporary.file(), pieces);
+  temporary.rename_to(path);
+}
+
+}  // namespace pcl_bv

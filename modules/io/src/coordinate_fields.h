@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Shared by the view of the coordinates and by those who pack them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "pcl_bv/io/raw_cloud.h"
+
+namespace pcl_bv {
+
+/// Offsets of x, y, z in the record.
+struct CoordinateFields {
+  std::array<std::size_t, 3> offset{};
+  bool readable = false;  ///< All three exist, as single float32.
+  bool adjacent = false;  ///< They lie side by side in that order, so that a PointView fits.
+};
+
+CoordinateFields coordinate_fields(const RawCloud& cloud);
+
+}  // namespace pcl_bv

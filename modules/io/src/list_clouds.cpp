@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Numbers in names are compared as text without leading zeros, so no count of digits overflows.
+#include "pcl_bv/io/list_clouds.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <system_error>
+
+#include "file_descriptor.h"
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// Takes the run of digits at the front of `text` away; returns it without leading zeros.
+std::string_view take_number(std::string_view& text) {
+  std::size_t length = 0;
+  while (length < text.size() && is_digit(text[length]))
+    ++length;
+  std::string_view number = text.substr(0, length);
+  text.remove_prefix(length);
+  while (!number.empty() && number.front() == '0')
+    number.remove_prefix(1);
+  return number;
+}
+
+// Negative, zero or positive, like std::string_view::compare().
+int compare_natural(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty()) {
+    if (is_digit(a.front()) && is_digit(b.front())) {
+      const std::string_view m = take_number(a);
+      const std::string_view n = take_number(b);
+      if (m.size() != n.size()) return m.size() < n.size() ? -1 : 1;
+      if (const int order = m.compare(n)) return order;
+    } else {
+      if (const int order = a.substr(0, 1).compare(b.substr(0, 1))) return order;
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+    }
+  }
+  return static_cast<int>(!a.empty()) - static_cast<int>(!b.empty());
+}
+
+bool is_cloud_name(const fs::path& name) {
+  std::string extension = name.extension().string();
+  for (char& c : extension)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension == ".pcd" && name.native().front() != '.';
+}
+
+}  // namespace
+
+bool natural_less(std::string_view a, std::string_view b) {
+  const int order = compare_natural(a, b);
+  return order != 0 ? order < 0 : a < b;
+}
+
+std::vector<fs::path> list_clouds(const fs::path& folder) {
+  std::vector<fs::path> clouds;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;  // what cannot be looked at is listed, so that reading it gives the reason
+    if (is_cloud_name(entry->path().filename()) && !entry->is_directory(ignored)) {
+      clouds.push_back(entry->path());
+    }
+  }
+  if (error) throw IoError("cannot list the folder: " + system_reason(error.value()));
+  std::sort(clouds.begin(), clouds.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().native(), b.filename().native());
+  });
+  return clouds;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// std::from_chars says only "out of range" for 1e39 and for 1e-46 as float: the sign of the decimal exponent
+// tells which of the two it was, since everything between 1e-45 and 1e38 is in range.
+#include "numbers.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace pcl_bv {
+namespace {
+
+// Exponents beyond this are as good as this: no text has so many digits that they could make up for it.
+constexpr std::int64_t exponent_limit = std::int64_t{1} << 62;
+
+std::int64_t parse_exponent(std::string_view text) {
+  std::int64_t exponent = 0;
+  if (!parse_number(text.data(), text.data() + text.size(), exponent) || exponent > exponent_limit ||
+      exponent < -exponent_limit) {
+    return text.front() == '-' ? -exponent_limit : exponent_limit;
+  }
+  return exponent;
+}
+
+}  // namespace
+
+double value_beyond_range(std::string_view number) {
+  const bool negative = number.front() == '-';
+  if (negative) number.remove_prefix(1);
+  std::int64_t exponent = 0;
+  if (const std::size_t e = number.find_first_of("eE"); e != std::string_view::npos) {
+    exponent = parse_exponent(number.substr(e + 1));
+    number = number.substr(0, e);
+  }
+  const std::size_t point = std::min(number.find('.'), number.size());
+  const std::size_t first_digit = number.find_first_of("123456789");
+  exponent += static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first_digit);
+  const double magnitude = exponent > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  return negative ? -magnitude : magnitude;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The block is two uint32 sizes (packed, unpacked) and the LZF stream of all x, then all y, and so on.
+#include "pcd_compressed.h"
+
+#include <liblzf/lzf.h>
+
+#include <cstdint>
+#include <cstring>
+
+#include "copy_strided.h"
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+struct BlockSizes {
+  std::uint32_t packed;
+  std::uint32_t unpacked;
+};
+
+// Three bytes of LZF unpack to at most 264 (7 + 255 + 2): a small file cannot ask for much memory.
+constexpr std::uint64_t greatest_expansion = 88;
+
+// What LZF takes at most for data that it cannot pack (1 byte more in 32) still has to fit in a uint32.
+constexpr std::size_t most_unpacked = 4'000'000'000;
+
+void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t needed) {
+  if (sizes.packed > available) {
+    throw IoError("truncated: " + std::to_string(sizes.packed) + " bytes of compressed data, the file has " +
+                  std::to_string(available));
+  }
+  if (sizes.unpacked != needed) {
+    throw IoError("corrupt: compressed data of " + std::to_string(sizes.unpacked) +
+                  " bytes, the points of the header need " + std::to_string(needed));
+  }
+  if (sizes.unpacked > sizes.packed * greatest_expansion) {
+    throw IoError("corrupt: " + std::to_string(sizes.packed) + " bytes of compressed data cannot hold " +
+                  std::to_string(sizes.unpacked));
+  }
+}
+
+std::string unpack(const std::string& packed, std::size_t size) {
+  std::string unpacked(size, '\0');
+  const unsigned got = lzf_decompress(packed.data(), static_cast<unsigned>(packed.size()), unpacked.data(),
+                                      static_cast<unsigned>(size));
+  if (got != size) throw IoError("corrupt: the compressed data cannot be unpacked");
+  return unpacked;
+}
+
+const std::byte* bytes(const std::string& text) {
+  return reinterpret_cast<const std::byte*>(text.data());
+}
+std::byte* bytes(std::string& text) {
+  return reinterpret_cast<std::byte*>(text.data());
+}
+
+// All values of the first field, then of the second one, ...; padding is left out.
+std::string field_by_field(const RawCloud& cloud) {
+  std::size_t step = 0;
+  for (const PointField& field : cloud.fields)
+    step += field.name == "_" ? 0 : field.bytes();
+  std::string columns(cloud.size() * step, '\0');
+  std::byte* column = bytes(columns);
+  for (const PointField& field : cloud.fields) {
+    if (field.name == "_") continue;
+    copy_strided({cloud.data.data(), field.offset, cloud.point_step}, {column, 0, field.bytes()},
+                 field.bytes(), cloud.size());
+    column += field.bytes() * cloud.size();
+  }
+  return columns;
+}
+
+}  // namespace
+
+void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud& cloud) {
+  if (cloud.size() == 0) return;
+  BlockSizes sizes;
+  const std::size_t available = file.size() - offset;
+  if (available < sizeof sizes) throw IoError("truncated: the sizes of the compressed data are missing");
+  file.read(offset, &sizes, sizeof sizes);
+  check_sizes(sizes, available - sizeof sizes, cloud.size() * cloud.point_step);
+
+  std::string packed(sizes.packed, '\0');
+  file.read(offset + sizeof sizes, packed.data(), packed.size());
+  const std::string columns = unpack(packed, sizes.unpacked);
+  cloud.data.resize(columns.size());
+  const std::byte* column = bytes(columns);
+  for (const PointField& field : cloud.fields) {
+    copy_strided({column, 0, field.bytes()}, {cloud.data.data(), field.offset, cloud.point_step},
+                 field.bytes(), cloud.size());
+    column += field.bytes() * cloud.size();
+  }
+}
+
+std::string compress_points(const RawCloud& cloud) {
+  const std::string columns = field_by_field(cloud);
+  if (columns.size() > most_unpacked) {
+    throw IoError(std::to_string(columns.size()) +
+                  " bytes of points are too many for binary_compressed, at most " +
+                  std::to_string(most_unpacked));
+  }
+  BlockSizes sizes{0, static_cast<std::uint32_t>(columns.size())};
+  std::string block(sizeof sizes + columns.size() + columns.size() / 16 + 64, '\0');
+  sizes.packed = lzf_compress(columns.data(), sizes.unpacked, block.data() + sizeof sizes,
+                              static_cast<unsigned>(block.size() - sizeof sizes));
+  if (sizes.packed == 0 && sizes.unpacked != 0) throw IoError("the points cannot be compressed");
+  std::memcpy(block.data(), &sizes, sizeof sizes);
+  block.resize(sizeof sizes + sizes.packed);
+  return block;
+}
+
+}  // namespace pcl_bv

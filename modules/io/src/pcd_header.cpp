@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Header lines are first gathered by keyword, in whatever order they come, and then understood and held
+// against each other.
+#include "pcd_header.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "coordinate_fields.h"
+#include "numbers.h"
+
+namespace pcl_bv {
+namespace {
+
+using Words = std::vector<std::string_view>;
+using Lines = std::map<std::string_view, Words>;  // keyword -> the words after it
+
+constexpr std::string_view keywords[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
+                                         "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+
+Words split(std::string_view line) {
+  constexpr std::string_view blanks = " \t\r\v\f";
+  Words words;
+  std::size_t begin = line.find_first_not_of(blanks);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
+// Adds a line's words; returns its keyword, empty for a comment or an empty line.
+std::string_view add_line(std::string_view line, Lines& lines) {
+  Words words = split(line);
+  if (words.empty() || words[0][0] == '#') return {};
+  const std::string_view keyword = words[0] == "COLUMNS" ? std::string_view("FIELDS") : words[0];
+  if (std::find(std::begin(keywords), std::end(keywords), keyword) == std::end(keywords)) {
+    throw IoError("not a .pcd file: unknown header line " + in_quotes(line));
+  }
+  words.erase(words.begin());
+  if (!lines.emplace(keyword, std::move(words)).second) {
+    throw IoError("header: " + std::string(keyword) + " occurs twice");
+  }
+  return keyword;
+}
+
+Lines gather_lines(std::string_view start, std::size_t& data_offset) {
+  Lines lines;
+  std::size_t at = 0;
+  while (at < start.size()) {
+    const std::size_t newline = start.find('\n', at);
+    if (newline == std::string_view::npos && start.size() == max_pcd_header_size) break;
+    const std::size_t end = std::min(newline, start.size());
+    const std::string_view keyword = add_line(start.substr(at, end - at), lines);
+    at = std::min(end + 1, start.size());
+    if (keyword == "DATA") {
+      data_offset = at;
+      return lines;
+    }
+  }
+  throw IoError("truncated header: no DATA line in the first " + std::to_string(start.size()) + " bytes");
+}
+
+const Words& words_of(const Lines& lines, std::string_view keyword, std::size_t count) {
+  const auto line = lines.find(keyword);
+  if (line == lines.end()) throw IoError("header: no " + std::string(keyword) + " line");
+  if (line->second.size() != count) {
+    throw IoError("header: " + std::string(keyword) + " has " + std::to_string(line->second.size()) +
+                  " entries, expected " + std::to_string(count));
+  }
+  return line->second;
+}
+
+template <typename T>
+T number(std::string_view keyword, std::string_view word, const char* expected) {
+  T value{};
+  const char* end = word.data() + word.size();
+  if (parse_number(word.data(), end, value) != end) {
+    throw IoError("header: " + std::string(keyword) + ": " + in_quotes(word) + " is not " + expected);
+  }
+  return value;
+}
+
+std::uint32_t element_size(std::string_view word) {
+  if (word == "1" || word == "2" || word == "4" || word == "8")
+    return static_cast<std::uint32_t>(word[0] - '0');
+  throw IoError("header: SIZE: " + in_quotes(word) + " is not one of 1, 2, 4, 8");
+}
+
+char element_type(std::string_view word) {
+  if (word == "I" || word == "U" || word == "F") return word[0];
+  throw IoError("header: TYPE: " + in_quotes(word) + " is not one of I, U, F");
+}
+
+std::uint32_t element_count(std::string_view word) {
+  const char expected[] = "a number from 1 to 4294967295";
+  const auto count = number<std::uint32_t>("COUNT", word, expected);
+  if (count == 0) throw IoError("header: COUNT: " + in_quotes(word) + " is not " + expected);
+  return count;
+}
+
+void read_fields(const Lines& lines, RawCloud& cloud) {
+  const auto names = lines.find("FIELDS");
+  if (names == lines.end() || names->second.empty()) throw IoError("header: no FIELDS");
+  const std::size_t n = names->second.size();
+  const Words& sizes = words_of(lines, "SIZE", n);
+  const Words& types = words_of(lines, "TYPE", n);
+  const Words counts = lines.count("COUNT") ? words_of(lines, "COUNT", n) : Words(n, "1");
+  for (std::size_t i = 0; i < n; ++i) {
+    PointField field{std::string(names->second[i]), element_type(types[i]), element_size(sizes[i]),
+                     element_count(counts[i]), cloud.point_step};
+    cloud.point_step += field.bytes();
+    cloud.fields.push_back(std::move(field));
+  }
+}
+
+void check_coordinates(const RawCloud& cloud) {
+  std::string missing;
+  for (const char* name : {"x", "y", "z"}) {
+    const auto named = [&](const PointField& field) { return field.name == name; };
+    const auto count = std::count_if(cloud.fields.begin(), cloud.fields.end(), named);
+    if (count > 1) throw IoError(std::string("field ") + name + " occurs twice");
+    if (count == 0) missing += (missing.empty() ? "" : ", ") + std::string(name);
+  }
+  if (!missing.empty()) throw IoError("no field " + missing);
+  if (coordinate_fields(cloud).readable) return;
+  for (const char* name : {"x", "y", "z"}) {
+    const PointField& field = *find_field(cloud, name);
+    if (field.type == 'F' && field.size == 4 && field.count == 1) continue;
+    throw IoError(std::string("field ") + name + " of TYPE " + field.type + ", SIZE " +
+                  std::to_string(field.size) + ", COUNT " + std::to_string(field.count) +
+                  " is not supported yet (only F, 4, 1 is)");
+  }
+}
+
+void read_shape(const Lines& lines, RawCloud& cloud) {
+  const auto value = [&](std::string_view keyword) {
+    return number<std::size_t>(keyword, words_of(lines, keyword, 1)[0], "a number of points");
+  };
+  if (!lines.count("WIDTH") && !lines.count("POINTS")) throw IoError("header: neither WIDTH nor POINTS");
+  cloud.height = lines.count("HEIGHT") ? value("HEIGHT") : 1;
+  cloud.width = lines.count("WIDTH") ? value("WIDTH") : value("POINTS");
+  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+  if (cloud.height != 0 && cloud.width > most / cloud.height / cloud.point_step) {
+    throw IoError("header: " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
+                  " points of " + std::to_string(cloud.point_step) + " bytes are more than a file can hold");
+  }
+  if (lines.count("POINTS") && value("POINTS") != cloud.size()) {
+    throw IoError("header: " + std::to_string(value("POINTS")) + " POINTS, but WIDTH x HEIGHT is " +
+                  std::to_string(cloud.width) + " x " + std::to_string(cloud.height));
+  }
+}
+
+void read_viewpoint(const Lines& lines, RawCloud& cloud) {
+  if (!lines.count("VIEWPOINT")) return;
+  const Words& words = words_of(lines, "VIEWPOINT", 7);
+  std::transform(words.begin(), words.end(), cloud.viewpoint.begin(),
+                 [](std::string_view word) { return number<double>("VIEWPOINT", word, "a number"); });
+}
+
+void check_version(const Lines& lines) {
+  if (!lines.count("VERSION")) return;
+  const std::string_view version = words_of(lines, "VERSION", 1)[0];
+  for (const char* known : {".7", "0.7", ".6", "0.6", ".5", "0.5"}) {
+    if (version == known) return;
+  }
+  throw IoError("header: VERSION " + in_quotes(version) + " is not supported, only up to 0.7");
+}
+
+PcdEncoding read_encoding(const Lines& lines) {
+  const std::string_view word = words_of(lines, "DATA", 1)[0];
+  if (word == "ascii") return PcdEncoding::ascii;
+  if (word == "binary") return PcdEncoding::binary;
+  if (word == "binary_compressed") return PcdEncoding::binary_compressed;
+  throw IoError("header: DATA: " + in_quotes(word) + " is not one of ascii, binary, binary_compressed");
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string result(text.substr(0, longest));
+  for (char& c : result) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return "'" + result + (text.size() > longest ? "...'" : "'");
+}
+
+PcdHeader parse_pcd_header(std::string_view start) {
+  PcdHeader header;
+  const Lines lines = gather_lines(start, header.data_offset);
+  check_version(lines);
+  header.encoding = read_encoding(lines);
+  read_fields(lines, header.cloud);
+  check_coordinates(header.cloud);
+  read_shape(lines, header.cloud);
+  read_viewpoint(lines, header.cloud);
+  return header;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The text part of a .pcd file, read and written.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "pcl_bv/io/pcd.h"
+
+namespace pcl_bv {
+
+/// A header must end within this many bytes; those of real files have some 200 to 400.
+inline constexpr std::size_t max_pcd_header_size = 65536;
+
+/// What the header says. The sizes are consistent and do not overflow, but may be greater than the file.
+struct PcdHeader {
+  RawCloud cloud;  ///< All but its points.
+  PcdEncoding encoding = PcdEncoding::ascii;
+  std::size_t data_offset = 0;  ///< Where the line DATA ended.
+};
+
+/// Reads the header at the front of `start`, the file's first bytes (at most max_pcd_header_size, fewer only
+/// if the file ends there). Throws IoError.
+PcdHeader parse_pcd_header(std::string_view start);
+
+/// The header of a file that holds the cloud. binary_compressed files have no padding fields.
+std::string format_pcd_header(const RawCloud& cloud, PcdEncoding encoding);
+
+/// Text of a file in an error message: shortened, in quotes, without control characters.
+std::string in_quotes(std::string_view text);
+
+}  // namespace pcl_bv

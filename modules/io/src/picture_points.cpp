@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Points as small discs in a depth buffer of twice the picture's resolution, then shaded by their neighbours'
+// depth (eye-dome lighting, Boucheny 2009) and averaged down. Cairo would need minutes for what this does in
+// 0.1 s.
+
+#include "picture_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_bv {
+namespace {
+
+constexpr int samples = 2;  // along each side of a pixel
+constexpr float nothing = std::numeric_limits<float>::infinity();
+
+constexpr Colour background_top{0.035f, 0.047f, 0.078f};
+constexpr Colour background_bottom{0.078f, 0.098f, 0.149f};
+constexpr Colour grey_far{0.20f, 0.235f, 0.31f};
+constexpr Colour grey_near{0.50f, 0.55f, 0.66f};
+
+Colour mix(const Colour& a, const Colour& b, float t) {
+  return {a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t};
+}
+
+/// Low is blue, high is warm.
+Colour height_colour(float t) {
+  constexpr Colour stops[] = {{0.24f, 0.36f, 0.68f},
+                              {0.17f, 0.62f, 0.74f},
+                              {0.44f, 0.82f, 0.56f},
+                              {0.95f, 0.87f, 0.45f},
+                              {0.98f, 0.62f, 0.34f}};
+  const float at = std::clamp(t, 0.0f, 1.0f) * 4;
+  const int stop = std::min(static_cast<int>(at), 3);
+  return mix(stops[stop], stops[stop + 1], at - static_cast<float>(stop));
+}
+
+struct Raster {
+  Raster(int w, int h)
+      : width(w), height(h), depth(static_cast<std::size_t>(w) * h, nothing), colour(depth.size()) {}
+
+  int width, height;
+  std::vector<float> depth;
+  std::vector<Colour> colour;
+};
+
+using Offsets = std::vector<std::array<int, 2>>;
+
+Offsets disc(double radius) {
+  Offsets offsets;
+  const int reach = static_cast<int>(radius);
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      if (x * x + y * y <= radius * radius) offsets.push_back({x, y});
+    }
+  }
+  return offsets;
+}
+
+void splat(Raster& raster, const Eigen::Vector3d& at, const Offsets& offsets, const Colour& colour) {
+  const double reach = 64;
+  if (!(at.x() > -reach && at.x() < raster.width + reach)) return;
+  if (!(at.y() > -reach && at.y() < raster.height + reach)) return;
+  const int px = static_cast<int>(std::floor(at.x())), py = static_cast<int>(std::floor(at.y()));
+  const float depth = static_cast<float>(std::clamp(at.z(), -1e30, 1e30));
+  for (const auto& [dx, dy] : offsets) {
+    const int x = px + dx, y = py + dy;
+    if (x < 0 || x >= raster.width || y < 0 || y >= raster.height) continue;
+    const std::size_t i = static_cast<std::size_t>(y) * raster.width + x;
+    if (depth < raster.depth[i]) {
+      raster.depth[i] = depth;
+      raster.colour[i] = colour;
+    }
+  }
+}
+
+/// How much light reaches a sample: less where its neighbours stand before it.
+float eye_dome(const Raster& raster, int x, int y) {
+  constexpr int step = 3;
+  constexpr float reach = 40;  // samples: a step in depth beyond which it gets no darker
+  constexpr int around[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+  const float here = raster.depth[static_cast<std::size_t>(y) * raster.width + x];
+  float covered = 0;
+  for (const auto& [dx, dy] : around) {
+    const int nx = x + step * dx, ny = y + step * dy;
+    if (nx < 0 || nx >= raster.width || ny < 0 || ny >= raster.height) continue;
+    const float there = raster.depth[static_cast<std::size_t>(ny) * raster.width + nx];
+    if (there < here) covered += std::min(here - there, reach);
+  }
+  return std::exp(-2.2f * covered / (8 * reach));
+}
+
+std::uint32_t pack(const Colour& colour) {
+  std::uint32_t pixel = 0xff;
+  for (const float channel : colour) {
+    pixel = pixel << 8 | static_cast<std::uint32_t>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f);
+  }
+  return pixel;
+}
+
+std::vector<std::uint32_t> shade(const Raster& raster) {
+  const int width = raster.width / samples, height = raster.height / samples;
+  std::vector<std::uint32_t> pixels(static_cast<std::size_t>(width) * height);
+  for (int y = 0; y < height; ++y) {
+    const float down = static_cast<float>(y) / static_cast<float>(height);
+    const Colour background = mix(background_top, background_bottom, down);
+    for (int x = 0; x < width; ++x) {
+      Colour sum{};
+      for (int s = 0; s < samples * samples; ++s) {
+        const int sx = x * samples + s % samples, sy = y * samples + s / samples;
+        const std::size_t i = static_cast<std::size_t>(sy) * raster.width + sx;
+        const bool hit = raster.depth[i] != nothing;
+        const Colour& colour = hit ? raster.colour[i] : background;
+        const float light = hit ? eye_dome(raster, sx, sy) : 1;
+        for (int c = 0; c < 3; ++c)
+          sum[c] += colour[c] * light;
+      }
+      for (float& channel : sum)
+        channel /= samples * samples;
+      pixels[static_cast<std::size_t>(y) * width + x] = pack(sum);
+    }
+  }
+  return pixels;
+}
+
+/// Central heights of the scene, for the colours by height.
+std::array<double, 2> height_range(const PointView& points) {
+  std::vector<double> z;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (is_drawn(p)) z.push_back(p.z);
+  }
+  if (z.empty()) return {0, 1};
+  const std::size_t cut = z.size() / 50;
+  std::nth_element(z.begin(), z.begin() + cut, z.end());
+  const double low = z[cut];
+  std::nth_element(z.begin(), z.end() - 1 - cut, z.end());
+  const double high = z[z.size() - 1 - cut];
+  return {low, high > low ? high : low + 1};
+}
+
+}  // namespace
+
+Colour palette(std::uint32_t number) {
+  constexpr Colour colours[] = {{0.37f, 0.78f, 0.97f}, {1.00f, 0.62f, 0.35f}, {0.49f, 0.91f, 0.53f},
+                                {1.00f, 0.48f, 0.61f}, {0.78f, 0.61f, 1.00f}, {1.00f, 0.85f, 0.40f},
+                                {0.31f, 0.88f, 0.82f}, {1.00f, 0.44f, 0.38f}, {0.56f, 0.70f, 1.00f},
+                                {0.78f, 0.96f, 0.39f}, {0.97f, 0.66f, 0.88f}, {0.40f, 0.85f, 0.65f}};
+  return colours[number % std::size(colours)];
+}
+
+std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view) {
+  Raster raster(picture.width * samples, picture.height * samples);
+  const double area = static_cast<double>(raster.width) * raster.height;
+  const double spacing =
+      std::sqrt(area / static_cast<double>(std::max<std::size_t>(picture.points.count, 1)));
+  const Offsets plain = disc(std::clamp(0.17 * spacing, 0.5, 6.0));
+  const Offsets clustered = disc(std::clamp(0.26 * spacing, 1.0, 6.0));
+  const auto [low, high] = picture.labels ? std::array{0.0, 1.0} : height_range(picture.points);
+  for (std::size_t i = 0; i < picture.points.count; ++i) {
+    const Coordinates p = load_point(picture.points, i);
+    if (!is_drawn(p)) continue;
+    const Eigen::Vector3d at = view.project({p.x, p.y, p.z});
+    const Eigen::Vector3d sample(at.x() * samples, at.y() * samples, at.z() * samples);
+    if (!picture.labels) {
+      splat(raster, sample, clustered, height_colour(static_cast<float>((p.z - low) / (high - low))));
+      continue;
+    }
+    const std::uint32_t label = picture.labels[picture.points.index(i)];
+    if (label >= label_ground) {
+      const double near = 0.5 - at.z() / picture.height;
+      splat(raster, sample, plain, mix(grey_far, grey_near, static_cast<float>(std::clamp(near, 0.0, 1.0))));
+    } else {
+      splat(raster, sample, clustered, palette(label));
+    }
+  }
+  return shade(raster);
+}
+
+}  // namespace pcl_bv

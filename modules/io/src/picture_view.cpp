@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Frames the scene.
+
+#include "picture_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double degree = 0.017453292519943295;
+// The height of the eye is that of an isometric drawing. Its azimuth is not 45 degrees: streets run along x
+// or y in most clouds, and would go straight into a corner of the picture, which is wider than high.
+constexpr double elevation = 35 * degree;
+constexpr double azimuth = -114 * degree;
+constexpr double margin = 0.04;  // of each side
+
+/// The interval [low, high] along one axis that something covers.
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// From the lowest of the lows to the highest of the highs, leaving out the most extreme `cut` of either.
+Interval span(std::vector<Interval>& parts, std::size_t cut) {
+  Interval result;
+  std::nth_element(parts.begin(), parts.begin() + cut, parts.end(),
+                   [](const Interval& a, const Interval& b) { return a.low < b.low; });
+  result.low = parts[cut].low;
+  std::nth_element(parts.begin(), parts.begin() + cut, parts.end(),
+                   [](const Interval& a, const Interval& b) { return a.high > b.high; });
+  result.high = parts[cut].high;
+  return result;
+}
+
+using Corners = std::vector<Eigen::Vector3d>;
+
+/// Of each volume that is not empty.
+std::vector<Corners> volume_corners(const Picture& picture) {
+  std::vector<Corners> corners;
+  for (const PictureVolume& entry : picture.volumes) {
+    if (!empty(entry.volume)) corners.push_back(mesh(entry.volume).vertices);
+  }
+  return corners;
+}
+
+/// The points that matter for the frame: those of clusters if there are labels, else all. A hundred thousand
+/// of them, evenly taken, stand for any number.
+Corners framed_points(const Picture& picture) {
+  Corners points;
+  const std::size_t step = picture.points.count / 100000 + 1;
+  for (std::size_t i = 0; i < picture.points.count; i += step) {
+    const Coordinates p = load_point(picture.points, i);
+    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
+    if (counts && is_drawn(p)) points.emplace_back(p.x, p.y, p.z);
+  }
+  return points;
+}
+
+Interval along(const Corners& corners, const Eigen::Vector3d& axis) {
+  Interval interval{INFINITY, -INFINITY};
+  for (const Eigen::Vector3d& p : corners) {
+    interval.low = std::min(interval.low, p.dot(axis));
+    interval.high = std::max(interval.high, p.dot(axis));
+  }
+  return interval;
+}
+
+/// What the frame holds along an axis.
+Interval framed(const std::vector<Corners>& volumes, const Corners& points, const Eigen::Vector3d& axis) {
+  Interval result{INFINITY, -INFINITY};
+  const auto include = [&](std::vector<Interval> parts, std::size_t cut) {
+    if (parts.empty()) return;
+    const Interval part = span(parts, cut);
+    result = {std::min(result.low, part.low), std::max(result.high, part.high)};
+  };
+  std::vector<Interval> parts;
+  for (const Corners& corners : volumes)
+    parts.push_back(along(corners, axis));
+  include(parts,
+          parts.size() / 16);  // of a street's hundred objects the few farthest would make all others small
+  parts.clear();
+  for (const Eigen::Vector3d& p : points)
+    parts.push_back({p.dot(axis), p.dot(axis)});
+  include(parts, parts.size() / 100);
+  return result;
+}
+
+View oriented(const Picture& picture) {
+  const double ce = std::cos(elevation), se = std::sin(elevation);
+  const double ca = std::cos(azimuth), sa = std::sin(azimuth);
+  View view;
+  view.toward = {ce * ca, ce * sa, se};
+  view.right = {-sa, ca, 0};
+  view.up = {-se * ca, -se * sa, ce};
+  view.width = picture.width;
+  view.height = picture.height;
+  return view;
+}
+
+}  // namespace
+
+View fit_view(const Picture& picture) {
+  View view = oriented(picture);
+  const std::vector<Corners> volumes = volume_corners(picture);
+  const bool by_points = picture.labels || volumes.empty();
+  const Corners points = by_points ? framed_points(picture) : Corners();
+  if (volumes.empty() && points.empty()) return view;
+
+  const Eigen::Vector3d axes[3] = {view.right, view.up, view.toward};
+  Eigen::Vector3d size;
+  for (int k = 0; k < 3; ++k) {
+    const Interval covered = framed(volumes, points, axes[k]);
+    view.center += (covered.low / 2 + covered.high / 2) * axes[k];
+    size[k] = covered.high - covered.low;
+  }
+  const double fill = std::max(size[0] / picture.width, size[1] / picture.height);
+  if (fill > 0) view.scale = (1 - 2 * margin) / fill;
+  return view;
+}
+
+}  // namespace pcl_bv

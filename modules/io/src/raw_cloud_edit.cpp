@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// New records are built field by field beside the old ones, which stay intact if memory runs out.
+#include "pcl_bv/io/raw_cloud_edit.h"
+
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "coordinate_fields.h"
+#include "copy_strided.h"
+
+namespace pcl_bv {
+namespace {
+
+void check_new_field(const RawCloud& cloud, std::string_view name, std::size_t values) {
+  const bool usable = !name.empty() && name.find_first_of(" \t\r\n\v\f") == std::string_view::npos &&
+                      name != "_" && name != "x" && name != "y" && name != "z";
+  if (!usable) {
+    throw std::invalid_argument("field name '" + std::string(name) +
+                                "': must be a word other than _, x, y and z");
+  }
+  if (values != cloud.size()) {
+    throw std::invalid_argument("field '" + std::string(name) + "': " + std::to_string(values) +
+                                " values, must be one for each of " + std::to_string(cloud.size()) +
+                                " points");
+  }
+}
+
+// The fields with the new one in its place; those kept still have their old offsets.
+std::vector<PointField> fields_with(const RawCloud& cloud, std::string_view name) {
+  const PointField added{std::string(name), 'U', 4, 1, 0};
+  std::vector<PointField> fields;
+  bool placed = false;
+  for (const PointField& field : cloud.fields) {
+    if (field.name != name) {
+      fields.push_back(field);
+    } else if (!placed) {
+      fields.push_back(added);
+      placed = true;
+    }
+  }
+  if (!placed) fields.push_back(added);
+  return fields;
+}
+
+}  // namespace
+
+RawCloud make_cloud(const std::vector<float>& xyz) {
+  if (xyz.size() % 3 != 0) {
+    throw std::invalid_argument(std::to_string(xyz.size()) + " coordinates, must be a multiple of 3");
+  }
+  RawCloud cloud;
+  cloud.fields = {{"x", 'F', 4, 1, 0}, {"y", 'F', 4, 1, 4}, {"z", 'F', 4, 1, 8}};
+  cloud.width = xyz.size() / 3;
+  cloud.point_step = 3 * sizeof(float);
+  cloud.data.resize(xyz.size() * sizeof(float));
+  if (!xyz.empty()) std::memcpy(cloud.data.data(), xyz.data(), cloud.data.size());
+  return cloud;
+}
+
+void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<std::uint32_t>& values) {
+  check_new_field(cloud, name, values.size());
+  std::vector<PointField> fields = fields_with(cloud, name);
+  std::size_t step = 0;
+  for (const PointField& field : fields)
+    step += field.bytes();
+
+  std::vector<std::byte> data(cloud.size() * step);
+  std::size_t offset = 0;
+  for (PointField& field : fields) {
+    const StridedSource from =
+        field.name == name
+            ? StridedSource{reinterpret_cast<const std::byte*>(values.data()), 0, sizeof(std::uint32_t)}
+            : StridedSource{cloud.data.data(), field.offset, cloud.point_step};
+    copy_strided(from, {data.data(), offset, step}, field.bytes(), cloud.size());
+    field.offset = offset;
+    offset += field.bytes();
+  }
+  cloud.fields = std::move(fields);
+  cloud.point_step = step;
+  cloud.data = std::move(data);
+  update_packed_xyz(cloud);
+}
+
+void update_packed_xyz(RawCloud& cloud) {
+  cloud.packed_xyz.clear();
+  const CoordinateFields fields = coordinate_fields(cloud);
+  if (!fields.readable || fields.adjacent) return;
+  cloud.packed_xyz.resize(3 * cloud.size());
+  std::byte* packed = reinterpret_cast<std::byte*>(cloud.packed_xyz.data());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    copy_strided({cloud.data.data(), fields.offset[axis], cloud.point_step},
+                 {packed, axis * sizeof(float), 3 * sizeof(float)}, sizeof(float), cloud.size());
+  }
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Reports as JSON. The tree and the escaping are nlohmann's; the numbers are not, because its Grisu2 does not
+// always give the shortest digits, and only std::to_chars promises digits that read back exactly.
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "pcl_bv/io/report.h"
+
+namespace pcl_bv {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string number(double value) {
+  if (!std::isfinite(value)) throw std::domain_error("a volume has a number that is not finite");
+  if (value == 0) return "0";  // never -0
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+void write(const Json& value, std::string& out);
+
+void write_object(const Json& object, std::string& out) {
+  char before = '{';
+  for (const auto& [key, value] : object.items()) {
+    out += before;
+    write(key, out);
+    out += ':';
+    write(value, out);
+    before = ',';
+  }
+  out += object.empty() ? "{}" : "}";
+}
+
+void write_array(const Json& array, std::string& out) {
+  char before = '[';
+  for (const Json& value : array) {
+    out += before;
+    write(value, out);
+    before = ',';
+  }
+  out += array.empty() ? "[]" : "]";
+}
+
+void write(const Json& value, std::string& out) {
+  if (value.is_object()) {
+    write_object(value, out);
+  } else if (value.is_array()) {
+    write_array(value, out);
+  } else if (value.is_number_float()) {
+    out += number(value.get<double>());
+  } else {
+    out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+}
+
+Json array3(const Eigen::Vector3d& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+void add_numbers(const Aabb& box, Json& entry) {
+  entry["min"] = array3(box.min());
+  entry["max"] = array3(box.max());
+}
+
+void add_numbers(const Kdop& kdop, Json& entry) {
+  Json directions = Json::array(), min = Json::array(), max = Json::array();
+  for (std::size_t i = 0; i < kdop.size(); ++i) {
+    directions.push_back(array3(kdop.set()->direction(i)));
+    min.push_back(kdop.min(i));
+    max.push_back(kdop.max(i));
+  }
+  entry["directions"] = std::move(directions);
+  entry["min"] = std::move(min);
+  entry["max"] = std::move(max);
+}
+
+void add_numbers(const Sphere& sphere, Json& entry) {
+  entry["center"] = array3(sphere.center());
+  entry["radius"] = sphere.radius();
+}
+
+Json volume_json(const VolumeEntry& entry) {
+  Json json{{"shape", std::string(shape_name(entry.volume))}, {"method", entry.method}};
+  if (empty(entry.volume)) {
+    json["empty"] = true;
+  } else {
+    json["volume"] = volume(entry.volume);
+    std::visit([&](const auto& shape) { add_numbers(shape, json); }, entry.volume);
+  }
+  if (entry.outside) json["outside"] = *entry.outside;
+  return json;
+}
+
+Json cluster_json(const ClusterEntry& cluster) {
+  Json volumes = Json::array();
+  for (const VolumeEntry& entry : cluster.volumes)
+    volumes.push_back(volume_json(entry));
+  return {{"id", cluster.id}, {"points", cluster.points}, {"volumes", std::move(volumes)}};
+}
+
+Json counts_json(const Counts& counts) {
+  return {{"nonfinite", counts.nonfinite},
+          {"range", counts.range},
+          {"ground", counts.ground},
+          {"small", counts.small},
+          {"large", counts.large}};
+}
+
+/// Microseconds are all that a clock reading is worth.
+double microseconds_exact(double seconds) {
+  return std::round(seconds * 1e6) / 1e6;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  Json json{{"schema", 1}, {"file", report.file}};
+  if (report.error) {
+    json["error"] = *report.error;
+  } else {
+    json["points"] = report.points;
+    json["counts"] = counts_json(report.counts);
+    json["clusters"] = Json::array();
+    for (const ClusterEntry& cluster : report.clusters)
+      json["clusters"].push_back(cluster_json(cluster));
+    if (report.seconds) {
+      json["seconds"] = {{"read", microseconds_exact(report.seconds->read)},
+                         {"segment", microseconds_exact(report.seconds->segment)},
+                         {"fit", microseconds_exact(report.seconds->fit)}};
+    }
+  }
+  std::string text;
+  write(json, text);
+  return text;
+}
+
+}  // namespace pcl_bv

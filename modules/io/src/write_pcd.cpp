@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A cloud is checked before it is written: what comes out can always be read back.
+#include <stdexcept>
+
+#include "numbers.h"
+#include "pcd_ascii.h"
+#include "pcd_compressed.h"
+#include "pcd_header.h"
+#include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/pcd.h"
+
+namespace pcl_bv {
+namespace {
+
+void require(bool holds, const std::string& rule) {
+  if (!holds) throw std::invalid_argument("cloud to write: " + rule);
+}
+
+void check_cloud(const RawCloud& cloud) {
+  require(!cloud.fields.empty(), "must have fields");
+  std::size_t offset = 0;
+  for (const PointField& field : cloud.fields) {
+    const std::string name = "field " + in_quotes(field.name) + ": ";
+    require(!field.name.empty() && field.name.find_first_of(" \t\r\n\v\f") == std::string::npos,
+            name + "its name must be a word");
+    require(field.type == 'F' || field.type == 'I' || field.type == 'U', name + "type must be F, I or U");
+    require(field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8,
+            name + "size " + std::to_string(field.size) + " must be 1, 2, 4 or 8");
+    require(field.count > 0, name + "count must be positive");
+    require(field.offset == offset,
+            name + "offset " + std::to_string(field.offset) + " must be " + std::to_string(offset));
+    offset += field.bytes();
+  }
+  require(cloud.point_step == offset, "point_step " + std::to_string(cloud.point_step) + " must be " +
+                                          std::to_string(offset) + ", the sum of the fields");
+  require(
+      cloud.data.size() == cloud.size() * offset,
+      std::to_string(cloud.data.size()) + " bytes of data, must be " + std::to_string(cloud.size() * offset));
+}
+
+const char* encoding_name(PcdEncoding encoding) {
+  switch (encoding) {
+    case PcdEncoding::ascii:
+      return "ascii";
+    case PcdEncoding::binary:
+      return "binary";
+    case PcdEncoding::binary_compressed:
+      return "binary_compressed";
+  }
+  throw std::invalid_argument("unknown PcdEncoding");
+}
+
+}  // namespace
+
+std::string format_pcd_header(const RawCloud& cloud, PcdEncoding encoding) {
+  std::string names, sizes, types, counts, viewpoint;
+  for (const PointField& field : cloud.fields) {
+    if (encoding == PcdEncoding::binary_compressed && field.name == "_") continue;
+    names += ' ' + field.name;
+    sizes += ' ' + std::to_string(field.size);
+    types += {' ', field.type};
+    counts += ' ' + std::to_string(field.count);
+  }
+  for (const double value : cloud.viewpoint) {
+    char digits[32];
+    viewpoint += ' ';
+    viewpoint.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  }
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS" + names + "\nSIZE" + sizes +
+         "\nTYPE" + types + "\nCOUNT" + counts + "\nWIDTH " + std::to_string(cloud.width) + "\nHEIGHT " +
+         std::to_string(cloud.height) + "\nVIEWPOINT" + viewpoint + "\nPOINTS " +
+         std::to_string(cloud.size()) + "\nDATA " + encoding_name(encoding) + "\n";
+}
+
+void write_pcd(const std::filesystem::path& path, const RawCloud& cloud, PcdEncoding encoding) {
+  check_cloud(cloud);
+  const std::string header = format_pcd_header(cloud, encoding);
+  require(header.size() <= max_pcd_header_size, "its fields need a header of more than 65536 bytes");
+  if (encoding == PcdEncoding::binary) {
+    const char* data = reinterpret_cast<const char*>(cloud.data.data());
+    return write_file_atomically(path, {header, {data, cloud.data.size()}});
+  }
+  const std::string body =
+      encoding == PcdEncoding::ascii ? format_ascii_points(cloud) : compress_points(cloud);
+  write_file_atomically(path, {header, body});
+}
+
+}  // namespace pcl_bv

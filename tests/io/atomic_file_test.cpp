@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Whole or not there, with the mode and the neighbours as they were.
+#include "pcl_bv/io/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <thread>
+
+#include "files.h"
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class AtomicFile : public FileTest {
+ protected:
+  static std::string reason(const fs::path& path, std::string_view content) {
+    try {
+      write_file_atomically(path, content);
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  long entries() const { return std::distance(fs::directory_iterator(folder()), fs::directory_iterator()); }
+
+  static unsigned mode(const fs::path& path) { return static_cast<unsigned>(fs::status(path).permissions()); }
+};
+
+// While it lives, no file of this process grows beyond `bytes`: writing more fails as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit limit{bytes, old_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &old_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit old_{};
+  void (*old_handler_)(int);
+};
+
+TEST_F(AtomicFile, WritesTheContent) {
+  write_file_atomically(file("a"), std::string_view("one\0two", 7));
+  EXPECT_EQ(file_content(file("a")), std::string("one\0two", 7));
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(AtomicFile, WritesPiecesInOrder) {
+  write_file_atomically(file("a"), {"head ", "", "body"});
+  EXPECT_EQ(file_content(file("a")), "head body");
+}
+
+TEST_F(AtomicFile, WritesAnEmptyFile) {
+  write_file_atomically(file("a"), "");
+  EXPECT_TRUE(fs::exists(file("a")));
+  EXPECT_EQ(fs::file_size(file("a")), 0u);
+}
+
+TEST_F(AtomicFile, ReplacesALongerFile) {
+  write_text(file("a"), "a long old content");
+  write_file_atomically(file("a"), "new");
+  EXPECT_EQ(file_content(file("a")), "new");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(AtomicFile, LeavesTheOldFileWhenTheDiskIsFull) {
+  write_text(file("a"), "old");
+  const std::string content(100000, 'n');
+  std::string why;
+  {
+    const FileSizeLimit limit(50000);
+    why = reason(file("a"), content);
+  }
+  EXPECT_EQ(why, "cannot write: file too large");
+  EXPECT_EQ(file_content(file("a")), "old");
+  EXPECT_EQ(entries(), 1) << "the temporary file must be gone";
+}
+
+TEST_F(AtomicFile, LeavesNothingWhenTheDiskIsFull) {
+  {
+    const FileSizeLimit limit(50000);
+    EXPECT_THROW(write_file_atomically(file("a"), std::string(100000, 'n')), IoError);
+  }
+  EXPECT_EQ(entries(), 0);
+}
+
+TEST_F(AtomicFile, AReaderSeesTheOldOrTheNewContentNeverAPart) {
+  const std::string contents[2] = {std::string(200000, 'a'), std::string(100000, 'b')};
+  write_file_atomically(file("a"), contents[0]);
+  std::thread writer([&] {
+    for (int i = 1; i <= 200; ++i)
+      write_file_atomically(file("a"), contents[i % 2]);
+  });
+  int torn = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::string seen = file_content(file("a"));
+    if (seen != contents[0] && seen != contents[1]) ++torn;
+  }
+  writer.join();
+  EXPECT_EQ(torn, 0);
+}
+
+TEST_F(AtomicFile, ANewFileFollowsTheUmask) {
+  const mode_t old = ::umask(027);
+  write_file_atomically(file("a"), "x");
+  ::umask(old);
+  EXPECT_EQ(mode(file("a")), 0640u);
+}
+
+TEST_F(AtomicFile, AnOldFileKeepsItsMode) {
+  write_text(file("a"), "old");
+  for (const unsigned bits : {0600u, 0664u, 0755u}) {
+    fs::permissions(file("a"), static_cast<fs::perms>(bits));
+    write_file_atomically(file("a"), "new");
+    EXPECT_EQ(mode(file("a")), bits);
+  }
+}
+
+TEST_F(AtomicFile, AFileThatMayNotBeWrittenIsLeftAlone) {
+  write_text(file("a"), "old");
+  fs::permissions(file("a"), static_cast<fs::perms>(0444));
+  fs::permissions(folder(), fs::perms::all);
+  const WithoutRoot nobody;
+  EXPECT_EQ(reason(file("a"), "new"), "cannot write: permission denied");
+  EXPECT_EQ(file_content(file("a")), "old");
+}
+
+TEST_F(AtomicFile, AFolderThatMayNotBeWrittenIsNamedAsTheReason) {
+  fs::permissions(folder(), static_cast<fs::perms>(0555));
+  {
+    const WithoutRoot nobody;
+    EXPECT_EQ(reason(file("a"), "new"), "cannot write: permission denied");
+  }
+  fs::permissions(folder(), fs::perms::all);
+}
+
+TEST_F(AtomicFile, AMissingFolderIsAnError) {
+  EXPECT_EQ(reason(file("gone") / "a", "x"), "cannot write: no such file or directory");
+}
+
+TEST_F(AtomicFile, AFolderIsNoFile) {
+  EXPECT_EQ(reason(folder(), "x"), "cannot write: is a directory");
+}
+
+TEST_F(AtomicFile, ALinkStaysALinkAndItsTargetIsWritten) {
+  write_text(file("target"), "a long old content");
+  fs::create_symlink(file("target"), file("link"));
+  write_file_atomically(file("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(file("link")));
+  EXPECT_EQ(file_content(file("target")), "new");
+}
+
+TEST_F(AtomicFile, ADeviceIsWrittenAndStaysADevice) {
+  write_file_atomically("/dev/null", "x");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(AtomicFile, APipeReceivesTheContent) {
+  ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+  std::string received;
+  std::thread reader([&] { received = file_content(file("pipe")); });
+  write_file_atomically(file("pipe"), "through");
+  reader.join();
+  EXPECT_EQ(received, "through");
+  EXPECT_TRUE(fs::is_fifo(file("pipe")));
+}
+
+TEST_F(AtomicFile, AFullDeviceIsAnError) {
+  EXPECT_THAT(reason("/dev/full", "x"), HasSubstr("no space left on device"));
+}
+
+TEST_F(AtomicFile, ALongNameIsNoObstacle) {
+  const std::string name(255, 'n');
+  write_file_atomically(file(name), "x");
+  EXPECT_EQ(file_content(file(name)), "x");
+}
+
+TEST_F(AtomicFile, ANameWithoutAFolderMeansTheCurrentOne) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder());
+  write_file_atomically("plain", "x");
+  fs::current_path(before);
+  EXPECT_EQ(file_content(file("plain")), "x");
+}
+
+}  // namespace
+}  // namespace pcl_bv

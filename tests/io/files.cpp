@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// See files.h.
+#include "files.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "pcl_bv/io/pcd.h"
+
+namespace pcl_bv {
+
+namespace fs = std::filesystem;
+
+std::string file_content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Removed first: ext4 flushes a file that is cut to nothing and written again, 4 ms each for thousands of
+// files.
+void write_text(const fs::path& path, std::string_view content) {
+  fs::remove(path);
+  std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+}
+
+FileTest::FileTest() {
+  std::string name = (fs::temp_directory_path() / "pcl_bv_test_XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  folder_ = name;
+}
+
+FileTest::~FileTest() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+std::string FileTest::reason_for_content(std::string_view content) const {
+  write_text(file("content.pcd"), content);
+  return reason_for(file("content.pcd"));
+}
+
+std::string reason_for(const fs::path& path) {
+  try {
+    read_pcd(path);
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+WithoutRoot::WithoutRoot() : was_root_(::geteuid() == 0) {
+  if (was_root_ && ::seteuid(65534) != 0) throw std::runtime_error("cannot become nobody");
+}
+
+WithoutRoot::~WithoutRoot() {
+  if (was_root_ && ::seteuid(0) != 0) abort();
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Headers as they occur, and one test for each way in which one can be wrong.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cstring>
+#include <map>
+
+#include "files.h"
+#include "pcl_bv/io/pcd.h"
+#include "sample_clouds.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+// A good header, line by line; tests change or remove lines.
+class PcdHeader : public FileTest {
+ public:
+  PcdHeader& set(const std::string& keyword, const std::string& line) {
+    lines_[index_of(keyword)] = line.empty() ? "" : line + "\n";
+    return *this;
+  }
+
+  std::string text() const {
+    std::string all;
+    for (const std::string& line : lines_)
+      all += line;
+    return all;
+  }
+
+  std::string reason(const std::string& data = "1 2 3\n4 5 6\n") const {
+    return reason_for_content(text() + data);
+  }
+
+  RawCloud read(const std::string& data = "1 2 3\n4 5 6\n") const {
+    write_text(file("a.pcd"), text() + data);
+    return read_pcd(file("a.pcd"));
+  }
+
+ private:
+  std::size_t index_of(const std::string& keyword) const {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (keywords_[i] == keyword) return i;
+    }
+    throw std::logic_error(keyword);
+  }
+
+  std::vector<std::string> keywords_ = {"#",     "VERSION", "FIELDS",    "SIZE",   "TYPE", "COUNT",
+                                        "WIDTH", "HEIGHT",  "VIEWPOINT", "POINTS", "DATA"};
+  std::vector<std::string> lines_ = {"# .PCD v0.7 - Point Cloud Data file format\n",
+                                     "VERSION 0.7\n",
+                                     "FIELDS x y z\n",
+                                     "SIZE 4 4 4\n",
+                                     "TYPE F F F\n",
+                                     "COUNT 1 1 1\n",
+                                     "WIDTH 2\n",
+                                     "HEIGHT 1\n",
+                                     "VIEWPOINT 0 0 0 1 0 0 0\n",
+                                     "POINTS 2\n",
+                                     "DATA ascii\n"};
+};
+
+TEST_F(PcdHeader, OfAGoodFileIsRead) {
+  const RawCloud cloud = set("VIEWPOINT", "VIEWPOINT 1 -2 3.5 0.5 0.5 -0.5 1e-3").read();
+  EXPECT_EQ(cloud.width, 2u);
+  EXPECT_EQ(cloud.height, 1u);
+  EXPECT_EQ(cloud.viewpoint, (std::array<double, 7>{1, -2, 3.5, 0.5, 0.5, -0.5, 1e-3}));
+  EXPECT_EQ(float_at(cloud, "y", 1), 5.0f);
+}
+
+TEST_F(PcdHeader, MayLeaveOutCountViewpointPointsHeightVersionAndComments) {
+  for (const char* line : {"COUNT", "VIEWPOINT", "POINTS", "HEIGHT", "VERSION", "#"})
+    set(line, "");
+  const RawCloud cloud = read();
+  EXPECT_EQ(cloud.width, 2u);
+  EXPECT_EQ(cloud.height, 1u);
+  EXPECT_EQ(cloud.viewpoint, (std::array<double, 7>{0, 0, 0, 1, 0, 0, 0}));
+}
+
+TEST_F(PcdHeader, MayLeaveOutWidthIfPointsIsThere) {
+  EXPECT_EQ(set("WIDTH", "").set("HEIGHT", "").read().width, 2u);
+}
+
+TEST_F(PcdHeader, KeepsTheShapeOfAnOrganisedCloud) {
+  const RawCloud cloud = set("WIDTH", "WIDTH 1").set("HEIGHT", "HEIGHT 2").read();
+  EXPECT_EQ(cloud.width, 1u);
+  EXPECT_EQ(cloud.height, 2u);
+}
+
+TEST_F(PcdHeader, MayHaveCarriageReturnsCommentsEmptyLinesAndColumns) {
+  set("FIELDS", "COLUMNS x y z\r").set("WIDTH", "# note\r\n\r\nWIDTH\t2\r").set("DATA", "DATA ascii\r");
+  EXPECT_EQ(read("1 2 3\r\n4 5 6\r\n").size(), 2u);
+}
+
+TEST_F(PcdHeader, MayHaveCarriageReturnsBeforeBinaryData) {
+  const float values[6] = {1, 2, 3, 4, 5, 6};
+  const RawCloud cloud =
+      set("DATA", "DATA binary\r").read({reinterpret_cast<const char*>(values), sizeof values});
+  EXPECT_EQ(float_at(cloud, "z", 1), 6.0f);
+}
+
+TEST_F(PcdHeader, MayBeOfVersionsUpTo07) {
+  for (const char* version : {".7", "0.7", ".6", "0.6", ".5", "0.5"}) {
+    EXPECT_EQ(set("VERSION", std::string("VERSION ") + version).read().size(), 2u) << version;
+  }
+}
+
+TEST_F(PcdHeader, OfNoPointsGivesAnEmptyCloud) {
+  set("WIDTH", "WIDTH 0").set("POINTS", "POINTS 0");
+  for (const char* encoding : {"DATA ascii", "DATA binary", "DATA binary_compressed"}) {
+    const RawCloud cloud = set("DATA", encoding).read("");
+    EXPECT_EQ(cloud.size(), 0u);
+    EXPECT_TRUE(cloud.xyz().empty());
+  }
+}
+
+TEST_F(PcdHeader, OfAnUnknownVersionIsRefused) {
+  EXPECT_EQ(set("VERSION", "VERSION 0.8").reason(), "header: VERSION '0.8' is not supported, only up to 0.7");
+}
+
+TEST_F(PcdHeader, WithoutFieldsIsRefused) {
+  EXPECT_EQ(set("FIELDS", "").reason(), "header: no FIELDS");
+  EXPECT_EQ(set("FIELDS", "FIELDS").reason(), "header: no FIELDS");
+}
+
+TEST_F(PcdHeader, WithoutSizeOrTypeIsRefused) {
+  EXPECT_EQ(set("SIZE", "").reason(), "header: no SIZE line");
+  EXPECT_EQ(set("SIZE", "SIZE 4 4 4").set("TYPE", "").reason(), "header: no TYPE line");
+}
+
+TEST_F(PcdHeader, NamesTheCoordinatesThatAreMissing) {
+  EXPECT_EQ(set("FIELDS", "FIELDS x y w").reason(), "no field z");
+  EXPECT_EQ(set("FIELDS", "FIELDS a y b").reason(), "no field x, z");
+  EXPECT_EQ(set("FIELDS", "FIELDS X Y Z").reason(), "no field x, y, z");
+}
+
+TEST_F(PcdHeader, WithACoordinateTwiceIsRefused) {
+  set("FIELDS", "FIELDS x y z x").set("SIZE", "SIZE 4 4 4 4").set("TYPE", "TYPE F F F F").set("COUNT", "");
+  EXPECT_EQ(reason("1 2 3 4\n1 2 3 4\n"), "field x occurs twice");
+}
+
+TEST_F(PcdHeader, WithCoordinatesOfOtherTypesIsNotSupportedYet) {
+  EXPECT_EQ(set("SIZE", "SIZE 8 8 8").reason(),
+            "field x of TYPE F, SIZE 8, COUNT 1 is not supported yet (only F, 4, 1 is)");
+  EXPECT_THAT(set("SIZE", "SIZE 4 4 4").set("TYPE", "TYPE F I F").reason(),
+              HasSubstr("field y of TYPE I, SIZE 4, COUNT 1 is not supported yet"));
+  EXPECT_THAT(set("TYPE", "TYPE F F F").set("COUNT", "COUNT 1 1 2").reason(),
+              HasSubstr("field z of TYPE F, SIZE 4, COUNT 2 is not supported yet"));
+}
+
+TEST_F(PcdHeader, WithAnImpossibleSizeIsRefused) {
+  for (const char* size : {"0", "3", "16", "-4", "4.0", "four", "44", "18446744073709551620"}) {
+    EXPECT_EQ(set("SIZE", std::string("SIZE 4 4 ") + size).reason(),
+              "header: SIZE: '" + std::string(size) + "' is not one of 1, 2, 4, 8");
+  }
+}
+
+TEST_F(PcdHeader, WithAnImpossibleTypeIsRefused) {
+  EXPECT_EQ(set("TYPE", "TYPE F F D").reason(), "header: TYPE: 'D' is not one of I, U, F");
+}
+
+TEST_F(PcdHeader, WithAnImpossibleCountIsRefused) {
+  for (const char* count : {"0", "-1", "4294967296", "1.5", "x"}) {
+    EXPECT_EQ(set("COUNT", std::string("COUNT 1 1 ") + count).reason(),
+              "header: COUNT: '" + std::string(count) + "' is not a number from 1 to 4294967295");
+  }
+}
+
+TEST_F(PcdHeader, WithTheWrongNumberOfEntriesIsRefused) {
+  EXPECT_EQ(set("SIZE", "SIZE 4 4").reason(), "header: SIZE has 2 entries, expected 3");
+  EXPECT_EQ(set("SIZE", "SIZE 4 4 4").set("TYPE", "TYPE F F F F").reason(),
+            "header: TYPE has 4 entries, expected 3");
+  EXPECT_EQ(set("TYPE", "TYPE F F F").set("COUNT", "COUNT 1").reason(),
+            "header: COUNT has 1 entries, expected 3");
+  EXPECT_EQ(set("COUNT", "").set("WIDTH", "WIDTH 2 2").reason(), "header: WIDTH has 2 entries, expected 1");
+  EXPECT_EQ(set("WIDTH", "WIDTH 2").set("VIEWPOINT", "VIEWPOINT 0 0 0").reason(),
+            "header: VIEWPOINT has 3 entries, expected 7");
+}
+
+TEST_F(PcdHeader, WithAViewpointThatIsNoNumberIsRefused) {
+  EXPECT_EQ(set("VIEWPOINT", "VIEWPOINT 0 0 0 one 0 0 0").reason(),
+            "header: VIEWPOINT: 'one' is not a number");
+}
+
+TEST_F(PcdHeader, WithImpossibleNumbersOfPointsIsRefused) {
+  for (const char* points : {"-2", "2.0", "18446744073709551616", "two"}) {
+    const std::string expected = ": '" + std::string(points) + "' is not a number of points";
+    EXPECT_EQ(set("WIDTH", std::string("WIDTH ") + points).reason(), "header: WIDTH" + expected);
+    EXPECT_EQ(set("WIDTH", "WIDTH 2").set("HEIGHT", std::string("HEIGHT ") + points).reason(),
+              "header: HEIGHT" + expected);
+    EXPECT_EQ(set("HEIGHT", "").set("POINTS", std::string("POINTS ") + points).reason(),
+              "header: POINTS" + expected);
+    set("POINTS", "");
+  }
+}
+
+TEST_F(PcdHeader, WithSizesThatDisagreeIsRefused) {
+  EXPECT_EQ(set("POINTS", "POINTS 3").reason(), "header: 3 POINTS, but WIDTH x HEIGHT is 2 x 1");
+  EXPECT_EQ(set("HEIGHT", "HEIGHT 0").reason(), "header: 3 POINTS, but WIDTH x HEIGHT is 2 x 0");
+}
+
+TEST_F(PcdHeader, WithoutWidthAndPointsIsRefused) {
+  EXPECT_EQ(set("WIDTH", "").set("POINTS", "").reason(), "header: neither WIDTH nor POINTS");
+}
+
+TEST_F(PcdHeader, WhoseSizesOverflowIsRefused) {
+  set("WIDTH", "WIDTH 4294967296").set("HEIGHT", "HEIGHT 4294967296").set("POINTS", "POINTS 0");
+  EXPECT_EQ(reason(), "header: 4294967296 x 4294967296 points of 12 bytes are more than a file can hold");
+  set("WIDTH", "WIDTH 18446744073709551615").set("HEIGHT", "HEIGHT 1").set("POINTS", "");
+  EXPECT_THAT(reason(), HasSubstr("more than a file can hold"));
+}
+
+TEST_F(PcdHeader, WithoutEncodingIsRefused) {
+  EXPECT_EQ(set("DATA", "DATA zip").reason(),
+            "header: DATA: 'zip' is not one of ascii, binary, binary_compressed");
+  EXPECT_EQ(set("DATA", "DATA").reason(), "header: DATA has 0 entries, expected 1");
+}
+
+TEST_F(PcdHeader, ThatDoesNotEndIsRefused) {
+  set("DATA", "");
+  EXPECT_EQ(reason(""),
+            "truncated header: no DATA line in the first " + std::to_string(text().size()) + " bytes");
+}
+
+TEST_F(PcdHeader, WithALineTwiceIsRefused) {
+  EXPECT_EQ(set("WIDTH", "WIDTH 2\nWIDTH 2").reason(), "header: WIDTH occurs twice");
+  EXPECT_EQ(set("WIDTH", "WIDTH 2").set("FIELDS", "FIELDS x y z\nCOLUMNS x y z").reason(),
+            "header: FIELDS occurs twice");
+}
+
+TEST_F(PcdHeader, LongerThan65536BytesIsRefused) {
+  set("WIDTH", "# " + std::string(70000, 'c') + "\nWIDTH 2");
+  EXPECT_EQ(reason(), "truncated header: no DATA line in the first 65536 bytes");
+}
+
+TEST_F(PcdHeader, WhoseDataLineIsCutByTheLimitIsRefused) {
+  const std::size_t room =
+      65536 - text().size() - 3 + std::strlen("ascii\n");  // "#", "\n" and the cut after "DATA "
+  set("WIDTH", "#" + std::string(room - 1, 'c') + "\nWIDTH 2").set("DATA", "DATA ascii");
+  EXPECT_THAT(reason(), HasSubstr("no DATA line in the first 65536 bytes"));
+}
+
+TEST_F(PcdHeader, OfAnotherFormatIsRefusedInPrintableWords) {
+  const std::string reason = reason_for_content(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
+  EXPECT_EQ(reason, "not a .pcd file: unknown header line '?PNG?'");
+  EXPECT_THAT(reason_for_content(std::string(100000, '\xff')), HasSubstr("no DATA line"));
+  EXPECT_EQ(reason_for_content("ply\nformat ascii 1.0\n"), "not a .pcd file: unknown header line 'ply'");
+}
+
+using PcdPath = FileTest;
+
+TEST_F(PcdPath, ThatIsMissingIsNamedSo) {
+  EXPECT_EQ(reason_for(file("gone.pcd")), "no such file or directory");
+}
+TEST_F(PcdPath, ThatIsAFolderIsNamedSo) {
+  EXPECT_EQ(reason_for(folder()), "is a directory");
+}
+TEST_F(PcdPath, ThatIsADeviceIsRefused) {
+  EXPECT_EQ(reason_for("/dev/null"), "not a regular file");
+}
+TEST_F(PcdPath, ThatIsAnEmptyFileIsNamedSo) {
+  EXPECT_EQ(reason_for_content(""), "empty file");
+}
+
+TEST_F(PcdPath, ThatIsAPipeIsRefusedWithoutWaiting) {
+  ASSERT_EQ(::mkfifo(file("pipe.pcd").c_str(), 0600), 0);
+  EXPECT_EQ(reason_for(file("pipe.pcd")), "not a regular file");
+}
+
+TEST_F(PcdPath, ThatMayNotBeReadIsNamedSo) {
+  write_text(file("a.pcd"), "x");
+  fs::permissions(file("a.pcd"), fs::perms::none);
+  fs::permissions(folder(), fs::perms::all);
+  const WithoutRoot nobody;
+  EXPECT_EQ(reason_for(file("a.pcd")), "permission denied");
+}
+
+}  // namespace
+}  // namespace pcl_bv

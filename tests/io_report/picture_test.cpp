@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Pictures, decoded again and looked at.
+
+#include "pcl_bv/io/picture.h"
+
+#include <cairo.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "clouds.h"
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr int width = 320, height = 200;
+
+struct Pixels {
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> rgb;
+};
+
+Pixels decode(const std::string& png) {
+  std::string_view rest = png;
+  const auto read = [](void* from, unsigned char* to, unsigned n) {
+    auto& bytes = *static_cast<std::string_view*>(from);
+    if (bytes.size() < n) return CAIRO_STATUS_READ_ERROR;
+    std::memcpy(to, bytes.data(), n);
+    bytes.remove_prefix(n);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
+      cairo_image_surface_create_from_png_stream(read, &rest), cairo_surface_destroy);
+  EXPECT_EQ(cairo_surface_status(surface.get()), CAIRO_STATUS_SUCCESS);
+  Pixels pixels{
+      cairo_image_surface_get_width(surface.get()), cairo_image_surface_get_height(surface.get()), {}};
+  for (int y = 0; y < pixels.height; ++y) {
+    const unsigned char* row = cairo_image_surface_get_data(surface.get()) +
+                               static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface.get());
+    for (int x = 0; x < pixels.width; ++x) {
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, row + 4 * x, 4);
+      pixels.rgb.push_back(pixel & 0xffffff);
+    }
+  }
+  return pixels;
+}
+
+/// Pixels that differ between two pictures of one size.
+std::size_t difference(const std::string& a, const std::string& b) {
+  const Pixels p = decode(a), q = decode(b);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < p.rgb.size(); ++i)
+    n += p.rgb[i] != q.rgb[i];
+  return n;
+}
+
+Picture picture_of(const PointView& points) {
+  Picture picture;
+  picture.points = points;
+  picture.width = width;
+  picture.height = height;
+  return picture;
+}
+
+std::string background() {
+  return picture_png(picture_of({}));
+}
+
+TEST(Picture, HasTheSizeAsked) {
+  const Pixels pixels = decode(background());
+  EXPECT_EQ(pixels.width, width);
+  EXPECT_EQ(pixels.height, height);
+}
+
+TEST(Picture, SameInputGivesTheSameBytes) {
+  const auto cloud = test::gaussian<float>(3000, 5);
+  Picture picture = picture_of(cloud.view());
+  picture.volumes.push_back({Aabb({-2, -2, -2}, {2, 2, 2}), 0});
+  picture.volumes.push_back({Sphere({0, 0, 0}, 2), 1});
+  EXPECT_EQ(picture_png(picture), picture_png(picture));
+}
+
+TEST(Picture, PointsAreDrawn) {
+  const auto cloud = test::gaussian<float>(3000, 6);
+  EXPECT_GT(difference(picture_png(picture_of(cloud.view())), background()), 2000u);
+}
+
+TEST(Picture, BadPointsAndDeadBeamsAreLeftOut) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const std::vector<float> xyz = {0, 0, 0, nan, 1, 1, 1, inf, 1, -0.0f, 0, -0.0f};
+  EXPECT_EQ(picture_png(picture_of(PointView::of(xyz.data(), 12, 4))), background());
+}
+
+TEST(Picture, EmptyVolumesAreLeftOut) {
+  Picture picture = picture_of({});
+  for (const AnyVolume& volume : {AnyVolume(Aabb()), AnyVolume(Kdop()), AnyVolume(Sphere())}) {
+    picture.volumes.push_back({volume, 0});
+  }
+  EXPECT_EQ(picture_png(picture), background());
+}
+
+TEST(Picture, EveryShapeIsDrawnAndFillsTheFrame) {
+  SlabVector min(3), max(3);
+  min.setConstant(-3);
+  max.setConstant(3);
+  for (const AnyVolume& volume :
+       {AnyVolume(Aabb({-3, -3, -3}, {3, 3, 3})), AnyVolume(Kdop(KdopSet::dop6(), min, max)),
+        AnyVolume(Sphere({7, 8, 9}, 4))}) {
+    SCOPED_TRACE(shape_name(volume));
+    Picture picture = picture_of({});
+    picture.volumes.push_back({volume, 0});
+    const std::string png = picture_png(picture);
+    EXPECT_GT(difference(png, background()), 5000u);
+    const Pixels seen = decode(png), empty = decode(background());
+    for (int x = 0; x < width; ++x) {  // nothing touches the upper and lower edge
+      EXPECT_EQ(seen.rgb[x], empty.rgb[x]);
+      EXPECT_EQ(seen.rgb[width * (height - 1) + x], empty.rgb[width * (height - 1) + x]);
+    }
+  }
+}
+
+TEST(Picture, FarStrayPointsDoNotShrinkTheScene) {
+  auto cloud = test::gaussian<float>(4000, 8);
+  const std::size_t alone = difference(picture_png(picture_of(cloud.view())), background());
+  for (int i = 0; i < 20; ++i)
+    cloud.xyz.insert(cloud.xyz.end(), {1e6f, -1e6f, static_cast<float>(i)});
+  EXPECT_GT(difference(picture_png(picture_of(cloud.view())), background()), alone / 2);
+}
+
+TEST(Picture, NearPointsHideFarOnes) {
+  std::vector<float> xyz;
+  std::vector<std::uint32_t> labels;
+  for (const float z : {1.0f, 0.0f}) {  // a shelf above another; the viewer looks from above
+    for (int i = 0; i < 300 * 300; ++i) {
+      xyz.insert(xyz.end(),
+                 {0.01f * static_cast<float>(i % 300) + 1, 0.01f * static_cast<float>(i / 300) + 1, z});
+      labels.push_back(z > 0 ? 0 : 1);
+    }
+  }
+  Picture picture = picture_of(PointView::of(xyz.data(), 12, xyz.size() / 3));
+  picture.labels = labels.data();
+  const std::string both = picture_png(picture);
+  for (std::uint32_t& label : labels)
+    label = 1 - label;
+  const std::string swapped = picture_png(picture);
+  const auto blue = [](const std::string& png) {
+    std::size_t n = 0;
+    for (const std::uint32_t p : decode(png).rgb)
+      n += (p & 0xff) > 100 && (p & 0xff) > (p >> 16);
+    return n;
+  };
+  EXPECT_GT(blue(both), blue(swapped) + 2000) << "label 0 is blue and lies on top";
+}
+
+TEST(Picture, AnyMagnitudeAndFlatVolumesAreDrawn) {
+  for (const auto& cloud : test::nasty_clouds<float>()) {
+    SCOPED_TRACE(cloud.name);
+    Picture picture = picture_of(cloud.view());
+    Aabb box;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Coordinates p = load_point(cloud.view(), i);
+      if (is_valid(p)) box.extend({p.x, p.y, p.z});
+    }
+    picture.volumes.push_back({box, 0});
+    const std::string png = picture_png(picture);
+    EXPECT_EQ(decode(png).rgb.size(), static_cast<std::size_t>(width * height));
+    if (box.empty() || box.min() == box.max()) continue;
+    EXPECT_GT(difference(png, background()), 20u);
+  }
+}
+
+TEST(Picture, SidesOutsideTheRangeAreRefused) {
+  for (const int side : {15, 16385, 0, -1}) {
+    Picture picture = picture_of({});
+    picture.height = side;
+    EXPECT_THROW(picture_png(picture), std::invalid_argument);
+  }
+}
+
+TEST(Picture, UnwritablePathIsAnIoErrorAndNothingElse) {
+  EXPECT_THROW(write_picture("/no/such/folder/a.png", picture_of({})), IoError);
+}
+
+}  // namespace
+}  // namespace pcl_bv
