@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The sweep: rays, what they meet, and what a sensor makes of it.
+#include "pcl_bv/synth/street.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "street_cast.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr double dropped_share = 0.015;
+constexpr double reflected_share = 1.0 / 700;
+
+std::array<double, 3> to_array(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+StreetObject truth_of(const PlacedObject& object) {
+  const Box3& bounds = object.model.bounds;
+  return {object.id,
+          object.model.kind,
+          to_array(object.to_sensor(0.5 * (bounds.lo + bounds.hi))),
+          {to_array(object.forward), to_array(object.left), to_array(object.up)},
+          to_array(0.5 * (bounds.hi - bounds.lo)),
+          to_array(object.velocity)};
+}
+
+/// Azimuth of the middle of a column: from pi (backward) clockwise to -pi.
+double azimuth_of(double column, std::size_t columns) {
+  return std::numbers::pi * (1 - 2 * (column + 0.5) / static_cast<double>(columns));
+}
+
+struct Candidate {
+  double nearest;  // metres
+  const PlacedObject* object;
+};
+
+/// Adds the object to the columns whose rays may meet it. The sensor is outside its footprint, so the corners
+/// bound its azimuths, all within pi of the middle's.
+void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObject& object) {
+  const Box3& box = object.model.bounds;
+  const Vec3 middle = object.to_sensor(0.5 * (box.lo + box.hi));
+  const double azimuth = std::atan2(middle.y, middle.x);
+  double low = 0;
+  double high = 0;
+  for (const double x : {box.lo.x, box.hi.x}) {
+    for (const double y : {box.lo.y, box.hi.y}) {
+      for (const double z : {box.lo.z, box.hi.z}) {  // a tilted box leans over its footprint
+        const Vec3 corner = object.to_sensor({x, y, z});
+        const double turn = std::remainder(std::atan2(corner.y, corner.x) - azimuth, 2 * std::numbers::pi);
+        low = std::min(low, turn);
+        high = std::max(high, turn);
+      }
+    }
+  }
+  const auto count = static_cast<std::int64_t>(columns.size());
+  const double per_radian = static_cast<double>(count) / (2 * std::numbers::pi);
+  const auto column_at = [&](double angle) { return (std::numbers::pi - angle) * per_radian - 0.5; };
+  const auto first = static_cast<std::int64_t>(std::floor(column_at(azimuth + high)));
+  const auto last = static_cast<std::int64_t>(std::ceil(column_at(azimuth + low)));
+  const double nearest = nearest_distance(object);
+  for (std::int64_t column = first; column <= std::min(last, first + count - 1); ++column) {
+    columns[static_cast<std::size_t>((column % count + count) % count)].push_back({nearest, &object});
+  }
+}
+
+/// For each column the objects its rays may meet, nearest first.
+std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
+                                                         std::size_t columns) {
+  std::vector<std::vector<Candidate>> candidates(columns);
+  for (const PlacedObject& object : objects)
+    add_candidate(candidates, object);
+  for (auto& column : candidates) {
+    std::sort(column.begin(), column.end(),
+              [](const Candidate& a, const Candidate& b) { return a.nearest < b.nearest; });
+  }
+  return candidates;
+}
+
+/// The point that the sensor reports for a hit, written at position i.
+void record(const Ray& ray, Hit hit, bool ground, SynthCloud& cloud, std::size_t i) {
+  SplitMix64 random(ray.key);
+  const double noise = street_range_noise * random.normal();
+  const bool dropped = random.uniform() < std::max(dropped_share, hit.loss);
+  const bool reflected = ground && random.uniform() < reflected_share;
+  if (hit.range >= street_max_range || dropped) return;
+  // A mirrored ray goes on below the ground as far as it would have gone above it.
+  const double range = reflected ? hit.range * random.uniform(1.15, 1.6) : hit.range;
+  const Vec3 point = (range + noise) * ray.direction;
+  cloud.xyz[3 * i] = static_cast<float>(point.x);
+  cloud.xyz[3 * i + 1] = static_cast<float>(point.y);
+  cloud.xyz[3 * i + 2] = static_cast<float>(point.z);
+  cloud.object[i] = hit.object;
+  cloud.ground[i] = ground && !reflected;
+}
+
+}  // namespace
+
+std::string_view name_of(StreetObjectKind kind) {
+  constexpr std::array<std::string_view, 7> names{"car",  "pedestrian", "pole", "house",
+                                                  "wall", "hedge",      "tree"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::size_t street_rays(std::size_t points) {
+  return std::max<std::size_t>(1, (points + street_beams / 2) / street_beams) * street_beams;
+}
+
+StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame) {
+  const std::size_t rays = street_rays(options.points);
+  const std::size_t columns = rays / street_beams;
+  const std::vector<PlacedObject> objects = place_objects(options.seed, frame);
+  const auto candidates = candidates_by_column(objects, columns);
+
+  StreetFrame result;
+  result.cloud.xyz.resize(3 * rays);
+  result.cloud.object.resize(rays);
+  result.cloud.ground.resize(rays);
+  result.cloud.height = street_beams;
+  for (std::size_t i = 0; i < rays; ++i) {
+    const auto [x, y, z] = street_beam(i / columns, i % columns, columns);
+    const Ray ray{{x, y, z}, SplitMix64({options.seed, frame, i}).next()};
+    Hit hit;
+    for (const Candidate& candidate : candidates[i % columns]) {
+      if (candidate.nearest >= hit.range) break;
+      cast(ray, *candidate.object, hit);
+    }
+    const double ground = cast_ground(ray);
+    const bool on_ground = ground < hit.range;
+    if (on_ground) hit = {ground, 0, 0};
+    record(ray, hit, on_ground, result.cloud, i);
+  }
+  for (const PlacedObject& object : objects)
+    result.objects.push_back(truth_of(object));
+  return result;
+}
+
+std::array<double, 3> street_beam(std::size_t beam, std::size_t column, std::size_t columns) {
+  const auto b = static_cast<double>(beam);
+  const double degrees = beam < 32 ? 2 - b / 3 : -8.83 - (b - 32) * (24.8 - 8.83) / 31;
+  const double elevation = degrees * std::numbers::pi / 180;
+  const double azimuth = azimuth_of(static_cast<double>(column), columns);
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+          std::sin(elevation)};
+}
+
+double street_ground_height(double x, double y) {
+  const double road = street_slope * x - street_sensor_height;
+  return y < street_curb_left && y > street_curb_right ? road : road + street_curb_height;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Rays are cut by convex solids in the frame of the object: an interval of ranges per solid.
+#include "street_cast.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The ranges of a ray inside a convex solid; none if enter >= exit.
+struct Span {
+  double enter = 0;
+  double exit = infinity;
+
+  bool empty() const { return !(enter < exit); }
+};
+
+struct LocalRay {
+  Vec3 origin, direction;
+
+  Vec3 at(double range) const { return origin + range * direction; }
+};
+
+/// Keeps of the span what is inside the half-space where speed * range <= room.
+void clip(Span& span, double speed, double room) {
+  if (speed > 0) {
+    span.exit = std::min(span.exit, room / speed);
+  } else if (speed < 0) {
+    span.enter = std::max(span.enter, room / speed);
+  } else if (room < 0) {
+    span.exit = -infinity;
+  }
+}
+
+Span clip_box(const LocalRay& ray, const Box3& box) {
+  Span span;
+  clip(span, ray.direction.x, box.hi.x - ray.origin.x);
+  clip(span, -ray.direction.x, ray.origin.x - box.lo.x);
+  clip(span, ray.direction.y, box.hi.y - ray.origin.y);
+  clip(span, -ray.direction.y, ray.origin.y - box.lo.y);
+  clip(span, ray.direction.z, box.hi.z - ray.origin.z);
+  clip(span, -ray.direction.z, ray.origin.z - box.lo.z);
+  return span;
+}
+
+Span clip_planes(const LocalRay& ray, const std::vector<Plane>& planes) {
+  Span span;
+  for (const Plane& plane : planes) {
+    clip(span, dot(plane.normal, ray.direction), plane.offset - dot(plane.normal, ray.origin));
+    if (span.empty()) break;
+  }
+  return span;
+}
+
+/// In the frame where the ellipsoid is the unit ball: |origin + range direction|^2 = 1.
+Span clip_ellipsoid(const LocalRay& ray, const Box3& bounds) {
+  const Vec3 center = 0.5 * (bounds.lo + bounds.hi);
+  const Vec3 radii = 0.5 * (bounds.hi - bounds.lo);
+  const auto scaled = [&radii](Vec3 v) { return Vec3{v.x / radii.x, v.y / radii.y, v.z / radii.z}; };
+  const Vec3 origin = scaled(ray.origin - center);
+  const Vec3 direction = scaled(ray.direction);
+  const double a = dot(direction, direction);
+  const double b = dot(origin, direction);
+  const double discriminant = b * b - a * (dot(origin, origin) - 1);
+  if (discriminant <= 0) return {0, -infinity};
+  const double root = std::sqrt(discriminant);
+  return {std::max(0.0, (-b - root) / a), (-b + root) / a};
+}
+
+/// Range at which the ray ends in the part, or infinity.
+double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
+  const Span span = part.planes.empty() ? clip_ellipsoid(ray, part.bounds) : clip_planes(ray, part.planes);
+  if (span.empty()) return infinity;
+  if (part.free_path > 0) {
+    const double depth = -part.free_path * std::log(1.0 - SplitMix64(key).uniform());
+    return span.enter + depth < span.exit ? span.enter + depth : infinity;
+  }
+  const Vec3 entry = ray.at(span.enter);
+  for (const Box3& pocket : part.pockets) {
+    if (!holds(pocket, entry)) continue;
+    const double end = clip_box(ray, pocket).exit;
+    // A ray may leave the solid through a pocket at its edge: then it goes on.
+    if (end >= span.exit) return infinity;
+    return end;
+  }
+  return span.enter;
+}
+
+}  // namespace
+
+void cast(const Ray& ray, const PlacedObject& object, Hit& hit) {
+  const LocalRay local{object.to_local(Vec3{} - object.base), object.to_local(ray.direction)};
+  const Span span = clip_box(local, object.model.bounds);
+  if (span.empty() || span.enter >= hit.range) return;
+  std::uint64_t key = ray.key ^ object.id;
+  for (const Part& part : object.model.parts) {
+    const double range = cast_part(local, part, ++key);
+    if (range < hit.range) hit = {range, object.id, part.loss};
+  }
+}
+
+double cast_ground(const Ray& ray) {
+  const Vec3 d = ray.direction;
+  const double sinking = street_slope * d.x - d.z;  // towards the ground, metres per metre of range
+  const auto on_road = [&d](double range) {
+    return range * d.y < street_curb_left && range * d.y > street_curb_right;
+  };
+  double nearest = infinity;
+  if (sinking > 0) {
+    const double sidewalk = (street_sensor_height - street_curb_height) / sinking;
+    const double road = street_sensor_height / sinking;
+    if (!on_road(sidewalk)) nearest = sidewalk;
+    if (on_road(road)) nearest = std::min(nearest, road);
+  }
+  // A curb is met from the road: at its y, between the heights of road and sidewalk.
+  const double curb = (d.y > 0 ? street_curb_left : street_curb_right) / d.y;
+  const double height = street_sensor_height - sinking * curb;
+  if (height >= 0 && height <= street_curb_height) nearest = std::min(nearest, curb);
+  return nearest;
+}
+
+}  // namespace pcl_bv

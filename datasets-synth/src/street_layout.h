@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Where the objects of the street stand in a frame.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "street_model.h"
+
+namespace pcl_bv {
+
+/// A model placed in the sensor's frame: p = base + p.x forward + p.y left + p.z up.
+struct PlacedObject {
+  std::uint32_t id = 0;
+  Model model;
+  Vec3 base;
+  Vec3 forward, left, up;
+  Vec3 velocity;  ///< In the sensor's frame, m/s.
+
+  Vec3 to_local(Vec3 direction) const {
+    return {dot(direction, forward), dot(direction, left), dot(direction, up)};
+  }
+  Vec3 to_sensor(Vec3 local) const { return base + local.x * forward + local.y * left + local.z * up; }
+};
+
+/// The objects nearer than street_max_range, by ascending id.
+std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame);
+
+/// Horizontal distance from the sensor to an object's box, in its own frame: no return is nearer.
+double nearest_distance(const PlacedObject& object);
+
+}  // namespace pcl_bv

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the objects of the street are made of, in frames of their own: x forward, y left, z up from the base.
+#pragma once
+
+#include <vector>
+
+#include "pcl_bv/synth/random.h"
+#include "pcl_bv/synth/street.h"
+#include "vec3.h"
+
+namespace pcl_bv {
+
+/// The half-space normal . p <= offset.
+struct Plane {
+  Vec3 normal;
+  double offset;
+};
+
+/// A convex solid: the intersection of the planes or, when there are none, the ellipsoid that fills the
+/// bounds.
+struct Part {
+  Box3 bounds;
+  std::vector<Plane> planes;
+  std::vector<Box3> pockets;  ///< Cut out of the solid's surface: windows, wheel arches.
+  double free_path = 0;       ///< Leaves: mean metres that a ray travels inside. 0: opaque.
+  double loss = 0;            ///< Share of the rays that give no return: glass.
+};
+
+struct Model {
+  StreetObjectKind kind;
+  std::vector<Part> parts;
+  Box3 bounds;
+};
+
+/// Each draws one specimen from `random`.
+Model make_car(SplitMix64& random);
+Model make_pedestrian(SplitMix64& random);
+Model make_lamp_post(SplitMix64& random);
+Model make_sign_post(SplitMix64& random);
+Model make_house(SplitMix64& random);
+Model make_hedge_or_wall(SplitMix64& random);
+Model make_tree(SplitMix64& random);
+Model make_bush(SplitMix64& random);
+
+}  // namespace pcl_bv

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The table of scenes and the reader of their names.
+#include "pcl_bv/synth/synth.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <vector>
+
+#include "pcl_bv/synth/shapes.h"
+#include "pcl_bv/synth/street.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::uint64_t max_points = 2'000'000'000;
+constexpr std::uint64_t max_frames = 1'000'000;
+
+struct Scene {
+  std::string_view name;
+  std::size_t points;
+  bool fixed_size;
+  SynthCloud (*make)(std::size_t points, std::uint64_t seed);
+};
+
+SynthCloud make_paper(std::size_t points, std::uint64_t seed) {
+  return make_surface(points, seed, static_cast<double>(points));
+}
+
+constexpr std::array scenes{
+    Scene{"street", StreetOptions{}.points, false,
+          [](std::size_t points, std::uint64_t seed) {
+            return make_street_frame({points, seed}, 0).cloud;
+          }},
+    Scene{"sphere", 100'000, false, make_sphere},
+    Scene{"box", 100'000, false, make_box},
+    Scene{"gauss", 100'000, false, make_gauss},
+    Scene{"surface", 100'000, false,
+          [](std::size_t points, std::uint64_t seed) { return make_surface(points, seed); }},
+    Scene{"paper-4010", 4'010, true, make_paper},
+    Scene{"paper-7260", 7'260, true, make_paper},
+    Scene{"paper-30892", 30'892, true, make_paper},
+    Scene{"paper-32875", 32'875, true, make_paper},
+    Scene{"paper-48485", 48'485, true, make_paper},
+    Scene{"paper-100722", 100'722, true, make_paper},
+    Scene{"paper-327323", 327'323, true, make_paper},
+};
+
+const Scene& find_scene(std::string_view name) {
+  const auto scene =
+      std::find_if(scenes.begin(), scenes.end(), [name](const Scene& s) { return s.name == name; });
+  if (scene == scenes.end()) {
+    throw std::invalid_argument("unknown scene '" + std::string(name) + "': it is one of " + synth_names());
+  }
+  return *scene;
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t colon = text.find(':'); colon != text.npos; colon = text.find(':')) {
+    parts.push_back(text.substr(0, colon));
+    text.remove_prefix(colon + 1);
+  }
+  parts.push_back(text);
+  return parts;
+}
+
+std::uint64_t whole_number(std::string_view what, std::string_view text, std::uint64_t low,
+                           std::uint64_t high) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value < low || value > high) {
+    throw std::invalid_argument(std::string(what) + " '" + std::string(text) +
+                                "' is not a whole number from " + std::to_string(low) + " to " +
+                                std::to_string(high));
+  }
+  return value;
+}
+
+/// The parts of NAME[:count_name[:SEED]].
+std::vector<std::string_view> split_spec(std::string_view text, std::string_view count_name) {
+  std::vector<std::string_view> parts = split(text);
+  if (parts.size() > 3) {
+    throw std::invalid_argument("'" + std::string(text) + "' has more parts than " + std::string(parts[0]) +
+                                "[:" + std::string(count_name) + "[:SEED]]");
+  }
+  return parts;
+}
+
+std::uint64_t seed_of(const std::vector<std::string_view>& parts) {
+  return parts.size() > 2 ? whole_number("SEED", parts[2], 0, UINT64_MAX) : 1;
+}
+
+}  // namespace
+
+SynthSpec parse_synth(std::string_view text) {
+  const auto parts = split_spec(text, "POINTS");
+  const Scene& scene = find_scene(parts[0]);
+  SynthSpec spec{std::string(scene.name), scene.points, seed_of(parts)};
+  if (parts.size() > 1) spec.points = whole_number("POINTS", parts[1], 1, max_points);
+  if (scene.fixed_size && spec.points != scene.points) {
+    throw std::invalid_argument("POINTS '" + std::string(parts[1]) + "' is not allowed: " + spec.name +
+                                " has " + std::to_string(scene.points) + " points");
+  }
+  if (spec.name == "street") spec.points = street_rays(spec.points);
+  return spec;
+}
+
+SynthCloud make_synth(const SynthSpec& spec) {
+  return find_scene(spec.name).make(spec.points, spec.seed);
+}
+
+std::string synth_names() {
+  std::string names;
+  for (const Scene& scene : scenes)
+    names.append(names.empty() ? "" : ", ").append(scene.name);
+  return names;
+}
+
+StreetSequenceSpec parse_street_sequence(std::string_view text) {
+  const auto parts = split_spec(text, "FRAMES");
+  if (parts[0] != "street-sequence") {
+    throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) + "': it is street-sequence");
+  }
+  StreetSequenceSpec spec;
+  spec.seed = seed_of(parts);
+  if (parts.size() > 1) spec.frames = whole_number("FRAMES", parts[1], 1, max_frames);
+  return spec;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// From a generated cloud to the form in which files are written.
+#include "pcl_bv/synth/synth_cloud.h"
+
+#include "pcl_bv/io/raw_cloud_edit.h"
+
+namespace pcl_bv {
+
+RawCloud to_raw_cloud(const SynthCloud& cloud) {
+  RawCloud raw = make_cloud(cloud.xyz);
+  if (!cloud.object.empty()) set_uint32_field(raw, "object", cloud.object);
+  if (!cloud.ground.empty()) set_uint32_field(raw, "ground", cloud.ground);
+  raw.height = cloud.height;
+  raw.width = cloud.size() / cloud.height;
+  return raw;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command synth, run as users run it: by exit status, files and what it says where.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/synth/street.h"
+#include "pcl_bv/synth/synth.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Outcome {
+  int status;
+  std::string out, err;
+};
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream content;
+  content << file.rdbuf();
+  return content.str();
+}
+
+class SynthCommand : public testing::Test {
+ protected:
+  SynthCommand() {
+    std::string pattern = (fs::temp_directory_path() / "pcl_bv_synth_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~SynthCommand() override { fs::remove_all(folder_); }
+
+  fs::path path(const std::string& name) const { return folder_ / name; }
+
+  Outcome run(const std::string& arguments) const {
+    const std::string command = std::string(PCL_BV_BIN_DIR "/synth ") + arguments + " >" +
+                                path("out").string() + " 2>" + path("err").string() + " </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(path("out")), content_of(path("err"))};
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(SynthCommand, WritesTheSceneThatTheLibraryMakes) {
+  for (const std::string scene : {"gauss:1000:3", "street:6400:2", "paper-4010"}) {
+    SCOPED_TRACE(scene);
+    const Outcome outcome = run(scene + " " + path("a.pcd").string());
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.out + outcome.err, "");
+    const RawCloud cloud = read_pcd(path("a.pcd"));
+    const RawCloud expected = to_raw_cloud(make_synth(parse_synth(scene)));
+    EXPECT_EQ(cloud.data, expected.data);
+    EXPECT_EQ(cloud.width, expected.width);
+    EXPECT_EQ(cloud.height, expected.height);
+    EXPECT_THAT(content_of(path("a.pcd")), HasSubstr("\nDATA binary\n"));
+  }
+}
+
+TEST_F(SynthCommand, WritesASequenceIntoAFolderThatItMakes) {
+  const fs::path sweeps = path("deep") / "sweeps";
+  const Outcome outcome = run("street-sequence:2:7 " + sweeps.string());
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  EXPECT_EQ(std::distance(fs::directory_iterator(sweeps), fs::directory_iterator{}), 2);
+  for (const std::size_t frame : {0u, 1u}) {
+    const fs::path file = sweeps / ("000000000" + std::to_string(frame) + ".pcd");
+    EXPECT_EQ(read_pcd(file).data, to_raw_cloud(make_street_frame({128'000, 7}, frame).cloud).data);
+  }
+}
+
+TEST_F(SynthCommand, SaysInOneLineWhyAnOutputWasNotWritten) {
+  std::ofstream(path("file")) << "not a folder";
+  const std::string below_a_file = (path("file") / "a.pcd").string();
+  const std::string no_folder = (path("none") / "a.pcd").string();
+  for (const std::string& arguments :
+       {"box:10 " + below_a_file, "box:10 " + no_folder, "street-sequence:1 " + path("file").string()}) {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(outcome.err, StartsWith("synth: " + arguments.substr(arguments.find(' ') + 1) + ": "));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+  }
+}
+
+TEST_F(SynthCommand, WrongUseIsStatusTwoAndWritesNothing) {
+  const std::string file = path("a.pcd").string();
+  for (const std::string& arguments :
+       {std::string(), std::string("box"), "cube " + file, "box:0 " + file, "paper-4010:5 " + file,
+        "street-sequence:0 " + file, "box " + file + " more", "--unknown box " + file}) {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err, "");
+    EXPECT_FALSE(fs::exists(file));
+  }
+}
+
+TEST_F(SynthCommand, HelpNamesTheScenesAndShowsExamples) {
+  const Outcome outcome = run("--help");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("paper-327323"));
+  EXPECT_THAT(outcome.out, HasSubstr("synth street-sequence"));
+}
+
+}  // namespace
+}  // namespace pcl_bv
