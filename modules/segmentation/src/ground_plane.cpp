@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The split: settings checked, a plane found, every point put on its side.
+#include "pcl_bv/segmentation/ground_plane.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "ground_sample.h"
+#include "pcl_bv/kernels/float_environment.h"
+#include "plane_search.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::array<std::string_view, 6> axis_names{"x", "y", "z", "-x", "-y", "-z"};
+
+void require(bool in_range, const char* name, double value, const char* range) {
+  if (in_range) return;
+  throw std::invalid_argument(std::string("ground plane: ") + name + " is " + std::to_string(value) +
+                              ", must be " + range);
+}
+
+void check(const GroundPlaneSettings& settings) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const double sensor_height = settings.sensor_height.value_or(0);
+  require(settings.distance > 0 && settings.distance <= largest, "distance", settings.distance,
+          "finite and greater than 0");
+  require(settings.max_slope_degrees >= 0 && settings.max_slope_degrees <= 89, "max_slope_degrees",
+          settings.max_slope_degrees, "0 to 89");
+  require(sensor_height >= 0 && sensor_height <= largest, "sensor_height", sensor_height,
+          "finite and at least 0");
+  require(settings.iterations >= 1 && settings.iterations <= 1'000'000, "iterations", settings.iterations,
+          "1 to 1000000");
+}
+
+void check_numbers(const PointView& points) {
+  constexpr std::size_t max_number = std::numeric_limits<std::int32_t>::max();
+  if (points.indices || points.empty() || points.first + points.count - 1 <= max_number) return;
+  throw std::length_error("point number " + std::to_string(points.first + points.count - 1) +
+                          " does not fit an index (0 .. 2147483647)");
+}
+
+// Every number is written to both lists, and kept in one by moving its end: half the time of a branch that a
+// cloud in scan order makes unpredictable.
+void classify(const PointView& points, double distance, GroundSplit& split) {
+  split.ground.resize(points.count);
+  split.rest.resize(points.count);
+  const Plane plane{split.normal, split.offset};
+  std::size_t ground = 0;
+  std::size_t rest = 0;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) continue;
+    const bool is_ground = split.found && height_above(plane, {p.x, p.y, p.z}) <= distance;
+    split.ground[ground] = split.rest[rest] = static_cast<std::int32_t>(points.index(i));
+    ground += is_ground;
+    rest += !is_ground;
+  }
+  split.ground.resize(ground);
+  split.rest.resize(rest);
+}
+
+}  // namespace
+
+UpAxis parse_up_axis(std::string_view text) {
+  const auto* const found = std::find(axis_names.begin(), axis_names.end(), text);
+  if (found == axis_names.end()) {
+    throw std::invalid_argument("up axis is \"" + std::string(text) + "\", must be x, y, z, -x, -y or -z");
+  }
+  return static_cast<UpAxis>(found - axis_names.begin());
+}
+
+Eigen::Vector3d up_direction(UpAxis axis) {
+  const int number = static_cast<int>(axis);
+  return number < 3 ? Eigen::Vector3d::Unit(number) : Eigen::Vector3d(-Eigen::Vector3d::Unit(number - 3));
+}
+
+void split_ground(const PointView& points, const GroundPlaneSettings& settings, GroundSplit& split) {
+  const FloatEnvironment environment;
+  check(settings);
+  check_numbers(points);
+  const Eigen::Vector3d origin = sample_ground(points, settings.up, settings.seed, split.scratch);
+  const std::optional<Plane> plane = find_ground_plane(split.scratch, -origin, settings);
+  split.found = plane.has_value();
+  split.normal = plane ? plane->normal : Eigen::Vector3d::Zero();
+  split.offset = plane ? plane->offset + dot(plane->normal, origin) : 0;
+  classify(points, settings.distance, split);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// RANSAC with a cost that dislikes points below the plane, then least squares.
+#include "plane_search.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace pcl_bv {
+namespace {
+
+using Eigen::Vector3d;
+using Points = std::vector<Vector3d>;
+
+constexpr double max_above = 1;
+constexpr double max_below = 2;
+constexpr unsigned refinements = 3;
+
+// Sine of the smallest angle between two sides of a triangle that gives a plane; also the ratio of widths of
+// a set of points that does. Thinner ones are noise across a line, as scan lines on a wall are.
+constexpr double min_sine = 0.02;
+
+Vector3d normalized(const Vector3d& v) {
+  const double norm2 = dot(v, v);
+  return norm2 > 0 ? Vector3d(v / std::sqrt(norm2)) : v;
+}
+
+// What a plane must keep.
+struct Limits {
+  Vector3d up;
+  double min_cosine;
+  Vector3d sensor;
+  std::optional<double> sensor_height;
+
+  bool allow(const Plane& plane) const {
+    const double cosine = dot(plane.normal, up);
+    if (!(cosine >= min_cosine)) return false;
+    return !sensor_height ||
+           std::abs(height_above(plane, sensor) / cosine - *sensor_height) <= ground_height_tolerance;
+  }
+};
+
+// Through `point`, turned to the upper side.
+Plane plane_at(const Vector3d& point, const Vector3d& unit_normal, const Vector3d& up) {
+  const Vector3d normal = dot(unit_normal, up) < 0 ? Vector3d(-unit_normal) : unit_normal;
+  return {normal, dot(normal, point)};
+}
+
+std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                                   const Limits& limits) {
+  const Vector3d ab = normalized(b - a);
+  const Vector3d ac = normalized(c - a);
+  const Vector3d normal = ab.cross(ac);
+  const double sine = std::sqrt(dot(normal, normal));
+  if (!(sine >= min_sine)) return {};
+  const Plane plane = plane_at(a, normal / sine, limits.up);
+  if (!limits.allow(plane)) return {};
+  return plane;
+}
+
+// Sum over the points of the squared height in units of `distance`, cut off at max_above and max_below. A
+// plane that cannot beat `best` is given up early. Eigen's min and max never branch (compilers do, three
+// times slower since heights are unpredictable); each of four lanes adds up in order, so the bits do not
+// depend on packets.
+double cost_of(const Plane& plane, const Points& points, double distance, double best) {
+  using Lanes = Eigen::Array4d;
+  constexpr std::size_t groups = 16;
+  const Vector3d normal = plane.normal / distance;
+  const double offset = plane.offset / distance;
+  double cost = 0;
+  for (std::size_t begin = 0; begin < points.size() && cost < best; begin += 4 * groups) {
+    const std::size_t n = std::min(4 * groups, points.size() - begin);
+    std::array<double, 4 * groups> heights{};
+    for (std::size_t i = 0; i < n; ++i)
+      heights[i] = dot(normal, points[begin + i]) - offset;
+    Lanes sums = Lanes::Zero();
+    for (std::size_t i = 0; i < 4 * groups; i += 4)
+      sums += Eigen::Map<const Lanes>(heights.data() + i).min(max_above).max(-max_below).square();
+    cost += (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  }
+  return cost;
+}
+
+// The least-squares plane of the points within `distance` of `plane`.
+std::optional<Plane> refine(const Plane& plane, const Points& points, double distance, const Limits& limits) {
+  const auto near = [&](const Vector3d& p) { return std::abs(height_above(plane, p)) <= distance; };
+  Vector3d sum = Vector3d::Zero();
+  double count = 0;
+  for (const Vector3d& p : points) {
+    if (!near(p)) continue;
+    sum += p;
+    ++count;
+  }
+  if (count < 3) return {};
+  const Vector3d mean = sum / count;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Vector3d& p : points) {
+    if (near(p)) scatter += (p - mean) * (p - mean).transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  const Vector3d& widths2 = solver.eigenvalues();
+  if (!(widths2[1] >= min_sine * min_sine * widths2[2])) return {};
+  const Plane refined = plane_at(mean, solver.eigenvectors().col(0), limits.up);
+  if (!limits.allow(refined)) return {};
+  return refined;
+}
+
+// The best plane through three of the lowest points: those of the ground are among them even below tables.
+std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
+                            const GroundPlaneSettings& settings) {
+  const Points& lowest = points.lowest;
+  if (lowest.size() < 3) return {};
+  std::mt19937 random(settings.seed);  // its numbers are fixed by the standard
+  const auto pick = [&]() -> const Vector3d& {
+    return lowest[static_cast<std::size_t>(std::uint64_t{random()} * lowest.size() >> 32)];
+  };
+  std::optional<Plane> best;
+  double best_cost =
+      max_above * max_above * static_cast<double>(points.support.size());  // of a plane far below
+  for (unsigned i = 0; i < settings.iterations; ++i) {
+    const Vector3d& a = pick();
+    const Vector3d& b = pick();
+    const Vector3d& c = pick();
+    const std::optional<Plane> plane = plane_through(a, b, c, limits);
+    if (!plane) continue;
+    const double cost = cost_of(*plane, points.support, settings.distance, best_cost);
+    if (!(cost < best_cost)) continue;
+    best = plane;
+    best_cost = cost;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Plane> find_ground_plane(const GroundScratch& points, const Vector3d& sensor,
+                                       const GroundPlaneSettings& settings) {
+  const Limits limits{up_direction(settings.up),
+                      std::cos(settings.max_slope_degrees * std::numbers::pi / 180), sensor,
+                      settings.sensor_height};
+  std::optional<Plane> best = search(points, limits, settings);
+  // Which plane it is, the area has said; where it is exactly, all points say, or the many near the sensor
+  // would be sacrificed to the few far off. No refined plane: the three points lay within the limits, but not
+  // what they stand for, a strip of a wall.
+  for (unsigned i = 0; best && i < refinements; ++i)
+    best = refine(*best, points.sample, settings.distance, limits);
+  return best;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The search of the ground's plane among a few thousand points.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "pcl_bv/segmentation/ground_plane.h"
+
+namespace pcl_bv {
+
+/// The points p with normal.p = offset; the normal is of unit length and on the upper side.
+struct Plane {
+  Eigen::Vector3d normal;
+  double offset;
+};
+
+/// a.b, added from the left: Eigen leaves the order to the instruction set.
+inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
+/// Signed distance of p from the plane.
+inline double height_above(const Plane& plane, const Eigen::Vector3d& p) {
+  return dot(plane.normal, p) - plane.offset;
+}
+
+/// The ground of the points sampled by sample_ground(), in their frame, as split_ground() says. `sensor` is
+/// the origin of the cloud in that frame.
+std::optional<Plane> find_ground_plane(const GroundScratch& points, const Eigen::Vector3d& sensor,
+                                       const GroundPlaneSettings& settings);
+
+}  // namespace pcl_bv
