@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The clouds that the arguments name.
+
+#include "inputs.h"
+
+#include <algorithm>
+#include <set>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/list_clouds.h"
+#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/synth/synth.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view synth_prefix = "synth:";
+
+bool is_synth(const std::string& input) {
+  return input.starts_with(synth_prefix);
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code unknown;
+  return !is_synth(path) && fs::is_directory(path, unknown);
+}
+
+std::vector<Job> expand(const std::string& argument) {
+  if (!is_folder(argument)) return {{argument, {}, {}, {}}};
+  try {
+    std::vector<Job> jobs;
+    for (const fs::path& path : list_clouds(argument))
+      jobs.push_back({path.string(), {}, {}, {}});
+    if (!jobs.empty()) return jobs;
+    return {{argument, "no .pcd file in this folder", {}, {}}};
+  } catch (const IoError& error) {
+    return {{argument, error.what(), {}, {}}};
+  }
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+std::string stem(const std::string& input) {
+  if (!is_synth(input)) return fs::path(input).stem().string();
+  std::string name = input.substr(synth_prefix.size());
+  std::replace(name.begin(), name.end(), ':', '-');
+  return name;
+}
+
+/// Notes where a job writes to. Throws UsageError if another one writes there too.
+void claim(std::set<fs::path>& taken, const fs::path& target) {
+  if (!taken.insert(fs::absolute(target).lexically_normal()).second) {
+    throw UsageError(target.string() + ": more than one result would be written to this file");
+  }
+}
+
+}  // namespace
+
+std::vector<Job> plan_jobs(const Options& options) {
+  std::vector<Job> jobs;
+  for (const std::string& argument : options.inputs) {
+    for (Job& job : expand(argument))
+      jobs.push_back(std::move(job));
+  }
+  const bool several = jobs.size() > 1 || is_folder(options.inputs.front());
+  const auto target = [&](const fs::path& given, const Job& job, const char* extension) {
+    return several || is_folder(given.string()) ? given / (stem(job.input) + extension) : given;
+  };
+  std::set<fs::path> taken;
+  if (options.output) claim(taken, *options.output);
+  for (Job& job : jobs) {
+    if (job.error) continue;
+    if (options.labels) claim(taken, job.labels.emplace(target(*options.labels, job, ".pcd")));
+    if (options.image) claim(taken, job.image.emplace(target(*options.image, job, ".png")));
+  }
+  return jobs;
+}
+
+RawCloud load_cloud(const Job& job) {
+  if (job.error) throw IoError(*job.error);
+  if (is_synth(job.input)) {
+    const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
+    return to_raw_cloud(make_synth(parse_synth(scene)));
+  }
+  const std::string extension = lower_case(fs::path(job.input).extension().string());
+  if (extension == ".ply" || extension == ".bin") {
+    throw IoError("reading " + extension + " files is not available yet");
+  }
+  return read_pcd(job.input);
+}
+
+}  // namespace pcl_bv

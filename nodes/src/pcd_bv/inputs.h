@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The clouds that the arguments name, and where the files made from each one go.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options.h"
+#include "pcl_bv/io/raw_cloud.h"
+
+namespace pcl_bv {
+
+/// One cloud to be done.
+struct Job {
+  std::string input;                 ///< A file, or synth:NAME[:POINTS[:SEED]].
+  std::optional<std::string> error;  ///< Why there is nothing to load, for a folder without clouds.
+  std::optional<std::filesystem::path> labels, image;
+};
+
+/// All clouds, folders expanded in natural order. Throws UsageError if two results would go to the same file.
+std::vector<Job> plan_jobs(const Options& options);
+
+/// The cloud of a job. Throws IoError, or std::invalid_argument for an unknown scene, with the reason.
+RawCloud load_cloud(const Job& job);
+
+}  // namespace pcl_bv

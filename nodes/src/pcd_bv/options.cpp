@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The options of pcd_bv and their help.
+
+#include "options.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "values.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  pcd_bv scan.pcd                                        volumes around the whole cloud
+  pcd_bv --volume dop26 --check --format json *.pcd      each proven to hold every point
+  pcd_bv --ground plane --cluster 0.5 --image o.png s.pcd  around each object, and a picture
+  pcd_bv --cluster 0.5 --format jsonl sweeps/ | jq .counts
+  pcd_bv --timings synth:street
+
+Exit status: 0 done; 1 some input could not be processed or an output not written (the
+other inputs are still done); 2 wrong use, or something not available yet; 3 --check found
+a point outside. The greater reason wins: 2, 3, 1, 0.
+PCL_BV_ISA in the environment sets the default of --isa.)";
+
+/// Options of the documentation that this build refuses, so that a typing error and a missing feature read
+/// differently.
+constexpr const char* unavailable[] = {"--mesh", "--growth", "--info", "--progress"};
+
+/// The command line as texts, before the values are looked at.
+struct Texts {
+  std::vector<std::string> inputs;
+  std::string volume, range, cluster, min_size, max_size, ground, up, sensor_height, format, output, labels,
+      image, view, threads, isa;
+  bool check = false, timings = false, version = false;
+};
+
+std::string default_names() {
+  std::string names;
+  for (const Method* method : default_methods())
+    names += (names.empty() ? "" : ",") + std::string(method->name);
+  return names;
+}
+
+void declare(CLI::App& app, Texts& texts) {
+  const auto option = [&](const char* name, std::string& text, const char* type, const std::string& help) {
+    app.add_option(name, text, help)->type_name(type);
+  };
+  app.set_help_flag("-h,--help", "Show this text");
+  app.add_flag("--version", texts.version, "Show the version and the usable instruction sets");
+  app.add_option("INPUT", texts.inputs, ".pcd files, folders of them, synth:NAME[:POINTS[:SEED]]")
+      ->type_name("");
+  option("--volume", texts.volume, "LIST", "Methods separated by commas, or all (" + default_names() + ")");
+  option("--range", texts.range, "MIN:MAX", "Drop points nearer or farther than this from the origin");
+  option("--cluster", texts.cluster, "TOL",
+         "Segment first: points nearer than TOL to each other are one object");
+  option("--min-size", texts.min_size, "N", "Drop clusters of fewer points (10)");
+  option("--max-size", texts.max_size, "N", "Drop clusters of more points (no limit)");
+  option("--ground", texts.ground, "KIND", "Take the ground away first: none or plane (none)");
+  option("--up", texts.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
+  option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
+  option("--format", texts.format, "FORMAT", "text, json or jsonl (text)");
+  option("--output", texts.output, "FILE", "Write the results here, not to standard output");
+  option("--labels", texts.labels, "FILE.pcd",
+         "Write the input with a field `label`; several inputs: a folder");
+  option("--image", texts.image, "FILE.png", "Draw cloud and volumes; several inputs: a folder");
+  option("--view", texts.view, "NAME", "From where the picture is taken: iso (iso)");
+  option("--threads", texts.threads, "N", "Threads, 0 for all processors (0)");
+  option("--isa", texts.isa, "NAME", "Instruction set, of those that --version lists (auto)");
+  app.add_flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
+  app.add_flag("--timings", texts.timings, "Add the seconds of each stage");
+  for (const char* name : unavailable)
+    app.add_option(name)->expected(0, 1)->group("");  // not in the help
+}
+
+std::string version_text() {
+  std::string text = "pcd_bv " PCL_BV_VERSION "\ninstruction sets:";
+  for (const Isa isa : usable_isas())
+    text += ' ' + std::string(isa_name(isa));
+  return text + '\n';
+}
+
+std::optional<std::filesystem::path> path_or_none(const CLI::App& app, const char* option,
+                                                  const std::string& text) {
+  if (app.count(option) == 0) return std::nullopt;
+  if (text.empty()) throw UsageError(std::string(option) + ": the name is empty");
+  return text;
+}
+
+void refuse_unavailable(const CLI::App& app, const Texts& texts) {
+  for (const char* name : unavailable) {
+    if (app.count(name) > 0) throw not_available_yet(name);
+  }
+  const auto only = [&](const char* option, const std::string& text, std::string_view built,
+                        std::initializer_list<std::string_view> planned) {
+    if (app.count(option) == 0 || text == built) return;
+    for (const std::string_view name : planned) {
+      if (text == name) throw not_available_yet(option + (' ' + text));
+    }
+    throw UsageError(std::string(option) + ": unknown value '" + text + "'; known is " + std::string(built));
+  };
+  only("--view", texts.view, "iso", {"top", "front", "side"});
+  if (std::filesystem::path(texts.image).extension() == ".svg") throw not_available_yet("--image FILE.svg");
+}
+
+Options to_options(const CLI::App& app, const Texts& texts) {
+  constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t max_threads = 1024;
+  const auto given = [&](const char* option) { return app.count(option) > 0; };
+  for (const auto& [option, needed] : {std::pair{"--min-size", "--cluster"},
+                                       {"--max-size", "--cluster"},
+                                       {"--view", "--image"},
+                                       {"--up", "--ground"},
+                                       {"--sensor-height", "--ground"}}) {
+    if (given(option) && !given(needed))
+      throw UsageError(std::string(option) + ": only useful with " + needed);
+  }
+  Options options;
+  options.inputs = texts.inputs;
+  options.methods = given("--volume") ? parse_methods(texts.volume) : default_methods();
+  if (given("--range")) options.range = parse_range(texts.range);
+  if (given("--ground")) options.ground = parse_ground(texts.ground);
+  if (options.ground && given("--up")) options.ground->up = parse_up(texts.up);
+  if (options.ground && given("--sensor-height")) {
+    options.ground->sensor_height = parse_sensor_height(texts.sensor_height);
+  }
+  if (given("--cluster")) options.tolerance = parse_tolerance(texts.cluster);
+  if (given("--min-size")) options.min_size = parse_whole_number("--min-size", texts.min_size, 0, any);
+  if (given("--max-size")) options.max_size = parse_whole_number("--max-size", texts.max_size, 1, any);
+  if (options.min_size > options.max_size) {
+    throw UsageError("--max-size: " + std::to_string(options.max_size) + " is below --min-size " +
+                     std::to_string(options.min_size));
+  }
+  if (given("--format")) options.format = parse_format(texts.format);
+  options.output = path_or_none(app, "--output", texts.output);
+  options.labels = path_or_none(app, "--labels", texts.labels);
+  options.image = path_or_none(app, "--image", texts.image);
+  OpenMP threads;
+  if (given("--threads")) {
+    threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
+  }
+  options.execution = {threads, parse_usable_isa(given("--isa") ? texts.isa : "auto")};
+  options.check = texts.check;
+  options.timings = texts.timings;
+  return options;
+}
+
+}  // namespace
+
+std::variant<Options, std::string> parse_options(int argc, const char* const* argv) {
+  CLI::App app("Bounding volumes of point clouds: boxes, k-DOPs and spheres that hold every point.",
+               "pcd_bv");
+  app.footer(examples);
+  app.get_formatter()->column_width(26);
+  Texts texts;
+  declare(app, texts);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return app.help();
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what() + std::string("; pcd_bv --help lists the options"));
+  }
+  if (texts.version) return version_text();
+  refuse_unavailable(app, texts);
+  if (texts.inputs.empty()) throw UsageError("no INPUT; pcd_bv --help lists the options");
+  return to_options(app, texts);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command line of pcd_bv, checked whole before any work begins.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/segmentation/ground_plane.h"
+
+namespace pcl_bv {
+
+/// Distances from the origin that are kept, both ends included; unit of the points.
+struct RangeFilter {
+  double min = 0;
+  double max = std::numeric_limits<double>::infinity();
+};
+
+enum class OutputFormat { text, json, jsonl };
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::vector<const Method*> methods;
+  std::optional<RangeFilter> range;
+  std::optional<GroundPlaneSettings> ground;  ///< Take the ground away if set.
+  std::optional<float> tolerance;             ///< Cluster if set.
+  std::size_t min_size = 10;
+  std::size_t max_size = std::numeric_limits<std::size_t>::max();
+  OutputFormat format = OutputFormat::text;
+  std::optional<std::filesystem::path> output, labels, image;
+  Execution execution;
+  bool check = false;
+  bool timings = false;
+};
+
+/// Wrong use: what() is the line for standard error.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What the command line asks for: work, or (--help, --version) only a text on standard output. Throws
+/// UsageError.
+std::variant<Options, std::string> parse_options(int argc, const char* const* argv);
+
+}  // namespace pcl_bv

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// One input from file to report.
+
+#include "process.h"
+
+#include <chrono>
+#include <filesystem>
+#include <new>
+#include <utility>
+
+#include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/picture.h"
+#include "pcl_bv/io/raw_cloud_edit.h"
+#include "segment.h"
+
+namespace pcl_bv {
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last call, or since construction.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Fits all methods around all entries.
+void fit(const Segmentation& segmentation, const Options& options, Report& report) {
+  for (const PointView& points : segmentation.entries) {
+    ClusterEntry& cluster = report.clusters.emplace_back();
+    cluster.id = report.clusters.size() - 1;
+    for (const Method* method : options.methods) {
+      VolumeEntry& entry = cluster.volumes.emplace_back();
+      entry.method = method->name;
+      const EstimationResult result = method->fit(points, entry.volume, options.execution);
+      cluster.points = result.used;
+      if (!looks_at_points(options)) report.counts.nonfinite = result.dropped;
+    }
+  }
+}
+
+/// Verifies all volumes of all entries; outside if a point is.
+Status check(const Segmentation& segmentation, const Options& options, Report& report) {
+  Status status = Status::done;
+  for (ClusterEntry& cluster : report.clusters) {
+    for (VolumeEntry& entry : cluster.volumes) {
+      entry.outside = verify(entry.volume, segmentation.entries[cluster.id], options.execution).outside;
+      if (*entry.outside == 0) continue;
+      complain(report.file + ": cluster " + std::to_string(cluster.id) + ": " + entry.method + ": " +
+               std::to_string(*entry.outside) + " points outside");
+      status = Status::outside;
+    }
+  }
+  return status;
+}
+
+/// Runs `write`, which makes the file `path`, and its folder before.
+template <typename Write>
+Status write_file(const std::filesystem::path& path, const Write& write) {
+  try {
+    std::error_code failure;
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failure);
+    write();
+    return Status::done;
+  } catch (const std::bad_alloc&) {
+    complain(path.string() + ": not enough memory");
+  } catch (const std::exception& error) {
+    complain(path.string() + ": " + error.what());
+  }
+  return Status::failed;
+}
+
+Picture make_picture(const Segmentation& segmentation, const std::vector<std::uint32_t>& labels,
+                     const Options& options, const Report& report) {
+  Picture picture;
+  picture.points = options.tolerance ? segmentation.in_range : segmentation.points;
+  if (options.tolerance) picture.labels = labels.data();
+  for (const ClusterEntry& cluster : report.clusters) {
+    for (std::size_t m = 0; m < cluster.volumes.size(); ++m) {
+      const std::size_t colour = options.tolerance ? cluster.id : m;
+      picture.volumes.push_back({cluster.volumes[m].volume, static_cast<std::uint32_t>(colour)});
+    }
+  }
+  return picture;
+}
+
+/// The files that were asked for beside the report. Changes the cloud's records, so it comes last.
+Status write_files(const Job& job, const Options& options, const Segmentation& segmentation,
+                   const Report& report, RawCloud& cloud) {
+  Status status = Status::done;
+  if (!job.labels && !job.image) return status;
+  const std::vector<std::uint32_t> label = labels(segmentation, cloud.size());
+  if (job.image) {
+    status = worse(status, write_file(*job.image, [&] {
+                     write_picture(*job.image, make_picture(segmentation, label, options, report));
+                   }));
+  }
+  if (job.labels) {
+    status = worse(status, write_file(*job.labels, [&] {
+                     set_uint32_field(cloud, "label", label);
+                     write_pcd(*job.labels, cloud);
+                   }));
+  }
+  return status;
+}
+
+Status process(const Job& job, const Options& options, Report& report) {
+  Stopwatch watch;
+  Seconds seconds;
+  RawCloud cloud = load_cloud(job);
+  seconds.read = watch.lap();
+  const Segmentation segmentation = segment(cloud.xyz(), options);
+  seconds.segment = watch.lap();
+  report.points = cloud.size();
+  report.counts = segmentation.counts;
+  fit(segmentation, options, report);
+  seconds.fit = watch.lap();
+  if (options.timings) report.seconds = seconds;
+  const Status checked = options.check ? check(segmentation, options, report) : Status::done;
+  return worse(checked, write_files(job, options, segmentation, report, cloud));
+}
+
+}  // namespace
+
+Outcome process(const Job& job, const Options& options) {
+  Outcome outcome;
+  outcome.report.file = job.input;
+  try {
+    outcome.status = process(job, options, outcome.report);
+    return outcome;
+  } catch (const std::bad_alloc&) {
+    outcome.report.error = "not enough memory";
+  } catch (const std::exception& error) {
+    outcome.report.error = error.what();
+  }
+  complain(job.input + ": " + *outcome.report.error);
+  outcome.status = Status::failed;
+  return outcome;
+}
+
+}  // namespace pcl_bv

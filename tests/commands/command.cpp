@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Runs the built pcd_bv.
+
+#include "command.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace pcl_bv::test {
+namespace {
+
+std::vector<std::string> environment(const std::string& isa) {
+  std::vector<std::string> variables;
+  for (char** entry = environ; *entry; ++entry) {
+    if (isa.empty() || !std::string_view(*entry).starts_with("PCL_BV_ISA=")) variables.emplace_back(*entry);
+  }
+  if (!isa.empty()) variables.push_back("PCL_BV_ISA=" + isa);
+  return variables;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> list;
+  for (std::string& text : texts)
+    list.push_back(text.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+int write_end_without_reader() {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  close(ends[0]);
+  return ends[1];
+}
+
+int spawn_and_wait(std::vector<std::string> arguments, std::vector<std::string> variables,
+                   const posix_spawn_file_actions_t& actions) {
+  pid_t child = 0;
+  const int error = posix_spawn(&child, arguments[0].c_str(), &actions, nullptr, pointers(arguments).data(),
+                                pointers(variables).data());
+  if (error != 0) throw std::runtime_error("cannot start " + arguments[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+std::size_t Result::error_lines() const {
+  return static_cast<std::size_t>(std::count(err.begin(), err.end(), '\n'));
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+PcdBv::PcdBv() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "pcd_bv_test_XXXXXX").string();
+  if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a folder for the test");
+  folder_ = pattern;
+}
+
+PcdBv::~PcdBv() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+Result PcdBv::run(const std::vector<std::string>& arguments, const Surroundings& surroundings) const {
+  const std::string captured = at("captured.out"), errors = at("captured.err");
+  const std::string out = surroundings.output.empty() ? captured : surroundings.output;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  const int dead_end = surroundings.nobody_reads ? write_end_without_reader() : -1;
+  if (dead_end >= 0) {
+    posix_spawn_file_actions_adddup2(&actions, dead_end, STDOUT_FILENO);
+  } else {
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0644);
+  }
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0644);
+  std::vector<std::string> command{PCL_BV_BIN_DIR "/pcd_bv"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  Result result;
+  result.status = spawn_and_wait(std::move(command), environment(surroundings.isa), actions);
+  posix_spawn_file_actions_destroy(&actions);
+  if (dead_end >= 0) close(dead_end);
+  result.out = read_file(captured);
+  result.err = read_file(errors);
+  std::filesystem::remove(captured);
+  std::filesystem::remove(errors);
+  return result;
+}
+
+std::string PcdBv::file(std::string_view name, std::string_view content) const {
+  const std::filesystem::path path = folder_ / name;
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << content;
+  return path.string();
+}
+
+std::string PcdBv::header(std::size_t points, std::string_view data) {
+  const std::string n = std::to_string(points);
+  return "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + n +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA " + std::string(data) + "\n";
+}
+
+std::string PcdBv::ascii(std::string_view name, const std::vector<std::string>& points) const {
+  std::string content = header(points.size());
+  for (const std::string& point : points)
+    content += point + '\n';
+  return file(name, content);
+}
+
+}  // namespace pcl_bv::test

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Runs the built pcd_bv as a user does, in a folder of the test's own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pcl_bv::test {
+
+using Json = nlohmann::ordered_json;
+
+struct Result {
+  int status = -1;  ///< 128 + signal if it was killed.
+  std::string out;
+  std::string err;
+
+  std::size_t error_lines() const;
+  Json json() const { return Json::parse(out); }
+};
+
+struct Surroundings {
+  std::string isa{};          ///< PCL_BV_ISA; empty: as this test has it.
+  std::string output{};       ///< File to be standard output; empty: captured.
+  bool nobody_reads = false;  ///< Standard output is a pipe whose reader has gone.
+};
+
+std::string read_file(const std::filesystem::path& path);
+
+/// A fixture with an empty folder, removed at the end.
+class PcdBv : public testing::Test {
+ protected:
+  PcdBv();
+  ~PcdBv() override;
+
+  Result run(const std::vector<std::string>& arguments, const Surroundings& surroundings = {}) const;
+
+  /// The path, as text, of a file or folder in the test's folder.
+  std::string at(std::string_view name) const { return (folder_ / name).string(); }
+
+  /// Each makes a file and gives its path.
+  std::string file(std::string_view name, std::string_view content) const;
+  std::string ascii(std::string_view name, const std::vector<std::string>& points) const;
+
+  /// A .pcd header for float32 x y z.
+  static std::string header(std::size_t points, std::string_view data = "ascii");
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace pcl_bv::test

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clustering from the command line, and the labels that show it.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+
+#include "command.h"
+#include "pcl_bv/io/pcd.h"
+
+namespace pcl_bv::test {
+namespace {
+
+constexpr std::uint32_t none = 4294967295;
+
+const PointField& field(const RawCloud& cloud, std::string_view name) {
+  for (const PointField& candidate : cloud.fields) {
+    if (candidate.name == name) return candidate;
+  }
+  throw std::runtime_error("no field " + std::string(name));
+}
+
+std::vector<std::uint32_t> labels_of(const RawCloud& cloud) {
+  const PointField& label = field(cloud, "label");
+  EXPECT_EQ(label.type, 'U');
+  EXPECT_EQ(label.size, 4u);
+  std::vector<std::uint32_t> labels(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::memcpy(&labels[i], cloud.data.data() + i * cloud.point_step + label.offset, 4);
+  }
+  return labels;
+}
+
+/// Rows of points 0.1 apart, `gap` from row to row: sizes 12, 3, 30.
+std::vector<std::string> three_rows() {
+  std::vector<std::string> points;
+  int row = 0;
+  for (const int size : {12, 3, 30}) {
+    for (int i = 0; i < size; ++i)
+      points.push_back(std::to_string(0.1 * i) + " " + std::to_string(10 * row) + " 1");
+    ++row;
+  }
+  return points;
+}
+
+TEST_F(PcdBv, ClustersComeLargestFirstAndSmallOnesAreCounted) {
+  auto points = three_rows();
+  points.push_back("nan nan nan");
+  const std::string cloud = ascii("rows.pcd", points);
+  const Json report = run({"--format", "jsonl", "--cluster", "0.2", cloud}).json();
+  ASSERT_EQ(report["clusters"].size(), 2u);
+  EXPECT_EQ(report["clusters"][0]["id"], 0);
+  EXPECT_EQ(report["clusters"][0]["points"], 30);
+  EXPECT_EQ(report["clusters"][1]["id"], 1);
+  EXPECT_EQ(report["clusters"][1]["points"], 12);
+  EXPECT_EQ(report["counts"]["small"], 3);
+  EXPECT_EQ(report["counts"]["large"], 0);
+  EXPECT_EQ(report["counts"]["nonfinite"], 1);
+}
+
+TEST_F(PcdBv, SizesLimitTheClusters) {
+  const std::string cloud = ascii("rows.pcd", three_rows());
+  const Json report =
+      run({"--format", "jsonl", "--cluster", "0.2", "--min-size", "3", "--max-size", "12", cloud}).json();
+  ASSERT_EQ(report["clusters"].size(), 2u);
+  EXPECT_EQ(report["clusters"][0]["points"], 12);
+  EXPECT_EQ(report["clusters"][1]["points"], 3);
+  EXPECT_EQ(report["counts"]["small"], 0);
+  EXPECT_EQ(report["counts"]["large"], 30);
+}
+
+TEST_F(PcdBv, LabelsAreTheClustersOfTheReport) {
+  const Result result = run({"--format", "jsonl", "--volume", "aabb", "--range", "1:50", "--cluster", "0.3",
+                             "--labels", at("l.pcd"), "synth:street:32000"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json report = result.json();
+  ASSERT_GT(report["clusters"].size(), 3u);
+  const RawCloud cloud = read_pcd(at("l.pcd"));
+  ASSERT_EQ(report["points"], cloud.size());
+  const std::vector<std::uint32_t> labels = labels_of(cloud);
+  std::map<std::uint32_t, std::array<std::array<double, 3>, 2>> extent;
+  std::map<std::uint32_t, std::size_t> size;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Coordinates p = load_point(cloud.xyz(), i);
+    const std::array<double, 3> at{p.x, p.y, p.z};
+    auto& [low, high] = extent.try_emplace(labels[i], std::array{at, at}).first->second;
+    low = {std::min(low[0], p.x), std::min(low[1], p.y), std::min(low[2], p.z)};
+    high = {std::max(high[0], p.x), std::max(high[1], p.y), std::max(high[2], p.z)};
+    ++size[labels[i]];
+  }
+  for (const Json& cluster : report["clusters"]) {
+    const std::uint32_t id = cluster["id"];
+    SCOPED_TRACE(id);
+    EXPECT_EQ(cluster["points"], size[id]);
+    EXPECT_EQ(cluster["volumes"][0]["min"], Json(extent[id][0]));
+    EXPECT_EQ(cluster["volumes"][0]["max"], Json(extent[id][1]));
+  }
+  const Json& counts = report["counts"];
+  const std::size_t dropped = counts["nonfinite"].get<std::size_t>() + counts["range"].get<std::size_t>() +
+                              counts["small"].get<std::size_t>() + counts["large"].get<std::size_t>();
+  EXPECT_EQ(size[none], dropped);
+}
+
+TEST_F(PcdBv, WithoutClusteringEveryUsedPointIsLabelledZero) {
+  const std::string cloud = ascii("c.pcd", {"0 0 0", "nan 0 0", "3 0 0", "9 0 0"});
+  EXPECT_EQ(run({"--range", "1:5", "--labels", at("l.pcd"), cloud}).status, 0);
+  EXPECT_THAT(labels_of(read_pcd(at("l.pcd"))), testing::ElementsAre(none, none, 0, none));
+}
+
+TEST_F(PcdBv, LabelsKeepFieldsOrderShapeAndViewpoint) {
+  std::string text = header(6);
+  const auto put = [&](std::string_view from, std::string_view to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  put("FIELDS x y z", "FIELDS ring x y z label t");
+  put("SIZE 4 4 4", "SIZE 2 4 4 4 1 8");
+  put("TYPE F F F", "TYPE U F F F I F");
+  put("COUNT 1 1 1", "COUNT 1 1 1 1 1 1");
+  put("WIDTH 6\nHEIGHT 1", "WIDTH 3\nHEIGHT 2");
+  put("0 0 0 1 0 0 0", "1 2 3 0.5 0.5 0.5 0.5");
+  for (int i = 0; i < 6; ++i)
+    text += std::to_string(i + 7) + " " + std::to_string(i) + " 0.5 nan -3 0.125\n";
+  const std::string input = file("rich.pcd", text);
+  ASSERT_EQ(run({"--labels", at("l.pcd"), input}).status, 0);
+  const RawCloud before = read_pcd(input), after = read_pcd(at("l.pcd"));
+  EXPECT_EQ(after.width, 3u);
+  EXPECT_EQ(after.height, 2u);
+  EXPECT_EQ(after.viewpoint, before.viewpoint);
+  EXPECT_THAT(read_file(at("l.pcd")), testing::HasSubstr("DATA binary\n"));
+  ASSERT_EQ(after.fields.size(), before.fields.size());
+  for (const PointField& old : before.fields) {
+    SCOPED_TRACE(old.name);
+    if (old.name == "label") continue;
+    const PointField& now = field(after, old.name);
+    EXPECT_EQ(now.type, old.type);
+    ASSERT_EQ(now.size, old.size);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_EQ(std::memcmp(after.data.data() + i * after.point_step + now.offset,
+                            before.data.data() + i * before.point_step + old.offset, old.size),
+                0);
+    }
+  }
+  EXPECT_THAT(labels_of(after), testing::Each(none));
+}
+
+}  // namespace
+}  // namespace pcl_bv::test

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// JSON as a program reads it: the documented keys in their order, and numbers that still hold every point.
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "command.h"
+#include "exact.h"
+#include "pcl_bv/io/pcd.h"
+
+namespace pcl_bv::test {
+namespace {
+
+std::vector<std::string> keys(const Json& object) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : object.items())
+    names.push_back(key);
+  return names;
+}
+
+std::array<double, 3> triple(const Json& array) {
+  return {array[0], array[1], array[2]};
+}
+
+/// The documented predicate of the shape, in rationals, on the numbers as read.
+bool holds(const Json& volume, const Coordinates& p) {
+  const std::string shape = volume["shape"];
+  if (shape == "sphere") {
+    const Rational radius(volume["radius"].get<double>());
+    return exact_squared_distance(triple(volume["center"]), p) <= radius * radius;
+  }
+  const Json axes = shape == "kdop" ? volume["directions"] : Json::parse("[[1,0,0],[0,1,0],[0,0,1]]");
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const Rational at = exact_dot(triple(axes[i]), p);
+    if (at < Rational(volume["min"][i].get<double>()) || at > Rational(volume["max"][i].get<double>()))
+      return false;
+  }
+  return true;
+}
+
+TEST_F(PcdBv, JsonHasTheDocumentedKeysInTheirOrder) {
+  const std::string cloud = ascii("c.pcd", {"1 2 3", "4 5 7", "nan 0 0"});
+  const Result result =
+      run({"--format", "jsonl", "--volume", "aabb,dop6,sphere-epos26", "--timings", "--check", cloud});
+  EXPECT_EQ(result.out.back(), '\n');
+  const Json report = result.json();
+  using testing::ElementsAre;
+  EXPECT_THAT(keys(report), ElementsAre("schema", "file", "points", "counts", "clusters", "seconds"));
+  EXPECT_THAT(keys(report["counts"]), ElementsAre("nonfinite", "range", "ground", "small", "large"));
+  EXPECT_THAT(keys(report["seconds"]), ElementsAre("read", "segment", "fit"));
+  EXPECT_THAT(keys(report["clusters"][0]), ElementsAre("id", "points", "volumes"));
+  const Json& volumes = report["clusters"][0]["volumes"];
+  EXPECT_THAT(keys(volumes[0]), ElementsAre("shape", "method", "volume", "min", "max", "outside"));
+  EXPECT_THAT(keys(volumes[1]),
+              ElementsAre("shape", "method", "volume", "directions", "min", "max", "outside"));
+  EXPECT_THAT(keys(volumes[2]), ElementsAre("shape", "method", "volume", "center", "radius", "outside"));
+  EXPECT_EQ(report["counts"]["nonfinite"], 1);
+  EXPECT_EQ(report["clusters"][0]["points"], 2);
+  EXPECT_EQ(volumes[0]["volume"], 36);
+}
+
+TEST_F(PcdBv, JsonIsAnArrayAndJsonLinesALineEach) {
+  const std::string a = ascii("a.pcd", {"1 2 3"}), b = ascii("b.pcd", {"4 5 6"});
+  const Json array = run({"--format", "json", a, b}).json();
+  ASSERT_TRUE(array.is_array());
+  ASSERT_EQ(array.size(), 2u);
+  std::istringstream lines(run({"--format", "jsonl", a, b}).out);
+  std::string line;
+  std::size_t n = 0;
+  while (std::getline(lines, line))
+    EXPECT_EQ(Json::parse(line), array[n++]);
+  EXPECT_EQ(n, 2u);
+  EXPECT_EQ(run({"--format", "json", a}).json().size(), 1u);
+}
+
+TEST_F(PcdBv, VolumesReadBackFromJsonHoldEveryPointExactly) {
+  for (const std::string scene : {"synth:street:6400:3", "synth:gauss:3000:4", "synth:sphere:2000:5"}) {
+    SCOPED_TRACE(scene);
+    const Result result =
+        run({"--format", "jsonl", "--volume", "all", "--check", "--labels", at("labelled.pcd"), scene});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const RawCloud cloud = read_pcd(at("labelled.pcd"));
+    for (const Json& volume : result.json()["clusters"][0]["volumes"]) {
+      SCOPED_TRACE(volume["method"]);
+      EXPECT_EQ(volume["outside"], 0);
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        ASSERT_TRUE(holds(volume, load_point(cloud.xyz(), i))) << i;
+    }
+  }
+}
+
+TEST_F(PcdBv, ExtremeMagnitudesReadBackExactly) {
+  const std::string cloud =
+      ascii("c.pcd", {"1e-41 -1e-20 1e38", "-0.0 3e-39 -1e38", "0.1 -0 5000000.5", "-0.0 1e20 0.3333333"});
+  const Result result = run({"--format", "jsonl", "--volume", "all", "--check", cloud});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const RawCloud points = read_pcd(cloud);
+  for (const Json& volume : result.json()["clusters"][0]["volumes"]) {
+    SCOPED_TRACE(volume["method"]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      EXPECT_TRUE(holds(volume, load_point(points.xyz(), i))) << i;
+  }
+  EXPECT_THAT(result.out, testing::Not(testing::ContainsRegex("nan|inf[^i]|null|-0[],}]")));
+}
+
+TEST_F(PcdBv, SameBytesForEveryInstructionSetAndThreadCount) {
+  std::istringstream words(run({"--version"}).out.substr(run({"--version"}).out.find("sets:") + 5));
+  const std::vector<std::string> common = {"--format", "jsonl", "--volume", "all", "--check"};
+  for (const std::vector<std::string>& scene :
+       {std::vector<std::string>{"synth:street"}, {"--cluster", "0.4", "--range", "1:60", "synth:street"}}) {
+    std::string expected;
+    words.clear();
+    words.seekg(0);
+    for (std::string isa; words >> isa;) {
+      for (const std::string threads : {"1", "2"}) {
+        SCOPED_TRACE(isa + " with " + threads + " threads");
+        std::vector<std::string> arguments = common;
+        arguments.insert(arguments.end(), {"--isa", isa, "--threads", threads});
+        arguments.insert(arguments.end(), scene.begin(), scene.end());
+        const Result result = run(arguments);
+        EXPECT_EQ(result.status, 0) << result.err;
+        if (expected.empty()) expected = result.out;
+        EXPECT_EQ(result.out, expected);
+      }
+    }
+    EXPECT_GT(expected.size(), 100u);
+  }
+}
+
+TEST_F(PcdBv, RealSweepsHoldEveryPoint) {
+  const char* data = std::getenv("PCL_BV_DATA");
+  if (!data) GTEST_SKIP() << "PCL_BV_DATA is not set";
+  const std::string folder(data);
+  const Result result = run({"--format", "jsonl", "--volume", "all", "--check", folder + "/lidar_sequence",
+                             folder + "/organized", folder + "/objects", folder + "/sensors"});
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
+}  // namespace
+}  // namespace pcl_bv::test

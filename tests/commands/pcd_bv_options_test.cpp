@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command line itself: what is understood, and what is refused before any work.
+
+#include <gmock/gmock.h>
+
+#include "command.h"
+
+namespace pcl_bv::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST_F(PcdBv, HelpNamesEveryOptionAndGivesExamples) {
+  const Result result = run({"--help"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "");
+  for (const char* option : {"INPUT", "--volume", "--range", "--cluster", "--min-size", "--max-size",
+                             "--ground", "--format", "--output", "--labels", "--image", "--view", "--threads",
+                             "--isa", "--check", "--timings", "--version", "Examples:", "Exit status:"}) {
+    EXPECT_THAT(result.out, HasSubstr(option));
+  }
+  EXPECT_THAT(result.out, Not(HasSubstr("--mesh")));
+}
+
+TEST_F(PcdBv, VersionListsTheInstructionSets) {
+  const Result result = run({"--version"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, HasSubstr("pcd_bv 0."));
+  EXPECT_THAT(result.out, HasSubstr("instruction sets: scalar"));
+}
+
+TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
+  const std::string good = ascii("good.pcd", {"1 2 3"});
+  const std::vector<std::vector<std::string>> cases = {
+      {},
+      {"--unknown", good},
+      {"--volume", "cube", good},
+      {"--volume", "aabb,,dop6", good},
+      {"--volume", "", good},
+      {"--volume", "aabb", "--volume", "dop6", good},
+      {"--range", "5", good},
+      {"--range", "-1:5", good},
+      {"--range", "5:1", good},
+      {"--range", "nan:1", good},
+      {"--range", "1:2:3", good},
+      {"--cluster", "0", good},
+      {"--cluster", "-0.5", good},
+      {"--cluster", "inf", good},
+      {"--cluster", "1e99", good},
+      {"--cluster", "half", good},
+      {"--min-size", "5", good},
+      {"--cluster", "1", "--min-size", "-5", good},
+      {"--cluster", "1", "--min-size", "2.5", good},
+      {"--cluster", "1", "--max-size", "0", good},
+      {"--cluster", "1", "--min-size", "9", "--max-size", "8", good},
+      {"--format", "xml", good},
+      {"--ground", "magic", good},
+      {"--image", at("a.png"), "--view", "below", good},
+      {"--view", "iso", good},
+      {"--threads", "-1", good},
+      {"--threads", "99999999999999999999", good},
+      {"--threads", "many", good},
+      {"--isa", "mmx", good},
+      {"--output", "", good},
+      {"--volume"},
+  };
+  for (const auto& arguments : cases) {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.error_lines(), 1u) << result.err;
+    EXPECT_THAT(result.err, testing::StartsWith("pcd_bv: "));
+  }
+}
+
+TEST_F(PcdBv, WhatIsNotBuiltYetSaysSo) {
+  const std::string good = ascii("good.pcd", {"1 2 3"});
+  const std::vector<std::vector<std::string>> cases = {
+      {"--ground", "zones"},
+      {"--mesh", "a.ply"},
+      {"--growth", "stationary"},
+      {"--info"},
+      {"--progress"},
+      {"--format", "csv"},
+      {"--image", at("a.svg")},
+      {"--volume", "best"},
+      {"--volume", "aabb,hull"},
+      {"--volume", "ellipsoid"},
+  };
+  for (auto arguments : cases) {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    arguments.push_back(good);
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, HasSubstr("not available yet"));
+    EXPECT_EQ(result.error_lines(), 1u);
+  }
+  const Result view = run({"--image", at("a.png"), "--view", "top", good});
+  EXPECT_EQ(view.status, 2);
+  EXPECT_THAT(view.err, HasSubstr("--view top: not available yet"));
+  EXPECT_FALSE(std::filesystem::exists(at("a.png")));
+}
+
+TEST_F(PcdBv, OptionsThatNameTheDefaultAreAccepted) {
+  const std::string good = ascii("good.pcd", {"1 2 3", "4 5 7"});
+  const Result plain = run({good});
+  const Result spelled = run({"--ground", "none", "--format", "text", "--threads", "0", good});
+  EXPECT_EQ(spelled.status, 0);
+  EXPECT_EQ(spelled.out, plain.out);
+  EXPECT_EQ(run({"--isa=auto", "--", good}).out, plain.out);
+}
+
+TEST_F(PcdBv, UnknownInstructionSetInTheEnvironmentIsRefused) {
+  const std::string good = ascii("good.pcd", {"1 2 3"});
+  const Result result = run({good}, {.isa = "foo"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("foo"));
+  EXPECT_EQ(run({"--isa", "scalar", good}, {.isa = "foo"}).status, 0);
+  EXPECT_EQ(run({good}, {.isa = "scalar"}).status, 0);
+#if defined(__x86_64__)
+  EXPECT_EQ(run({good}, {.isa = "neon"}).status, 2);
+  EXPECT_EQ(run({"--isa", "sve2", good}).status, 2);
+#endif
+}
+
+TEST_F(PcdBv, MethodsComeOnceEachInTheOrderAsked) {
+  const std::string good = ascii("good.pcd", {"1 2 3", "4 5 7"});
+  const Json report = run({"--format", "jsonl", "--volume", "dop26,aabb,dop26,dop6", good}).json();
+  std::vector<std::string> names;
+  for (const Json& volume : report["clusters"][0]["volumes"])
+    names.push_back(volume["method"]);
+  EXPECT_THAT(names, testing::ElementsAre("dop26", "aabb", "dop6"));
+}
+
+TEST_F(PcdBv, AllIsEveryMethodButNeverTheHull) {
+  const std::string good = ascii("good.pcd", {"1 2 3", "4 5 7"});
+  const Json report = run({"--format", "jsonl", "--volume", "all", good}).json();
+  std::vector<std::string> names;
+  for (const Json& volume : report["clusters"][0]["volumes"])
+    names.push_back(volume["method"]);
+  EXPECT_THAT(names, testing::IsSupersetOf({"aabb", "dop6", "dop14", "dop18", "dop26", "sphere-epos26"}));
+  EXPECT_THAT(names, Not(testing::Contains("hull")));
+}
+
+TEST_F(PcdBv, DefaultIsABoxAndASphere) {
+  const std::string good = ascii("good.pcd", {"1 2 3", "4 5 7"});
+  const Json volumes = run({"--format", "jsonl", good}).json()["clusters"][0]["volumes"];
+  ASSERT_GE(volumes.size(), 2u);
+  EXPECT_EQ(volumes[0]["shape"], "aabb");
+  EXPECT_EQ(volumes[1]["shape"], "sphere");
+}
+
+}  // namespace
+}  // namespace pcl_bv::test
