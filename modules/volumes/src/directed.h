@@ -3,6 +3,7 @@
 
 // Arithmetic with a known side of the error. Enclosure by exact arithmetic is then proven by composition:
 // each step of a bound rounds outward, so the whole does.
+// What several sources share is in a namespace of its own: other layers have internals with names like these.
 #pragma once
 
 #include <Eigen/Core>

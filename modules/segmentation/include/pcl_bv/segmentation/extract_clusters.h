@@ -8,16 +8,14 @@
 #include <pcl/pcl_base.h>
 #include <pcl/point_cloud.h>
 
-#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <pcl/impl/pcl_base.hpp>
 #include <stdexcept>
-#include <string>
-#include <type_traits>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/kernels/point_records.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 
 namespace pcl::search {
@@ -28,7 +26,7 @@ class Search;
 namespace pcl_bv {
 
 /// Drop-in for pcl::EuclideanClusterExtraction: the same partition (see EuclideanClusterer), the same setters
-/// and defaults. Any point type with float x, y, z in a row works, without instantiation.
+/// and defaults. Any point type with x, y, z of float or double in a row works, without instantiation.
 ///
 /// Different from PCL: points that are not finite are skipped, instead of being undefined behaviour; clusters
 /// of equal size come in the order of their smallest index; the result replaces what the vector held, where
@@ -81,27 +79,10 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
 
 template <typename PointT>
 PointView EuclideanClusterExtraction<PointT>::view() const {
-  static_assert(std::is_same_v<std::remove_reference_t<decltype((std::declval<PointT&>().x))>, float>,
-                "the point type needs float x, y, z");
-  static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t), "PCL is built with 32-bit indices");
-  if (!input_) throw std::logic_error("EuclideanClusterExtraction: no input cloud set");
-  if (indices_) {
-    for (const pcl::index_t index : *indices_) {
-      if (index >= 0 && static_cast<std::size_t>(index) < input_->size()) continue;
-      throw std::out_of_range("EuclideanClusterExtraction: index " + std::to_string(index) +
-                              " is outside the cloud of " + std::to_string(input_->size()) + " points");
-    }
-  }
-  if (input_->empty()) return {};
-  const PointT& first = input_->points.front();
-  PointView view = PointView::of(&first.x, sizeof(PointT), input_->size());
-  view.readable -= static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&first.x) -
-                                            reinterpret_cast<const std::byte*>(&first));
-  if (indices_) {
-    view.indices = indices_->data();
-    view.count = indices_->size();
-  }
-  return view;
+  static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t), "PCL is built with another index type");
+  if (!input_) throw std::logic_error("EuclideanClusterExtraction: extract() before setInputCloud()");
+  const PointView cloud = view_records(input_->points.data(), input_->size());
+  return indices_ ? select_points(cloud, indices_->data(), indices_->size()) : cloud;
 }
 
 template <typename PointT>

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Arrays of point structs, as PCL and everybody else keeps them, to PointView. Knows no point type.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv {
+
+/// All of `count` records. Record is any struct with members x, y, z side by side, all float or all double.
+template <typename Record>
+PointView view_records(const Record* records, std::size_t count) {
+  using Scalar = std::remove_cv_t<decltype(Record::x)>;
+  static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>,
+                "x, y, z are float or double");
+  static_assert(std::is_same_v<Scalar, std::remove_cv_t<decltype(Record::y)>> &&
+                    std::is_same_v<Scalar, std::remove_cv_t<decltype(Record::z)>>,
+                "x, y, z have one type");
+  if (count == 0) return {};
+  PointView view = PointView::of(&records->x, sizeof(Record), count);
+  view.readable -= static_cast<std::size_t>(view.data - reinterpret_cast<const std::byte*>(records));
+  return view;
+}
+
+/// The points of a whole cloud that an index list names, in its order. The list must outlive the view.
+/// Throws std::out_of_range, naming the index, if one is not in the cloud.
+inline PointView select_points(const PointView& cloud, const std::int32_t* indices, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (indices[i] >= 0 && static_cast<std::size_t>(indices[i]) < cloud.count) continue;
+    throw std::out_of_range("point index " + std::to_string(indices[i]) + " is outside the cloud of " +
+                            std::to_string(cloud.count) + " points");
+  }
+  PointView view = cloud;
+  view.indices = indices;
+  view.count = count;
+  return view;
+}
+
+}  // namespace pcl_bv
