@@ -152,6 +152,18 @@ TEST(GroundPlane, PrefersTheFloorToALargerTable) {
   }
 }
 
+TEST(GroundPlane, IsFoundUnderAForest) {
+  Cloud<float> cloud;
+  add_plane<float>(cloud, 1500, 20, 0, 0, 0, 0.05F, 0.05F);
+  add_plane<float>(cloud, 17'000, 20, 0, 0, 6, 0.05F, 5);  // leaves 1 m to 11 m up
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    GroundPlaneSettings settings;
+    settings.seed = seed;
+    EXPECT_EQ(split(cloud, settings).ground, numbers(0, 1500));
+  }
+}
+
 TEST(GroundPlane, TakesPointsBelowAsGroundButIsNotDrawnDownByThem) {
   Cloud<float> cloud;
   add_plane<float>(cloud, 5000, 20, 0, 0, 0, 0, 0.02F);
@@ -171,12 +183,23 @@ TEST(GroundPlane, TheSensorHeightExcludesOtherLevels) {
   add_plane<float>(cloud, 9000, 10, 0, 0, -5, 0.02F);  // a lower floor seen through a grating
   GroundPlaneSettings settings;
   EXPECT_NEAR(split(cloud, settings).offset, -5, 0.01);
-  settings.sensor_height = 1.5;
-  EXPECT_FALSE(split(cloud, settings).found);  // 9000 of 13 000 points below are too many
   std::erase_if(cloud, [](const auto& p) { return p[2] < -3 && p[1] > -9; });
+  settings.sensor_height = 1.5;
   EXPECT_NEAR(split(cloud, settings).offset, -1.7, 0.01);
   settings.sensor_height = 2.3;
   EXPECT_FALSE(split(cloud, settings).found);
+}
+
+TEST(GroundPlane, IsNoneWhenTooMuchLiesBelow) {
+  for (const std::size_t below : {100U, 4000U}) {
+    SCOPED_TRACE(below);
+    Cloud<float> cloud;
+    add_plane<float>(cloud, 4000, 5, 5, 0, -1.7F);
+    add_plane<float>(cloud, below, 5, -5, 0, -6, 0, 3);
+    GroundPlaneSettings settings;
+    settings.sensor_height = 1.7;
+    EXPECT_EQ(split(cloud, settings).found, below == 100);
+  }
 }
 
 }  // namespace

@@ -21,9 +21,8 @@ constexpr double max_above = 1;
 constexpr double max_below = 2;
 constexpr unsigned refinements = 3;
 
-// Sine of the smallest angle between two sides of a triangle that gives a plane; also the ratio of widths of
-// a set of points that does. Thinner ones are noise across a line, as scan lines on a wall are.
-constexpr double min_sine = 0.02;
+// A set of points whose second width is less than this share of its first is a line, to which any plane fits.
+constexpr double min_width_ratio = 0.02;
 
 Vector3d normalized(const Vector3d& v) {
   const double norm2 = dot(v, v);
@@ -53,12 +52,9 @@ Plane plane_at(const Vector3d& point, const Vector3d& unit_normal, const Vector3
 
 std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                                    const Limits& limits) {
-  const Vector3d ab = normalized(b - a);
-  const Vector3d ac = normalized(c - a);
-  const Vector3d normal = ab.cross(ac);
-  const double sine = std::sqrt(dot(normal, normal));
-  if (!(sine >= min_sine)) return {};
-  const Plane plane = plane_at(a, normal / sine, limits.up);
+  const Vector3d normal =
+      normalized(normalized(b - a).cross(normalized(c - a)));  // 0 if on a line: not allowed
+  const Plane plane = plane_at(a, normal, limits.up);
   if (!limits.allow(plane)) return {};
   return plane;
 }
@@ -104,7 +100,7 @@ std::optional<Plane> refine(const Plane& plane, const Points& points, double dis
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
   const Vector3d& widths2 = solver.eigenvalues();
-  if (!(widths2[1] >= min_sine * min_sine * widths2[2])) return {};
+  if (!(widths2[1] >= min_width_ratio * min_width_ratio * widths2[2])) return {};
   const Plane refined = plane_at(mean, solver.eigenvectors().col(0), limits.up);
   if (!limits.allow(refined)) return {};
   return refined;
