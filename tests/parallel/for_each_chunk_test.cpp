@@ -14,18 +14,11 @@
 namespace pcl_bv {
 namespace {
 
-// ThreadSanitizer does not understand libgomp's barriers and would report races that are none.
-#if defined(__SANITIZE_THREAD__)
-constexpr bool kOpenMpIsUnderstood = false;
-#else
-constexpr bool kOpenMpIsUnderstood = true;
-#endif
-
 std::vector<ParallelPolicy> policies() {
   std::vector<ParallelPolicy> all = {Serial{}};
   for (const unsigned threads : {0U, 1U, 2U, 3U, 7U}) {
     all.emplace_back(Threads{threads});
-    if (kOpenMpIsUnderstood) all.emplace_back(OpenMP{threads});
+    all.emplace_back(OpenMP{threads});
   }
   return all;
 }

@@ -23,9 +23,7 @@ inline std::vector<NamedExecution> every_execution() {
     all.push_back({name + " serial", {Serial{}, isa}});
     for (const unsigned threads : {2U, 3U, 5U}) {
       all.push_back({name + " std::thread " + std::to_string(threads), {Threads{threads}, isa}});
-#if !defined(__SANITIZE_THREAD__)  // which does not understand libgomp's barriers
       all.push_back({name + " OpenMP " + std::to_string(threads), {OpenMP{threads}, isa}});
-#endif
     }
   }
   return all;
