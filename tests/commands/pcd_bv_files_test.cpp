@@ -90,13 +90,6 @@ TEST_F(PcdBv, TwoResultsForOneFileAreRefusedBeforeAnyWork) {
   EXPECT_EQ(run({"--output", at("same.pcd"), "--labels", at("same.pcd"), a}).status, 2);
 }
 
-TEST_F(PcdBv, InputMayBeReplacedByItsLabels) {
-  const std::string cloud = ascii("c.pcd", {"0 0 0", "1 2 3"});
-  EXPECT_EQ(run({"--labels", cloud, cloud}).status, 0);
-  EXPECT_EQ(read_pcd(cloud).fields.back().name, "label");
-  EXPECT_EQ(read_pcd(cloud).size(), 2u);
-}
-
 TEST_F(PcdBv, PictureIsTheSameEachTime) {
   const std::vector<std::string> common = {"--range",  "1:60", "--cluster",         "0.5",
                                            "--volume", "all",  "synth:street:16000"};

@@ -7,6 +7,7 @@
 #include <pcl/common/common.h>
 #include <pcl/point_types.h>
 
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <random>
@@ -117,6 +118,50 @@ TEST(Estimation, TakesIndicesInEveryFormOfPcl) {
   EXPECT_EQ(estimation.compute(box).used, 3U);
   estimation.setIndices(1, 1, 2, 2);
   EXPECT_EQ(estimation.compute(box).used, 4U);
+}
+
+TEST(Estimation, ANullOfAnyKindLiftsTheRestriction) {
+  const auto cloud = random_cloud<pcl::PointXYZ>(12, 3);
+  AabbEstimation<pcl::PointXYZ> estimation;
+  estimation.setInputCloud(cloud);
+  Aabb box;
+  const auto restrict_to_one = [&] { estimation.setIndices(pcl::IndicesPtr(new pcl::Indices{1})); };
+  restrict_to_one();
+  estimation.setIndices(nullptr);
+  EXPECT_EQ(estimation.compute(box).used, 12U);
+  restrict_to_one();
+  estimation.setIndices(pcl::IndicesConstPtr());
+  EXPECT_EQ(estimation.compute(box).used, 12U);
+  restrict_to_one();
+  estimation.setIndices(pcl::PointIndicesConstPtr());
+  EXPECT_EQ(estimation.compute(box).used, 12U);
+}
+
+struct Scattered {
+  float x;
+  int id;
+  float y, z;
+};
+struct Reversed {
+  float z, y, x;
+};
+
+TEST(Estimation, PointTypesThatScatterTheirCoordinatesAreErrors) {
+  Aabb box;
+  EXPECT_THROW(fit_aabb(*random_cloud<Scattered>(10, 1), box), std::invalid_argument);
+  EXPECT_THROW(fit_aabb(*random_cloud<Reversed>(10, 1), box), std::invalid_argument);
+}
+
+TEST(Estimation, ABatchWithABadEnvironmentThrowsBeforeAnythingIsWritten) {
+  AabbEstimation<pcl::PointXYZ> estimation;
+  estimation.setInputCloud(random_cloud<pcl::PointXYZ>(10, 1));
+  std::vector<Aabb> boxes(1);
+  const char* old = std::getenv("PCL_BV_ISA");
+  const std::string saved = old == nullptr ? "" : old;
+  setenv("PCL_BV_ISA", "foo", 1);
+  EXPECT_THROW(estimation.compute(std::vector<pcl::PointIndices>(3), boxes), std::invalid_argument);
+  setenv("PCL_BV_ISA", saved.c_str(), 1);
+  EXPECT_EQ(boxes.size(), 1U);
 }
 
 TEST(Estimation, ABatchEqualsOneByOne) {

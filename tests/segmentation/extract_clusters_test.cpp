@@ -86,6 +86,25 @@ TEST(ExtractClusters, IsADropInForPclsClass) {
   }
 }
 
+TEST(ExtractClusters, ANullOfAnyKindMeansTheWholeCloud) {
+  pcl_bv::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
+  extraction.setInputCloud(cloud_of<pcl::PointXYZ>({{0, 0, 0}, {5, 0, 0}}));
+  extraction.setClusterTolerance(1);
+  const auto clusters = [&extraction] {
+    std::vector<pcl::PointIndices> found;
+    extraction.extract(found);
+    return found.size();
+  };
+  extraction.setIndices(pcl::IndicesPtr(new pcl::Indices{1}));
+  EXPECT_EQ(clusters(), 1U);
+  extraction.setIndices(nullptr);
+  EXPECT_EQ(clusters(), 2U);
+  extraction.setIndices(pcl::IndicesConstPtr());
+  EXPECT_EQ(clusters(), 2U);
+  extraction.setIndices(pcl::PointIndicesConstPtr());
+  EXPECT_EQ(clusters(), 2U);
+}
+
 TEST(ExtractClusters, CopiesTheHeaderIntoEachCluster) {
   const auto cloud = cloud_of<pcl::PointXYZ>({{0, 0, 0}, {5, 0, 0}});
   pcl_bv::EuclideanClusterExtraction<pcl::PointXYZ> extraction;

@@ -80,7 +80,8 @@ double threshold(const End& end, double rounded_extreme, const Extremes& extreme
   // Float sums may overflow, and then say nothing.
   if (is_float && sum > std::numeric_limits<float>::max()) return -std::numeric_limits<double>::infinity();
   if (terms(end.direction) == 2) return rounded_extreme;
-  return rounded_extreme - 4.02 * (is_float ? 0x1p-24 : 0x1p-53) * sum;
+  // Two sums, each off by 2 u sum; for doubles this very difference may be off by another u sum.
+  return rounded_extreme - 5.1 * (is_float ? 0x1p-24 : 0x1p-53) * sum;
 }
 
 ExtremePoint find_exact(const PointView& points, const BlockBuffer& blocks, const End& end, double least) {

@@ -75,13 +75,20 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
   write_file_atomically(path, {content});
 }
 
-void write_file_atomically(const fs::path& path, Pieces pieces) {
+void write_file_atomically(const fs::path& link_or_file, Pieces pieces) {
+  // A link stays a link; what it leads to is replaced. /dev/stdout leads to something that rename must not
+  // touch.
   struct stat old;
-  const bool exists = ::lstat(path.c_str(), &old) == 0;
-  if (exists && !S_ISREG(old.st_mode)) {
-    FileDescriptor direct(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0644, cannot_write);
+  const bool exists = ::stat(link_or_file.c_str(), &old) == 0;
+  const bool special =
+      link_or_file.native().starts_with("/dev/") || link_or_file.native().starts_with("/proc/");
+  if (special || (exists && !S_ISREG(old.st_mode))) {
+    FileDescriptor direct(link_or_file, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0644, cannot_write);
     return write_and_close(direct, pieces);
   }
+  std::error_code unresolved;
+  const fs::path resolved = fs::weakly_canonical(link_or_file, unresolved);
+  const fs::path path = exists && !unresolved ? resolved : link_or_file;
   if (exists) fail_if(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? 0 : errno);
   TemporaryFile temporary(path.parent_path());
   if (exists) fail_if(::fchmod(temporary.file().get(), old.st_mode & 0777) == 0 ? 0 : errno);

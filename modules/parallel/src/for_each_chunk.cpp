@@ -81,7 +81,7 @@ void work_with_threads(ChunkQueue& queue, unsigned threads) {
     others.reserve(threads - 1);
     while (others.size() + 1 < threads)
       others.emplace_back(work_in_region, std::ref(queue));
-  } catch (const std::system_error&) {
+  } catch (const std::exception&) {
   }
   work_in_region(queue);
   for (std::thread& other : others)

@@ -54,9 +54,18 @@ std::string stem(const std::string& input) {
   return name;
 }
 
-/// Notes where a job writes to. Throws UsageError if another one writes there too.
-void claim(std::set<fs::path>& taken, const fs::path& target) {
-  if (!taken.insert(fs::absolute(target).lexically_normal()).second) {
+/// The file itself, whatever links and detours lead to it.
+fs::path identity(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path canonical = fs::weakly_canonical(path, unknown);
+  return unknown ? fs::absolute(path).lexically_normal() : canonical;
+}
+
+/// Notes where a job writes to. Throws UsageError if that is an input or another one writes there too.
+void claim(std::set<fs::path>& taken, const std::set<fs::path>& inputs, const fs::path& target) {
+  const fs::path file = identity(target);
+  if (inputs.count(file) > 0) throw UsageError(target.string() + ": is an input and would be overwritten");
+  if (!taken.insert(file).second) {
     throw UsageError(target.string() + ": more than one result would be written to this file");
   }
 }
@@ -73,12 +82,15 @@ std::vector<Job> plan_jobs(const Options& options) {
   const auto target = [&](const fs::path& given, const Job& job, const char* extension) {
     return several || is_folder(given.string()) ? given / (stem(job.input) + extension) : given;
   };
-  std::set<fs::path> taken;
-  if (options.output) claim(taken, *options.output);
+  std::set<fs::path> taken, inputs;
+  for (const Job& job : jobs) {
+    if (!is_synth(job.input)) inputs.insert(identity(job.input));
+  }
+  if (options.output) claim(taken, inputs, *options.output);
   for (Job& job : jobs) {
     if (job.error) continue;
-    if (options.labels) claim(taken, job.labels.emplace(target(*options.labels, job, ".pcd")));
-    if (options.image) claim(taken, job.image.emplace(target(*options.image, job, ".png")));
+    if (options.labels) claim(taken, inputs, job.labels.emplace(target(*options.labels, job, ".pcd")));
+    if (options.image) claim(taken, inputs, job.image.emplace(target(*options.image, job, ".png")));
   }
   return jobs;
 }

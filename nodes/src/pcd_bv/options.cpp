@@ -90,6 +90,17 @@ std::optional<std::filesystem::path> path_or_none(const CLI::App& app, const cha
   return text;
 }
 
+/// A picture is a .png; a name without an extension is a folder's.
+void refuse_other_pictures(const std::filesystem::path& image) {
+  std::string extension = image.extension().string();
+  for (char& c : extension)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  std::error_code unknown;
+  if (extension.empty() || extension == ".png" || std::filesystem::is_directory(image, unknown)) return;
+  if (extension == ".svg") throw not_available_yet("--image FILE.svg");
+  throw UsageError("--image: '" + image.string() + "' is no .png file");
+}
+
 void refuse_unavailable(const CLI::App& app, const Texts& texts) {
   for (const char* name : unavailable) {
     if (app.count(name) > 0) throw not_available_yet(name);
@@ -103,7 +114,7 @@ void refuse_unavailable(const CLI::App& app, const Texts& texts) {
     throw UsageError(std::string(option) + ": unknown value '" + text + "'; known is " + std::string(built));
   };
   only("--view", texts.view, "iso", {"top", "front", "side"});
-  if (std::filesystem::path(texts.image).extension() == ".svg") throw not_available_yet("--image FILE.svg");
+  refuse_other_pictures(texts.image);
 }
 
 Options to_options(const CLI::App& app, const Texts& texts) {

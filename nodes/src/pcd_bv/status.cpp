@@ -5,6 +5,7 @@
 
 #include "status.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace pcl_bv {
@@ -17,7 +18,10 @@ Status worse(Status a, Status b) {
 }
 
 void complain(const std::string& problem) {
-  const std::string line = "pcd_bv: " + problem + '\n';
+  std::string line = "pcd_bv: " + problem + '\n';
+  // A name may hold anything: one problem stays one line, and no terminal is steered.
+  std::replace_if(
+      line.begin(), line.end() - 1, [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

@@ -32,6 +32,7 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   void setIndices(const pcl::IndicesPtr& indices) override;
   void setIndices(const pcl::IndicesConstPtr& indices) override;
   void setIndices(const pcl::PointIndicesConstPtr& indices) override;
+  void setIndices(std::nullptr_t);
   using Base::setIndices;
 
   /// Threads for compute(): 0 means all processors, 1 (the default) the calling thread. Never changes the

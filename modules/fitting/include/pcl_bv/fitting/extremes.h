@@ -34,11 +34,11 @@ struct Extremes {
   std::array<ExtremePoint, kMaxDirections> high_point{};  ///< With ExtremeDetail::points.
 };
 
-/// Finds the extremes of all valid points; `used` is 0 and nothing else is set if there is none. The same
-/// bits for every execution. One SIMD pass over the points, then a rescan of the few blocks that can hold an
-/// extreme: the rounded sum of two terms is monotone, so only blocks that attain the rounded extreme qualify;
-/// of three terms it is off by at most 2.01 u (Mx + My + Mz), for each of the two points compared, u = 2^-24
-/// (2^-53 for double).
+/// Finds the extremes of all valid points; `used` is 0 and nothing else but `dropped` is set if there is
+/// none. The same bits for every execution. One SIMD pass over the points, then a rescan of the few blocks
+/// that can hold an extreme: the rounded sum of two terms is monotone, so only blocks that attain the rounded
+/// extreme qualify; one of three terms is off by at most 2 u (Mx + My + Mz), for each of the two points
+/// compared, u = 2^-24 (2^-53 for double) and M the greatest magnitudes.
 ///
 /// Throws std::invalid_argument for an unusable instruction set.
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,

@@ -28,7 +28,9 @@ enum class SphereMethod {
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution = {});
 
 /// The k-DOP of the points along the directions of `set` (not null): each slab is the true extreme, rounded
-/// outward to the next double where it is none itself. Paper §2, Figure 2. Same rules as fit_aabb().
+/// outward to the next double where it is none itself. Paper §2, Figure 2. Same rules as fit_aabb(),
+/// and std::invalid_argument for a null set. With directions of your own, O(n) without SIMD, and the rank is
+/// that of the stored slabs: a projection that is no double leaves a flat slab one step wide.
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                           const Execution& execution = {});
 

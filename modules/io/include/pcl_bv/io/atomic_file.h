@@ -15,8 +15,9 @@ namespace pcl_bv {
 /// the new one.
 ///
 /// A new file has mode 0644 less the umask; one that was there keeps its mode, and if it may not be written
-/// by this process it is left alone. What is not a regular file (a device, a pipe) or is a symbolic link
-/// (/dev/stdout among them) is opened and written directly, without that promise.
+/// by this process it is left alone. A symbolic link stays, and the file it leads to is replaced. What is not
+/// a regular file (a device, a pipe) or lies in /dev or /proc (/dev/stdout, whatever it leads to) is opened and
+/// written directly, without that promise.
 ///
 /// Throws IoError with the reason. Does not wait for the disk (no fsync).
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The first kernel: how far do points reach along fixed directions? Its results are floating-point extents by
-// block, which exact_extents.h turns into exact ones.
+// block, from which fitting finds the exact ones.
 #pragma once
 
 #include <array>

@@ -14,7 +14,8 @@
 
 namespace pcl_bv {
 
-/// All of `count` records. Record is any struct with members x, y, z side by side, all float or all double.
+/// All of `count` records. Record is any struct with members x, y, z, all float or all double, that follow
+/// one another in memory in this order; throws std::invalid_argument for a struct in which they do not.
 template <typename Record>
 PointView view_records(const Record* records, std::size_t count) {
   using Scalar = std::remove_cv_t<decltype(Record::x)>;
@@ -24,6 +25,9 @@ PointView view_records(const Record* records, std::size_t count) {
                     std::is_same_v<Scalar, std::remove_cv_t<decltype(Record::z)>>,
                 "x, y, z have one type");
   if (count == 0) return {};
+  if (&records->y != &records->x + 1 || &records->z != &records->x + 2) {
+    throw std::invalid_argument("the point type does not hold x, y, z one after another");
+  }
   PointView view = PointView::of(&records->x, sizeof(Record), count);
   view.readable -= static_cast<std::size_t>(view.data - reinterpret_cast<const std::byte*>(records));
   return view;

@@ -40,6 +40,18 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   using KdTree = pcl::search::Search<PointT>;
   using KdTreePtr = std::shared_ptr<KdTree>;
 
+  /// Restricts the clusters to some points, or, with a null pointer of any kind, lifts the restriction (PCL's
+  /// base class dereferences some of these).
+  void setIndices(const pcl::IndicesPtr& indices) override { indices_ = indices; }
+  void setIndices(const pcl::IndicesConstPtr& indices) override {
+    indices_ = indices ? pcl::make_shared<pcl::Indices>(*indices) : nullptr;
+  }
+  void setIndices(const pcl::PointIndicesConstPtr& indices) override {
+    indices_ = indices ? pcl::make_shared<pcl::Indices>(indices->indices) : nullptr;
+  }
+  void setIndices(std::nullptr_t) { indices_.reset(); }
+  using pcl::PCLBase<PointT>::setIndices;
+
   /// Kept for getSearchMethod(), so that code written for PCL compiles; never used.
   void setSearchMethod(const KdTreePtr& tree) { tree_ = tree; }
   KdTreePtr getSearchMethod() const { return tree_; }

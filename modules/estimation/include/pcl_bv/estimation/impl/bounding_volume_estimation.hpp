@@ -8,9 +8,14 @@
 
 #include "pcl_bv/estimation/bounding_volume_estimation.h"
 #include "pcl_bv/estimation/point_cloud_view.h"
-#include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/fitting/batch.h"
 
 namespace pcl_bv {
+
+template <typename PointT, typename VolumeT>
+void BoundingVolumeEstimation<PointT, VolumeT>::setIndices(std::nullptr_t) {
+  this->indices_.reset();
+}
 
 // PCLBase remembers that indices were set, but not that they were taken away again: null means the whole
 // cloud here.
@@ -54,11 +59,12 @@ std::vector<EstimationResult> BoundingVolumeEstimation<PointT, VolumeT>::compute
   views.reserve(clusters.size());
   for (const pcl::PointIndices& cluster : clusters)
     views.push_back(point_view(cloud(), cluster.indices));
+  resolve_isa(execution_.isa);
   volumes.assign(clusters.size(), VolumeT());
   std::vector<EstimationResult> results(clusters.size());
-  const Execution serial{Serial{}, execution_.isa};
-  for_each_chunk(execution_.parallel, clusters.size(),
-                 [&](std::size_t c) { results[c] = fit(views[c], volumes[c], serial); });
+  for_each_view(views, execution_, [&](std::size_t c, const Execution& execution) {
+    results[c] = fit(views[c], volumes[c], execution);
+  });
   return results;
 }
 
