@@ -37,7 +37,7 @@ def table(path):
     lines += [
         "",
         f"`pcl::getMinMax3D` in the same run: {pcl}. [{path.name}](benchmarks/results/{path.name}), made by",
-        "`./bootstrap bench`; all volumes here are exact, scalar is the reference loop of the same fit.",
+        "`./bootstrap bench`; boxes and k-DOPs exact, enclosure proven; scalar is the reference loop of the same fit.",
     ]
     return "\n".join(lines)
 

@@ -92,8 +92,12 @@ int run(int argc, char** argv) {
   app.footer(footer());
   try {
     app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return done;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : wrong_use;
+    std::cerr << "synth: " << error.what() << "; synth --help says how\n";
+    return wrong_use;
   }
   return write_scene(scene, output) ? done : not_written;
 }

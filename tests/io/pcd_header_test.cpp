@@ -228,6 +228,15 @@ TEST_F(PcdHeader, ThatDoesNotEndIsRefused) {
             "truncated header: no DATA line in the first " + std::to_string(text().size()) + " bytes");
 }
 
+TEST_F(PcdHeader, CutInsideAnyLineIsSaidToBeTruncated) {
+  const std::string whole = text();
+  const std::size_t first_line = whole.find('\n', whole.find("VERSION")) + 1;
+  for (std::size_t size = first_line + 1; size < whole.find("DATA") + 4; ++size) {
+    SCOPED_TRACE(size);
+    EXPECT_THAT(reason_for_content(whole.substr(0, size)), testing::StartsWith("truncated header"));
+  }
+}
+
 TEST_F(PcdHeader, WithALineTwiceIsRefused) {
   EXPECT_EQ(set("WIDTH", "WIDTH 2\nWIDTH 2").reason(), "header: WIDTH occurs twice");
   EXPECT_EQ(set("WIDTH", "WIDTH 2").set("FIELDS", "FIELDS x y z\nCOLUMNS x y z").reason(),

@@ -59,6 +59,7 @@ class ScaledDistance {
 
 std::vector<Eigen::Vector3d> extremal_points(const Extremes& extremes) {
   std::vector<const ExtremePoint*> ends;
+  ends.reserve(2 * direction_count(extremes.set));
   for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
     ends.push_back(&extremes.low_point[k]);
     ends.push_back(&extremes.high_point[k]);
@@ -68,6 +69,7 @@ std::vector<Eigen::Vector3d> extremal_points(const Extremes& extremes) {
                          [](const auto* a, const auto* b) { return a->index == b->index; }),
              ends.end());
   std::vector<Eigen::Vector3d> points;
+  points.reserve(ends.size());
   for (const ExtremePoint* end : ends)
     points.push_back(vector(end->point));
   return points;
@@ -131,6 +133,7 @@ Sphere epos_sphere(const PointView& points, const Extremes& extremes, const Para
   const ScaledDistance distance(extent);
   const Eigen::Vector3d origin = seeds.front();
   std::vector<Eigen::Vector3d> local;
+  local.reserve(seeds.size());
   for (const Eigen::Vector3d& p : seeds)
     local.push_back(distance.scaled(p, origin));
   Eigen::Vector3d center = distance.unscaled(smallest_ball(local).center, origin);

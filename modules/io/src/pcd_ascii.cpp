@@ -4,9 +4,12 @@
 // One pass over the text with std::from_chars; every error names its row.
 #include "pcd_ascii.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
+#include <type_traits>
 
 #include "numbers.h"
 #include "pcd_header.h"
@@ -125,8 +128,14 @@ class AsciiReader {
 };
 
 template <typename T>
+bool is_nan(T value) {
+  if constexpr (std::is_floating_point_v<T>) return std::isnan(value);
+  return false;
+}
+
+template <typename T>
 void append_number(std::string& text, T value) {
-  if (value != value) {
+  if (is_nan(value)) {
     text += "nan";
     return;
   }
@@ -140,7 +149,8 @@ void read_ascii_points(const InputFile& file, std::size_t offset, RawCloud& clou
   check_types(cloud);
   const std::size_t available = file.size() - offset;
   // A value takes a digit and a separator, which only the last one of the file may lack.
-  if (cloud.size() > (available + 1) / (2 * values_per_point(cloud))) {
+  const std::size_t values = std::max<std::size_t>(values_per_point(cloud), 1);
+  if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
                   std::to_string(values_per_point(cloud)) + " values do not fit in the " +
                   std::to_string(available) + " bytes after the header");

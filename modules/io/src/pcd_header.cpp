@@ -55,9 +55,13 @@ Lines gather_lines(std::string_view start, std::size_t& data_offset) {
   std::size_t at = 0;
   while (at < start.size()) {
     const std::size_t newline = start.find('\n', at);
-    if (newline == std::string_view::npos && start.size() == max_pcd_header_size) break;
     const std::size_t end = std::min(newline, start.size());
-    const std::string_view keyword = add_line(start.substr(at, end - at), lines);
+    const std::string_view line = start.substr(at, end - at);
+    // A header that stops inside a line is cut off, whatever the piece of a word looks like.
+    const bool stops_inside =
+        newline == std::string_view::npos && !lines.empty() && !line.starts_with("DATA");
+    if (stops_inside || (newline == std::string_view::npos && start.size() == max_pcd_header_size)) break;
+    const std::string_view keyword = add_line(line, lines);
     at = std::min(end + 1, start.size());
     if (keyword == "DATA") {
       data_offset = at;

@@ -96,7 +96,7 @@ float eye_dome(const Raster& raster, int x, int y) {
 std::uint32_t pack(const Colour& colour) {
   std::uint32_t pixel = 0xff;
   for (const float channel : colour) {
-    pixel = pixel << 8 | static_cast<std::uint32_t>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f);
+    pixel = pixel << 8 | static_cast<std::uint32_t>(std::lround(std::clamp(channel, 0.0f, 1.0f) * 255));
   }
   return pixel;
 }

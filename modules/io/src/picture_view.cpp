@@ -78,6 +78,7 @@ Interval framed(const std::vector<Corners>& volumes, const Corners& points, cons
     result = {std::min(result.low, part.low), std::max(result.high, part.high)};
   };
   std::vector<Interval> parts;
+  parts.reserve(volumes.size());
   for (const Corners& corners : volumes)
     parts.push_back(along(corners, axis));
   include(parts,

@@ -133,9 +133,11 @@ void join_cells(const CellGrid& grid, T r2, Cells<T>& cells, const std::vector<K
   }
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the arguments are types
 #define PCL_BV_CELLS(T, Key)                                                                             \
   template void make_cells(const std::vector<Point<T>>&, const CellGrid&, T, Cells<T>&, CellKeys<Key>&); \
   template void join_cells(const CellGrid&, T, Cells<T>&, const std::vector<Key>&, UnionFind&);
+// NOLINTEND(bugprone-macro-parentheses)
 PCL_BV_CELLS(float, std::uint32_t)
 PCL_BV_CELLS(float, std::uint64_t)
 PCL_BV_CELLS(float, WideKey)

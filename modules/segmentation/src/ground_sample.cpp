@@ -95,7 +95,7 @@ Vector3d sample_ground(const PointView& points, UpAxis up, std::uint32_t seed, G
 
   const std::array<Spread, 3> spread{spread_of(scratch.sample, 0), spread_of(scratch.sample, 1),
                                      spread_of(scratch.sample, 2)};
-  const Vector3d origin(spread[0].middle, spread[1].middle, spread[2].middle);
+  Vector3d origin(spread[0].middle, spread[1].middle, spread[2].middle);
   const Vector3d upward = up_direction(up);
   const std::size_t u = (static_cast<std::size_t>(up) + 1) % 3;
   const std::size_t v = (static_cast<std::size_t>(up) + 2) % 3;
