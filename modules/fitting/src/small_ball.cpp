@@ -77,7 +77,7 @@ class Solver {
       const std::size_t pivot = farthest(looked_at);
       if (pivot == points_.size()) return best_;
       // The support of the best ball and the pivot decide the next one.
-      const SmallBall before = best_;
+      SmallBall before = best_;
       const std::size_t old_support = support_;
       support_ball_.push(points_[pivot]);
       move_to_front_ball(old_support);
