@@ -34,8 +34,7 @@ class BlockBuffer {
   std::vector<BlockExtents> heap_;
 };
 
-// Nanoseconds per point of a 26-DOP measured on Zen 4 and Zen 5, rounded; only their order of magnitude
-// matters.
+// Of a 26-DOP's pass. Only the order of magnitude matters: it decides whether threads are worth starting.
 double nanoseconds_per_point(Isa isa, DirectionSet set) {
   const double dop26 = isa == Isa::scalar ? 4.5 : isa == Isa::avx512 ? 0.3 : isa == Isa::avx2 ? 0.6 : 1.2;
   return dop26 * static_cast<double>(direction_count(set)) / 13.0;

@@ -54,8 +54,7 @@ HWY_INLINE V<D> load_blocks(D d, const PointView& points, std::size_t first) {
 }
 
 // Four registers of whole points (x y z and a fourth lane of anything) to x, y and z: a transpose inside each
-// 128-bit block. At 26-DOP on AVX-512 it is as fast as structure-of-arrays input; a transpose that keeps the
-// order is not.
+// 128-bit block, seven shuffles, since extents do not ask for the points' order.
 template <class D>
 HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y, V<D>& z) {
   const hn::Repartition<double, D> pairs;

@@ -10,7 +10,7 @@
 namespace pcl_bv {
 
 /// While it lives, this thread computes in the IEEE default environment: denormals kept (no FTZ, no DAZ),
-/// rounding to nearest, no traps. The previous environment returns at destruction. Costs a few nanoseconds.
+/// rounding to nearest, no traps. The previous environment returns at destruction.
 class FloatEnvironment {
  public:
   FloatEnvironment();
