@@ -8,7 +8,7 @@
 #include <set>
 
 #include "clouds.h"
-#include "pcl_bv/kernels/extents.h"
+#include "pcl_bv/kernels/directions.h"
 
 namespace pcl_bv {
 namespace {

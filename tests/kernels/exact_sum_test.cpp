@@ -8,7 +8,7 @@
 #include <random>
 
 #include "exact.h"
-#include "pcl_bv/kernels/extents.h"
+#include "pcl_bv/kernels/directions.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,12 +9,13 @@
 
 #include "clouds.h"
 #include "exact.h"
-#include "pcl_bv/kernels/extents.h"
 
 namespace pcl_bv {
 namespace {
 
 using test::Rational;
+
+constexpr RoundedFilter kEverything{{0, 0, 0}, -std::numeric_limits<double>::infinity()};
 
 TEST(ExtremePoint, IsTheExactlyGreatestWithTheSmallestIndex) {
   for (const auto& cloud : test::nasty_clouds<float>()) {
@@ -22,7 +23,7 @@ TEST(ExtremePoint, IsTheExactlyGreatestWithTheSmallestIndex) {
     for (const auto& d : kCubeDirections) {
       const std::array<int, 3> direction = {d[0], d[1], d[2]};
       ExtremePoint best;
-      find_extreme_point(cloud.view(), d, -std::numeric_limits<double>::infinity(), best);
+      find_extreme_point(cloud.view(), 0, 1, cloud.size(), d, kEverything, best);
       bool found = false;
       Rational greatest;
       std::size_t index = 0;
@@ -49,7 +50,7 @@ TEST(ExtremePoint, NamesTheCloudsIndexUnderAnIndexListAndBreaksTiesByIt) {
   const std::int32_t indices[] = {4, 0, 3, 1};
   const PointView view = PointView::of(cloud.xyz.data(), 12, 4, indices);
   ExtremePoint best;
-  find_extreme_point(view, {0, 1, 1}, -1e30, best);
+  find_extreme_point(view, 0, 1, 4, {0, 1, 1}, kEverything, best);
   EXPECT_EQ(best.index, 1U);
 }
 

@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One pass of block extents over the cores, then the exact decision in the blocks that matter.
+// Chunks over the cores, merged exactly.
 
 #include "pcl_bv/fitting/extremes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <atomic>
 #include <limits>
 #include <vector>
 
+#include "pcl_bv/kernels/axis_extents.h"
+#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/kernels/extremes.h"
 #include "pcl_bv/kernels/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
@@ -18,112 +21,106 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kBlocksPerChunk = 32;  // 32 k points, 512 KiB of PointXYZ: some 10 us of work
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The block extents of a cloud; small clouds, of which there are many in a sweep, need no allocation.
-class BlockBuffer {
+// Only the order of magnitude matters: it decides whether threads are worth starting.
+double serial_seconds(Isa isa, DirectionSet set, std::size_t points) {
+  const double dop26 = isa == Isa::scalar   ? 4.5e-9
+                       : isa == Isa::avx512 ? 0.25e-9
+                       : isa == Isa::avx2   ? 0.6e-9
+                                            : 1.2e-9;
+  return dop26 * static_cast<double>(direction_count(set)) / 13.0 * static_cast<double>(points);
+}
+
+// One partial result per chunk; small clouds, of which there are many in a sweep, need no allocation.
+template <typename Partial, typename Map, typename Merge>
+void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
+  const std::size_t chunks = chunk_count(points.count);
+  if (chunks <= 1) {
+    if (chunks == 1) merge(map(points));
+    return;
+  }
+  std::vector<Partial> partials(chunks);
+  for_each_chunk(policy, chunks, [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    partials[chunk] = map(chunk_of(points, chunk));
+  });
+  for (const Partial& partial : partials)
+    merge(partial);
+}
+
+// What all chunks so far are known to reach. Which chunk sees what depends on timing; the result does not.
+class SharedReach {
  public:
-  explicit BlockBuffer(std::size_t size) : size_(size), heap_(size > few_.size() ? size : 0) {}
-  BlockExtents* data() { return heap_.empty() ? few_.data() : heap_.data(); }
-  std::size_t size() const { return size_; }
-  const BlockExtents& operator[](std::size_t b) const { return heap_.empty() ? few_[b] : heap_[b]; }
+  SharedReach() {
+    for (std::atomic<double>& r : reached_)
+      r.store(-kInfinity, std::memory_order_relaxed);
+  }
+
+  ReachedEnds snapshot() const {
+    ReachedEnds out;
+    for (std::size_t end = 0; end < kMaxEnds; ++end)
+      out[end] = reached_[end].load(std::memory_order_relaxed);
+    return out;
+  }
+
+  void raise(const ChunkExtremes& extremes) {
+    for (std::size_t end = 0; end < kMaxEnds; ++end) {
+      if (!extremes.ends[end].found) continue;
+      const double reach = round_down(extremes.ends[end].projection);
+      double known = reached_[end].load(std::memory_order_relaxed);
+      while (known < reach && !reached_[end].compare_exchange_weak(known, reach, std::memory_order_relaxed)) {
+      }
+    }
+  }
 
  private:
-  std::size_t size_;
-  std::array<BlockExtents, 4> few_;
-  std::vector<BlockExtents> heap_;
+  std::array<std::atomic<double>, kMaxEnds> reached_;
 };
 
-// Of a 26-DOP's pass. Only the order of magnitude matters: it decides whether threads are worth starting.
-double nanoseconds_per_point(Isa isa, DirectionSet set) {
-  const double dop26 = isa == Isa::scalar ? 4.5 : isa == Isa::avx512 ? 0.3 : isa == Isa::avx2 ? 0.6 : 1.2;
-  return dop26 * static_cast<double>(direction_count(set)) / 13.0;
+void find_bounds(const PointView& points, const Execution& execution, Isa isa, Extremes& out) {
+  out.low.fill(kInfinity);
+  out.high.fill(-kInfinity);
+  // A box costs about a quarter of the k-DOP along the same directions.
+  const ParallelPolicy policy =
+      worthwhile(execution.parallel, serial_seconds(isa, DirectionSet::dop6, points.count) / 4);
+  map_chunks<AxisExtents>(
+      points, policy, [&](const PointView& chunk) { return axis_extents(isa, chunk); },
+      [&](const AxisExtents& part) {
+        out.dropped += part.dropped;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          out.low[axis] = std::min(out.low[axis], part.low[axis]);
+          out.high[axis] = std::max(out.high[axis], part.high[axis]);
+        }
+      });
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    out.constant[axis] = out.low[axis] == out.high[axis];
 }
 
-void find_block_extents(const PointView& points, DirectionSet set, const Execution& execution,
-                        BlockBuffer& blocks) {
-  const Isa isa = resolve_isa(execution.isa);
-  const double serial = nanoseconds_per_point(isa, set) * 1e-9 * static_cast<double>(points.count);
-  const std::size_t chunks = (blocks.size() + kBlocksPerChunk - 1) / kBlocksPerChunk;
-  for_each_chunk(worthwhile(execution.parallel, serial), chunks, [&](std::size_t chunk) {
-    const FloatEnvironment environment;
-    const std::size_t first_block = chunk * kBlocksPerChunk;
-    const std::size_t first = first_block * kBlockPoints;
-    const std::size_t count = std::min(kBlocksPerChunk * kBlockPoints, points.count - first);
-    block_extents(isa, points.slice(first, count), set, blocks.data() + first_block);
-  });
-}
-
-// One end of one direction: the greatest projection on `direction`, which is the set's k-th one or its
-// opposite.
-struct End {
-  std::array<std::int8_t, 3> direction;
-  std::size_t k;
-  bool low;
-
-  double rounded(const BlockExtents& block) const { return low ? -block.low[k] : block.high[k]; }
-};
-
-int terms(const std::array<std::int8_t, 3>& direction) {
-  return std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
-}
-
-// What a rounded projection must reach to be possibly the exact extreme.
-double threshold(const End& end, double rounded_extreme, const Extremes& extremes, ScalarType scalar) {
-  if (terms(end.direction) == 1) return rounded_extreme;
-  double sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    sum += std::max(std::abs(extremes.low[axis]), std::abs(extremes.high[axis]));
+void find_points(const PointView& points, const Execution& execution, Isa isa, Extremes& out) {
+  SharedReach reach;
+  const auto find = [&](const PointView& chunk) {
+    ChunkExtremes extremes;
+    chunk_extremes(isa, chunk, out.set, reach.snapshot(), extremes);
+    reach.raise(extremes);
+    return extremes;
+  };
+  const auto merge = [&](const ChunkExtremes& part) {
+    out.dropped += part.dropped;
+    for (std::size_t k = 0; k < direction_count(out.set); ++k) {
+      keep_extreme(part.ends[2 * k], out.low_point[k]);
+      keep_extreme(part.ends[2 * k + 1], out.high_point[k]);
+    }
+  };
+  map_chunks<ChunkExtremes>(
+      points, worthwhile(execution.parallel, serial_seconds(isa, out.set, points.count)), find, merge);
+  for (std::size_t k = 0; k < direction_count(out.set) && out.dropped < points.count; ++k) {
+    const ExactSum& low = out.low_point[k].projection;  // of the opposite direction
+    const ExactSum& high = out.high_point[k].projection;
+    out.low[k] = -round_up(low) + 0.0;
+    out.high[k] = round_up(high);
+    out.constant[k] = compare({-low.head, -low.tail, -low.rest}, high) == 0;
   }
-  const bool is_float = scalar == ScalarType::float32;
-  // Float sums may overflow, and then say nothing.
-  if (is_float && sum > std::numeric_limits<float>::max()) return -std::numeric_limits<double>::infinity();
-  if (terms(end.direction) == 2) return rounded_extreme;
-  // Two sums, each off by 2 u sum; for doubles this very difference may be off by another u sum.
-  return rounded_extreme - 5.1 * (is_float ? 0x1p-24 : 0x1p-53) * sum;
-}
-
-ExtremePoint find_exact(const PointView& points, const BlockBuffer& blocks, const End& end, double least) {
-  ExtremePoint best;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (!(end.rounded(blocks[b]) >= least)) continue;
-    const std::size_t first = b * kBlockPoints;
-    const PointView block = points.slice(first, std::min(kBlockPoints, points.count - first));
-    find_extreme_point(block, end.direction, least, best);
-  }
-  return best;
-}
-
-// Both ends of the set's k-th direction; those of the axes must be there already (they are exact as they
-// come).
-void decide_direction(const PointView& points, const BlockBuffer& blocks, std::size_t k, ExtremeDetail detail,
-                      Extremes& out) {
-  const std::array<std::int8_t, 3> d = kCubeDirections[cube_direction(out.set, k)];
-  const std::array<std::int8_t, 3> opposite = {
-      static_cast<std::int8_t>(-d[0]), static_cast<std::int8_t>(-d[1]), static_cast<std::int8_t>(-d[2])};
-  double rounded_low = std::numeric_limits<double>::infinity();
-  double rounded_high = -rounded_low;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    rounded_low = std::min(rounded_low, blocks[b].low[k]);
-    rounded_high = std::max(rounded_high, blocks[b].high[k]);
-  }
-  if (terms(d) == 1) {
-    out.low[k] = rounded_low;
-    out.high[k] = rounded_high;
-    out.constant[k] = rounded_low == rounded_high;
-    if (detail == ExtremeDetail::bounds) return;
-  }
-  const End low_end{opposite, k, true};
-  const End high_end{d, k, false};
-  const ScalarType scalar = points.scalar;
-  const ExtremePoint low = find_exact(points, blocks, low_end, threshold(low_end, -rounded_low, out, scalar));
-  const ExtremePoint high =
-      find_exact(points, blocks, high_end, threshold(high_end, rounded_high, out, scalar));
-  out.low[k] = -round_up(low.projection) + 0.0;
-  out.high[k] = round_up(high.projection);
-  out.constant[k] = compare(exact_projection(d, low.point), high.projection) == 0;
-  out.low_point[k] = low;
-  out.high_point[k] = high;
 }
 
 }  // namespace
@@ -131,16 +128,15 @@ void decide_direction(const PointView& points, const BlockBuffer& blocks, std::s
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,
                        const Execution& execution) {
   const FloatEnvironment environment;
-  BlockBuffer blocks(block_count(points.count));
-  find_block_extents(points, set, execution, blocks);
+  const Isa isa = resolve_isa(execution.isa);
   Extremes extremes;
   extremes.set = set;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    extremes.dropped += blocks[b].dropped;
+  if (set == DirectionSet::dop6 && detail == ExtremeDetail::bounds) {
+    find_bounds(points, execution, isa, extremes);
+  } else {
+    find_points(points, execution, isa, extremes);
+  }
   extremes.used = points.count - extremes.dropped;
-  if (extremes.used == 0) return extremes;
-  for (std::size_t k = 0; k < direction_count(set); ++k)
-    decide_direction(points, blocks, k, detail, extremes);
   return extremes;
 }
 

@@ -12,6 +12,7 @@
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/small_ball.h"
+#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"

@@ -8,32 +8,52 @@
 namespace pcl_bv {
 namespace {
 
+bool same(const Coordinates& a, const Coordinates& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+void consider(const CubeDirection& direction, const Coordinates& point, std::size_t index,
+              ExtremePoint& best) {
+  // Many equal points (a cloud of one value, dead beams) need no arithmetic.
+  if (best.found && same(point, best.point)) {
+    if (index < best.index) best.index = index;
+    return;
+  }
+  if (is_valid(point)) keep_extreme({true, exact_projection(direction, point), point, index}, best);
+}
+
 template <typename T>
-void find(const PointView& points, const std::array<std::int8_t, 3>& direction, double threshold,
-          ExtremePoint& best) {
+void find(const PointView& points, std::size_t first, std::size_t step, std::size_t end,
+          const CubeDirection& direction, const RoundedFilter& filter, ExtremePoint& best) {
   const T a = direction[0];
   const T b = direction[1];
   const T c = direction[2];
-  for (std::size_t i = 0; i < points.count; ++i) {
+  const T center[3] = {static_cast<T>(filter.center.x), static_cast<T>(filter.center.y),
+                       static_cast<T>(filter.center.z)};
+  for (std::size_t i = first; i < end; i += step) {
     T v[3];
-    std::memcpy(v, points.address(i), sizeof v);
-    const T rounded = (a * v[0] + b * v[1]) + c * v[2];
-    if (!(rounded >= threshold)) continue;
-    const Coordinates point{v[0], v[1], v[2]};
-    if (!is_valid(point)) continue;
-    const ExactSum projection = exact_projection(direction, point);
-    const int order = best.found ? compare(projection, best.projection) : 1;
-    const std::size_t index = points.index(i);
-    if (order > 0 || (order == 0 && index < best.index)) best = {true, projection, point, index};
+    load_point(points, i, v);
+    const T rounded = (a * (v[0] - center[0]) + b * (v[1] - center[1])) + c * (v[2] - center[2]);
+    if (rounded < filter.threshold) continue;  // an overflown sum may be NaN
+    consider(direction, {v[0], v[1], v[2]}, points.index(i), best);
   }
 }
 
 }  // namespace
 
-void find_extreme_point(const PointView& points, const std::array<std::int8_t, 3>& direction,
-                        double threshold, ExtremePoint& best) {
-  if (points.scalar == ScalarType::float32) return find<float>(points, direction, threshold, best);
-  find<double>(points, direction, threshold, best);
+void keep_extreme(const ExtremePoint& other, ExtremePoint& best) {
+  if (!other.found) return;
+  const int order = best.found ? compare(other.projection, best.projection) : 1;
+  if (order > 0 || (order == 0 && other.index < best.index)) best = other;
+}
+
+void find_extreme_point(const PointView& points, std::size_t first, std::size_t step, std::size_t end,
+                        const CubeDirection& direction, const RoundedFilter& filter, ExtremePoint& best) {
+  if (points.scalar == ScalarType::float32) {
+    find<float>(points, first, step, end, direction, filter, best);
+  } else {
+    find<double>(points, first, step, end, direction, filter, best);
+  }
 }
 
 }  // namespace pcl_bv

@@ -10,14 +10,14 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/kernels/extents.h"
+#include "pcl_bv/kernels/directions.h"
 #include "pcl_bv/kernels/extreme_point.h"
 #include "pcl_bv/kernels/point_view.h"
 
 namespace pcl_bv {
 
 enum class ExtremeDetail {
-  bounds,  ///< How far only.
+  bounds,  ///< How far only: all that a box needs, four times as fast along the axes alone.
   points   ///< Also the points; for equal projections the one with the smallest index.
 };
 
@@ -35,10 +35,8 @@ struct Extremes {
 };
 
 /// Finds the extremes of all valid points; `used` is 0 and nothing else but `dropped` is set if there is
-/// none. The same bits for every execution. One SIMD pass over the points, then a rescan of the few blocks
-/// that can hold an extreme: the rounded sum of two terms is monotone, so only blocks that attain the rounded
-/// extreme qualify; one of three terms is off by at most 2 u (Mx + My + Mz), for each of the two points
-/// compared, u = 2^-24 (2^-53 for double) and M the greatest magnitudes.
+/// none. The same bits for every execution. One SIMD pass over the points in chunks, which also looks exactly
+/// at the few points of each chunk that can be extreme (docs/numerics.md).
 ///
 /// Throws std::invalid_argument for an unusable instruction set.
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,

@@ -4,10 +4,9 @@
 // Which point reaches farthest along a direction, decided exactly.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 
+#include "pcl_bv/kernels/directions.h"
 #include "pcl_bv/kernels/exact_sum.h"
 #include "pcl_bv/kernels/point_view.h"
 
@@ -21,10 +20,20 @@ struct ExtremePoint {
   std::size_t index = 0;  ///< The cloud's number of the point.
 };
 
-/// Lets `best` compete with the view's valid points whose rounded projection (in the view's scalar type,
-/// summed as (x +- y) +- z) is at least `threshold`. The exactly greatest wins; of equal ones the one with
-/// the smallest index. O(n), scalar: meant for the few blocks that can hold an extreme.
-void find_extreme_point(const PointView& points, const std::array<std::int8_t, 3>& direction,
-                        double threshold, ExtremePoint& best);
+/// Lets `best` compete with another one: the exactly greater projection wins; of equal ones the smaller
+/// index.
+void keep_extreme(const ExtremePoint& other, ExtremePoint& best);
+
+/// Which points are worth an exact look: those whose rounded projection, relative to `center` and in the
+/// view's scalar type, summed as ((x - cx) +- (y - cy)) +- (z - cz), is at least `threshold`.
+struct RoundedFilter {
+  Coordinates center;
+  double threshold;
+};
+
+/// Lets `best` compete with those valid points first, first + step, ... below `end` that pass the filter.
+/// O(points visited), scalar: meant for the few that can be extreme.
+void find_extreme_point(const PointView& points, std::size_t first, std::size_t step, std::size_t end,
+                        const CubeDirection& direction, const RoundedFilter& filter, ExtremePoint& best);
 
 }  // namespace pcl_bv

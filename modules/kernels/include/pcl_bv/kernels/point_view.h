@@ -12,19 +12,32 @@ namespace pcl_bv {
 
 enum class ScalarType : std::uint8_t { float32, float64 };
 
+constexpr std::size_t size_of(ScalarType scalar) {
+  return scalar == ScalarType::float64 ? 8 : 4;
+}
+
+/// How the coordinates lie in memory.
+enum class PointOrder : std::uint8_t {
+  records,  ///< x, y, z of a point one after another; a record per point.
+  groups    ///< The paper's Figure 1: 64 bytes of x, 64 of y, 64 of z, and again (point_groups.h).
+};
+
+/// Bytes of each coordinate in a group: 16 floats or 8 doubles, a cache line and the widest vector of x86.
+inline constexpr std::size_t kGroupBytes = 64;
+
 /// A read-only view of points in memory, whole or by an index list. Does not own; the memory must outlive it.
 ///
-/// Each point is three consecutive coordinates x, y, z (metres by convention, any unit works) of type
-/// `scalar`; they need no alignment. Coordinates may be NaN or infinite: such points are dropped by whoever
-/// reads them.
+/// Coordinates x, y, z (metres by convention, any unit works) of type `scalar`; in records they need no
+/// alignment. They may be NaN or infinite: such points are dropped by whoever reads them.
 struct PointView {
-  const std::byte* data = nullptr;        ///< x of point 0.
-  std::size_t stride = 0;                 ///< Bytes from one point's x to the next one's; >= 3 scalars.
-  std::size_t readable = 0;               ///< Bytes that may be read from any point's x on; >= 3 scalars.
+  const std::byte* data = nullptr;        ///< x of the first point.
+  std::size_t stride = 0;                 ///< Records: bytes from one point's x to the next one's.
+  std::size_t readable = 0;               ///< Records: bytes that may be read from any point's x on.
   std::size_t count = 0;                  ///< Points visited: the length of `indices` if there is one.
   const std::int32_t* indices = nullptr;  ///< Point number of each visited point, or null for 0, 1, 2, ...
-  std::size_t first = 0;                  ///< Without indices: point number of data[0], after slice().
+  std::size_t first = 0;                  ///< Without indices: number of the first visited point.
   ScalarType scalar = ScalarType::float32;
+  PointOrder order = PointOrder::records;
 
   /// Points whose x is at `xyz`, `stride` bytes apart, with all of `stride` readable (x comes first in the
   /// record).
@@ -38,7 +51,8 @@ struct PointView {
             count,
             indices,
             0,
-            sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64};
+            sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64,
+            PointOrder::records};
   }
 
   bool empty() const { return count == 0; }
@@ -48,10 +62,18 @@ struct PointView {
     return indices ? static_cast<std::size_t>(indices[i]) : first + i;
   }
 
-  /// Address of x of the i-th visited point.
+  /// Address of x of the i-th visited point; y and z follow after step() bytes each.
   const std::byte* address(std::size_t i) const {
-    return data + stride * (indices ? static_cast<std::size_t>(indices[i]) : i);
+    if (order == PointOrder::records) {
+      return data + stride * (indices ? static_cast<std::size_t>(indices[i]) : i);
+    }
+    const std::size_t size = size_of(scalar);
+    const std::size_t offset = index(i) * size;
+    return data + offset / kGroupBytes * (3 * kGroupBytes) + offset % kGroupBytes;
   }
+
+  /// Bytes from a point's x to its y, and to its z from there.
+  std::size_t step() const { return order == PointOrder::records ? size_of(scalar) : kGroupBytes; }
 
   /// Visited points [begin, begin + n) as a view of their own; index() still names the cloud's points.
   PointView slice(std::size_t begin, std::size_t n) const {
@@ -60,26 +82,36 @@ struct PointView {
     if (indices) {
       part.indices = indices + begin;
     } else {
-      part.data = data + stride * begin;
+      if (order == PointOrder::records) part.data = data + stride * begin;
       part.first = first + begin;
     }
     return part;
   }
 };
 
-/// Coordinates of the i-th visited point as double (exact).
 struct Coordinates {
   double x, y, z;
 };
 
+/// The three coordinates of the i-th visited point; T is the view's scalar type.
+template <typename T>
+inline void load_point(const PointView& points, std::size_t i, T (&xyz)[3]) {
+  const std::byte* x = points.address(i);
+  const std::size_t step = points.step();
+  std::memcpy(&xyz[0], x, sizeof(T));
+  std::memcpy(&xyz[1], x + step, sizeof(T));
+  std::memcpy(&xyz[2], x + 2 * step, sizeof(T));
+}
+
+/// Coordinates of the i-th visited point as double (exact).
 inline Coordinates load_point(const PointView& points, std::size_t i) {
   if (points.scalar == ScalarType::float64) {
     double v[3];
-    std::memcpy(v, points.address(i), sizeof v);
+    load_point(points, i, v);
     return {v[0], v[1], v[2]};
   }
   float v[3];
-  std::memcpy(v, points.address(i), sizeof v);
+  load_point(points, i, v);
   return {v[0], v[1], v[2]};
 }
 

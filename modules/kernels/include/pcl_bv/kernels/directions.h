@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The directions of the paper's k-DOPs, in the one order that the whole library uses.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace pcl_bv {
+
+/// Taken from the unit cube and not normalised; all coefficients are -1, 0, 1.
+using CubeDirection = std::array<std::int8_t, 3>;
+// clang-format off
+inline constexpr std::array<CubeDirection, 13> kCubeDirections = {{
+    {1, 0, 0}, {0, 1, 0}, {0, 0, 1},                                      // through the faces
+    {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1},                       // through the corners
+    {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1},  // through the edges
+}};
+// clang-format on
+inline constexpr std::size_t kMaxDirections = kCubeDirections.size();
+
+/// A choice of kCubeDirections, in that order.
+enum class DirectionSet : std::uint8_t { dop6, dop14, dop18, dop26 };
+
+/// Number of directions of a set: 3, 7, 9 or 13.
+constexpr std::size_t direction_count(DirectionSet set) {
+  constexpr std::size_t counts[] = {3, 7, 9, 13};
+  return counts[static_cast<std::size_t>(set)];
+}
+
+/// Position in kCubeDirections of the k-th direction of a set (dop18 skips the corners).
+constexpr std::size_t cube_direction(DirectionSet set, std::size_t k) {
+  return set == DirectionSet::dop18 && k >= 3 ? k + 4 : k;
+}
+
+/// The two ends of each direction: 2k is its least projection, 2k + 1 its greatest. An end is the greatest
+/// projection along end_direction().
+inline constexpr std::size_t kMaxEnds = 2 * kMaxDirections;
+
+constexpr CubeDirection end_direction(DirectionSet set, std::size_t end) {
+  CubeDirection d = kCubeDirections[cube_direction(set, end / 2)];
+  for (std::int8_t& c : d)
+    c = static_cast<std::int8_t>(end % 2 == 0 ? -c : c);
+  return d;
+}
+
+/// Number of coefficients that are not 0: 1, 2 or 3.
+constexpr int term_count(const CubeDirection& d) {
+  return (d[0] != 0) + (d[1] != 0) + (d[2] != 0);
+}
+
+}  // namespace pcl_bv

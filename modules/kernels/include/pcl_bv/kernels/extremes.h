@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// FIND-k-DOP: which points of a chunk reach farthest along the cube's directions. Floating-point vectors
+// reject nearly all points; the few that are left are compared exactly.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "pcl_bv/kernels/directions.h"
+#include "pcl_bv/kernels/extreme_point.h"
+#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv {
+
+/// For each end (directions.h) of a set, a projection along end_direction() that some other point of the
+/// cloud is known to reach; -infinity if none is. Points that do not reach it need not be found.
+using ReachedEnds = std::array<double, kMaxEnds>;
+
+inline constexpr ReachedEnds nothing_reached() {
+  ReachedEnds reached{};
+  for (double& r : reached)
+    r = -__builtin_huge_val();
+  return reached;
+}
+
+/// The extreme points of a chunk. Only the first 2 direction_count() ends count.
+struct ChunkExtremes {
+  std::array<ExtremePoint, kMaxEnds> ends{};  ///< Not found: no valid point, or none that reaches `reached`.
+  std::size_t dropped = 0;                    ///< Points that are not valid (is_valid() in point_view.h).
+};
+
+/// Finds the extreme points of at most kChunkPoints points: the exactly greatest projection; of equal ones
+/// the smallest index. Whether an end that cannot beat `reached` is found may depend on `isa`; any that is
+/// found is the same for all. `isa` must come from resolve_isa(). Paper §2 and §3. Never throws. O(n).
+/// Runs in the caller's floating-point environment: hold a FloatEnvironment.
+void chunk_extremes(Isa isa, const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
+                    ChunkExtremes& out);
+
+}  // namespace pcl_bv

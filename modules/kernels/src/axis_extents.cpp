@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Minimum and maximum of each coordinate, on the registers as memory gives them: which lane belongs to which
+// axis matters only at the end. Floats are compared as integers (reach-inl.h says why): the greatest signed
+// one, the greatest unsigned one and the least unsigned one together tell minimum and maximum whatever the
+// signs.
+
+#include "pcl_bv/kernels/axis_extents.h"
+
+#include <limits>
+
+#include "extremes_reference.h"
+#include "pcl_bv/kernels/chunks.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "axis_extents.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "load-inl.h"
+#include "reach-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+AxisExtents axis_extents(const PointView& points) {
+  return axis_extents_reference(points);
+}
+
+#else
+
+// Registers of a packet of lanes(d) points, and the axis of their lanes (3: not a coordinate).
+template <Layout layout>
+inline constexpr bool kWholePoints = (layout == Layout::packed16 || layout == Layout::wide) &&
+                                     !HWY_HAVE_SCALABLE;
+template <Layout layout>
+inline constexpr bool kTriples = layout == Layout::packed12;
+
+template <Layout layout>
+std::size_t axis_of(std::size_t r, std::size_t lane, std::size_t lanes) {
+  if (kWholePoints<layout>) return lane % 4;
+  if (kTriples<layout>) return (r * lanes + lane) % 3;
+  return r;
+}
+
+template <Layout layout, class D>
+HWY_INLINE void load_registers(D d, const PointView& points, std::size_t first, V<D>& v0, V<D>& v1, V<D>& v2,
+                               V<D>& v3) {
+  [[maybe_unused]] const std::size_t n = hn::Lanes(d);
+  if constexpr (kTriples<layout>) {
+    const float* p = reinterpret_cast<const float*>(points.data) + 3 * first;
+    v0 = hn::LoadU(d, p);
+    v1 = hn::LoadU(d, p + n);
+    v2 = hn::LoadU(d, p + 2 * n);
+  } else if constexpr (kWholePoints<layout> && layout == Layout::packed16) {
+    const float* p = reinterpret_cast<const float*>(points.data) + 4 * first;
+    v0 = hn::LoadU(d, p);
+    v1 = hn::LoadU(d, p + n);
+    v2 = hn::LoadU(d, p + 2 * n);
+    v3 = hn::LoadU(d, p + 3 * n);
+  } else if constexpr (kWholePoints<layout>) {
+    v0 = load_blocks(d, points, first, 4, 0);
+    v1 = load_blocks(d, points, first + 1, 4, 0);
+    v2 = load_blocks(d, points, first + 2, 4, 0);
+    v3 = load_blocks(d, points, first + 3, 4, 0);
+  } else {
+    load_packet<layout>(d, points, first, v0, v1, v2);
+  }
+}
+
+// The running extents, lane by lane of up to four registers.
+template <typename T>
+struct Lanes {
+  HWY_ALIGN T low[4 * (kGroupBytes / sizeof(T))];
+  HWY_ALIGN T high[4 * (kGroupBytes / sizeof(T))];
+};
+
+#define PCL_BV_EACH_REGISTER(DO) DO(0) DO(1) DO(2) DO(3)
+#define PCL_BV_DECLARE(r)                                          \
+  auto above##r = hn::Set(di, INT32_MIN);  /* greatest signed */   \
+  auto below##r = hn::Zero(du);            /* greatest unsigned */ \
+  auto near##r = hn::Set(du, 0xFFFFFFFFU); /* least unsigned */
+#define PCL_BV_STEP(r)                                   \
+  if constexpr (r < 3 || whole) {                        \
+    above##r = hn::Max(above##r, hn::BitCast(di, v##r)); \
+    below##r = hn::Max(below##r, hn::BitCast(du, v##r)); \
+    near##r = hn::Min(near##r, hn::BitCast(du, v##r));   \
+    hold(above##r);                                      \
+    hold(below##r);                                      \
+    hold(near##r);                                       \
+  }
+#define PCL_BV_CHECK(r)                                                                                \
+  if constexpr (r < 3 || whole) {                                                                      \
+    bad = hn::Or(bad, hn::Or(hn::VecFromMask(di, hn::Gt(above##r, hn::Set(di, 0x7F7FFFFF))),           \
+                             hn::VecFromMask(di, hn::Gt(hn::BitCast(di, hn::And(below##r, magnitude)), \
+                                                        hn::Set(di, 0x7F7FFFFF)))));                   \
+  }
+// All negative: the least unsigned is the maximum. None negative: it is the minimum.
+#define PCL_BV_KEEP(r)                                                                                 \
+  if constexpr (r < 3 || whole) {                                                                      \
+    const auto least = hn::BitCast(di, near##r);                                                       \
+    const auto greatest = hn::BitCast(di, below##r);                                                   \
+    const auto high = hn::BitCast(d, hn::IfThenElse(hn::Lt(above##r, hn::Zero(di)), least, above##r)); \
+    const auto low = hn::BitCast(d, hn::IfThenElse(hn::Lt(greatest, hn::Zero(di)), greatest, least));  \
+    hn::Store(hn::Min(hn::Load(d, lanes.low + r * n), low), d, lanes.low + r * n);                     \
+    hn::Store(hn::Max(hn::Load(d, lanes.high + r * n), high), d, lanes.high + r * n);                  \
+  }
+
+// Lets the lanes grow over a block of at least one packet; false, and nothing done, if a point of it is not
+// valid.
+template <Layout layout>
+bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
+  constexpr bool whole = kWholePoints<layout>;
+  const Tag<float> d;
+  const Signed<Tag<float>> di;
+  const Unsigned<Tag<float>> du;
+  const std::size_t n = hn::Lanes(d);
+  PCL_BV_EACH_REGISTER(PCL_BV_DECLARE)
+  for (std::size_t i = 0; i < block.count; i += n) {
+    V<decltype(d)> v0, v1, v2, v3;
+    load_registers<layout>(d, block, HWY_MIN(i, block.count - n), v0, v1, v2, v3);  // some twice: no harm
+    PCL_BV_EACH_REGISTER(PCL_BV_STEP)
+  }
+  const auto magnitude = hn::Set(du, 0x7FFFFFFFU);
+  auto bad = hn::Zero(di);
+  PCL_BV_EACH_REGISTER(PCL_BV_CHECK)
+  const auto fourth = hn::Eq(hn::And(hn::Iota(di, 0), hn::Set(di, 3)), hn::Set(di, 3));
+  if (whole) bad = hn::IfThenZeroElse(fourth, bad);
+  if (!hn::AllTrue(di, hn::Eq(bad, hn::Zero(di)))) return false;
+  PCL_BV_EACH_REGISTER(PCL_BV_KEEP)
+  return true;
+}
+
+// The same for doubles, whose registers always hold one axis each.
+template <Layout layout>
+bool grow_over_block(const PointView& block, Lanes<double>& lanes) {
+  const Tag<double> d;
+  const std::size_t n = hn::Lanes(d);
+  auto low_x = hn::Load(d, lanes.low), high_x = hn::Load(d, lanes.high);
+  auto low_y = hn::Load(d, lanes.low + n), high_y = hn::Load(d, lanes.high + n);
+  auto low_z = hn::Load(d, lanes.low + 2 * n), high_z = hn::Load(d, lanes.high + 2 * n);
+  auto farthest = hn::Zero(d);
+  auto total = hn::Zero(d);
+  for (std::size_t i = 0; i < block.count; i += n) {
+    V<decltype(d)> x, y, z;
+    load_packet<layout>(d, block, HWY_MIN(i, block.count - n), x, y, z);
+    low_x = hn::Min(low_x, x), high_x = hn::Max(high_x, x);
+    low_y = hn::Min(low_y, y), high_y = hn::Max(high_y, y);
+    low_z = hn::Min(low_z, z), high_z = hn::Max(high_z, z);
+    farthest = hn::Max(hn::Max(farthest, hn::Abs(x)), hn::Max(hn::Abs(y), hn::Abs(z)));
+    total = hn::Add(total, hn::Add(hn::Add(x, y), z));
+  }
+  if (!hn::AllTrue(d, hn::Le(farthest, hn::Set(d, coordinate_limit<double>())))) return false;
+  if (!sum_is_finite(d, total)) return false;
+  hn::Store(low_x, d, lanes.low), hn::Store(high_x, d, lanes.high);
+  hn::Store(low_y, d, lanes.low + n), hn::Store(high_y, d, lanes.high + n);
+  hn::Store(low_z, d, lanes.low + 2 * n), hn::Store(high_z, d, lanes.high + 2 * n);
+  return true;
+}
+
+// Any block: invalid points are passed over, which is counted.
+template <Layout layout, typename T>
+std::size_t grow_over_valid(const PointView& block, T* low, T* high) {
+  const Tag<T> d;
+  const std::size_t n = hn::Lanes(d);
+  const T inf = std::numeric_limits<T>::infinity();
+  const T pad[3] = {inf, inf, inf};
+  const auto limit = hn::Set(d, coordinate_limit<T>());
+  const auto least = hn::Set(d, -inf);
+  const auto greatest = hn::Set(d, inf);
+  auto low_x = greatest, low_y = greatest, low_z = greatest, high_x = least, high_y = least, high_z = least;
+  std::size_t valid_lanes = 0;
+  for (std::size_t i = 0; i < block.count; i += n) {
+    V<decltype(d)> x, y, z;
+    if (HWY_LIKELY(i + n <= block.count)) {
+      load_packet<layout>(d, block, i, x, y, z);
+    } else {
+      load_few(d, block, i, block.count - i, pad, x, y, z);
+    }
+    const auto valid =
+        hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
+    valid_lanes += hn::CountTrue(d, valid);
+    low_x = hn::Min(low_x, hn::IfThenElse(valid, x, greatest));
+    low_y = hn::Min(low_y, hn::IfThenElse(valid, y, greatest));
+    low_z = hn::Min(low_z, hn::IfThenElse(valid, z, greatest));
+    high_x = hn::Max(high_x, hn::IfThenElse(valid, x, least));
+    high_y = hn::Max(high_y, hn::IfThenElse(valid, y, least));
+    high_z = hn::Max(high_z, hn::IfThenElse(valid, z, least));
+  }
+  const auto keep = [&](std::size_t axis, V<decltype(d)> axis_low, V<decltype(d)> axis_high) {
+    low[axis] = HWY_MIN(low[axis], hn::GetLane(hn::MinOfLanes(d, axis_low)));
+    high[axis] = HWY_MAX(high[axis], hn::GetLane(hn::MaxOfLanes(d, axis_high)));
+  };
+  keep(0, low_x, high_x);
+  keep(1, low_y, high_y);
+  keep(2, low_z, high_z);
+  return block.count - valid_lanes;
+}
+
+template <Layout layout, typename T>
+AxisExtents extents_of(const PointView& points) {
+  const std::size_t n = hn::Lanes(Tag<T>());
+  const T inf = std::numeric_limits<T>::infinity();
+  T low[3] = {inf, inf, inf};
+  T high[3] = {-inf, -inf, -inf};
+  Lanes<T> lanes;
+  for (std::size_t i = 0; i < 4 * n; ++i)
+    lanes.low[i] = inf, lanes.high[i] = -inf;
+  std::size_t dropped = 0;
+  bool clean = true;  // where there was an invalid point there will be more
+  for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
+    const PointView block = points.slice(begin, HWY_MIN(kBlockPoints, points.count - begin));
+    if (clean && block.count >= n && grow_over_block<layout>(block, lanes)) continue;
+    const std::size_t bad = grow_over_valid<layout>(block, low, high);
+    clean = bad == 0;
+    dropped += bad;
+  }
+  const std::size_t registers = sizeof(T) == 4 && kWholePoints<layout> ? 4 : 3;
+  for (std::size_t r = 0; r < registers; ++r) {
+    for (std::size_t lane = 0; lane < n; ++lane) {
+      const std::size_t axis = axis_of<layout>(r, lane, n);
+      if (axis == 3) continue;
+      low[axis] = HWY_MIN(low[axis], lanes.low[r * n + lane]);
+      high[axis] = HWY_MAX(high[axis], lanes.high[r * n + lane]);
+    }
+  }
+  return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}, dropped};
+}
+
+template <typename T>
+AxisExtents extents_of_layout(const PointView& points) {
+  AxisExtents out;
+#define PCL_BV_CALL(layout) out = extents_of<layout, T>(points)
+  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
+#undef PCL_BV_CALL
+  return out;
+}
+
+AxisExtents axis_extents(const PointView& points) {
+  return points.scalar == ScalarType::float64 ? extents_of_layout<double>(points)
+                                              : extents_of_layout<float>(points);
+}
+
+#undef PCL_BV_EACH_REGISTER
+#undef PCL_BV_DECLARE
+#undef PCL_BV_STEP
+#undef PCL_BV_CHECK
+#undef PCL_BV_KEEP
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+
+AxisExtents axis_extents(Isa isa, const PointView& points) {
+  static constexpr KernelTable<AxisExtents(const PointView&)> kTable =
+      PCL_BV_KERNEL_TABLE(axis_extents, &axis_extents_reference);
+  return kTable[isa](points);
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// FIND-k-DOP of the paper (Figure 2), once in the source, compiled for every instruction set.
+
+#include "pcl_bv/kernels/extremes.h"
+
+#include <limits>
+
+#include "extremes_plan.h"
+#include "extremes_reference.h"
+#include "pcl_bv/kernels/chunks.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "extremes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "load-inl.h"
+#include "reach-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+void chunk_extremes(const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
+                    ChunkExtremes& out) {
+  chunk_extremes_reference(chunk, set, reached, out);
+}
+
+#else
+
+// Position of a direction of kCubeDirections among those of a set, or -1.
+constexpr int slot(DirectionSet set, std::size_t direction) {
+  for (std::size_t k = 0; k < direction_count(set); ++k) {
+    if (cube_direction(set, k) == direction) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+// The 13 projections of a packet, with the sums x + y and x - y shared. Named variables, not arrays: vectors
+// of SVE have no size that the compiler knows.
+// clang-format off
+#define PCL_BV_EACH_DIRECTION(DO)                                                                 \
+  DO(0, x) DO(1, y) DO(2, z)                                                                      \
+  DO(3, hn::Add(sum, z)) DO(4, hn::Sub(sum, z)) DO(5, hn::Add(difference, z)) DO(6, hn::Sub(difference, z)) \
+  DO(7, sum) DO(8, difference)                                                                    \
+  DO(9, hn::Add(x, z)) DO(10, hn::Sub(x, z)) DO(11, hn::Add(y, z)) DO(12, hn::Sub(y, z))
+// clang-format on
+
+#define PCL_BV_DECLARE(i, projection)             \
+  [[maybe_unused]] auto low##i = no_low_reach(d); \
+  [[maybe_unused]] auto high##i = no_high_reach(d);
+
+#define PCL_BV_STEP(i, projection)         \
+  if constexpr (slot(set, i) >= 0) {       \
+    const V<D> p = projection;             \
+    low##i = reach_lower(d, low##i, p);    \
+    high##i = reach_higher(d, high##i, p); \
+  }
+
+#define PCL_BV_STORE(i, projection)                                                \
+  if constexpr (slot(set, i) >= 0) {                                               \
+    hn::Store(low_reach(d, low##i), d, reach + 2 * slot(set, i) * stride);         \
+    hn::Store(high_reach(d, high##i), d, reach + (2 * slot(set, i) + 1) * stride); \
+  }
+
+// What each lane of a block reaches at each end, `lanes(d)` numbers per end. Returns whether all points are
+// valid; if not, `reach` means nothing. With `masked`, invalid points are replaced by the centre, which
+// reaches 0, and counted.
+template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
+bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std::size_t& dropped) {
+  const std::size_t n = hn::Lanes(d);
+  [[maybe_unused]] const auto limit = hn::Set(d, coordinate_limit<T>());
+  const auto center_x = hn::Set(d, center[0]);
+  const auto center_y = hn::Set(d, center[1]);
+  const auto center_z = hn::Set(d, center[2]);
+  PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
+  [[maybe_unused]] auto total = hn::Zero(d);
+  std::size_t valid_lanes = 0;
+  for (std::size_t i = 0; i < block.count; i += n) {
+    V<D> x, y, z;
+    if (HWY_LIKELY(i + n <= block.count)) {
+      load_packet<layout>(d, block, i, x, y, z);
+    } else if (masked || block.count < n) {
+      load_few(d, block, i, block.count - i, center, x, y, z);
+    } else {
+      load_packet<layout>(d, block, block.count - n, x, y, z);  // some points twice do no harm
+    }
+    if constexpr (masked) {
+      const auto valid =
+          hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
+      valid_lanes += hn::CountTrue(d, valid);
+      x = hn::IfThenElse(valid, x, center_x);
+      y = hn::IfThenElse(valid, y, center_y);
+      z = hn::IfThenElse(valid, z, center_z);
+    }
+    x = hn::Sub(x, center_x);
+    y = hn::Sub(y, center_y);
+    z = hn::Sub(z, center_z);
+    const auto sum = hn::Add(x, y);
+    [[maybe_unused]] const auto difference = hn::Sub(x, y);
+    if constexpr (!masked && sizeof(T) == 8) total = hn::Add(total, hn::Add(sum, z));
+    PCL_BV_EACH_DIRECTION(PCL_BV_STEP)
+  }
+  constexpr std::size_t stride = kGroupBytes / sizeof(T);
+  PCL_BV_EACH_DIRECTION(PCL_BV_STORE)
+  if constexpr (masked) {
+    dropped = (block.count + n - 1) / n * n - valid_lanes;
+    return true;
+  }
+  dropped = 0;
+  const T room = room_around<T>(center);
+  return all_within(d, room, low0, high0) && all_within(d, room, low1, high1) &&
+         all_within(d, room, low2, high2) && sum_is_finite(d, total);
+}
+
+// The pass over a chunk's blocks; returns how many points were dropped.
+template <Layout layout, DirectionSet set, typename T>
+std::size_t reach_of_blocks(const PointView& chunk, const T* center, T* reach) {
+  const Tag<T> d;
+  std::size_t dropped = 0;
+  bool clean = true;  // where there was an invalid point there will be more
+  for (std::size_t begin = 0; begin < chunk.count; begin += kBlockPoints, reach += kReachPerBlock<set, T>) {
+    const PointView block = chunk.slice(begin, HWY_MIN(kBlockPoints, chunk.count - begin));
+    std::size_t bad = 0;
+    if (!clean || !reach_of_block<layout, set, false>(d, block, center, reach, bad)) {
+      reach_of_block<layout, set, true>(d, block, center, reach, bad);
+      clean = bad == 0;
+    }
+    dropped += bad;
+  }
+  return dropped;
+}
+
+template <typename T>
+double greatest_reach(const T* reach, std::size_t blocks, std::size_t per_block) {
+  const Tag<T> d;
+  auto greatest = hn::Load(d, reach);
+  for (std::size_t b = 1; b < blocks; ++b)
+    greatest = hn::Max(greatest, hn::Load(d, reach + b * per_block));
+  return hn::GetLane(hn::MaxOfLanes(d, greatest));
+}
+
+// Looks at the points behind those lanes of those blocks that reach the threshold.
+template <Layout layout, typename T>
+void search(const PointView& chunk, const T* reach, std::size_t per_block, const CubeDirection& direction,
+            const RoundedFilter& filter, ExtremePoint& best) {
+  const Tag<T> d;
+  const std::size_t n = hn::Lanes(d);
+  const auto least = hn::Set(d, static_cast<T>(filter.threshold));
+  for (std::size_t begin = 0; begin < chunk.count; begin += kBlockPoints, reach += per_block) {
+    const auto candidates = hn::Not(hn::Lt(hn::Load(d, reach), least));  // an overflown sum may be NaN
+    if (HWY_LIKELY(hn::AllFalse(d, candidates))) continue;
+    const std::size_t end = HWY_MIN(begin + kBlockPoints, chunk.count);
+    const std::size_t whole = begin + (end - begin) / n * n;
+    HWY_ALIGN std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, candidates, bits);
+    for (std::size_t lane = 0; lane < n; ++lane) {
+      if ((bits[lane / 8] >> (lane % 8) & 1) == 0) continue;
+      find_extreme_point(chunk, begin + point_of_lane<layout>(lane, n), n, whole, direction, filter, best);
+    }
+    find_extreme_point(chunk, whole, 1, end, direction, filter, best);
+  }
+}
+
+template <Layout layout, DirectionSet set, typename T>
+void extremes_of_chunk(const PointView& chunk, const ReachedEnds& reached, ChunkExtremes& out) {
+  constexpr std::size_t stride = kGroupBytes / sizeof(T);
+  constexpr std::size_t per_block = kReachPerBlock<set, T>;
+  HWY_ALIGN T reach[kChunkPoints / kBlockPoints * per_block];
+  out = ChunkExtremes();
+  Coordinates center;
+  if (!chunk_center(chunk, center)) {
+    out.dropped = chunk.count;
+    return;
+  }
+  const T c[3] = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
+  out.dropped = reach_of_blocks<layout, set>(chunk, c, reach);
+  const std::size_t blocks = (chunk.count + kBlockPoints - 1) / kBlockPoints;
+  RoundedEnds top;
+  for (std::size_t end = 0; end < 2 * direction_count(set); ++end)
+    top[end] = greatest_reach(reach + end * stride, blocks, per_block);
+  for (std::size_t end = 0; end < 2 * direction_count(set); ++end) {
+    const EndSearch plan = plan_search(set, end, top, center, reached[end], chunk.scalar);
+    const CubeDirection direction = end_direction(set, end);
+    if (plan.kind == EndSearch::Kind::every) keep_any_point(chunk, direction, out.ends[end]);
+    if (plan.kind != EndSearch::Kind::some) continue;
+    search<layout>(chunk, reach + end * stride, per_block, direction, {center, plan.threshold},
+                   out.ends[end]);
+  }
+}
+
+template <DirectionSet set, typename T>
+void extremes_of_set(const PointView& chunk, const ReachedEnds& reached, ChunkExtremes& out) {
+#define PCL_BV_CALL(layout) extremes_of_chunk<layout, set, T>(chunk, reached, out)
+  PCL_BV_FOR_LAYOUT(T, chunk, PCL_BV_CALL)
+#undef PCL_BV_CALL
+}
+
+template <typename T>
+void extremes_of(const PointView& chunk, DirectionSet set, const ReachedEnds& reached, ChunkExtremes& out) {
+  switch (set) {
+    case DirectionSet::dop6:
+      return extremes_of_set<DirectionSet::dop6, T>(chunk, reached, out);
+    case DirectionSet::dop14:
+      return extremes_of_set<DirectionSet::dop14, T>(chunk, reached, out);
+    case DirectionSet::dop18:
+      return extremes_of_set<DirectionSet::dop18, T>(chunk, reached, out);
+    case DirectionSet::dop26:
+      return extremes_of_set<DirectionSet::dop26, T>(chunk, reached, out);
+  }
+}
+
+void chunk_extremes(const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
+                    ChunkExtremes& out) {
+  if (chunk.scalar == ScalarType::float64) return extremes_of<double>(chunk, set, reached, out);
+  extremes_of<float>(chunk, set, reached, out);
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+
+void chunk_extremes(Isa isa, const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
+                    ChunkExtremes& out) {
+  static constexpr KernelTable<void(const PointView&, DirectionSet, const ReachedEnds&, ChunkExtremes&)>
+      kTable = PCL_BV_KERNEL_TABLE(chunk_extremes, &chunk_extremes_reference);
+  kTable[isa](chunk, set, reached, out);
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE

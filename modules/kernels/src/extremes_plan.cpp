@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "extremes_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The rounded difference of two points' rounded projections may be off by this many u times the sum of the
+// magnitudes: for each point the subtraction of the centre and one or two additions; for doubles also the
+// difference itself. One term: no rounding can swap two points, since x - c is monotone.
+double doubt(int terms) {
+  return terms == 1 ? 0 : terms == 2 ? 5.2 : 7.2;
+}
+
+// The mean of a few valid points: inside their hull, in its box exactly.
+class SampleMean {
+ public:
+  void add(const Coordinates& p) {
+    if (!is_valid(p)) return;
+    ++count_;
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
+    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
+    sum_ = {sum_.x + p.x, sum_.y + p.y, sum_.z + p.z};
+  }
+  bool empty() const { return count_ == 0; }
+  Coordinates value() const {
+    return {std::clamp(sum_.x / count_, low_.x, high_.x), std::clamp(sum_.y / count_, low_.y, high_.y),
+            std::clamp(sum_.z / count_, low_.z, high_.z)};
+  }
+
+ private:
+  double count_ = 0;
+  Coordinates low_{kInfinity, kInfinity, kInfinity};
+  Coordinates high_{-kInfinity, -kInfinity, -kInfinity};
+  Coordinates sum_{0, 0, 0};
+};
+
+double round_down_to_float(double value) {
+  if (value < -static_cast<double>(std::numeric_limits<float>::max())) return -kInfinity;
+  const float nearest = static_cast<float>(value);
+  return nearest <= value ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+bool chunk_center(const PointView& chunk, Coordinates& center) {
+  constexpr std::size_t samples = 16;
+  SampleMean mean;
+  const std::size_t taken = std::min(samples, chunk.count);
+  for (std::size_t s = 0; s < taken; ++s)
+    mean.add(load_point(chunk, (2 * s + 1) * chunk.count / (2 * taken)));
+  for (std::size_t i = 0; mean.empty() && i < chunk.count; ++i)
+    mean.add(load_point(chunk, i));
+  if (mean.empty()) return false;
+  center = mean.value();
+  if (chunk.scalar == ScalarType::float32) {
+    center = {static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)};
+  }
+  return true;
+}
+
+EndSearch plan_search(DirectionSet set, std::size_t end, const RoundedEnds& top, const Coordinates& center,
+                      double reached, ScalarType scalar) {
+  const CubeDirection d = end_direction(set, end);
+  const bool is_float = scalar == ScalarType::float32;
+  const double unit = is_float ? 0x1p-24 : 0x1p-53;
+  double magnitude = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    magnitude += std::max(top[2 * axis], top[2 * axis + 1]);
+
+  // Of the chunk in the cloud's frame: the rounding of the projections, then of this sum.
+  const double offset = (d[0] * center.x + d[1] * center.y) + d[2] * center.z;
+  const double magnitudes = std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + magnitude;
+  if (top[end] + offset + (4 * unit * magnitude + 0x1p-49 * magnitudes) < reached) {
+    return {EndSearch::Kind::none, 0};
+  }
+  const int terms = term_count(d);
+  // x - c is 0 only if x is c; so are sums of such.
+  if (magnitude == 0 || (terms == 1 && top[end] == 0 && top[end ^ 1U] == 0)) {
+    return {EndSearch::Kind::every, 0};
+  }
+  if (is_float && !(magnitude <= static_cast<double>(std::numeric_limits<float>::max()))) {
+    return {EndSearch::Kind::some, -kInfinity};  // sums may have overflown, and then say nothing
+  }
+  // Rounded, the centre may lie beyond all points of a flat chunk (never along an axis).
+  if (top[end] == 0 && terms > 1) return {EndSearch::Kind::some, -kInfinity};
+  const double threshold = top[end] - doubt(terms) * unit * magnitude;
+  return {EndSearch::Kind::some, is_float ? round_down_to_float(threshold) : threshold};
+}
+
+void keep_any_point(const PointView& chunk, const CubeDirection& direction, ExtremePoint& best) {
+  constexpr RoundedFilter everything{{0, 0, 0}, -kInfinity};
+  if (chunk.indices != nullptr)
+    return find_extreme_point(chunk, 0, 1, chunk.count, direction, everything, best);
+  for (std::size_t i = 0; i < chunk.count && !best.found; ++i)
+    find_extreme_point(chunk, i, 1, i + 1, direction, everything, best);
+}
+
+}  // namespace pcl_bv

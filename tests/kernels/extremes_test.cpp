@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/kernels/extremes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include "clouds.h"
+#include "pcl_bv/kernels/axis_extents.h"
+#include "pcl_bv/kernels/chunks.h"
+
+namespace pcl_bv {
+namespace {
+
+using test::Records;
+using test::TestCloud;
+
+constexpr DirectionSet kSets[] = {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18,
+                                  DirectionSet::dop26};
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+ChunkExtremes run(Isa isa, const PointView& points, DirectionSet set,
+                  const ReachedEnds& reached = nothing_reached()) {
+  ChunkExtremes extremes;
+  chunk_extremes(isa, points, set, reached, extremes);
+  return extremes;
+}
+
+// Bits, not values: -0 differs from 0.
+template <typename Value>
+bool same_bits(const Value& a, const Value& b) {
+  return std::memcmp(&a, &b, sizeof(Value)) == 0;
+}
+
+void expect_same(const ChunkExtremes& a, const ChunkExtremes& b, DirectionSet set) {
+  EXPECT_EQ(a.dropped, b.dropped);
+  for (std::size_t end = 0; end < 2 * direction_count(set); ++end) {
+    SCOPED_TRACE("end " + std::to_string(end));
+    ASSERT_EQ(a.ends[end].found, b.ends[end].found);
+    EXPECT_EQ(a.ends[end].index, b.ends[end].index);
+    EXPECT_EQ(compare(a.ends[end].projection, b.ends[end].projection), 0);
+  }
+}
+
+void expect_same(const AxisExtents& a, const AxisExtents& b) {
+  EXPECT_EQ(a.dropped, b.dropped);
+  EXPECT_TRUE(same_bits(a.low, b.low)) << a.low[0] << ' ' << a.low[1] << ' ' << a.low[2] << " and "
+                                       << b.low[0] << ' ' << b.low[1] << ' ' << b.low[2];
+  EXPECT_TRUE(same_bits(a.high, b.high)) << a.high[0] << ' ' << a.high[1] << ' ' << a.high[2] << " and "
+                                         << b.high[0] << ' ' << b.high[1] << ' ' << b.high[2];
+}
+
+// As simple as can be: every point, exactly.
+ChunkExtremes by_definition(const PointView& points, DirectionSet set) {
+  ChunkExtremes out;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) {
+      ++out.dropped;
+      continue;
+    }
+    for (std::size_t end = 0; end < 2 * direction_count(set); ++end) {
+      keep_extreme({true, exact_projection(end_direction(set, end), p), p, points.index(i)}, out.ends[end]);
+    }
+  }
+  return out;
+}
+
+AxisExtents box_by_definition(const PointView& points) {
+  AxisExtents out{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}, 0};
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) {
+      ++out.dropped;
+      continue;
+    }
+    const double v[3] = {p.x, p.y, p.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      out.low[axis] = std::min(out.low[axis], v[axis]) + 0.0;
+      out.high[axis] = std::max(out.high[axis], v[axis]) + 0.0;
+    }
+  }
+  return out;
+}
+
+class Extremes : public testing::TestWithParam<Isa> {
+ protected:
+  template <typename T>
+  void expect_definition(const PointView& points) {
+    expect_same(axis_extents(GetParam(), points), box_by_definition(points));
+    for (const DirectionSet set : kSets) {
+      SCOPED_TRACE("directions " + std::to_string(direction_count(set)));
+      expect_same(run(GetParam(), points, set), by_definition(points, set), set);
+    }
+  }
+};
+
+TEST_P(Extremes, AreThoseOfTheDefinitionForFloat) {
+  for (const TestCloud<float>& cloud : test::nasty_clouds<float>()) {
+    SCOPED_TRACE(cloud.name);
+    expect_definition<float>(cloud.view());
+  }
+}
+
+TEST_P(Extremes, AreThoseOfTheDefinitionForDouble) {
+  for (const TestCloud<double>& cloud : test::nasty_clouds<double>()) {
+    SCOPED_TRACE(cloud.name);
+    expect_definition<double>(cloud.view());
+  }
+}
+
+TEST_P(Extremes, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
+  for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
+    const TestCloud<float> cloud = test::gaussian<float>(n, n);
+    for (const auto& [stride, offset] : std::vector<std::pair<std::size_t, std::size_t>>{{12, 0},
+                                                                                         {16, 0},
+                                                                                         {16, 4},
+                                                                                         {20, 0},
+                                                                                         {29, 13},
+                                                                                         {31, 3},
+                                                                                         {32, 0},
+                                                                                         {32, 16},
+                                                                                         {32, 20},
+                                                                                         {48, 0},
+                                                                                         {48, 32}}) {
+      SCOPED_TRACE(testing::Message() << n << " points, stride " << stride << ", offset " << offset);
+      expect_definition<float>(Records<float>(cloud, stride, offset).view());
+    }
+    for (const std::size_t stride : {24, 32, 40}) {
+      SCOPED_TRACE(testing::Message() << n << " double points, stride " << stride);
+      const TestCloud<double> doubles = test::gaussian<double>(n, n);
+      expect_definition<double>(Records<double>(doubles, stride).view());
+    }
+  }
+}
+
+TEST_P(Extremes, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
+  const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                       -std::numeric_limits<float>::infinity()};
+  for (std::size_t n : {1, 15, 16, 33, 50}) {
+    for (std::size_t i = 0; i < 3 * n; ++i) {
+      TestCloud<float> cloud = test::gaussian<float>(n, 5);
+      cloud.xyz[i] = bad[i % 3];
+      SCOPED_TRACE(testing::Message() << n << " points, coordinate " << i);
+      expect_definition<float>(Records<float>(cloud, 16).view());
+      expect_definition<float>(Records<float>(cloud, 12).view());
+      EXPECT_EQ(run(GetParam(), cloud.view(), DirectionSet::dop26).dropped, 1U);
+    }
+  }
+}
+
+TEST_P(Extremes, AreThoseOfTheDefinitionForIndexLists) {
+  const TestCloud<float> cloud = test::gaussian<float>(4000, 3);
+  std::vector<std::int32_t> indices(4000);
+  std::iota(indices.begin(), indices.end(), 0);
+  std::shuffle(indices.begin(), indices.end(), std::mt19937_64(4));
+  indices.resize(2777);
+  indices.push_back(3999);  // the last point of the cloud: nothing may be read behind it
+  for (const std::size_t stride : {12, 16, 32, 48}) {
+    const Records<float> records(cloud, stride);
+    PointView view = records.view();
+    view.indices = indices.data();
+    view.count = indices.size();
+    SCOPED_TRACE(testing::Message() << "stride " << stride);
+    expect_definition<float>(view);
+  }
+}
+
+TEST_P(Extremes, SumsAreNotContracted) {
+  // x + y rounds here; with a fused multiply-add in place of the separate sum the last bit differs.
+  const TestCloud<float> cloud{"fma", {1.0F + 0x1p-23F, 0x1p-24F, -1.0F, 16777216.0F, 1.0F, 1.0F}};
+  expect_definition<float>(cloud.view());
+  const ChunkExtremes extremes = run(GetParam(), cloud.view(), DirectionSet::dop14);
+  EXPECT_EQ(round_up(extremes.ends[7].projection), 16777218.0);
+}
+
+TEST_P(Extremes, ABoxOfMixedZerosHasPositiveZeros) {
+  for (const std::size_t copies : {1, 7, 100}) {
+    TestCloud<float> cloud{"zeros", {}};
+    for (std::size_t i = 0; i < copies; ++i)
+      cloud.xyz.insert(cloud.xyz.end(), {0.0F, -0.0F, 0.0F, -0.0F, 0.0F, -0.0F, -0.0F, -0.0F, -0.0F});
+    const AxisExtents box = axis_extents(GetParam(), cloud.view());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_FALSE(std::signbit(box.low[axis]));
+      EXPECT_FALSE(std::signbit(box.high[axis]));
+    }
+  }
+}
+
+TEST_P(Extremes, ABoxIsRightWhateverTheSigns) {
+  // Integer comparison of floats goes wrong where all signs agree, unless it is told.
+  for (const double offset : {-30.0, -3.0, 0.0, 3.0, 30.0}) {
+    const TestCloud<float> cloud = test::gaussian<float>(5000, 9, 1, offset);
+    expect_definition<float>(cloud.view());
+    expect_definition<float>(Records<float>(cloud, 16).view());
+    expect_definition<float>(Records<float>(cloud, 32).view());
+  }
+}
+
+TEST_P(Extremes, DoublesBeyondTheLimitAreDropped) {
+  TestCloud<double> cloud{"limit", {1e100, 0, 0, 0, -1.01e100, 0, 1, 2, 3, 0, 0, 1e200}};
+  for (int i = 0; i < 50; ++i)
+    cloud.xyz.insert(cloud.xyz.end(), {0.99e100, 1, 1});
+  cloud.xyz.insert(cloud.xyz.end(), {1.01e100, 1, 1});
+  expect_definition<double>(cloud.view());
+  EXPECT_EQ(run(GetParam(), cloud.view(), DirectionSet::dop6).dropped, 3U);
+  EXPECT_EQ(axis_extents(GetParam(), cloud.view()).high[0], 1e100);
+}
+
+TEST_P(Extremes, OfPointsOnOneSideOfTheirMeanInAFlatDirection) {
+  // The plane x + y = 1, tilted to the axes: its points' mean, rounded, may lie on either side of it.
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    TestCloud<float> cloud = test::gaussian<float>(300, seed);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      cloud.xyz[3 * i + 1] = 1 - cloud.xyz[3 * i];
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    expect_definition<float>(cloud.view());
+  }
+}
+
+TEST_P(Extremes, AreFoundUnlessTheyCannotReachWhatIsKnown) {
+  const TestCloud<float> cloud = test::gaussian<float>(20'000, 11, 3, 1e3);
+  const ChunkExtremes all = run(GetParam(), cloud.view(), DirectionSet::dop26);
+  ReachedEnds same = nothing_reached();
+  ReachedEnds beyond = nothing_reached();
+  for (std::size_t end = 0; end < kMaxEnds; ++end) {
+    same[end] = round_down(all.ends[end].projection);
+    beyond[end] = same[end] + 1;
+  }
+  expect_same(run(GetParam(), cloud.view(), DirectionSet::dop26, same), all, DirectionSet::dop26);
+  for (const ExtremePoint& end : run(GetParam(), cloud.view(), DirectionSet::dop26, beyond).ends) {
+    EXPECT_FALSE(end.found);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryUsableSet, Extremes, testing::ValuesIn(usable_isas()),
+                         [](const auto& param) { return std::string(isa_name(param.param)); });
+
+}  // namespace
+}  // namespace pcl_bv
