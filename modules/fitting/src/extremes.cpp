@@ -99,10 +99,11 @@ void find_bounds(const PointView& points, const Execution& execution, Isa isa, E
 
 void find_points(const PointView& points, const Execution& execution, Isa isa, Extremes& out) {
   SharedReach reach;
+  const bool shared = chunk_count(points.count) > 1;
   const auto find = [&](const PointView& chunk) {
     ChunkExtremes extremes;
-    chunk_extremes(isa, chunk, out.set, reach.snapshot(), extremes);
-    reach.raise(extremes);
+    chunk_extremes(isa, chunk, out.set, shared ? reach.snapshot() : nothing_reached(), extremes);
+    if (shared) reach.raise(extremes);
     return extremes;
   };
   const auto merge = [&](const ChunkExtremes& part) {

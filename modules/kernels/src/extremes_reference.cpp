@@ -17,9 +17,12 @@ namespace pcl_bv {
 namespace {
 
 template <typename T>
+constexpr T limit = sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max())
+                                   : static_cast<T>(1e100);
+
+template <typename T>
 bool valid(T x, T y, T z) {
-  const T limit = sizeof(T) == 4 ? std::numeric_limits<T>::max() : static_cast<T>(1e100);
-  return std::abs(x) <= limit && std::abs(y) <= limit && std::abs(z) <= limit;
+  return std::abs(x) <= limit<T> && std::abs(y) <= limit<T> && std::abs(z) <= limit<T>;
 }
 
 template <typename T, DirectionSet set>
@@ -54,18 +57,19 @@ struct Block {
   T high[kMaxDirections];
 };
 
-template <typename T, DirectionSet set>
-std::size_t project_block(const PointView& points, Block<T>& out) {
+template <typename T, DirectionSet set, typename Load>
+std::size_t project_block(std::size_t points, Load load, Block<T>& out) {
   constexpr std::size_t count = direction_count(set);
   T low[count];
   T high[count];
   std::fill_n(low, count, std::numeric_limits<T>::infinity());
   std::fill_n(high, count, -std::numeric_limits<T>::infinity());
   std::size_t dropped = 0;
-  for (std::size_t i = 0; i < points.count; ++i) {
+  for (std::size_t i = 0; i < points; ++i) {
     T v[3];
-    load_point(points, i, v);
-    if (!valid(v[0], v[1], v[2])) {
+    load(i, v);
+    // One test for nearly all: a sum that is small enough has valid terms.
+    if (!(std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]) <= limit<T>)&&!valid(v[0], v[1], v[2])) {
       ++dropped;
       continue;
     }
@@ -81,14 +85,26 @@ std::size_t project_block(const PointView& points, Block<T>& out) {
   return dropped;
 }
 
+template <typename T, DirectionSet set>
+std::size_t project_block(const PointView& points, Block<T>& out) {
+  if (points.order == PointOrder::records && points.indices == nullptr) {
+    const auto load = [data = points.data, stride = points.stride](std::size_t i, T(&v)[3]) {
+      std::memcpy(v, data + stride * i, sizeof v);
+    };
+    return project_block<T, set>(points.count, load, out);
+  }
+  return project_block<T, set>(
+      points.count, [&](std::size_t i, T(&v)[3]) { load_point(points, i, v); }, out);
+}
+
 template <typename T>
 T reach(const Block<T>& block, std::size_t end) {
   return end % 2 == 0 ? -block.low[end / 2] : block.high[end / 2];
 }
 
 // How far the rounded projections of two points, of coordinates up to `magnitude` in sum, may be off
-// together: u per addition for each, and once more for the difference itself. Sums that may overflow say
-// nothing.
+// together: u per addition for each, and once more for the difference itself and its rounding. Sums that may
+// overflow say nothing.
 template <typename T>
 double doubt(int terms, double magnitude) {
   const double unit = sizeof(T) == 4 ? 0x1p-24 : 0x1p-53;
@@ -96,7 +112,7 @@ double doubt(int terms, double magnitude) {
   if (magnitude > static_cast<double>(std::numeric_limits<T>::max())) {
     return std::numeric_limits<double>::infinity();
   }
-  return (terms == 2 ? 3.1 : 5.1) * unit * magnitude;
+  return (terms == 2 ? 4.1 : 6.1) * unit * magnitude;
 }
 
 template <typename T, DirectionSet set>
@@ -121,7 +137,8 @@ void extremes(const PointView& chunk, const ReachedEnds& reached, ChunkExtremes&
     const CubeDirection direction = end_direction(set, end);
     const double band = doubt<T>(term_count(direction), magnitude);
     if (top[end] + band < reached[end]) continue;
-    const RoundedFilter filter{{0, 0, 0}, std::isinf(band) ? -band : top[end] - band};
+    const T least = static_cast<T>(top[end] - band);  // its rounding is in the band
+    const RoundedFilter filter{{0, 0, 0}, std::isinf(band) ? -band : least};
     for (std::size_t b = 0; b < count; ++b) {
       if (!(reach(blocks[b], end) >= filter.threshold)) continue;
       const std::size_t begin = b * kBlockPoints;

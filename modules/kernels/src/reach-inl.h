@@ -54,10 +54,6 @@ T room_around(const T* center) {
   return static_cast<T>(0.999) * (coordinate_limit<T>() - farthest);
 }
 
-/// Numbers that a block's reach takes: a group's worth of lanes per end.
-template <DirectionSet set, typename T>
-inline constexpr std::size_t kReachPerBlock = 2 * direction_count(set) * (kGroupBytes / sizeof(T));
-
 template <class D, IsFloat<D> = nullptr>
 HWY_INLINE V<Signed<D>> no_high_reach(D) {
   return hn::Zero(Signed<D>());

@@ -25,7 +25,8 @@ struct ExtremePoint {
 void keep_extreme(const ExtremePoint& other, ExtremePoint& best);
 
 /// Which points are worth an exact look: those whose rounded projection, relative to `center` and in the
-/// view's scalar type, summed as ((x - cx) +- (y - cy)) +- (z - cz), is at least `threshold`.
+/// view's scalar type, summed as ((x - cx) +- (y - cy)) +- (z - cz), is at least `threshold` (a value of that
+/// type).
 struct RoundedFilter {
   Coordinates center;
   double threshold;
