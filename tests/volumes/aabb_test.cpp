@@ -86,6 +86,22 @@ TEST(Aabb, MeasuresOfABrickAreThoseComputedByHand) {
   EXPECT_EQ(brick.aabb(), brick);
 }
 
+TEST(Aabb, OverlapsWhereOnePointIsShared) {
+  const Aabb box({0, 0, 0}, {1, 1, 1});
+  EXPECT_TRUE(box.overlaps(box));
+  EXPECT_TRUE(box.overlaps(Aabb({1, 1, 1}, {2, 2, 2}))) << "a corner";
+  EXPECT_TRUE(Aabb({1, 1, 1}, {2, 2, 2}).overlaps(box));
+  EXPECT_TRUE(box.overlaps(Aabb({-9, 0.5, 0.5}, {9, 0.5, 0.5}))) << "a line through it";
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d beside = std::nextafter(1, 2) * Vector3d::Unit(k);
+    EXPECT_FALSE(box.overlaps(Aabb(beside, beside + Vector3d::Ones()))) << k;
+    EXPECT_FALSE(Aabb(beside, beside + Vector3d::Ones()).overlaps(box)) << k;
+  }
+  EXPECT_FALSE(box.overlaps(Aabb()));
+  EXPECT_FALSE(Aabb().overlaps(box));
+  EXPECT_FALSE(Aabb().overlaps(Aabb()));
+}
+
 TEST(Aabb, AFlatBoxHasAnAreaAndAPointHasNone) {
   EXPECT_EQ(Aabb({0, 0, 1}, {2, 3, 1}).surface_area(), 12);
   EXPECT_EQ(Aabb({0, 0, 1}, {2, 3, 1}).volume(), 0);

@@ -30,6 +30,22 @@ TEST(AnyVolume, ForwardsToTheVolumeHeld) {
     EXPECT_EQ(surface_area(v), std::visit([](const auto& held) { return held.surface_area(); }, v));
     EXPECT_EQ(aabb(v), std::visit([](const auto& held) { return held.aabb(); }, v));
     EXPECT_FALSE(mesh(v).vertices.empty());
+    EXPECT_EQ(support(v, {1, 2, 3}), std::visit(
+                                         [](const auto& held) {
+                                           return Vector3d(held.support({1, 2, 3}));
+                                         },
+                                         v));
+    EXPECT_EQ(distance(v, {9, 9, 9}), std::visit(
+                                          [](const auto& held) {
+                                            return held.distance({9, 9, 9});
+                                          },
+                                          v));
+    EXPECT_LT(distance(v, {9, 2, 4}), 9);
+    EXPECT_TRUE(intersect(v, {-9, 1, 2}, {1, 0, 0}));
+    EXPECT_FALSE(intersect(v, {-9, 1, 2}, {-1, 0, 0}));
+    const Eigen::Isometry3d shift(Eigen::Translation3d(10, 0, 0));
+    EXPECT_EQ(shape_name(transformed(v, shift)), shape_name(v));
+    EXPECT_TRUE(center(transformed(v, shift)).isApprox(Vector3d(10.5, 1, 2)));
   }
 }
 

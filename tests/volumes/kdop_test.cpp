@@ -177,6 +177,36 @@ TEST(Kdop, MergeNeedsEqualSets) {
   EXPECT_NO_THROW(Kdop(KdopSet::dop6()).merge(Kdop(own).extend({1, 2, 3})));
 }
 
+TEST(Kdop, OverlapsComparesSlabBySlab) {
+  const Kdop octahedron =
+      around(Kdop(KdopSet::dop14()), {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
+  const auto at = [&](const Vector3d& p) { return Kdop(KdopSet::dop14()).extend(p); };
+  EXPECT_TRUE(octahedron.overlaps(octahedron));
+  for (const double side : {-1.0, 1.0}) {
+    const Kdop on_face = at(side * Vector3d(0.5, 0.25, 0.25)),
+               in_box = at(side * Vector3d(0.5, 0.25, 0.25 + 0x1p-52));
+    EXPECT_TRUE(octahedron.overlaps(on_face) && on_face.overlaps(octahedron));
+    EXPECT_FALSE(octahedron.overlaps(in_box) || in_box.overlaps(octahedron)) << "only their boxes do";
+  }
+  EXPECT_FALSE(octahedron.overlaps(Kdop(KdopSet::dop14())));
+  EXPECT_FALSE(Kdop(KdopSet::dop14()).overlaps(octahedron));
+  EXPECT_FALSE(Kdop().overlaps(Kdop()));
+  EXPECT_THROW((void)octahedron.overlaps(Kdop(KdopSet::dop26())), std::invalid_argument);
+}
+
+TEST(Kdop, OverlapsWhereverAPointIsShared) {
+  Random random(26);
+  for (const auto& set : kdop_sets()) {
+    for (const Scale& scale : scales()) {
+      SCOPED_TRACE(scale.name + ", " + std::to_string(set->size()));
+      auto a = random.cloud(scale, Span::solid, 4), b = random.cloud(scale, Span::line, 4);
+      b.push_back(a[0]);
+      EXPECT_TRUE(around(Kdop(set), a).overlaps(around(Kdop(set), b)));
+      EXPECT_TRUE(around(Kdop(set), b).overlaps(around(Kdop(set), a)));
+    }
+  }
+}
+
 TEST(Kdop, FloatCopyEncloses) {
   Random random(25);
   for (const Scale& scale : scales()) {

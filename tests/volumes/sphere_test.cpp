@@ -95,6 +95,30 @@ TEST(Sphere, ContainsNoNaN) {
     EXPECT_FALSE(Sphere(Vector3d::Zero(), 1).contains(nan * Vector3d::Unit(i)));
 }
 
+TEST(Sphere, OverlapsErrsOnlyTowardsTrueAtTheSurface) {
+  Random random(17);
+  int inexact = 0;
+  for (const Scale& scale : scales()) {
+    SCOPED_TRACE(scale.name);
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d a = random.point(scale), b = random.point(scale);
+      const double r = random.uniform(0, 0.1) * scale.extent, reach = exact_radius(a, b);
+      double s = std::max(0.0, reach - r);  // the least with s + r >= reach
+      while (Rational(s) + Rational(r) < Rational(reach))
+        s = std::nextafter(s, infinity);
+      inexact += !((a - b).norm() <= r + s);
+      ASSERT_TRUE(Sphere(a, r).overlaps(Sphere(b, s))) << i;
+      ASSERT_TRUE(Sphere(b, s).overlaps(Sphere(a, r))) << i;
+      if (scale.extent < 1e-150) continue;
+      EXPECT_FALSE(Sphere(a, r).overlaps(Sphere(b, s - 1e-14 * (r + s)))) << i;
+    }
+  }
+  EXPECT_GT(inexact, 0) << "the cases are too easy";
+  const Sphere s({1, 2, 3}, 3);
+  EXPECT_TRUE(s.overlaps(s));
+  EXPECT_FALSE(s.overlaps(Sphere()) || Sphere().overlaps(s) || Sphere().overlaps(Sphere()));
+}
+
 TEST(Sphere, MergeWithEmptyIsIdentity) {
   const Sphere s({0.1, 0.2, 0.3}, 0.7);
   EXPECT_EQ(Sphere(s).merge(Sphere()), s);

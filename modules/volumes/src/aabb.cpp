@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "directed.h"
+#include "ray_clip.h"
 
 namespace pcl_bv {
 
@@ -71,6 +72,20 @@ double Aabb::distance(const Eigen::Vector3d& point) const {
   if (empty()) return infinity;
   const Eigen::Vector3d excess = (min_ - point).cwiseMax(point - max_).cwiseMax(0.0);
   return excess.stableNorm();
+}
+
+std::optional<RayInterval> Aabb::intersect(const Eigen::Vector3d& origin,
+                                           const Eigen::Vector3d& direction) const {
+  return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
+    for (int k = 0; k < 3; ++k) {
+      ray.keep(direction[k], max_[k] - origin[k]);
+      ray.keep(-direction[k], origin[k] - min_[k]);
+    }
+  });
+}
+
+bool Aabb::overlaps(const Aabb& other) const {
+  return (min_.array() <= other.max_.array()).all() && (other.min_.array() <= max_.array()).all();
 }
 
 std::array<Eigen::Vector3d, 8> Aabb::corners() const {

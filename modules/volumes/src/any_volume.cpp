@@ -39,12 +39,29 @@ Eigen::Vector3d center(const AnyVolume& volume) {
   return std::visit([](const auto& v) -> Eigen::Vector3d { return v.center(); }, volume);
 }
 
+Eigen::Vector3d support(const AnyVolume& volume, const Eigen::Vector3d& direction) {
+  return std::visit([&](const auto& v) -> Eigen::Vector3d { return v.support(direction); }, volume);
+}
+
+double distance(const AnyVolume& volume, const Eigen::Vector3d& point) {
+  return std::visit([&](const auto& v) { return v.distance(point); }, volume);
+}
+
+std::optional<RayInterval> intersect(const AnyVolume& volume, const Eigen::Vector3d& origin,
+                                     const Eigen::Vector3d& direction) {
+  return std::visit([&](const auto& v) { return v.intersect(origin, direction); }, volume);
+}
+
 Aabb aabb(const AnyVolume& volume) {
   return std::visit([](const auto& v) { return v.aabb(); }, volume);
 }
 
 Mesh mesh(const AnyVolume& volume) {
   return std::visit([](const auto& v) { return v.mesh(); }, volume);
+}
+
+AnyVolume transformed(const AnyVolume& volume, const Eigen::Isometry3d& transform) {
+  return std::visit([&](const auto& v) -> AnyVolume { return v.transformed(transform); }, volume);
 }
 
 std::string_view shape_name(const AnyVolume& volume) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "directed.h"
+#include "ray_clip.h"
 
 namespace pcl_bv {
 
@@ -31,6 +32,22 @@ Projection project(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
   const double x = p.x() * n.x(), y = p.y() * n.y(), z = p.z() * n.z();
   return {(x + y) + z,
           0x1p-51 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + std::numeric_limits<double>::min()};
+}
+
+// Twice the error, so that the ends hold the exact projection after their own rounding.
+struct Enclosed {
+  double low, high;
+};
+
+Enclosed enclose(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
+  const auto [value, error] = project(n, p);
+  return {value - 2 * error, value + 2 * error};
+}
+
+void require_equal_sets(const Kdop& a, const Kdop& b, const char* verb) {
+  if (a.set() != b.set() && *a.set() != *b.set()) {
+    throw std::invalid_argument(std::string(verb) + ": both k-DOPs must have the same directions");
+  }
 }
 
 }  // namespace
@@ -72,6 +89,23 @@ bool Kdop::contains(const Eigen::Vector3d& point) const {
   return true;
 }
 
+std::optional<RayInterval> Kdop::intersect(const Eigen::Vector3d& origin,
+                                           const Eigen::Vector3d& direction) const {
+  return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
+    for (std::size_t i = 0; i < size(); ++i) {
+      const Enclosed start = enclose(set_->direction(i), origin);
+      const Enclosed step = enclose(set_->direction(i), direction);
+      ray.keep(step.low, max(i) - start.low);
+      ray.keep(-step.high, start.high - min(i));
+    }
+  });
+}
+
+bool Kdop::overlaps(const Kdop& other) const {
+  require_equal_sets(*this, other, "Kdop::overlaps");
+  return (min_.array() <= other.max_.array()).all() && (other.min_.array() <= max_.array()).all();
+}
+
 Kdop& Kdop::extend(const Eigen::Vector3d& point) {
   if (!point.allFinite()) return *this;
   for (std::size_t i = 0; i < size(); ++i) {
@@ -89,9 +123,7 @@ Kdop& Kdop::extend(const Eigen::Vector3d& point) {
 }
 
 Kdop& Kdop::merge(const Kdop& other) {
-  if (set_ != other.set_ && *set_ != *other.set_) {
-    throw std::invalid_argument("Kdop::merge: both k-DOPs must have the same directions");
-  }
+  require_equal_sets(*this, other, "Kdop::merge");
   min_ = min_.cwiseMin(other.min_);
   max_ = max_.cwiseMax(other.max_);
   return *this;

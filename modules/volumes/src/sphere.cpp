@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "directed.h"
+#include "ray_clip.h"
 
 namespace pcl_bv {
 
@@ -57,6 +58,33 @@ double stretch_up(const Eigen::Matrix3d& m) {
   return sqrt_up(result);
 }
 
+// |a - b| <= r, or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2 by 5; the limit loses 3
+// at most, 5 where r is itself a rounded sum. 16 covers both.
+bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r) {
+  const double qx = a.x() - b.x(), qy = a.y() - b.y(), qz = a.z() - b.z();
+  const double d2 = (qx * qx + qy * qy) + qz * qz;
+  return d2 <= r * r * (1 + 0x1p-49) + std::numeric_limits<double>::min();
+}
+
+// Around the point of the line that is nearest the centre, as computed. With q = origin - center, its place
+// is off by at most 4 U |q|, its distance h from the centre by 9 U |q| more, and it is 8 U |q|_1 at most
+// along the line from the true foot of the perpendicular. A radius greater by 52 U |q|_1 covers all of that;
+// it grows by 64, for its own rounding.
+void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
+                    const Eigen::Vector3d& direction) {
+  const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
+  const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
+  const Eigen::Vector3d q = origin - sphere.center();
+  const double nearest = -q.dot(u) / u.squaredNorm();
+  const double h = (q + nearest * u).stableNorm();
+  const double doubt = 0x1p-47 * q.lpNorm<1>() + std::numeric_limits<double>::min();
+  const double held = sphere.contains(origin) ? q.stableNorm() : 0;
+  const double radius = std::max(sphere.radius(), held) + doubt;
+  if (h > radius) return ray.keep(0, -1);
+  const double half = std::sqrt(radius - h) * std::sqrt(radius + h) / u.norm() * (1 + 0x1p-49);
+  ray.keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
+}
+
 }  // namespace
 
 Sphere::Sphere() : center_(Eigen::Vector3d::Constant(nan)), radius_(-1) {}
@@ -72,10 +100,7 @@ Sphere::Sphere(const Eigen::Vector3d& center, double radius) : Sphere() {
 }
 
 bool Sphere::contains(const Eigen::Vector3d& point) const {
-  // Each q is off by 1 unit of 2^-53, so d2 by 5; the limit loses 3 at most. 16 covers both.
-  const double qx = point.x() - center_.x(), qy = point.y() - center_.y(), qz = point.z() - center_.z();
-  const double d2 = (qx * qx + qy * qy) + qz * qz;
-  return !empty() && d2 <= radius_ * radius_ * (1 + 0x1p-49) + std::numeric_limits<double>::min();
+  return !empty() && within_rounding(point, center_, radius_);
 }
 
 double Sphere::volume() const {
@@ -95,6 +120,16 @@ double Sphere::distance(const Eigen::Vector3d& point) const {
   if (empty()) return infinity;
   if (contains(point)) return 0;
   return std::max(0.0, (point - center_).stableNorm() - radius_);
+}
+
+std::optional<RayInterval> Sphere::intersect(const Eigen::Vector3d& origin,
+                                             const Eigen::Vector3d& direction) const {
+  return intersect_ray(*this, origin, direction,
+                       [&](RayClip& ray) { clip_by_sphere(ray, *this, origin, direction); });
+}
+
+bool Sphere::overlaps(const Sphere& other) const {
+  return within_rounding(center_, other.center_, radius_ + other.radius_);  // an empty one is nowhere: NaN
 }
 
 Aabb Sphere::aabb() const {

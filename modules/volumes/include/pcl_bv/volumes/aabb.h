@@ -7,8 +7,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 
 #include "pcl_bv/volumes/mesh.h"
+#include "pcl_bv/volumes/ray_interval.h"
 
 namespace pcl_bv {
 
@@ -55,6 +57,15 @@ class Aabb {
 
   /// Distance of a point to the box, 0 inside. Infinity for an empty box, NaN for a point with a NaN.
   double distance(const Eigen::Vector3d& point) const;
+
+  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
+  /// interval: a ray that hits by exact arithmetic, be it in one point or along a face, is never a miss. Each
+  /// end is off by no more than 2^-50 of itself, plus 2^-1021. A zero direction tests the origin. Nothing for
+  /// an empty box and for numbers that are not finite.
+  std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+
+  /// Whether the two have a point in common: exact comparison. False if either is empty.
+  bool overlaps(const Aabb& other) const;
 
   /// The eight corners: corner i has max x where bit 0 of i is set, max y for bit 1, max z for bit 2. Those
   /// of an empty box are meaningless (infinite).

@@ -5,12 +5,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
 #include <string_view>
 #include <variant>
 
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/mesh.h"
+#include "pcl_bv/volumes/ray_interval.h"
 #include "pcl_bv/volumes/sphere.h"
 
 namespace pcl_bv {
@@ -23,8 +26,13 @@ bool contains(const AnyVolume& volume, const Eigen::Vector3d& point);
 double volume(const AnyVolume& volume);
 double surface_area(const AnyVolume& volume);
 Eigen::Vector3d center(const AnyVolume& volume);
+Eigen::Vector3d support(const AnyVolume& volume, const Eigen::Vector3d& direction);
+double distance(const AnyVolume& volume, const Eigen::Vector3d& point);
+std::optional<RayInterval> intersect(const AnyVolume& volume, const Eigen::Vector3d& origin,
+                                     const Eigen::Vector3d& direction);
 Aabb aabb(const AnyVolume& volume);
 Mesh mesh(const AnyVolume& volume);
+AnyVolume transformed(const AnyVolume& volume, const Eigen::Isometry3d& transform);
 
 /// The shape's name in results: "aabb", "kdop" or "sphere".
 std::string_view shape_name(const AnyVolume& volume);

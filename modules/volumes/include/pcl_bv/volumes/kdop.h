@@ -8,11 +8,13 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop_set.h"
 #include "pcl_bv/volumes/mesh.h"
+#include "pcl_bv/volumes/ray_interval.h"
 
 namespace pcl_bv {
 
@@ -31,10 +33,10 @@ struct FloatKdop {
 ///
 /// The empty k-DOP (the identity of merge) has min = +infinity and max = -infinity. Flat ones (a plane, a
 /// line, a point) are volumes like any other. Slabs that are each sound but have no point in common are not
-/// empty() but have volume 0 and no corners; slabs measured on points never do that. The verbs that need the
-/// corners (volume, surface_area, center, corners, mesh, distance to an outside point) intersect the
-/// half-spaces anew at each call, 20 us for a 26-DOP, with the corners good to about 1e-13 of the extent.
-/// Coordinates beyond 1e100 are not supported.
+/// empty() but have volume 0 and no corners. Slabs measured on points never do
+/// that. The verbs that need the corners (volume, surface_area, center, corners, mesh, distance to an outside
+/// point) intersect the half-spaces anew at each call, 20 us for a 26-DOP, with the corners good to about
+/// 1e-13 of the extent. Coordinates beyond 1e100 are not supported.
 class Kdop {
  public:
   /// The empty k-DOP. Throws std::invalid_argument for a null set.
@@ -76,6 +78,20 @@ class Kdop {
 
   /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
   double distance(const Eigen::Vector3d& point) const;
+
+  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
+  /// interval: a ray that hits by exact arithmetic, be it in one point or along a face, is never a miss, and
+  /// where contains() holds for the origin, enter is 0. Each projection, of origin and direction, is taken to
+  /// be off by twice the bound of contains(), so a ray that passes a face by less may hit; then each end is
+  /// moved outward by 2^-51 of itself and by 2^-1022. A zero direction tests the origin. Nothing for an empty
+  /// k-DOP and for numbers that are not finite. Slab method (Kay, Kajiya 1986), 50 ns for a 26-DOP.
+  std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+
+  /// Whether all slabs overlap those of the other: exact comparison, the usual test for k-DOPs (Klosowski et
+  /// al. 1998). False proves that no point is in both. True may be wrong unless there are only three
+  /// directions: two polytopes can be apart along another one. False if either is empty. Throws
+  /// std::invalid_argument unless both have equal sets.
+  bool overlaps(const Kdop& other) const;
 
   /// A box around the polytope, by exact arithmetic: along an axis that is one of the directions the slab
   /// itself, else the support along the axis rounded outward.

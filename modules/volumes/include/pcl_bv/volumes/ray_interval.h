@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a ray test answers, the same for every volume.
+#pragma once
+
+namespace pcl_bv {
+
+/// The part of a ray inside a volume: origin + t direction for enter <= t <= exit, t >= 0, in units of the
+/// direction. So a segment (t <= 1) meets the volume if enter <= 1.
+struct RayInterval {
+  double enter;  ///< 0 if the ray starts inside.
+  double exit;   ///< Infinity if the direction is zero.
+};
+
+}  // namespace pcl_bv
