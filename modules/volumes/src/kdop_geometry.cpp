@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The verbs of Kdop that look at the polytope as a whole.
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -84,6 +85,22 @@ Mesh Kdop::mesh() const {
   for (Eigen::Vector3d& v : polytope.vertices)
     v += polytope.origin;
   return {std::move(polytope.vertices), std::move(polytope.faces)};
+}
+
+Kdop Kdop::tightened() const {
+  if (empty()) return *this;
+  const LocalSlabs slabs = local_slabs(*this);
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  SlabVector lower = min_, upper = max_;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Eigen::Vector3d& n = set_->direction(i);
+    const auto slab = static_cast<Eigen::Index>(i);
+    lower[slab] = std::max(lower[slab], -support_up(*this, slabs, identity, -n));
+    upper[slab] = std::min(upper[slab], support_up(*this, slabs, identity, n));
+  }
+  // Both bounds are proven, so where they cross there is no point: the constructor makes that the empty
+  // k-DOP.
+  return {set_, lower, upper};
 }
 
 Kdop Kdop::transformed(const Eigen::Isometry3d& transform) const {

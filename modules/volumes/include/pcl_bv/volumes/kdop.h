@@ -33,7 +33,7 @@ struct FloatKdop {
 ///
 /// The empty k-DOP (the identity of merge) has min = +infinity and max = -infinity. Flat ones (a plane, a
 /// line, a point) are volumes like any other. Slabs that are each sound but have no point in common are not
-/// empty() but have volume 0 and no corners. Slabs measured on points never do
+/// empty() but have volume 0 and no corners; tightened() makes them so. Slabs measured on points never do
 /// that. The verbs that need the corners (volume, surface_area, center, corners, mesh, distance to an outside
 /// point) intersect the half-spaces anew at each call, 20 us for a 26-DOP, with the corners good to about
 /// 1e-13 of the extent. Coordinates beyond 1e100 are not supported.
@@ -92,6 +92,13 @@ class Kdop {
   /// directions: two polytopes can be apart along another one. False if either is empty. Throws
   /// std::invalid_argument unless both have equal sets.
   bool overlaps(const Kdop& other) const;
+
+  /// The same polytope, each slab moved in to where it reaches: what merging, transforming or a user's
+  /// numbers left loose (slabs measured on points are not). Every point of this one is inside by exact
+  /// arithmetic and no slab grows; slabs are tight, and unchanged by a second call, to 1e-13 of the extent
+  /// and 2^-48 of the coordinates. Empty if two bounds cross, which proves that there is no point; that they
+  /// do wherever slabs miss each other by more than that margin is tested, not proven. 10 us for a 26-DOP.
+  Kdop tightened() const;
 
   /// A box around the polytope, by exact arithmetic: along an axis that is one of the directions the slab
   /// itself, else the support along the axis rounded outward.
