@@ -23,13 +23,27 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Only the order of magnitude matters: it decides whether threads are worth starting.
-double serial_seconds(Isa isa, DirectionSet set, std::size_t points) {
-  const double dop26 = isa == Isa::scalar   ? 4.5e-9
-                       : isa == Isa::avx512 ? 0.25e-9
-                       : isa == Isa::avx2   ? 0.6e-9
-                                            : 1.2e-9;
-  return dop26 * static_cast<double>(direction_count(set)) / 13.0 * static_cast<double>(points);
+// What a point costs from the third-level cache, measured; it decides whether threads are worth starting.
+struct PointCost {
+  double box, dop26;  // nanoseconds
+};
+
+PointCost point_cost(Isa isa) {
+  switch (isa) {
+    case Isa::scalar:
+      return {1.3, 6.5};
+    case Isa::avx512:
+      return {0.17, 0.33};
+    case Isa::avx2:
+      return {0.17, 0.75};
+    default:
+      return {0.27, 1.5};
+  }
+}
+
+double points_seconds(Isa isa, DirectionSet set, std::size_t points) {
+  const double per_direction = point_cost(isa).dop26 * 1e-9 / 13.0;
+  return per_direction * static_cast<double>(direction_count(set)) * static_cast<double>(points);
 }
 
 // One partial result per chunk; small clouds, of which there are many in a sweep, need no allocation.
@@ -81,9 +95,8 @@ class SharedReach {
 void find_bounds(const PointView& points, const Execution& execution, Isa isa, Extremes& out) {
   out.low.fill(kInfinity);
   out.high.fill(-kInfinity);
-  // A box costs about a quarter of the k-DOP along the same directions.
   const ParallelPolicy policy =
-      worthwhile(execution.parallel, serial_seconds(isa, DirectionSet::dop6, points.count) / 4);
+      worthwhile(execution.parallel, point_cost(isa).box * 1e-9 * static_cast<double>(points.count));
   map_chunks<AxisExtents>(
       points, policy, [&](const PointView& chunk) { return axis_extents(isa, chunk); },
       [&](const AxisExtents& part) {
@@ -114,7 +127,7 @@ void find_points(const PointView& points, const Execution& execution, Isa isa, E
     }
   };
   map_chunks<ChunkExtremes>(
-      points, worthwhile(execution.parallel, serial_seconds(isa, out.set, points.count)), find, merge);
+      points, worthwhile(execution.parallel, points_seconds(isa, out.set, points.count)), find, merge);
   for (std::size_t k = 0; k < direction_count(out.set) && out.dropped < points.count; ++k) {
     const ExactSum& low = out.low_point[k].projection;  // of the opposite direction
     const ExactSum& high = out.high_point[k].projection;
