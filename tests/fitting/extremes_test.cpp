@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "clouds.h"
 #include "exact.h"
@@ -21,6 +23,32 @@ using test::TestCloud;
 constexpr DirectionSet kSets[] = {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18,
                                   DirectionSet::dop26};
 
+// Least and greatest projection of the valid points. Rationals look only at points that can be either.
+std::pair<Rational, Rational> exact_extent(const PointView& points, const std::array<int, 3>& direction) {
+  double rounded_low = std::numeric_limits<double>::infinity(), rounded_high = -rounded_low, terms = 0;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) continue;
+    const test::RoundedDot s = test::rounded_dot(direction, p);
+    rounded_low = std::min(rounded_low, s.value);
+    rounded_high = std::max(rounded_high, s.value);
+    terms = std::max(terms, s.terms);
+  }
+  const double margin = test::kClearly * terms;
+  std::optional<std::pair<Rational, Rational>> extent;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) continue;
+    const double s = test::rounded_dot(direction, p).value;
+    if (s > rounded_low + margin && s < rounded_high - margin) continue;
+    const Rational exact = test::exact_dot(direction, p);
+    if (!extent) extent.emplace(exact, exact);
+    extent->first = std::min(extent->first, exact);
+    extent->second = std::max(extent->second, exact);
+  }
+  return extent.value();
+}
+
 // The definition, in rationals.
 void expect_exact(const PointView& points, const Extremes& extremes) {
   std::size_t used = 0;
@@ -31,16 +59,7 @@ void expect_exact(const PointView& points, const Extremes& extremes) {
   if (used == 0) return;
   for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
     const auto& d = kCubeDirections[cube_direction(extremes.set, k)];
-    Rational low, high;
-    bool first = true;
-    for (std::size_t i = 0; i < points.count; ++i) {
-      const Coordinates p = load_point(points, i);
-      if (!is_valid(p)) continue;
-      const Rational projection = test::exact_dot(std::array<int, 3>{d[0], d[1], d[2]}, p);
-      low = first ? projection : std::min(low, projection);
-      high = first ? projection : std::max(high, projection);
-      first = false;
-    }
+    const auto [low, high] = exact_extent(points, std::array<int, 3>{d[0], d[1], d[2]});
     EXPECT_EQ(extremes.low[k], test::greatest_double_below(low)) << "direction " << k;
     EXPECT_EQ(extremes.high[k], test::least_double_above(high)) << "direction " << k;
     EXPECT_FALSE(extremes.low[k] == 0 && std::signbit(extremes.low[k]));

@@ -19,7 +19,6 @@
 namespace pcl_bv {
 namespace {
 
-using test::Rational;
 using test::TestCloud;
 
 // The predicates of the documentation, in rationals and independent of verify().
@@ -30,15 +29,13 @@ bool holds(const Aabb& box, const Coordinates& p) {
 
 bool holds(const Kdop& kdop, const Coordinates& p) {
   for (std::size_t k = 0; k < kdop.size(); ++k) {
-    const Rational s = test::exact_dot(kdop.set()->direction(k), p);
-    if (s < Rational(kdop.min(k)) || s > Rational(kdop.max(k))) return false;
+    if (!test::exactly_between(kdop.min(k), kdop.set()->direction(k), p, kdop.max(k))) return false;
   }
   return true;
 }
 
 bool holds(const Sphere& sphere, const Coordinates& p) {
-  return test::exact_squared_distance(sphere.center(), p) <=
-         Rational(sphere.radius()) * Rational(sphere.radius());
+  return test::exactly_within(sphere.center(), sphere.radius(), p);
 }
 
 void expect_encloses(const AnyVolume& volume, const PointView& points) {

@@ -28,6 +28,40 @@ Rational exact_squared_distance(const Vector& center, const Coordinates& p) {
   return x * x + y * y + z * z;
 }
 
+// Rationals are slow, slower yet under an emulator. What double arithmetic puts a billionth of the terms
+// inside needs none: that is a million times its rounding error. Underflow may add the least normal number.
+inline constexpr double kClearly = 1e-9;
+inline constexpr double kUnderflow = std::numeric_limits<double>::min();
+
+/// The rounded d . p and the sum of its terms' magnitudes.
+struct RoundedDot {
+  double value, terms;
+};
+
+template <typename Direction>
+RoundedDot rounded_dot(const Direction& d, const Coordinates& p) {
+  const double x = d[0] * p.x, y = d[1] * p.y, z = d[2] * p.z;
+  return {x + y + z, std::abs(x) + std::abs(y) + std::abs(z)};
+}
+
+/// Whether low <= d . p <= high, exactly.
+template <typename Direction>
+bool exactly_between(double low, const Direction& d, const Coordinates& p, double high) {
+  const RoundedDot s = rounded_dot(d, p);
+  const double margin = kClearly * (s.terms + std::abs(low) + std::abs(high)) + kUnderflow;
+  if (s.value - margin > low && s.value + margin < high) return true;
+  const Rational exact = exact_dot(d, p);
+  return Rational(low) <= exact && exact <= Rational(high);
+}
+
+/// Whether |p - center| <= radius, exactly.
+template <typename Vector>
+bool exactly_within(const Vector& center, double radius, const Coordinates& p) {
+  const double distance = std::hypot(p.x - center[0], p.y - center[1], p.z - center[2]);
+  if (distance + kUnderflow < radius * (1 - kClearly)) return true;
+  return exact_squared_distance(center, p) <= Rational(radius) * Rational(radius);
+}
+
 /// The least double >= the exact value.
 inline double least_double_above(const Rational& exact) {
   double d = static_cast<double>(exact);
