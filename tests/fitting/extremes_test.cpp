@@ -90,6 +90,22 @@ TEST(Extremes, OfASetAreThoseOfItsDirections) {
   }
 }
 
+TEST(Extremes, OfTwoBlocksTheOneThatIsOnlyRoundedToMoreDoesNotWin) {
+  // At UTM size a float sum of three is off by up to a metre: the lesser of two may be rounded to the
+  // greater.
+  const TestCloud<float> others = test::gaussian<float>(2 * kBlockPoints, 14, 1000, 4e6);
+  std::mt19937_64 random(14);
+  for (int round = 0; round < 200; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round);
+    TestCloud<float> cloud = others;
+    for (const std::size_t i : {std::size_t{7}, kBlockPoints + 7}) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        cloud.xyz[3 * i + axis] = 5e6F + 0.5F * static_cast<float>(random() % 4);
+    }
+    expect_exact(cloud.view(), find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::bounds, {}));
+  }
+}
+
 void expect_same(const Extremes& a, const Extremes& b) {
   EXPECT_EQ(a.used, b.used);
   EXPECT_EQ(a.low, b.low);
