@@ -6,19 +6,21 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <bit>
 #include <cstdint>
 
 #include "clouds.h"
 #include "exact.h"
 #include "executions.h"
 #include "flush_to_zero.h"
+#include "numbers.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/small_ball.h"
 
 namespace pcl_bv {
 namespace {
 
+using test::bits;
+using test::numbers;
 using test::TestCloud;
 
 // The predicates of the documentation, in rationals and independent of verify().
@@ -45,33 +47,6 @@ void expect_encloses(const AnyVolume& volume, const PointView& points) {
     ASSERT_TRUE(std::visit([&p](const auto& shape) { return holds(shape, p); }, volume)) << "point " << i;
     ASSERT_TRUE(contains(volume, {p.x, p.y, p.z})) << "contains() denies point " << i;
   }
-}
-
-std::vector<double> numbers(const Aabb& box) {
-  return {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
-}
-
-std::vector<double> numbers(const Kdop& kdop) {
-  std::vector<double> all;
-  for (std::size_t k = 0; k < kdop.size(); ++k)
-    all.insert(all.end(), {kdop.min(k), kdop.max(k)});
-  return all;
-}
-
-std::vector<double> numbers(const Sphere& sphere) {
-  return {sphere.center().x(), sphere.center().y(), sphere.center().z(), sphere.radius()};
-}
-
-std::vector<double> numbers(const AnyVolume& volume) {
-  return std::visit([](const auto& shape) { return numbers(shape); }, volume);
-}
-
-// Bits, not values: the centre of an empty sphere is NaN, and -0 is not 0.
-std::vector<std::uint64_t> bits(const AnyVolume& volume) {
-  std::vector<std::uint64_t> all;
-  for (const double number : numbers(volume))
-    all.push_back(std::bit_cast<std::uint64_t>(number));
-  return all;
 }
 
 template <typename T>

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A host that flushes denormals may have started OpenMP's threads before we use them.
+
+#include <gtest/gtest.h>
+
+#include <latch>
+#include <optional>
+
+#include "clouds.h"
+#include "flush_to_zero.h"
+#include "numbers.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr unsigned kThreads = 3;
+thread_local std::optional<test::FlushToZero> flush_to_zero;
+
+// Calls body in each thread of OpenMP's pool, this one among them: none leaves its chunk until all have one.
+void in_each_thread(void (*body)()) {
+  std::latch arrived(kThreads);
+  for_each_chunk(OpenMP{kThreads}, kThreads, [&](std::size_t) {
+    arrived.arrive_and_wait();
+    body();
+  });
+}
+
+// OpenMP's threads flush denormals while it lives.
+class FlushingPool {
+ public:
+  FlushingPool() {
+    in_each_thread([] { flush_to_zero.emplace(); });
+  }
+  ~FlushingPool() {
+    in_each_thread([] { flush_to_zero.reset(); });
+  }
+  FlushingPool(const FlushingPool&) = delete;
+  FlushingPool& operator=(const FlushingPool&) = delete;
+};
+
+// Zeros, and in each 4096th place a point of a sphere of denormal size; large enough to be threaded on every
+// set.
+test::TestCloud<float> denormal_spikes() {
+  const test::TestCloud<double> directions = test::gaussian<double>(256, 15);
+  test::TestCloud<float> cloud{"spikes", std::vector<float>(3 * 4096 * directions.size())};
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const double* d = &directions.xyz[3 * i];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      cloud.xyz[3 * (4096 * i + 5) + axis] =
+          static_cast<float>(1e-41 * d[axis] / std::hypot(d[0], d[1], d[2]));
+  }
+  return cloud;
+}
+
+TEST(FlushingThreads, LoseNoDenormalOfAKdop) {
+  const test::TestCloud<float> cloud = denormal_spikes();
+  for (const Isa isa : usable_isas()) {
+    SCOPED_TRACE(isa_name(isa));
+    Kdop expected, kdop;
+    fit_kdop(cloud.view(), KdopSet::dop26(), expected, {Serial{}, isa});
+    ASSERT_GT(expected.max(0), 0);
+    const FlushingPool host;
+    fit_kdop(cloud.view(), KdopSet::dop26(), kdop, {OpenMP{kThreads}, isa});
+    EXPECT_EQ(test::bits(kdop), test::bits(expected));
+  }
+}
+
+TEST(FlushingThreads, LoseNoDenormalOfASphere) {
+  const test::TestCloud<float> cloud = denormal_spikes();
+  Sphere expected, sphere;
+  fit_sphere(cloud.view(), SphereMethod::epos26, expected, {Serial{}, {}});
+  ASSERT_GT(expected.radius(), 0);
+  const FlushingPool host;
+  for (int round = 0; round < 10; ++round) {  // which thread meets a point that counts is chance
+    fit_sphere(cloud.view(), SphereMethod::epos26, sphere, {OpenMP{kThreads}, {}});
+    ASSERT_EQ(test::bits(sphere), test::bits(expected));
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
