@@ -65,6 +65,7 @@ function(pcl_bv_test name)
   target_compile_definitions(${target} PRIVATE PCL_BV_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
   set(discovery PRE_TEST)
   if(CMAKE_CROSSCOMPILING)
+    target_compile_definitions(${target} PRIVATE PCL_BV_EMULATED)
     set(discovery POST_BUILD) # by the emulator's own processor: those that ctest asks it to play have fewer sets
   endif()
   gtest_discover_tests(${target} DISCOVERY_MODE ${discovery} DISCOVERY_TIMEOUT 60

@@ -118,7 +118,7 @@ void expect_same(const Extremes& a, const Extremes& b) {
 
 TEST(Extremes, SameBitsForEveryInstructionSetAndThreadCount) {
   std::vector<TestCloud<float>> clouds = test::nasty_clouds<float>();
-  clouds.push_back(test::gaussian<float>(1'100'000, 77));  // large enough to be threaded on every set
+  clouds.push_back(test::gaussian<float>(test::kThreadedPoints, 77));
   for (const TestCloud<float>& cloud : clouds) {
     const Execution reference{Serial{}, Isa::scalar};
     const Extremes expected =

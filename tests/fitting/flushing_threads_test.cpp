@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "clouds.h"
+#include "executions.h"
 #include "flush_to_zero.h"
 #include "numbers.h"
 #include "pcl_bv/fitting/fit.h"
@@ -42,15 +43,14 @@ class FlushingPool {
   FlushingPool& operator=(const FlushingPool&) = delete;
 };
 
-// Zeros, and in each 4096th place a point of a sphere of denormal size; large enough to be threaded on every
-// set.
+// Zeros, and in each 1024th place a point of a sphere of denormal size.
 test::TestCloud<float> denormal_spikes() {
-  const test::TestCloud<double> directions = test::gaussian<double>(256, 15);
-  test::TestCloud<float> cloud{"spikes", std::vector<float>(3 * 4096 * directions.size())};
+  const test::TestCloud<double> directions = test::gaussian<double>(test::kThreadedPoints / 1024, 15);
+  test::TestCloud<float> cloud{"spikes", std::vector<float>(3 * test::kThreadedPoints)};
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const double* d = &directions.xyz[3 * i];
     for (std::size_t axis = 0; axis < 3; ++axis)
-      cloud.xyz[3 * (4096 * i + 5) + axis] =
+      cloud.xyz[3 * (1024 * i + 5) + axis] =
           static_cast<float>(1e-41 * d[axis] / std::hypot(d[0], d[1], d[2]));
   }
   return cloud;
