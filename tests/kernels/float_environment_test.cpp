@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
+
 #include "flush_to_zero.h"
 
 namespace pcl_bv {
@@ -25,6 +27,20 @@ TEST(FloatEnvironment, KeepsDenormalsInAHostThatFlushesThem) {
     EXPECT_EQ(widen_denormal(), static_cast<double>(1e-41F));
   }
   EXPECT_EQ(widen_denormal(), 0.0) << "the host's choice must come back";
+}
+
+TEST(FloatEnvironment, RoundsToNearestInAHostThatRoundsUp) {
+  const volatile double tiny = 0x1p-60;
+  volatile double inside = 0, after = 0;
+  ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
+  {
+    const FloatEnvironment environment;
+    inside = 1.0 + tiny;
+  }
+  after = 1.0 + tiny;
+  std::fesetround(FE_TONEAREST);
+  EXPECT_EQ(inside, 1.0);
+  EXPECT_GT(after, 1.0) << "the host's choice must come back";
 }
 
 }  // namespace
