@@ -13,6 +13,7 @@
 #include "exact.h"
 #include "executions.h"
 #include "flush_to_zero.h"
+#include "pcl_bv/kernels/chunks.h"
 
 namespace pcl_bv {
 namespace {
@@ -91,9 +92,9 @@ TEST(Extremes, OfASetAreThoseOfItsDirections) {
 }
 
 TEST(Extremes, OfTwoBlocksTheOneThatIsOnlyRoundedToMoreDoesNotWin) {
-  // At UTM size a float sum of three is off by up to a metre: the lesser of two may be rounded to the
-  // greater.
-  const TestCloud<float> others = test::gaussian<float>(2 * kBlockPoints, 14, 1000, 4e6);
+  // Float differences of 1e7 are off by up to half a metre, their sums by more: the lesser of two may be
+  // rounded to the greater.
+  const TestCloud<float> others = test::gaussian<float>(2 * kBlockPoints, 14, 1000, -5e6);
   std::mt19937_64 random(14);
   for (int round = 0; round < 200; ++round) {
     SCOPED_TRACE(testing::Message() << "round " << round);
