@@ -15,6 +15,7 @@
 #include "numbers.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/small_ball.h"
+#include "pcl_bv/kernels/point_groups.h"
 
 namespace pcl_bv {
 namespace {
@@ -86,6 +87,35 @@ TEST(Fit, SameBitsForEveryInstructionSetAndThreadCount) {
       }
     }
   }
+}
+
+template <typename T>
+void expect_same_of_groups() {
+  PointGroups groups;
+  for (const TestCloud<T>& cloud : test::nasty_clouds<T>()) {
+    groups.assign(cloud.view());
+    for (const Method& method : methods()) {
+      AnyVolume expected;
+      const EstimationResult said = method.fit(cloud.view(), expected, {Serial{}, Isa::scalar});
+      for (const Isa isa : usable_isas()) {
+        SCOPED_TRACE(std::string(method.name) + ", " + cloud.name + ", " + std::string(isa_name(isa)));
+        AnyVolume volume;
+        const EstimationResult result = method.fit(groups.view(), volume, {Serial{}, isa});
+        EXPECT_EQ(bits(volume), bits(expected));
+        EXPECT_EQ(result.status, said.status);
+        EXPECT_EQ(result.rank, said.rank);
+        EXPECT_EQ(result.used, said.used);
+        EXPECT_EQ(result.dropped, said.dropped);
+      }
+    }
+  }
+}
+
+TEST(Fit, OfFloatGroupsHasTheBitsOfThatOfTheRecords) {
+  expect_same_of_groups<float>();
+}
+TEST(Fit, OfDoubleGroupsHasTheBitsOfThatOfTheRecords) {
+  expect_same_of_groups<double>();
 }
 
 TEST(Fit, SurvivesAHostThatFlushesDenormals) {

@@ -12,6 +12,7 @@
 #include "clouds.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/kernels/point_groups.h"
 
 namespace pcl_bv {
 namespace {
@@ -168,6 +169,31 @@ TEST_P(Extremes, AreThoseOfTheDefinitionForIndexLists) {
     SCOPED_TRACE(testing::Message() << "stride " << stride);
     expect_definition<float>(view);
   }
+}
+
+TEST_P(Extremes, AreThoseOfTheDefinitionForGroupsAndAnySliceOfThem) {
+  TestCloud<float> cloud = test::gaussian<float>(2200, 12);
+  cloud.xyz[3 * 1500 + 1] = std::numeric_limits<float>::quiet_NaN();
+  const TestCloud<double> doubles = test::gaussian<double>(2200, 13);
+  const PointGroups groups(cloud.view(), GetParam());
+  const PointGroups double_groups(doubles.view(), GetParam());
+  for (const std::size_t begin : {0, 1, 7, 8, 15, 16, 17, 33, 1008, 1024, 1025}) {
+    for (const std::size_t n : {0, 1, 2, 7, 8, 9, 15, 16, 17, 31, 40, 100, 1024, 1030, 1175}) {
+      SCOPED_TRACE(testing::Message() << n << " points from " << begin);
+      expect_definition<float>(groups.view().slice(begin, n));
+      expect_definition<double>(double_groups.view().slice(begin, n));
+    }
+  }
+}
+
+TEST_P(Extremes, AreThoseOfTheDefinitionForIndexListsIntoGroups) {
+  const TestCloud<float> cloud = test::gaussian<float>(500, 14);
+  const PointGroups groups(cloud.view());
+  const std::int32_t indices[] = {499, 3, 17, 18, 19, 20, 21, 22, 23, 0, 480, 16, 15, 64, 65, 66, 67, 68, 70};
+  PointView view = groups.view();
+  view.indices = indices;
+  for (view.count = 0; view.count <= std::size(indices); ++view.count)
+    expect_definition<float>(view);
 }
 
 TEST_P(Extremes, SumsAreNotContracted) {

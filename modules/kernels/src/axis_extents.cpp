@@ -69,7 +69,7 @@ HWY_INLINE void load_registers(D d, const PointView& points, std::size_t first, 
     v2 = load_blocks(d, points, first + 2, 4, 0);
     v3 = load_blocks(d, points, first + 3, 4, 0);
   } else {
-    load_packet<layout>(d, points, first, v0, v1, v2);
+    load_packet_anywhere<layout>(d, points, first, v0, v1, v2);
   }
 }
 
@@ -166,7 +166,7 @@ bool grow_over_block(const PointView& block, Lanes<double>& lanes) {
   auto total = hn::Zero(d);
   for (std::size_t i = 0; i < block.count; i += n) {
     V<decltype(d)> x, y, z;
-    load_packet<layout>(d, block, HWY_MIN(i, block.count - n), x, y, z);
+    load_packet_anywhere<layout>(d, block, HWY_MIN(i, block.count - n), x, y, z);
     low_x = hn::Min(low_x, x), high_x = hn::Max(high_x, x);
     low_y = hn::Min(low_y, y), high_y = hn::Max(high_y, y);
     low_z = hn::Min(low_z, z), high_z = hn::Max(high_z, z);
@@ -188,11 +188,10 @@ std::size_t grow_over_valid(const PointView& block, T* low, T* high) {
   const std::size_t n = hn::Lanes(d);
   const T inf = std::numeric_limits<T>::infinity();
   const T pad[3] = {inf, inf, inf};
-  const auto limit = hn::Set(d, coordinate_limit<T>());
   const auto least = hn::Set(d, -inf);
   const auto greatest = hn::Set(d, inf);
   auto low_x = greatest, low_y = greatest, low_z = greatest, high_x = least, high_y = least, high_z = least;
-  std::size_t valid_lanes = 0;
+  std::size_t valid_count = 0;
   for (std::size_t i = 0; i < block.count; i += n) {
     V<decltype(d)> x, y, z;
     if (HWY_LIKELY(i + n <= block.count)) {
@@ -200,9 +199,8 @@ std::size_t grow_over_valid(const PointView& block, T* low, T* high) {
     } else {
       load_few(d, block, i, block.count - i, pad, x, y, z);
     }
-    const auto valid =
-        hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
-    valid_lanes += hn::CountTrue(d, valid);
+    const auto valid = valid_lanes(d, x, y, z);
+    valid_count += hn::CountTrue(d, valid);
     low_x = hn::Min(low_x, hn::IfThenElse(valid, x, greatest));
     low_y = hn::Min(low_y, hn::IfThenElse(valid, y, greatest));
     low_z = hn::Min(low_z, hn::IfThenElse(valid, z, greatest));
@@ -217,7 +215,7 @@ std::size_t grow_over_valid(const PointView& block, T* low, T* high) {
   keep(0, low_x, high_x);
   keep(1, low_y, high_y);
   keep(2, low_z, high_z);
-  return block.count - valid_lanes;
+  return block.count - valid_count;
 }
 
 template <Layout layout, typename T>

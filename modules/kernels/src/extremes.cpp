@@ -74,13 +74,12 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
 bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
-  [[maybe_unused]] const auto limit = hn::Set(d, coordinate_limit<T>());
   const auto center_x = hn::Set(d, center[0]);
   const auto center_y = hn::Set(d, center[1]);
   const auto center_z = hn::Set(d, center[2]);
   PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
   [[maybe_unused]] auto total = hn::Zero(d);
-  std::size_t valid_lanes = 0;
+  std::size_t valid_count = 0;
   for (std::size_t i = 0; i < block.count; i += n) {
     V<D> x, y, z;
     if (HWY_LIKELY(i + n <= block.count)) {
@@ -88,12 +87,11 @@ bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std:
     } else if (masked || block.count < n) {
       load_few(d, block, i, block.count - i, center, x, y, z);
     } else {
-      load_packet<layout>(d, block, block.count - n, x, y, z);  // some points twice do no harm
+      load_packet_anywhere<layout>(d, block, block.count - n, x, y, z);  // some points twice do no harm
     }
     if constexpr (masked) {
-      const auto valid =
-          hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
-      valid_lanes += hn::CountTrue(d, valid);
+      const auto valid = valid_lanes(d, x, y, z);
+      valid_count += hn::CountTrue(d, valid);
       x = hn::IfThenElse(valid, x, center_x);
       y = hn::IfThenElse(valid, y, center_y);
       z = hn::IfThenElse(valid, z, center_z);
@@ -108,7 +106,7 @@ bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std:
   }
   PCL_BV_EACH_DIRECTION(PCL_BV_STORE)
   if constexpr (masked) {
-    dropped = (block.count + n - 1) / n * n - valid_lanes;
+    dropped = (block.count + n - 1) / n * n - valid_count;
     return true;
   }
   dropped = 0;

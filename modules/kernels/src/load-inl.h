@@ -13,6 +13,8 @@
 
 #include <hwy/highway.h>
 
+#include <limits>
+
 #include "pcl_bv/kernels/point_view.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,6 +30,19 @@ using Tag = hn::CappedTag<T, kGroupBytes / sizeof(T)>;
 
 template <class D>
 using V = hn::Vec<D>;
+
+/// What is_valid() (point_view.h) allows.
+template <typename T>
+constexpr T coordinate_limit() {
+  return sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max()) : static_cast<T>(1e100);
+}
+
+/// The lanes of valid points.
+template <class D>
+HWY_INLINE hn::Mask<D> valid_lanes(D d, V<D> x, V<D> y, V<D> z) {
+  const auto limit = hn::Set(d, coordinate_limit<hn::TFromD<D>>());
+  return hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
+}
 
 /// How a packet is read. What a layout assumes of the view is said by layout_of().
 enum class Layout {
@@ -172,7 +187,18 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
   }
 }
 
-/// The same with lane i holding point first + i.
+/// The same from any point on: in groups, a vector that starts amid a packet could reach from one coordinate
+/// into the next.
+template <Layout layout, class D>
+HWY_INLINE void load_packet_anywhere(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
+                                     V<D>& z) {
+  if (layout == Layout::groups && HWY_UNLIKELY(first % hn::Lanes(d) != 0)) {
+    return load_packet<Layout::any>(d, points, first, x, y, z);
+  }
+  load_packet<layout>(d, points, first, x, y, z);
+}
+
+/// As load_packet() with lane i holding point first + i.
 template <Layout layout, class D>
 HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
                                      V<D>& z) {

@@ -38,12 +38,6 @@ using Signed = hn::RebindToSigned<D>;
 template <class D>
 using Unsigned = hn::RebindToUnsigned<D>;
 
-/// What is_valid() (point_view.h) allows.
-template <typename T>
-constexpr T coordinate_limit() {
-  return sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max()) : static_cast<T>(1e100);
-}
-
 /// How far from the centre every point is certainly valid.
 template <typename T>
 T room_around(const T* center) {

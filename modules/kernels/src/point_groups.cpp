@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Records to groups. Two loads and a transpose per packet: the copy is bound by memory, not by shuffles.
+
+#include "pcl_bv/kernels/point_groups.h"
+
+#include "point_groups_reference.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "point_groups.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "gather-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+void fill_groups(const PointView& points, std::size_t pad, std::byte* groups) {
+  fill_groups_reference(points, pad, groups);
+}
+
+#else
+
+template <typename T>
+void fill(const PointView& points, std::size_t pad, std::byte* groups) {
+  if (points.empty()) return;
+  T point[3];
+  load_point(points, pad, point);
+#define PCL_BV_CALL(layout) gather<layout, false>(points, point, reinterpret_cast<T*>(groups))
+  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
+#undef PCL_BV_CALL
+}
+
+void fill_groups(const PointView& points, std::size_t pad, std::byte* groups) {
+  points.scalar == ScalarType::float64 ? fill<double>(points, pad, groups) : fill<float>(points, pad, groups);
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+namespace {
+
+// The last valid point, from which the end of the last group is not far; the last one if none is valid.
+std::size_t padding_point(const PointView& points) {
+  for (std::size_t i = points.count; i-- > 0;) {
+    if (is_valid(load_point(points, i))) return i;
+  }
+  return points.count - 1;
+}
+
+void fill_groups(Isa isa, const PointView& points, std::byte* groups) {
+  static constexpr KernelTable<void(const PointView&, std::size_t, std::byte*)> kTable =
+      PCL_BV_KERNEL_TABLE(fill_groups, &fill_groups_reference);
+  kTable[isa](points, padding_point(points), groups);
+}
+
+}  // namespace
+
+PointGroups::PointGroups(const PointView& points, Isa isa) {
+  assign(points, isa);
+}
+
+void PointGroups::assign(const PointView& points, Isa isa) {
+  isa = resolve_isa(isa);
+  const std::size_t points_per_group = kGroupBytes / size_of(points.scalar);
+  const std::size_t groups = (points.count + points_per_group - 1) / points_per_group;
+  if (groups > groups_.capacity()) groups_.clear();  // nothing to carry over into new memory
+  groups_.resize(groups);
+  size_ = points.count;
+  scalar_ = points.scalar;
+  if (groups > 0) fill_groups(isa, points, groups_.front().lanes);
+}
+
+PointView PointGroups::view() const {
+  PointView view;
+  view.data = groups_.empty() ? nullptr : groups_.front().lanes;
+  view.count = size();
+  view.scalar = scalar_;
+  view.order = PointOrder::groups;
+  return view;
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE
