@@ -4,6 +4,7 @@
 #include "pcl_bv/estimation/bounding_volume_estimation.h"
 
 #include <gtest/gtest.h>
+#include <pcl/common/centroid.h>
 #include <pcl/common/common.h>
 #include <pcl/point_types.h>
 
@@ -79,6 +80,24 @@ TEST(Estimation, AgreesWithGetMinMax3DOnACloudWithNaN) {
     EXPECT_EQ(box.min(), low.getVector3fMap().cast<double>());
     EXPECT_EQ(box.max(), high.getVector3fMap().cast<double>());
   }
+}
+
+TEST(Estimation, ASummaryAgreesWithComputeMeanAndCovarianceMatrix) {
+  const auto cloud = random_cloud<pcl::PointXYZI>(5000, 6);
+  pcl::Indices odd;
+  for (int i = 1; i < 5000; i += 2)
+    odd.push_back(i);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  pcl::computeMeanAndCovarianceMatrix(*cloud, covariance, mean);
+  const CloudSummary summary = summarize(*cloud);
+  EXPECT_TRUE(summary.centroid.isApprox(mean.head<3>(), 1e-12));
+  EXPECT_TRUE(summary.covariance.isApprox(covariance, 1e-12));
+  pcl::computeMeanAndCovarianceMatrix(*cloud, odd, covariance, mean);
+  const CloudSummary half = summarize(*cloud, odd);
+  EXPECT_EQ(half.extremes.used, 2500U);
+  EXPECT_TRUE(half.centroid.isApprox(mean.head<3>(), 1e-12));
+  EXPECT_TRUE(half.covariance.isApprox(covariance, 1e-12));
 }
 
 TEST(Estimation, IndicesRestrictAndNullLiftsTheRestriction) {

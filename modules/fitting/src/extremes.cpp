@@ -6,15 +6,12 @@
 #include "pcl_bv/fitting/extremes.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
-#include <vector>
 
+#include "extreme_search.h"
+#include "map_chunks.h"
 #include "pcl_bv/kernels/axis_extents.h"
-#include "pcl_bv/kernels/chunks.h"
-#include "pcl_bv/kernels/extremes.h"
 #include "pcl_bv/kernels/float_environment.h"
-#include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 #include "span.h"
 
@@ -41,57 +38,6 @@ PointCost point_cost(Isa isa) {
   }
 }
 
-double points_seconds(Isa isa, DirectionSet set, std::size_t points) {
-  const double per_direction = point_cost(isa).dop26 * 1e-9 / 13.0;
-  return per_direction * static_cast<double>(direction_count(set)) * static_cast<double>(points);
-}
-
-// One partial result per chunk; small clouds, of which there are many in a sweep, need no allocation.
-template <typename Partial, typename Map, typename Merge>
-void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
-  const std::size_t chunks = chunk_count(points.count);
-  if (chunks <= 1) {
-    if (chunks == 1) merge(map(points));
-    return;
-  }
-  std::vector<Partial> partials(chunks);
-  for_each_chunk(policy, chunks, [&](std::size_t chunk) {
-    const FloatEnvironment environment;
-    partials[chunk] = map(chunk_of(points, chunk));
-  });
-  for (const Partial& partial : partials)
-    merge(partial);
-}
-
-// What all chunks so far are known to reach. Which chunk sees what depends on timing; the result does not.
-class SharedReach {
- public:
-  SharedReach() {
-    for (std::atomic<double>& r : reached_)
-      r.store(-kInfinity, std::memory_order_relaxed);
-  }
-
-  ReachedEnds snapshot() const {
-    ReachedEnds out;
-    for (std::size_t end = 0; end < kMaxEnds; ++end)
-      out[end] = reached_[end].load(std::memory_order_relaxed);
-    return out;
-  }
-
-  void raise(const ChunkExtremes& extremes) {
-    for (std::size_t end = 0; end < kMaxEnds; ++end) {
-      if (!extremes.ends[end].found) continue;
-      const double reach = round_down(extremes.ends[end].projection);
-      double known = reached_[end].load(std::memory_order_relaxed);
-      while (known < reach && !reached_[end].compare_exchange_weak(known, reach, std::memory_order_relaxed)) {
-      }
-    }
-  }
-
- private:
-  std::array<std::atomic<double>, kMaxEnds> reached_;
-};
-
 void find_bounds(const PointView& points, const Execution& execution, Isa isa, Extremes& out) {
   out.low.fill(kInfinity);
   out.high.fill(-kInfinity);
@@ -111,33 +57,82 @@ void find_bounds(const PointView& points, const Execution& execution, Isa isa, E
 }
 
 void find_points(const PointView& points, const Execution& execution, Isa isa, Extremes& out) {
-  SharedReach reach;
-  const bool shared = chunk_count(points.count) > 1;
-  const auto find = [&](const PointView& chunk) {
-    ChunkExtremes extremes;
-    chunk_extremes(isa, chunk, out.set, shared ? reach.snapshot() : nothing_reached(), extremes);
-    if (shared) reach.raise(extremes);
-    return extremes;
-  };
-  const auto merge = [&](const ChunkExtremes& part) {
-    out.dropped += part.dropped;
-    for (std::size_t k = 0; k < direction_count(out.set); ++k) {
-      keep_extreme(part.ends[2 * k], out.low_point[k]);
-      keep_extreme(part.ends[2 * k + 1], out.high_point[k]);
-    }
-  };
+  ExtremeSearch search(isa, out.set, points.count);
   map_chunks<ChunkExtremes>(
-      points, worthwhile(execution.parallel, points_seconds(isa, out.set, points.count)), find, merge);
-  for (std::size_t k = 0; k < direction_count(out.set) && out.dropped < points.count; ++k) {
-    const ExactSum& low = out.low_point[k].projection;  // of the opposite direction
-    const ExactSum& high = out.high_point[k].projection;
-    out.low[k] = -round_up(low) + 0.0;
-    out.high[k] = round_up(high);
-    out.constant[k] = compare({-low.head, -low.tail, -low.rest}, high) == 0;
+      points, worthwhile(execution.parallel, search_seconds(isa, out.set, points.count)),
+      [&](const PointView& chunk) { return search(chunk); },
+      [&](const ChunkExtremes& part) { merge_extremes(part, out); });
+}
+
+const std::shared_ptr<const KdopSet>& kdop_set(DirectionSet set) {
+  switch (set) {
+    case DirectionSet::dop6:
+      return KdopSet::dop6();
+    case DirectionSet::dop14:
+      return KdopSet::dop14();
+    case DirectionSet::dop18:
+      return KdopSet::dop18();
+    case DirectionSet::dop26:
+      break;
   }
+  return KdopSet::dop26();
 }
 
 }  // namespace
+
+double search_seconds(Isa isa, DirectionSet set, std::size_t points) {
+  const double per_direction = point_cost(isa).dop26 * 1e-9 / 13.0;
+  return per_direction * static_cast<double>(direction_count(set)) * static_cast<double>(points);
+}
+
+ExtremeSearch::ExtremeSearch(Isa isa, DirectionSet set, std::size_t points)
+    : isa_(isa), set_(set), shared_(chunk_count(points) > 1) {
+  for (std::atomic<double>& r : reached_)
+    r.store(-kInfinity, std::memory_order_relaxed);
+}
+
+ChunkExtremes ExtremeSearch::operator()(const PointView& chunk) {
+  ChunkExtremes extremes;
+  chunk_extremes(isa_, chunk, set_, shared_ ? reached() : nothing_reached(), extremes);
+  if (shared_) raise(extremes);
+  return extremes;
+}
+
+ReachedEnds ExtremeSearch::reached() const {
+  ReachedEnds out;
+  for (std::size_t end = 0; end < kMaxEnds; ++end)
+    out[end] = reached_[end].load(std::memory_order_relaxed);
+  return out;
+}
+
+void ExtremeSearch::raise(const ChunkExtremes& extremes) {
+  for (std::size_t end = 0; end < kMaxEnds; ++end) {
+    if (!extremes.ends[end].found) continue;
+    const double reach = round_down(extremes.ends[end].projection);
+    double known = reached_[end].load(std::memory_order_relaxed);
+    while (known < reach && !reached_[end].compare_exchange_weak(known, reach, std::memory_order_relaxed)) {
+    }
+  }
+}
+
+void merge_extremes(const ChunkExtremes& part, Extremes& extremes) {
+  extremes.dropped += part.dropped;
+  for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
+    keep_extreme(part.ends[2 * k], extremes.low_point[k]);
+    keep_extreme(part.ends[2 * k + 1], extremes.high_point[k]);
+  }
+}
+
+void finish_extremes(std::size_t points, Extremes& extremes) {
+  extremes.used = points - extremes.dropped;
+  for (std::size_t k = 0; k < direction_count(extremes.set) && extremes.used > 0; ++k) {
+    const ExactSum& low = extremes.low_point[k].projection;  // of the opposite direction
+    const ExactSum& high = extremes.high_point[k].projection;
+    extremes.low[k] = -round_up(low) + 0.0;
+    extremes.high[k] = round_up(high);
+    extremes.constant[k] = compare({-low.head, -low.tail, -low.rest}, high) == 0;
+  }
+}
 
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,
                        const Execution& execution) {
@@ -147,11 +142,26 @@ Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail 
   extremes.set = set;
   if (set == DirectionSet::dop6 && detail == ExtremeDetail::bounds) {
     find_bounds(points, execution, isa, extremes);
+    extremes.used = points.count - extremes.dropped;
   } else {
     find_points(points, execution, isa, extremes);
+    finish_extremes(points.count, extremes);
   }
-  extremes.used = points.count - extremes.dropped;
   return extremes;
+}
+
+Aabb aabb_of(const Extremes& extremes) {
+  if (extremes.used == 0) return {};
+  return {{extremes.low[0], extremes.low[1], extremes.low[2]},
+          {extremes.high[0], extremes.high[1], extremes.high[2]}};
+}
+
+Kdop kdop_of(const Extremes& extremes) {
+  const std::shared_ptr<const KdopSet>& set = kdop_set(extremes.set);
+  if (extremes.used == 0) return Kdop(set);
+  const auto size = static_cast<Eigen::Index>(set->size());
+  return {set, Eigen::Map<const Eigen::VectorXd>(extremes.low.data(), size),
+          Eigen::Map<const Eigen::VectorXd>(extremes.high.data(), size)};
 }
 
 EstimationResult result_of(const Extremes& extremes) {

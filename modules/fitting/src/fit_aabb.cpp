@@ -10,9 +10,7 @@ namespace pcl_bv {
 
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution) {
   const Extremes extremes = find_extremes(points, DirectionSet::dop6, ExtremeDetail::bounds, execution);
-  box = extremes.used == 0 ? Aabb()
-                           : Aabb({extremes.low[0], extremes.low[1], extremes.low[2]},
-                                  {extremes.high[0], extremes.high[1], extremes.high[2]});
+  box = aabb_of(extremes);
   return result_of(extremes);
 }
 

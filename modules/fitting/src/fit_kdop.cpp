@@ -21,19 +21,6 @@ std::optional<DirectionSet> direction_set(const std::shared_ptr<const KdopSet>& 
   return std::nullopt;
 }
 
-EstimationResult fit_with_kernel(const PointView& points, DirectionSet directions,
-                                 const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
-                                 const Execution& execution) {
-  const Extremes extremes = find_extremes(points, directions, ExtremeDetail::bounds, execution);
-  kdop = Kdop(set);
-  if (extremes.used > 0) {
-    const auto size = static_cast<Eigen::Index>(set->size());
-    kdop = Kdop(set, Eigen::Map<const Eigen::VectorXd>(extremes.low.data(), size),
-                Eigen::Map<const Eigen::VectorXd>(extremes.high.data(), size));
-  }
-  return result_of(extremes);
-}
-
 EstimationResult fit_point_by_point(const PointView& points, const std::shared_ptr<const KdopSet>& set,
                                     Kdop& kdop) {
   const FloatEnvironment environment;
@@ -61,8 +48,10 @@ EstimationResult fit_point_by_point(const PointView& points, const std::shared_p
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                           const Execution& execution) {
   const std::optional<DirectionSet> directions = direction_set(set);
-  return directions ? fit_with_kernel(points, *directions, set, kdop, execution)
-                    : fit_point_by_point(points, set, kdop);
+  if (!directions) return fit_point_by_point(points, set, kdop);
+  const Extremes extremes = find_extremes(points, *directions, ExtremeDetail::bounds, execution);
+  kdop = kdop_of(extremes);
+  return result_of(extremes);
 }
 
 }  // namespace pcl_bv

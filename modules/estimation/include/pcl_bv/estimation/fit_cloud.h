@@ -6,6 +6,7 @@
 
 #include "pcl_bv/estimation/point_cloud_view.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/summary.h"
 
 namespace pcl_bv {
 
@@ -45,6 +46,18 @@ template <typename PointT>
 EstimationResult fit_sphere(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
                             SphereMethod method, Sphere& sphere, const Execution& execution = {}) {
   return fit_sphere(point_view(cloud, indices), method, sphere, execution);
+}
+
+/// As summarize() of fitting/summary.h.
+template <typename PointT>
+CloudSummary summarize(const pcl::PointCloud<PointT>& cloud, const Execution& execution = {}) {
+  return summarize(point_view(cloud), execution);
+}
+
+template <typename PointT>
+CloudSummary summarize(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                       const Execution& execution = {}) {
+  return summarize(point_view(cloud, indices), execution);
 }
 
 }  // namespace pcl_bv

@@ -13,6 +13,8 @@
 #include "pcl_bv/kernels/directions.h"
 #include "pcl_bv/kernels/extreme_point.h"
 #include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/volumes/aabb.h"
+#include "pcl_bv/volumes/kdop.h"
 
 namespace pcl_bv {
 
@@ -41,6 +43,10 @@ struct Extremes {
 /// Throws std::invalid_argument for an unusable instruction set.
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,
                        const Execution& execution);
+
+/// The box of the extremes along the axes and the k-DOP of all of them; empty if there was no valid point.
+Aabb aabb_of(const Extremes& extremes);
+Kdop kdop_of(const Extremes& extremes);
 
 /// Status and rank as result.h defines them, from what the extremes saw.
 EstimationResult result_of(const Extremes& extremes);

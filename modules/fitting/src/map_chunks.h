@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A cloud in chunks over the cores: what every pass of a kernel is built on.
+#pragma once
+
+#include <vector>
+
+#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+
+namespace pcl_bv {
+
+/// merge(map(chunk)) for each chunk of the points: the maps in parallel, each under a FloatEnvironment, the
+/// merges in order. Clouds of one chunk, of which there are many in a sweep, need no allocation; for them the
+/// caller's FloatEnvironment counts.
+template <typename Partial, typename Map, typename Merge>
+void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
+  const std::size_t chunks = chunk_count(points.count);
+  if (chunks <= 1) {
+    if (chunks == 1) merge(map(points));
+    return;
+  }
+  std::vector<Partial> partials(chunks);
+  for_each_chunk(policy, chunks, [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    partials[chunk] = map(chunk_of(points, chunk));
+  });
+  for (const Partial& partial : partials)
+    merge(partial);
+}
+
+}  // namespace pcl_bv

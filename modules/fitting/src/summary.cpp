@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The moments ride on the search for extremes, chunk by chunk.
+
+#include "pcl_bv/fitting/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "extreme_search.h"
+#include "map_chunks.h"
+#include "pcl_bv/kernels/moments.h"
+#include "schedule.h"
+
+namespace pcl_bv {
+namespace {
+
+struct Part {
+  ChunkExtremes extremes;
+  Moments moments;
+};
+
+std::optional<Coordinates> first_valid(const PointView& points) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (is_valid(p)) return p;
+  }
+  return std::nullopt;
+}
+
+void merge_moments(const Moments& part, Moments& all) {
+  all.count += part.count;
+  for (std::size_t k = 0; k < 3; ++k)
+    all.sum[k] += part.sum[k];
+  for (std::size_t k = 0; k < 6; ++k)
+    all.product[k] += part.product[k];
+}
+
+// 1, or for tiny extents the power of two that brings the greatest to about 1 (2^1000 is far enough, and
+// finite).
+double scale_for(const Extremes& extremes) {
+  double extent = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    extent = std::max(extent, extremes.high[axis] - extremes.low[axis]);
+  return extent == 0 || extent >= 1e-100 ? 1 : std::ldexp(1.0, std::min(-std::ilogb(extent), 1000));
+}
+
+// A second pass for such clouds, on a copy: (p - origin) scale is as exact as p - origin. A point that is not
+// valid differs from a valid one by 1e84 at least, so it stays one that is not.
+Moments scaled_moments(const PointView& points, const Coordinates& origin, double scale, Isa isa) {
+  Moments all;
+  std::vector<double> xyz;
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const PointView part = chunk_of(points, chunk);
+    xyz.clear();
+    for (std::size_t i = 0; i < part.count; ++i) {
+      const Coordinates p = load_point(part, i);
+      xyz.insert(xyz.end(), {(p.x - origin.x) * scale, (p.y - origin.y) * scale, (p.z - origin.z) * scale});
+    }
+    Moments moments;
+    chunk_moments(isa, PointView::of(xyz.data(), 3 * sizeof(double), part.count), {0, 0, 0}, moments);
+    merge_moments(moments, all);
+  }
+  return all;
+}
+
+void finish(const Moments& moments, const Coordinates& origin, CloudSummary& summary) {
+  const double n = static_cast<double>(moments.count);
+  const double from[3] = {origin.x, origin.y, origin.z};
+  double mean[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    mean[axis] = moments.sum[axis] / n;
+    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.scale, summary.extremes.low[axis],
+                                        summary.extremes.high[axis]) +
+                             0.0;
+  }
+  std::size_t k = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j, ++k) {
+      const double value = moments.product[k] / n - mean[i] * mean[j];
+      summary.covariance(i, j) = summary.covariance(j, i) = i == j ? std::max(value, 0.0) : value;
+    }
+  }
+}
+
+}  // namespace
+
+CloudSummary summarize(const PointView& points, const Execution& execution) {
+  const FloatEnvironment environment;
+  const Isa isa = resolve_isa(execution.isa);
+  CloudSummary summary;
+  summary.extremes.set = DirectionSet::dop26;
+  const std::optional<Coordinates> origin = first_valid(points);
+  if (!origin) {
+    summary.extremes.dropped = points.count;
+    return summary;
+  }
+  ExtremeSearch search(isa, DirectionSet::dop26, points.count);
+  Moments moments;
+  // Moments cost about as much again as the extremes.
+  const double seconds = 2 * search_seconds(isa, DirectionSet::dop26, points.count);
+  map_chunks<Part>(
+      points, worthwhile(execution.parallel, seconds),
+      [&](const PointView& chunk) {
+        Part part;
+        part.extremes = search(chunk);
+        chunk_moments(isa, chunk, *origin, part.moments);
+        return part;
+      },
+      [&](const Part& part) {
+        merge_extremes(part.extremes, summary.extremes);
+        merge_moments(part.moments, moments);
+      });
+  finish_extremes(points.count, summary.extremes);
+  summary.scale = scale_for(summary.extremes);
+  if (summary.scale != 1) moments = scaled_moments(points, *origin, summary.scale, isa);
+  finish(moments, *origin, summary);
+  return summary;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/kernels/moments.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "clouds.h"
+#include "exact.h"
+#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/kernels/point_groups.h"
+
+namespace pcl_bv {
+namespace {
+
+using test::Rational;
+using test::Records;
+using test::TestCloud;
+
+Coordinates first_valid(const PointView& points) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (is_valid(p)) return p;
+  }
+  return {0, 0, 0};
+}
+
+// As the header defines them, from loads to lanes; `term` is one of x y z xx xy xz yy yz zz.
+double by_definition(const PointView& points, const Coordinates& origin, std::size_t term) {
+  double total[8] = {};
+  for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
+    for (std::size_t lane = 0; lane < 8; ++lane) {
+      double sum = 0;
+      for (std::size_t i = begin + lane; i < std::min(begin + kBlockPoints, points.count); i += 8) {
+        const Coordinates p = load_point(points, i);
+        if (!is_valid(p)) continue;
+        const double v[3] = {p.x - origin.x, p.y - origin.y, p.z - origin.z};
+        constexpr std::size_t a[] = {0, 1, 2, 0, 0, 0, 1, 1, 2};
+        constexpr std::size_t b[] = {0, 0, 0, 0, 1, 2, 1, 2, 2};
+        const volatile double value = term < 3 ? v[a[term]] : v[a[term]] * v[b[term]];
+        sum += value;
+      }
+      total[lane] += sum;
+    }
+  }
+  return std::accumulate(std::begin(total), std::end(total), 0.0);
+}
+
+class MomentsTest : public testing::TestWithParam<Isa> {
+ protected:
+  void expect_definition(const PointView& points) {
+    const Coordinates origin = first_valid(points);
+    Moments moments;
+    chunk_moments(GetParam(), points, origin, moments);
+    std::size_t valid = 0;
+    for (std::size_t i = 0; i < points.count; ++i)
+      valid += is_valid(load_point(points, i)) ? 1 : 0;
+    EXPECT_EQ(moments.count, valid);
+    for (std::size_t term = 0; term < 9; ++term) {
+      const double found = term < 3 ? moments.sum[term] : moments.product[term - 3];
+      const double expected = by_definition(points, origin, term);
+      EXPECT_EQ(std::memcmp(&found, &expected, sizeof found), 0)
+          << "term " << term << ": " << found << " and " << expected;
+    }
+  }
+};
+
+TEST_P(MomentsTest, HaveTheBitsOfTheDefinitionOnNastyClouds) {
+  for (const TestCloud<float>& cloud : test::nasty_clouds<float>()) {
+    SCOPED_TRACE(cloud.name);
+    expect_definition(cloud.view());
+  }
+  for (const TestCloud<double>& cloud : test::nasty_clouds<double>()) {
+    SCOPED_TRACE(cloud.name);
+    expect_definition(cloud.view());
+  }
+}
+
+TEST_P(MomentsTest, HaveTheBitsOfTheDefinitionForEveryLayoutTailAndBadPoint) {
+  for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
+    TestCloud<float> cloud = test::gaussian<float>(n, n);
+    TestCloud<double> doubles = test::gaussian<double>(n, n);
+    for (const bool bad : {false, true}) {
+      if (bad) cloud.xyz[n * 7 % (3 * n)] = std::numeric_limits<float>::quiet_NaN();
+      if (bad) doubles.xyz[n * 7 % (3 * n)] = -1.1e100;
+      for (const std::size_t stride : {12, 16, 20, 32, 48}) {
+        SCOPED_TRACE(testing::Message() << n << " points, stride " << stride << ", bad " << bad);
+        expect_definition(Records<float>(cloud, stride).view());
+      }
+      expect_definition(Records<float>(cloud, 31, 13).view());
+      for (const std::size_t stride : {24, 32, 40})
+        expect_definition(Records<double>(doubles, stride).view());
+      const PointGroups groups(cloud.view());
+      for (const std::size_t begin : {std::size_t{0}, n / 3, n - 1})
+        expect_definition(groups.view().slice(begin, n - begin));
+    }
+  }
+}
+
+TEST_P(MomentsTest, HaveTheBitsOfTheDefinitionForIndexListsAndWholeChunks) {
+  const TestCloud<float> cloud = test::gaussian<float>(kChunkPoints, 3, 20, 5e6);
+  expect_definition(cloud.view());
+  std::vector<std::int32_t> indices(kChunkPoints);
+  std::iota(indices.begin(), indices.end(), 0);
+  std::shuffle(indices.begin(), indices.end(), std::mt19937_64(4));
+  PointView view = cloud.view();
+  view.indices = indices.data();
+  expect_definition(view);
+}
+
+TEST_P(MomentsTest, ProductsAreRoundedBeforeTheyAreAdded) {
+  // In one lane: -(1 + 2^-29), then the square of 1 + 2^-30, whose last term, 2^-60, a fused sum would keep.
+  TestCloud<double> cloud{"fma", std::vector<double>(3 * 9, 0.0)};
+  cloud.xyz[0] = -(1 + 0x1p-29);
+  cloud.xyz[1] = 1;
+  cloud.xyz[3 * 8] = cloud.xyz[3 * 8 + 1] = 1 + 0x1p-30;
+  Moments moments;
+  chunk_moments(GetParam(), cloud.view(), {0, 0, 0}, moments);
+  EXPECT_EQ(moments.product[1], 0.0);
+}
+
+TEST_P(MomentsTest, AreWithinTheStatedBoundOfTheExactSums) {
+  for (const double offset : {0.0, 5e6}) {
+    const TestCloud<float> cloud = test::gaussian<float>(3000, 5, 20, offset);
+    const Coordinates origin = load_point(cloud.view(), 0);
+    Moments moments;
+    chunk_moments(GetParam(), cloud.view(), origin, moments);
+    Rational x = 0, xy = 0, x_magnitude = 0, xy_magnitude = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Coordinates p = load_point(cloud.view(), i);
+      const Rational dx = Rational(p.x) - Rational(origin.x);
+      const Rational product = dx * (Rational(p.y) - Rational(origin.y));
+      x += dx;
+      xy += product;
+      x_magnitude += abs(dx);
+      xy_magnitude += abs(product);
+    }
+    EXPECT_LE(abs(Rational(moments.sum[0]) - x), Rational(171 * 0x1p-53) * x_magnitude);
+    EXPECT_LE(abs(Rational(moments.product[1]) - xy), Rational(171 * 0x1p-53) * xy_magnitude);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryUsableSet, MomentsTest, testing::ValuesIn(usable_isas()),
+                         [](const auto& param) { return std::string(isa_name(param.param)); });
+
+}  // namespace
+}  // namespace pcl_bv
