@@ -156,6 +156,32 @@ TEST(Estimation, ANullOfAnyKindLiftsTheRestriction) {
   EXPECT_EQ(estimation.compute(box).used, 12U);
 }
 
+TEST(Estimation, AKdopTellsWhichPointsOfTheCloudTouchIt) {
+  const auto cloud = random_cloud<pcl::PointNormal>(1000, 9);
+  KdopEstimation<pcl::PointNormal, 18> estimation;
+  estimation.setInputCloud(cloud);
+  const auto odd = std::make_shared<pcl::Indices>();
+  for (int i = 999; i > 0; i -= 2)
+    odd->push_back(i);
+  Kdop kdop, again, expected;
+  SlabPoints touching, also;
+  for (const pcl::IndicesPtr& indices : {pcl::IndicesPtr(), pcl::IndicesPtr(odd)}) {
+    estimation.setIndices(indices);
+    EXPECT_EQ(estimation.compute(kdop, touching).used, indices ? 500U : 1000U);
+    estimation.compute(expected);
+    EXPECT_EQ(kdop, expected);
+    ASSERT_EQ(touching.max.size(), 9U);
+    EXPECT_EQ((*cloud)[touching.max[2]].z, kdop.max(2));
+    EXPECT_EQ((*cloud)[touching.min[0]].x, kdop.min(0));
+  }
+  EXPECT_EQ(touching.max[2] % 2, 1U) << "indices are the cloud's";
+  fit_kdop(*cloud, *odd, KdopSet::dop18(), again, also);
+  EXPECT_EQ(also.min, touching.min);
+  EXPECT_EQ(also.max, touching.max);
+  fit_kdop(*cloud, KdopSet::dop18(), again, also);
+  EXPECT_EQ((*cloud)[also.min[1]].y, again.min(1));
+}
+
 struct Scattered {
   float x;
   int id;

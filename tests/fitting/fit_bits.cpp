@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "clouds.h"
+#include "directions.h"
 #include "numbers.h"
 #include "pcl_bv/fitting/methods.h"
 
@@ -81,9 +82,34 @@ std::vector<test::TestCloud<T>> clouds() {
   return all;
 }
 
+std::shared_ptr<const KdopSet> own_set() {
+  std::vector<Eigen::Vector3d> directions;
+  for (const auto& all : {test::nasty_directions(), test::integer_directions()}) {
+    for (const auto& d : all)
+      if (directions.size() < KdopSet::max_size) directions.emplace_back(d[0], d[1], d[2]);
+  }
+  return std::make_shared<const KdopSet>(directions);
+}
+
+template <typename T>
+void write_own_kdop(std::ostream& out, const test::TestCloud<T>& cloud) {
+  Kdop kdop;
+  SlabPoints touching;
+  fit_kdop(cloud.view(), own_set(), kdop, touching);
+  out << "own directions, " << (sizeof(T) == 4 ? "float, " : "double, ") << cloud.name << ":";
+  for (const std::uint64_t number : test::bits(kdop))
+    out << ' ' << std::hex << number << std::dec;
+  for (const auto& indices : {touching.min, touching.max}) {
+    for (const std::size_t index : indices)
+      out << ' ' << index;
+  }
+  out << '\n';
+}
+
 template <typename T>
 void write(std::ostream& out) {
   for (const test::TestCloud<T>& cloud : clouds<T>()) {
+    write_own_kdop(out, cloud);
     for (const Method& method : methods()) {
       AnyVolume volume;
       method.fit(cloud.view(), volume, {});

@@ -4,12 +4,11 @@
 // The search for extremes as the parts of a pass over chunks, so that other work can ride on the same pass.
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstddef>
 
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/kernels/extremes.h"
+#include "shared_reach.h"
 
 namespace pcl_bv {
 
@@ -27,13 +26,10 @@ class ExtremeSearch {
   ChunkExtremes operator()(const PointView& chunk);
 
  private:
-  ReachedEnds reached() const;
-  void raise(const ChunkExtremes& extremes);
-
   Isa isa_;
   DirectionSet set_;
   bool shared_;
-  std::array<std::atomic<double>, kMaxEnds> reached_;
+  SharedReach<kMaxEnds> reach_;
 };
 
 /// Lets the points of `extremes` compete with those of a chunk.

@@ -86,33 +86,15 @@ double search_seconds(Isa isa, DirectionSet set, std::size_t points) {
 }
 
 ExtremeSearch::ExtremeSearch(Isa isa, DirectionSet set, std::size_t points)
-    : isa_(isa), set_(set), shared_(chunk_count(points) > 1) {
-  for (std::atomic<double>& r : reached_)
-    r.store(-kInfinity, std::memory_order_relaxed);
-}
+    : isa_(isa), set_(set), shared_(chunk_count(points) > 1) {}
 
 ChunkExtremes ExtremeSearch::operator()(const PointView& chunk) {
   ChunkExtremes extremes;
-  chunk_extremes(isa_, chunk, set_, shared_ ? reached() : nothing_reached(), extremes);
-  if (shared_) raise(extremes);
-  return extremes;
-}
-
-ReachedEnds ExtremeSearch::reached() const {
-  ReachedEnds out;
-  for (std::size_t end = 0; end < kMaxEnds; ++end)
-    out[end] = reached_[end].load(std::memory_order_relaxed);
-  return out;
-}
-
-void ExtremeSearch::raise(const ChunkExtremes& extremes) {
-  for (std::size_t end = 0; end < kMaxEnds; ++end) {
-    if (!extremes.ends[end].found) continue;
-    const double reach = round_down(extremes.ends[end].projection);
-    double known = reached_[end].load(std::memory_order_relaxed);
-    while (known < reach && !reached_[end].compare_exchange_weak(known, reach, std::memory_order_relaxed)) {
-    }
+  chunk_extremes(isa_, chunk, set_, shared_ ? reach_.snapshot() : nothing_reached(), extremes);
+  for (std::size_t end = 0; shared_ && end < kMaxEnds; ++end) {
+    if (extremes.ends[end].found) reach_.raise(end, round_down(extremes.ends[end].projection));
   }
+  return extremes;
 }
 
 void merge_extremes(const ChunkExtremes& part, Extremes& extremes) {
@@ -165,18 +147,12 @@ Kdop kdop_of(const Extremes& extremes) {
 }
 
 EstimationResult result_of(const Extremes& extremes) {
-  EstimationResult result;
-  result.used = extremes.used;
-  result.dropped = extremes.dropped;
-  if (extremes.used == 0) return result;
   Span flat;
   for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
     const auto& d = kCubeDirections[cube_direction(extremes.set, k)];
     if (extremes.constant[k]) flat.add(Eigen::Vector3d(d[0], d[1], d[2]));
   }
-  result.rank = 3 - flat.dimensions();
-  result.status = result.rank == 3 ? EstimationStatus::ok : EstimationStatus::degenerate;
-  return result;
+  return result_from(flat, extremes.used, extremes.dropped);
 }
 
 }  // namespace pcl_bv

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// k-DOPs: the paper's direction sets by the kernels, any other set point by point.
+// k-DOPs: the paper's direction sets by the kernel that knows them, any other set by the one that multiplies.
 
 #include <optional>
 
+#include "pcl_bv/fitting/extreme_points.h"
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/kernels/float_environment.h"
 #include "span.h"
 
 namespace pcl_bv {
@@ -21,37 +21,59 @@ std::optional<DirectionSet> direction_set(const std::shared_ptr<const KdopSet>& 
   return std::nullopt;
 }
 
-EstimationResult fit_point_by_point(const PointView& points, const std::shared_ptr<const KdopSet>& set,
-                                    Kdop& kdop) {
-  const FloatEnvironment environment;
-  EstimationResult result;
+EstimationResult fit_built_in(const PointView& points, DirectionSet directions,
+                              const std::shared_ptr<const KdopSet>& set, Kdop& kdop, SlabPoints* touching,
+                              const Execution& execution) {
+  const ExtremeDetail detail = touching != nullptr ? ExtremeDetail::points : ExtremeDetail::bounds;
+  const Extremes extremes = find_extremes(points, directions, detail, execution);
+  kdop = kdop_of(extremes);
+  for (std::size_t k = 0; touching != nullptr && extremes.used > 0 && k < set->size(); ++k) {
+    touching->min.push_back(extremes.low_point[k].index);
+    touching->max.push_back(extremes.high_point[k].index);
+  }
+  return result_of(extremes);
+}
+
+EstimationResult fit_own(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
+                         SlabPoints* touching, const Execution& execution) {
+  std::vector<std::array<double, 3>> directions;
+  for (std::size_t k = 0; k < set->size(); ++k)
+    directions.push_back({set->direction(k).x(), set->direction(k).y(), set->direction(k).z()});
+  const ExtremePoints extremes = find_extreme_points(points, directions, execution);
+  SlabVector low = kdop.min(), high = kdop.max();
+  Span flat;
+  for (std::size_t k = 0; k < extremes.along.size(); ++k) {
+    const DirectionExtremes& along = extremes.along[k];
+    low[static_cast<Eigen::Index>(k)] = along.low;
+    high[static_cast<Eigen::Index>(k)] = along.high;
+    if (along.constant) flat.add(set->direction(k));
+    if (touching == nullptr) continue;
+    touching->min.push_back(along.low_point.index);
+    touching->max.push_back(along.high_point.index);
+  }
+  kdop = Kdop(set, low, high);
+  return result_from(flat, extremes.used, extremes.dropped);
+}
+
+EstimationResult fit(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
+                     SlabPoints* touching, const Execution& execution) {
   kdop = Kdop(set);
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (!is_valid(p)) continue;
-    kdop.extend({p.x, p.y, p.z});
-    ++result.used;
-  }
-  result.dropped = points.count - result.used;
-  if (result.used == 0) return result;
-  Span flat;  // exact only where the slabs are
-  for (std::size_t k = 0; k < kdop.size(); ++k) {
-    if (kdop.min(k) == kdop.max(k)) flat.add(set->direction(k));
-  }
-  result.rank = 3 - flat.dimensions();
-  result.status = result.rank == 3 ? EstimationStatus::ok : EstimationStatus::degenerate;
-  return result;
+  const std::optional<DirectionSet> directions = direction_set(set);
+  return directions ? fit_built_in(points, *directions, set, kdop, touching, execution)
+                    : fit_own(points, set, kdop, touching, execution);
 }
 
 }  // namespace
 
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                           const Execution& execution) {
-  const std::optional<DirectionSet> directions = direction_set(set);
-  if (!directions) return fit_point_by_point(points, set, kdop);
-  const Extremes extremes = find_extremes(points, *directions, ExtremeDetail::bounds, execution);
-  kdop = kdop_of(extremes);
-  return result_of(extremes);
+  return fit(points, set, kdop, nullptr, execution);
+}
+
+EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
+                          SlabPoints& touching, const Execution& execution) {
+  touching = SlabPoints();
+  return fit(points, set, kdop, &touching, execution);
 }
 
 }  // namespace pcl_bv

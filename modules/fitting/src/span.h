@@ -5,6 +5,9 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstddef>
+
+#include "pcl_bv/fitting/result.h"
 
 namespace pcl_bv {
 
@@ -31,5 +34,12 @@ class Span {
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
 };
+
+/// Status and rank as result.h defines them; `flat` spans the directions in which no point differs.
+inline EstimationResult result_from(const Span& flat, std::size_t used, std::size_t dropped) {
+  if (used == 0) return {EstimationStatus::no_valid_points, 0, used, dropped};
+  const int rank = 3 - flat.dimensions();
+  return {rank == 3 ? EstimationStatus::ok : EstimationStatus::degenerate, rank, used, dropped};
+}
 
 }  // namespace pcl_bv

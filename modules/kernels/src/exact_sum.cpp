@@ -35,13 +35,17 @@ void grow(std::array<double, n>& expansion, std::size_t used, double term) {
 
 }  // namespace
 
-ExactSum exact_projection(const std::array<std::int8_t, 3>& direction, const Coordinates& p) {
-  const Pair xy = two_sum(direction[0] * p.x, direction[1] * p.y);
-  const Pair xyz = two_sum(xy.sum, direction[2] * p.z);
+ExactSum exact_sum(double x, double y, double z) {
+  const Pair xy = two_sum(x, y);
+  const Pair xyz = two_sum(xy.sum, z);
   if (xy.error == 0.0) return {xyz.sum, xyz.error, 0.0};
   const Pair errors = two_sum(xyz.error, xy.error);
   const Pair head = two_sum(xyz.sum, errors.sum);
   return {head.sum, head.error, errors.error};
+}
+
+ExactSum exact_projection(const std::array<std::int8_t, 3>& direction, const Coordinates& p) {
+  return exact_sum(direction[0] * p.x, direction[1] * p.y, direction[2] * p.z);
 }
 
 // tail + rest is at most half a step of head and a tiny bit, and its rounded sum has its exact sign, so that

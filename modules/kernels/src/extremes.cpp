@@ -17,6 +17,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "lanes-inl.h"
 #include "load-inl.h"
 #include "reach-inl.h"
 
@@ -115,23 +116,9 @@ bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std:
          all_within(d, room, low2, high2) && sum_is_finite(d, total);
 }
 
-// Packets per block. Fewer cost more stores, more cost more points to look at behind a lane: 26-DOP on AVX-512,
-// 4010 points 3.1 us with 32 and 4.2 with 64, 300 k points 100 and 97.
-constexpr std::size_t kPackets = 32;
-
-// A chunk's blocks and what their lanes reach at the ends of `set`: 52 KiB for floats, whatever the vectors.
-template <DirectionSet set, typename T>
-struct Reach {
-  static constexpr std::size_t ends = 2 * direction_count(set);
-  std::size_t lanes;
-  std::size_t block_points;
-  std::size_t per_block;
-  HWY_ALIGN T values[kChunkPoints / kPackets * ends];
-};
-
 // The pass over a chunk's blocks; returns how many points were dropped.
 template <Layout layout, DirectionSet set, typename T>
-std::size_t reach_of_blocks(const PointView& chunk, const T* center, Reach<set, T>& reach) {
+std::size_t reach_of_blocks(const PointView& chunk, const T* center, const LaneReach<T>& reach) {
   const Tag<T> d;
   std::size_t dropped = 0;
   bool clean = true;  // where there was an invalid point there will be more
@@ -148,47 +135,6 @@ std::size_t reach_of_blocks(const PointView& chunk, const T* center, Reach<set, 
   return dropped;
 }
 
-template <DirectionSet set, typename T>
-double greatest_reach(const Reach<set, T>& reach, std::size_t end, std::size_t points) {
-  const Tag<T> d;
-  const T* lanes = reach.values + end * reach.lanes;
-  auto greatest = hn::Load(d, lanes);
-  for (std::size_t begin = reach.block_points; begin < points; begin += reach.block_points)
-    greatest = hn::Max(greatest, hn::Load(d, lanes += reach.per_block));
-  return hn::GetLane(hn::MaxOfLanes(d, greatest));
-}
-
-// Looks at the points behind those lanes of those blocks that reach the threshold.
-template <Layout layout, DirectionSet set, typename T>
-void search(const PointView& chunk, const Reach<set, T>& reach, std::size_t end, const RoundedFilter& filter,
-            ExtremePoint& best) {
-  const Tag<T> d;
-  const std::size_t n = reach.lanes;
-  const CubeDirection direction = end_direction(set, end);
-  const auto look = [&](std::size_t first, std::size_t last) {
-    find_extreme_point(chunk, first, n, last, direction, filter, best);
-  };
-  const auto least = hn::Set(d, static_cast<T>(filter.threshold));
-  const T* lanes = reach.values + end * n;
-  for (std::size_t begin = 0; begin < chunk.count; begin += reach.block_points, lanes += reach.per_block) {
-    const auto candidates = hn::Not(hn::Lt(hn::Load(d, lanes), least));  // an overflown sum may be NaN
-    if (HWY_LIKELY(hn::AllFalse(d, candidates))) continue;
-    const std::size_t count = HWY_MIN(reach.block_points, chunk.count - begin);
-    const std::size_t whole = begin + count / n * n;
-    HWY_ALIGN std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, candidates, bits);
-    for (std::size_t lane = 0; lane < n; ++lane) {
-      if ((bits[lane / 8] >> (lane % 8) & 1) == 0) continue;
-      const std::size_t point = point_of_lane<layout>(lane, n);
-      look(begin + point, whole);
-      if (whole == begin + count) continue;
-      // The last packet: either of points in order, or of the block's last n.
-      look(whole + lane, begin + count);
-      if (count >= n) look(begin + count - n + point, begin + count);
-    }
-  }
-}
-
 template <Layout layout, DirectionSet set, typename T>
 void extremes_of_chunk(const PointView& chunk, const ReachedEnds& reached, ChunkExtremes& out) {
   out = ChunkExtremes();
@@ -198,21 +144,24 @@ void extremes_of_chunk(const PointView& chunk, const ReachedEnds& reached, Chunk
     return;
   }
   const T c[3] = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
-  const std::size_t n = hn::Lanes(Tag<T>());
-  Reach<set, T> reach;
-  reach.lanes = n;
-  reach.block_points = kPackets * n;
-  reach.per_block = reach.ends * n;
-  out.dropped = reach_of_blocks<layout>(chunk, c, reach);
+  constexpr std::size_t ends = 2 * direction_count(set);
+  HWY_ALIGN T values[kChunkPoints / kPackets * ends];  // 52 KiB for floats, whatever the vectors
+  const LaneReach<T> reach(values, ends);
+  out.dropped = reach_of_blocks<layout, set>(chunk, c, reach);
   RoundedEnds top;
-  for (std::size_t end = 0; end < reach.ends; ++end)
+  for (std::size_t end = 0; end < ends; ++end)
     top[end] = greatest_reach(reach, end, chunk.count);
   const SearchPlan plan(set, top, center, chunk.scalar);
-  for (std::size_t end = 0; end < reach.ends; ++end) {
+  for (std::size_t end = 0; end < ends; ++end) {
     const EndSearch what = plan.of(end, reached[end]);
-    if (what.kind == EndSearch::Kind::every) keep_any_point(chunk, end_direction(set, end), out.ends[end]);
+    const CubeDirection direction = end_direction(set, end);
+    if (what.kind == EndSearch::Kind::every) keep_any_point(chunk, direction, out.ends[end]);
     if (what.kind != EndSearch::Kind::some) continue;
-    search<layout>(chunk, reach, end, {center, what.threshold}, out.ends[end]);
+    const RoundedFilter filter{center, what.threshold};
+    const auto look = [&](std::size_t first, std::size_t step, std::size_t last) {
+      find_extreme_point(chunk, first, step, last, direction, filter, out.ends[end]);
+    };
+    search_lanes<layout>(chunk, reach, end, what.threshold, look);
   }
 }
 

@@ -60,6 +60,10 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   virtual EstimationResult fit(const PointView& points, VolumeT& volume,
                                const Execution& execution) const = 0;
 
+  /// What compute() fits: the cloud or those points of it that the indices name. Throws as compute() does.
+  PointView input() const;
+  const Execution& execution() const { return execution_; }
+
  private:
   const PointCloud& cloud() const;
 
@@ -80,8 +84,17 @@ template <typename PointT, int K = 26>
 class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   static_assert(K == 6 || K == 14 || K == 18 || K == 26, "K is 6, 14, 18 or 26");
 
+ public:
+  using BoundingVolumeEstimation<PointT, Kdop>::compute;
+
+  /// The same, and for each slab which points of the input cloud touch it; empty if there is no valid point.
+  EstimationResult compute(Kdop& kdop, SlabPoints& touching) const;
+
  protected:
   EstimationResult fit(const PointView& points, Kdop& kdop, const Execution& execution) const override;
+
+ private:
+  static const std::shared_ptr<const KdopSet>& set();
 };
 
 /// A bounding sphere. See fit_sphere().

@@ -37,6 +37,19 @@ EstimationResult fit_kdop(const pcl::PointCloud<PointT>& cloud, const pcl::Indic
 }
 
 template <typename PointT>
+EstimationResult fit_kdop(const pcl::PointCloud<PointT>& cloud, const std::shared_ptr<const KdopSet>& set,
+                          Kdop& kdop, SlabPoints& touching, const Execution& execution = {}) {
+  return fit_kdop(point_view(cloud), set, kdop, touching, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_kdop(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                          const std::shared_ptr<const KdopSet>& set, Kdop& kdop, SlabPoints& touching,
+                          const Execution& execution = {}) {
+  return fit_kdop(point_view(cloud, indices), set, kdop, touching, execution);
+}
+
+template <typename PointT>
 EstimationResult fit_sphere(const pcl::PointCloud<PointT>& cloud, SphereMethod method, Sphere& sphere,
                             const Execution& execution = {}) {
   return fit_sphere(point_view(cloud), method, sphere, execution);

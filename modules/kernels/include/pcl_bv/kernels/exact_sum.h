@@ -17,6 +17,8 @@ struct ExactSum {
   double head, tail, rest;
 };
 
+ExactSum exact_sum(double x, double y, double z);
+
 /// The exact projection of p onto a direction with coefficients in {-1, 0, 1}.
 ExactSum exact_projection(const std::array<std::int8_t, 3>& direction, const Coordinates& p);
 

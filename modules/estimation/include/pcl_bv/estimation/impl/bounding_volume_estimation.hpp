@@ -47,9 +47,13 @@ auto BoundingVolumeEstimation<PointT, VolumeT>::cloud() const -> const PointClou
 }
 
 template <typename PointT, typename VolumeT>
+PointView BoundingVolumeEstimation<PointT, VolumeT>::input() const {
+  return this->indices_ ? point_view(cloud(), *this->indices_) : point_view(cloud());
+}
+
+template <typename PointT, typename VolumeT>
 EstimationResult BoundingVolumeEstimation<PointT, VolumeT>::compute(VolumeT& volume) const {
-  const PointView points = this->indices_ ? point_view(cloud(), *this->indices_) : point_view(cloud());
-  return fit(points, volume, execution_);
+  return fit(input(), volume, execution_);
 }
 
 template <typename PointT, typename VolumeT>
@@ -69,13 +73,22 @@ std::vector<EstimationResult> BoundingVolumeEstimation<PointT, VolumeT>::compute
 }
 
 template <typename PointT, int K>
+const std::shared_ptr<const KdopSet>& KdopEstimation<PointT, K>::set() {
+  return K == 6    ? KdopSet::dop6()
+         : K == 14 ? KdopSet::dop14()
+         : K == 18 ? KdopSet::dop18()
+                   : KdopSet::dop26();
+}
+
+template <typename PointT, int K>
+EstimationResult KdopEstimation<PointT, K>::compute(Kdop& kdop, SlabPoints& touching) const {
+  return fit_kdop(this->input(), set(), kdop, touching, this->execution());
+}
+
+template <typename PointT, int K>
 EstimationResult KdopEstimation<PointT, K>::fit(const PointView& points, Kdop& kdop,
                                                 const Execution& execution) const {
-  const auto& set = K == 6    ? KdopSet::dop6()
-                    : K == 14 ? KdopSet::dop14()
-                    : K == 18 ? KdopSet::dop18()
-                              : KdopSet::dop26();
-  return fit_kdop(points, set, kdop, execution);
+  return fit_kdop(points, set(), kdop, execution);
 }
 
 }  // namespace pcl_bv

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Chunks over the cores, merged exactly.
+
+#include "pcl_bv/fitting/extreme_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "map_chunks.h"
+#include "pcl_bv/kernels/float_environment.h"
+#include "schedule.h"
+#include "shared_reach.h"
+
+namespace pcl_bv {
+namespace {
+
+// What a point and a direction cost, measured; it decides whether threads are worth starting.
+double serial_seconds(Isa isa, std::size_t directions, std::size_t points) {
+  const double projection = isa == Isa::scalar   ? 0.9e-9
+                            : isa == Isa::avx512 ? 0.05e-9
+                            : isa == Isa::avx2   ? 0.08e-9
+                                                 : 0.17e-9;
+  return projection * static_cast<double>(directions) * static_cast<double>(points);
+}
+
+ProjectionSet checked(const std::vector<std::array<double, 3>>& directions) {
+  if (directions.empty() || directions.size() > kMaxProjections) {
+    throw std::invalid_argument("find_extreme_points: " + std::to_string(directions.size()) +
+                                " directions, must be 1 to " + std::to_string(kMaxProjections));
+  }
+  ProjectionSet set;
+  for (const Direction& d : directions) {
+    const double largest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+    const bool finite = std::isfinite(d[0]) && std::isfinite(d[1]) && std::isfinite(d[2]);
+    if (!finite || largest < 1e-30 || largest > 1e30) {
+      throw std::invalid_argument("find_extreme_points: direction " + std::to_string(set.count) +
+                                  " must be finite with its largest component from 1e-30 to 1e30");
+    }
+    set.add(d);
+  }
+  return set;
+}
+
+DirectionExtremes extremes_along(const Direction& n, const FarthestPoint& low, const FarthestPoint& high) {
+  return {project_down(n, low.point), project_up(n, high.point), compare_along(n, low.point, high.point) == 0,
+          low, high};
+}
+
+}  // namespace
+
+ExtremePoints find_extreme_points(const PointView& points,
+                                  const std::vector<std::array<double, 3>>& directions,
+                                  const Execution& execution) {
+  const FloatEnvironment environment;
+  const Isa isa = resolve_isa(execution.isa);
+  const ProjectionSet set = checked(directions);
+  SharedReach<kMaxProjectionEnds> reach;
+  const bool shared = chunk_count(points.count) > 1;
+  ChunkFarthest all;
+  const auto find = [&](const PointView& chunk) {
+    ChunkFarthest farthest;
+    chunk_farthest(isa, chunk, set, reach.snapshot(), farthest);
+    for (std::size_t end = 0; end < 2 * set.count && shared; ++end) {
+      const FarthestPoint& point = farthest.ends[end];
+      if (point.found) reach.raise(end, surely_reached(set, end, point.point));
+    }
+    return farthest;
+  };
+  const auto merge = [&](const ChunkFarthest& part) {
+    all.dropped += part.dropped;
+    for (std::size_t end = 0; end < 2 * set.count; ++end)
+      keep_farthest(set.end_direction(end), part.ends[end], all.ends[end]);
+  };
+  const double seconds = serial_seconds(isa, set.count, points.count);
+  map_chunks<ChunkFarthest>(points, worthwhile(execution.parallel, seconds), find, merge);
+
+  ExtremePoints result{points.count - all.dropped, all.dropped, {}};
+  for (std::size_t k = 0; k < set.count && result.used > 0; ++k)
+    result.along.push_back(extremes_along(set.exact[k], all.ends[2 * k], all.ends[2 * k + 1]));
+  return result;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// FIND-k-DOP along directions that are only known at run time: which points of a chunk reach farthest.
+// Floating-point vectors reject nearly all points; the few that are left are compared exactly.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "pcl_bv/kernels/exact_dot.h"
+#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv {
+
+/// Directions per call of the kernel: KdopSet::max_size, the half of EPOS-98.
+inline constexpr std::size_t kMaxProjections = 49;
+inline constexpr std::size_t kMaxProjectionEnds = 2 * kMaxProjections;
+
+/// Directions with what the kernel needs to know of them. The two ends of each: 2k is its least projection,
+/// 2k + 1 its greatest. An end is the greatest projection along end_direction().
+struct ProjectionSet {
+  std::size_t count = 0;
+  std::array<Direction, kMaxProjections> exact{};
+  /// A power of two times `exact`, the largest component in [1, 2) in magnitude. (Tiny components may be
+  /// rounded.)
+  std::array<Direction, kMaxProjections> scaled{};
+
+  /// The largest component from 1e-30 to 1e30 in magnitude; at most kMaxProjections.
+  void add(const Direction& direction);
+  Direction end_direction(std::size_t end) const;
+  Direction scaled_end_direction(std::size_t end) const;
+};
+
+/// The point that is farthest in some direction.
+struct FarthestPoint {
+  bool found = false;
+  Coordinates point{};
+  std::size_t index = 0;  ///< The cloud's number of the point.
+};
+
+/// Lets `best` compete with another one: the exactly greater projection wins; of equal ones the smaller
+/// index.
+void keep_farthest(const Direction& direction, const FarthestPoint& other, FarthestPoint& best);
+
+/// For each end a projection along the scaled direction that some other point of the cloud is known to reach;
+/// -infinity if none is. Points that do not reach it need not be found.
+using ReachedProjections = std::array<double, kMaxProjectionEnds>;
+
+/// What a point surely reaches at an end, in the terms of ReachedProjections.
+double surely_reached(const ProjectionSet& set, std::size_t end, const Coordinates& point);
+
+/// Only the first 2 count ends count.
+struct ChunkFarthest {
+  std::array<FarthestPoint, kMaxProjectionEnds> ends{};  ///< Not found: no valid point, or none that matters.
+  std::size_t dropped = 0;                               ///< Points that are not valid (is_valid()).
+};
+
+/// Finds the farthest points of at most kChunkPoints points: the exactly greatest projection; of equal ones
+/// the smallest index. Whether an end that cannot beat `reached` is found may depend on `isa`; any that is
+/// found is the same for all. `isa` must come from resolve_isa(). Paper §2 and §3. Never throws. O(n count),
+/// but where floats over- or underflow (extents above some 1e37 or below 1e-37) every point is looked at
+/// exactly. Runs in the caller's floating-point environment: hold a FloatEnvironment.
+void chunk_farthest(Isa isa, const PointView& chunk, const ProjectionSet& set,
+                    const ReachedProjections& reached, ChunkFarthest& out);
+
+}  // namespace pcl_bv

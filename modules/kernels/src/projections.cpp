@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// FIND-k-DOP of the paper (Figure 2) for directions that need multiplications. A block is loaded once and
+// lies in the first-level cache while a few directions at a time, as many as there are registers for, run
+// over it.
+
+#include "pcl_bv/kernels/projections.h"
+
+#include "pcl_bv/kernels/chunks.h"
+#include "projections_plan.h"
+#include "projections_reference.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "projections.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "copy-inl.h"
+#include "lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+void chunk_farthest(const PointView& chunk, const ProjectionSet& set, const ReachedProjections& reached,
+                    ChunkFarthest& out) {
+  chunk_farthest_reference(chunk, set, reached, out);
+}
+
+#else
+
+inline constexpr std::size_t kGroup = 4;  // directions that run over a block together
+
+// A block of points relative to a centre (a packet of x, one of y, one of z), 12 KiB of floats in the
+// first-level cache; and what the lanes reach, of all of a chunk for up to 13 directions. 49 directions on
+// AVX-512: 320 Mpt/s with 25 KiB, 380 with 50, 435 with 104.
+template <typename T>
+struct Workspace {
+  HWY_ALIGN T points[3 * kBlockPoints];
+  HWY_ALIGN T reach[104 * 1024 / sizeof(T)];
+  T directions[3 * kMaxProjections];
+};
+
+// Named variables, not arrays: vectors of SVE have no size that the compiler knows.
+#define PCL_BV_EACH_OF_GROUP(DO) DO(0) DO(1) DO(2) DO(3)
+
+#define PCL_BV_DIRECTION(i)                                                               \
+  [[maybe_unused]] const auto a##i = hn::Set(d, directions[3 * (i < count ? i : 0)]);     \
+  [[maybe_unused]] const auto b##i = hn::Set(d, directions[3 * (i < count ? i : 0) + 1]); \
+  [[maybe_unused]] const auto c##i = hn::Set(d, directions[3 * (i < count ? i : 0) + 2]);
+
+#define PCL_BV_DECLARE(i)                         \
+  [[maybe_unused]] auto low##i = no_low_reach(d); \
+  [[maybe_unused]] auto high##i = no_high_reach(d);
+
+// Fused or not: the filter's bound covers both, and what is kept is decided exactly.
+#define PCL_BV_STEP(i)                                                         \
+  if constexpr (i < count) {                                                   \
+    const V<D> p = hn::MulAdd(c##i, z, hn::MulAdd(b##i, y, hn::Mul(a##i, x))); \
+    low##i = reach_lower(d, low##i, p);                                        \
+    high##i = reach_higher(d, high##i, p);                                     \
+  }
+
+#define PCL_BV_STORE(i)                                             \
+  if constexpr (i < count) {                                        \
+    hn::Store(low_reach(d, low##i), d, values + 2 * i * n);         \
+    hn::Store(high_reach(d, high##i), d, values + (2 * i + 1) * n); \
+  }
+
+// What the lanes of copied packets reach at the ends of `count` directions, from `values` on.
+template <std::size_t count, class D, typename T = hn::TFromD<D>>
+HWY_INLINE void reach_of_group(D d, const T* points, std::size_t packets, const T* directions,
+                               std::size_t per_block, T* values) {
+  const std::size_t n = hn::Lanes(d);
+  PCL_BV_EACH_OF_GROUP(PCL_BV_DIRECTION)
+  for (std::size_t begin = 0; begin < packets; begin += kPackets, values += per_block) {
+    PCL_BV_EACH_OF_GROUP(PCL_BV_DECLARE)
+    for (const T* end = points + HWY_MIN(kPackets, packets - begin) * 3 * n; points != end; points += 3 * n) {
+      const auto x = hn::Load(d, points);
+      const auto y = hn::Load(d, points + n);
+      const auto z = hn::Load(d, points + 2 * n);
+      PCL_BV_EACH_OF_GROUP(PCL_BV_STEP)
+    }
+    PCL_BV_EACH_OF_GROUP(PCL_BV_STORE)
+  }
+}
+
+#undef PCL_BV_EACH_OF_GROUP
+#undef PCL_BV_DIRECTION
+#undef PCL_BV_DECLARE
+#undef PCL_BV_STEP
+#undef PCL_BV_STORE
+
+template <class D, typename T = hn::TFromD<D>>
+void reach_of_copy(D d, const T* points, std::size_t packets, std::size_t count, const T* directions,
+                   std::size_t per_block, T* values) {
+  const std::size_t per_group = 2 * kGroup * hn::Lanes(d);
+  for (; count >= kGroup; count -= kGroup, directions += 3 * kGroup, values += per_group)
+    reach_of_group<kGroup>(d, points, packets, directions, per_block, values);
+  if (count == 3) reach_of_group<3>(d, points, packets, directions, per_block, values);
+  if (count == 2) reach_of_group<2>(d, points, packets, directions, per_block, values);
+  if (count == 1) reach_of_group<1>(d, points, packets, directions, per_block, values);
+}
+
+// The pass over a part's points; returns how many of them were dropped.
+template <Layout layout, typename T>
+std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneReach<T>& reach,
+                          Workspace<T>& work, Relief& relief) {
+  const Tag<T> d;
+  const T center[3] = {static_cast<T>(relief.center.x), static_cast<T>(relief.center.y),
+                       static_cast<T>(relief.center.z)};
+  const std::size_t blocks = kBlockPoints / reach.block_points;  // copied together
+  const std::size_t step = blocks * reach.block_points;
+  std::size_t dropped = 0;
+  bool clean = true;  // where there was an invalid point there will be more
+  T* values = reach.values;
+  for (std::size_t begin = 0; begin < part.count; begin += step, values += blocks * reach.per_block) {
+    const PointView block = part.slice(begin, HWY_MIN(step, part.count - begin));
+    std::size_t bad = 0;
+    if (!clean || !copy_block<layout, false>(d, block, center, work.points, relief.spread, bad)) {
+      copy_block<layout, true>(d, block, center, work.points, relief.spread, bad);
+      clean = bad == 0;
+    }
+    dropped += bad;
+    const std::size_t packets = (block.count + reach.lanes - 1) / reach.lanes;
+    reach_of_copy(d, work.points, packets, count, work.directions, reach.per_block, values);
+  }
+  return dropped;
+}
+
+// Lets `best` compete with a part's points at an end.
+template <Layout layout, typename T>
+void search_end(const PointView& part, const ProjectionSet& set, std::size_t end, const LaneReach<T>& reach,
+                const EndSearch& what, const RoundedFilter& filter, FarthestPoint& best) {
+  const Direction direction = set.end_direction(end);
+  if (what.kind == EndSearch::Kind::every) return keep_any_point(part, direction, best);
+  const Direction scaled = set.scaled_end_direction(end);
+  const auto look = [&](std::size_t first, std::size_t step, std::size_t last) {
+    find_farthest(part, first, step, last, direction, scaled, filter, best);
+  };
+  search_lanes<layout>(part, reach, end, filter.threshold, look);
+}
+
+// As many points as the lanes' reach has room for; what they reach spares the later parts, if there are
+// `more`, the search.
+template <Layout layout, typename T>
+void farthest_of_part(const PointView& part, const ProjectionSet& set, const LaneReach<T>& reach, bool more,
+                      Workspace<T>& work, ReachedProjections& reached, ChunkFarthest& out) {
+  Relief relief;
+  if (!central_point(part, relief.center)) {
+    out.dropped += part.count;
+    return;
+  }
+  out.dropped += reach_of_part<layout>(part, set.count, reach, work, relief);
+  for (std::size_t k = 0; k < set.count; ++k) {
+    const ProjectionPlan plan(set, k, relief, part.scalar);
+    for (const std::size_t end : {2 * k, 2 * k + 1}) {
+      const double top = greatest_reach(reach, end, part.count);
+      const EndSearch what = plan.of(end % 2 != 0, top, reached[end]);
+      if (what.kind == EndSearch::Kind::none) continue;
+      search_end<layout>(part, set, end, reach, what, {relief.center, what.threshold}, out.ends[end]);
+      if (more) reached[end] = HWY_MAX(reached[end], surely_reached(set, end, out.ends[end].point));
+    }
+  }
+}
+
+template <Layout layout, typename T>
+void farthest_of_layout(const PointView& chunk, const ProjectionSet& set, ReachedProjections& reached,
+                        ChunkFarthest& out) {
+  Workspace<T> work;
+  for (std::size_t k = 0; k < set.count; ++k) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      work.directions[3 * k + axis] = static_cast<T>(set.scaled[k][axis]);
+  }
+  const LaneReach<T> reach(work.reach, 2 * set.count);
+  const std::size_t per_copy = kBlockPoints / reach.block_points;
+  const std::size_t copies = sizeof(work.reach) / sizeof(T) / reach.per_block / per_copy;
+  const std::size_t part_points = copies * per_copy * reach.block_points;
+  for (std::size_t begin = 0; begin < chunk.count; begin += part_points) {
+    const PointView part = chunk.slice(begin, HWY_MIN(part_points, chunk.count - begin));
+    farthest_of_part<layout>(part, set, reach, begin + part_points < chunk.count, work, reached, out);
+  }
+}
+
+template <typename T>
+void farthest_of(const PointView& chunk, const ProjectionSet& set, ReachedProjections& reached,
+                 ChunkFarthest& out) {
+#define PCL_BV_CALL(layout) farthest_of_layout<layout, T>(chunk, set, reached, out)
+  PCL_BV_FOR_LAYOUT(T, chunk, PCL_BV_CALL)
+#undef PCL_BV_CALL
+}
+
+void chunk_farthest(const PointView& chunk, const ProjectionSet& set, const ReachedProjections& reached,
+                    ChunkFarthest& out) {
+  out = ChunkFarthest();
+  ReachedProjections reached_so_far = reached;
+  if (chunk.scalar == ScalarType::float64) return farthest_of<double>(chunk, set, reached_so_far, out);
+  farthest_of<float>(chunk, set, reached_so_far, out);
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+
+void chunk_farthest(Isa isa, const PointView& chunk, const ProjectionSet& set,
+                    const ReachedProjections& reached, ChunkFarthest& out) {
+  using Function = void(const PointView&, const ProjectionSet&, const ReachedProjections&, ChunkFarthest&);
+  static constexpr KernelTable<Function> kTable =
+      PCL_BV_KERNEL_TABLE(chunk_farthest, &chunk_farthest_reference);
+  kTable[isa](chunk, set, reached, out);
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE

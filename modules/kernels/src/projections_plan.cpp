@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The bounds that docs/numerics.md derives.
+
+#include "projections_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "passing_points.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double dot(const Direction& a, const Direction& b) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+Direction magnitudes(const Direction& d) {
+  return {std::abs(d[0]), std::abs(d[1]), std::abs(d[2])};
+}
+
+Direction opposite_if(bool negative, const Direction& d) {
+  return negative ? Direction{-d[0], -d[1], -d[2]} : d;
+}
+
+bool same(const Coordinates& a, const Coordinates& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+// How far the double dot product of a scaled direction and a point may be off: its own rounding, that of the
+// direction's tiny components, underflow.
+double double_doubt(const Direction& scaled, const Direction& point) {
+  const Direction p = magnitudes(point);
+  return (0x1p-50 * dot(magnitudes(scaled), p) + 0x1p-1074 * (p[0] + p[1] + p[2])) +
+         std::numeric_limits<double>::min();
+}
+
+// A float that is not above the value, nor far below.
+double not_above_in_float(double value) {
+  return static_cast<float>(value - std::abs(value) * 0x1p-23 - 0x1p-149);
+}
+
+}  // namespace
+
+void ProjectionSet::add(const Direction& direction) {
+  const Direction size = magnitudes(direction);
+  const int exponent = std::ilogb(std::max({size[0], size[1], size[2]}));
+  exact[count] = direction;
+  scaled[count] = {std::ldexp(direction[0], -exponent), std::ldexp(direction[1], -exponent),
+                   std::ldexp(direction[2], -exponent)};
+  ++count;
+}
+
+Direction ProjectionSet::end_direction(std::size_t end) const {
+  return opposite_if(end % 2 == 0, exact[end / 2]);
+}
+
+Direction ProjectionSet::scaled_end_direction(std::size_t end) const {
+  return opposite_if(end % 2 == 0, scaled[end / 2]);
+}
+
+void keep_farthest(const Direction& direction, const FarthestPoint& other, FarthestPoint& best) {
+  if (!other.found) return;
+  // Many equal points (a cloud of one value, dead beams) need no arithmetic.
+  const int order = !best.found                     ? 1
+                    : same(other.point, best.point) ? 0
+                                                    : compare_along(direction, other.point, best.point);
+  if (order > 0 || (order == 0 && other.index < best.index)) best = other;
+}
+
+double surely_reached(const ProjectionSet& set, std::size_t end, const Coordinates& point) {
+  const Direction scaled = set.scaled_end_direction(end);
+  const Direction p = {point.x, point.y, point.z};
+  return dot(scaled, p) - double_doubt(scaled, p);
+}
+
+bool central_point(const PointView& points, Coordinates& center) {
+  Coordinates mean;
+  if (!chunk_center(points, mean)) return false;
+  constexpr std::size_t samples = 16;
+  const std::size_t taken = std::min(samples, points.count);
+  double nearest = kInfinity;
+  const auto compete = [&](std::size_t i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) return;
+    const double distance =
+        std::max({std::abs(p.x - mean.x), std::abs(p.y - mean.y), std::abs(p.z - mean.z)});
+    if (distance >= nearest) return;
+    nearest = distance;
+    center = p;
+  };
+  for (std::size_t s = 0; s < taken; ++s)
+    compete((2 * s + 1) * points.count / (2 * taken));
+  for (std::size_t i = 0; nearest == kInfinity; ++i)
+    compete(i);
+  return true;
+}
+
+ProjectionPlan::ProjectionPlan(const ProjectionSet& set, std::size_t direction, const Relief& relief,
+                               ScalarType scalar)
+    : is_float_(scalar == ScalarType::float32) {
+  const double unit = is_float_ ? 0x1p-24 : 0x1p-53;
+  const double least = is_float_ ? 0x1p-149 : 0x1p-1074;
+  const double greatest = is_float_ ? static_cast<double>(std::numeric_limits<float>::max()) : 1e300;
+  const Direction& exact = set.exact[direction];
+  const Direction& scaled = set.scaled[direction];
+  const auto& s = relief.spread;
+  const auto flat = [&](std::size_t axis) { return exact[axis] == 0 || s[axis] == 0; };
+  constant_ = flat(0) && flat(1) && flat(2);  // p - c is 0 only if p is c
+  const double size = dot(magnitudes(scaled), s);
+  overflow_ = !(size <= 0.99 * greatest);  // of infinite spreads it may be NaN
+  const double doubt = 5.1 * unit * size + least * ((s[0] + s[1]) + s[2] + 4);
+  band_ = 2 * doubt + unit * size;
+  const Direction center = {relief.center.x, relief.center.y, relief.center.z};
+  offset_ = dot(scaled, center);
+  offset_doubt_ = doubt + 0x1p-49 * size + double_doubt(scaled, center);
+}
+
+EndSearch ProjectionPlan::of(bool high, double top, double reached) const {
+  if (constant_) return {EndSearch::Kind::every, 0};
+  if (overflow_) return {EndSearch::Kind::some, -kInfinity};  // sums say nothing
+  if (top + (high ? offset_ : -offset_) + offset_doubt_ < reached) return {EndSearch::Kind::none, 0};
+  const double threshold = top - band_;
+  return {EndSearch::Kind::some, is_float_ ? not_above_in_float(threshold) : threshold};
+}
+
+void find_farthest(const PointView& points, std::size_t first, std::size_t step, std::size_t end,
+                   const Direction& direction, const Direction& scaled, const RoundedFilter& filter,
+                   FarthestPoint& best) {
+  const auto look = [&](const Coordinates& point, std::size_t index) {
+    if (is_valid(point)) keep_farthest(direction, {true, point, index}, best);
+  };
+  if (points.scalar == ScalarType::float32) {
+    for_each_passing<float>(points, first, step, end, scaled, filter, look);
+  } else {
+    for_each_passing<double>(points, first, step, end, scaled, filter, look);
+  }
+}
+
+void keep_any_point(const PointView& points, const Direction& direction, FarthestPoint& best) {
+  FarthestPoint any;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p) || (any.found && any.index < points.index(i))) continue;
+    any = {true, p, points.index(i)};
+    if (points.indices == nullptr) break;
+  }
+  keep_farthest(direction, any, best);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/kernels/projections.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "clouds.h"
+#include "directions.h"
+#include "pcl_bv/kernels/chunks.h"
+
+namespace pcl_bv {
+namespace {
+
+using test::Directions;
+using test::Records;
+using test::TestCloud;
+
+ProjectionSet set_of(const Directions& directions) {
+  ProjectionSet set;
+  for (const Direction& d : directions)
+    set.add(d);
+  return set;
+}
+
+ReachedProjections nothing() {
+  ReachedProjections reached;
+  reached.fill(-std::numeric_limits<double>::infinity());
+  return reached;
+}
+
+ChunkFarthest run(Isa isa, const PointView& points, const ProjectionSet& set,
+                  const ReachedProjections& reached = nothing()) {
+  ChunkFarthest farthest;
+  chunk_farthest(isa, points, set, reached, farthest);
+  return farthest;
+}
+
+// As simple as can be: every point, exactly.
+ChunkFarthest by_definition(const PointView& points, const ProjectionSet& set) {
+  ChunkFarthest out;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) {
+      ++out.dropped;
+      continue;
+    }
+    for (std::size_t end = 0; end < 2 * set.count; ++end) {
+      FarthestPoint& best = out.ends[end];
+      const int order = best.found ? compare_along(set.end_direction(end), p, best.point) : 1;
+      if (order > 0 || (order == 0 && points.index(i) < best.index)) best = {true, p, points.index(i)};
+    }
+  }
+  return out;
+}
+
+void expect_same(const ChunkFarthest& a, const ChunkFarthest& b, std::size_t directions) {
+  EXPECT_EQ(a.dropped, b.dropped);
+  for (std::size_t end = 0; end < 2 * directions; ++end) {
+    SCOPED_TRACE("end " + std::to_string(end));
+    ASSERT_EQ(a.ends[end].found, b.ends[end].found);
+    EXPECT_EQ(a.ends[end].index, b.ends[end].index);
+  }
+}
+
+class Projections : public testing::TestWithParam<Isa> {
+ protected:
+  void expect_definition(const PointView& points, const Directions& directions) {
+    const ProjectionSet set = set_of(directions);
+    expect_same(run(GetParam(), points, set), by_definition(points, set), set.count);
+  }
+
+  template <typename T>
+  void expect_definition_on_nasty_clouds(const Directions& directions) {
+    for (const TestCloud<T>& cloud : test::nasty_clouds<T>()) {
+      SCOPED_TRACE(cloud.name);
+      expect_definition(cloud.view(), directions);
+    }
+  }
+};
+
+TEST_P(Projections, AreThoseOfTheDefinitionForFloat) {
+  expect_definition_on_nasty_clouds<float>(test::nasty_directions());
+  expect_definition_on_nasty_clouds<float>(test::random_directions(5, 1));
+  expect_definition_on_nasty_clouds<float>(test::integer_directions());
+}
+
+TEST_P(Projections, AreThoseOfTheDefinitionForDouble) {
+  expect_definition_on_nasty_clouds<double>(test::nasty_directions());
+  expect_definition_on_nasty_clouds<double>(test::random_directions(5, 2));
+}
+
+TEST_P(Projections, AreThoseOfTheDefinitionForEveryNumberOfDirections) {
+  // Groups of directions, and parts of a chunk that shrink as directions grow.
+  const TestCloud<float> cloud = test::gaussian<float>(kChunkPoints, 5);
+  for (std::size_t n = 1; n <= kMaxProjections; n += n < 10 ? 1 : 3) {
+    SCOPED_TRACE(testing::Message() << n << " directions");
+    expect_definition(Records<float>(cloud, 16).view(), test::random_directions(n, n));
+  }
+}
+
+TEST_P(Projections, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
+  const Directions directions = test::random_directions(3, 4);
+  for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
+    const TestCloud<float> cloud = test::gaussian<float>(n, n);
+    for (const auto& [stride, offset] : std::vector<std::pair<std::size_t, std::size_t>>{
+             {12, 0}, {16, 0}, {16, 4}, {20, 0}, {29, 13}, {31, 3}, {32, 0}, {32, 16}, {32, 20}, {48, 32}}) {
+      SCOPED_TRACE(testing::Message() << n << " points, stride " << stride << ", offset " << offset);
+      expect_definition(Records<float>(cloud, stride, offset).view(), directions);
+    }
+    for (const std::size_t stride : {24, 32, 40}) {
+      SCOPED_TRACE(testing::Message() << n << " double points, stride " << stride);
+      expect_definition(Records<double>(test::gaussian<double>(n, n), stride).view(), directions);
+    }
+  }
+}
+
+TEST_P(Projections, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
+  const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                       -std::numeric_limits<float>::infinity()};
+  const Directions directions = test::random_directions(6, 5);
+  for (std::size_t n : {1, 15, 16, 33, 50}) {
+    for (std::size_t i = 0; i < 3 * n; ++i) {
+      TestCloud<float> cloud = test::gaussian<float>(n, 5);
+      cloud.xyz[i] = bad[i % 3];
+      SCOPED_TRACE(testing::Message() << n << " points, coordinate " << i);
+      expect_definition(Records<float>(cloud, 16).view(), directions);
+      expect_definition(Records<float>(cloud, 12).view(), directions);
+      EXPECT_EQ(run(GetParam(), cloud.view(), set_of(directions)).dropped, 1U);
+    }
+  }
+}
+
+TEST_P(Projections, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
+  const TestCloud<float> cloud = test::gaussian<float>(4000, 3);
+  std::vector<std::int32_t> indices(4000);
+  std::iota(indices.begin(), indices.end(), 0);
+  std::shuffle(indices.begin(), indices.end(), std::mt19937_64(4));
+  indices.resize(2777);
+  indices.insert(indices.end(), indices.begin(), indices.begin() + 1000);
+  indices.push_back(3999);  // the last point of the cloud: nothing may be read behind it
+  for (const std::size_t stride : {12, 16, 32, 48}) {
+    const Records<float> records(cloud, stride);
+    PointView view = records.view();
+    view.indices = indices.data();
+    view.count = indices.size();
+    SCOPED_TRACE(testing::Message() << "stride " << stride);
+    expect_definition(view, test::random_directions(7, 6));
+  }
+}
+
+TEST_P(Projections, OfPointsFlatInTheDirectionAreDecidedExactly) {
+  // A plane across (1, 2, -2) far from the origin: every point is within the filter's band, rounding decides.
+  for (const double offset : {0.0, 5e6}) {
+    TestCloud<float> cloud = test::gaussian<float>(3000, 9, 20, offset);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      cloud.xyz[3 * i + 2] = cloud.xyz[3 * i] / 2 + cloud.xyz[3 * i + 1];
+    SCOPED_TRACE(testing::Message() << "offset " << offset);
+    expect_definition(cloud.view(), {{1, 2, -2}, {-1, -2, 2}, {0.1, 0.2, -0.2}});
+  }
+}
+
+TEST_P(Projections, DoublesBeyondTheLimitAreDropped) {
+  TestCloud<double> cloud{"limit", {1e100, 0, 0, 0, -1.01e100, 0, 1, 2, 3, 0, 0, 1e200}};
+  for (int i = 0; i < 50; ++i)
+    cloud.xyz.insert(cloud.xyz.end(), {0.99e100, 1, 1});
+  cloud.xyz.insert(cloud.xyz.end(), {1.01e100, 1, 1});
+  expect_definition(cloud.view(), test::nasty_directions());
+  EXPECT_EQ(run(GetParam(), cloud.view(), set_of({{1, 1, 1}})).dropped, 3U);
+}
+
+TEST_P(Projections, OfDoublesAreRightWhereProductsVanish) {
+  for (const double scale : {1e-300, 1e-310, 1e-322, 1e-160, 1e95}) {
+    SCOPED_TRACE(testing::Message() << "scale " << scale);
+    TestCloud<double> cloud = test::gaussian<double>(1500, 3);
+    for (double& c : cloud.xyz)
+      c *= scale;
+    expect_definition(cloud.view(), test::nasty_directions());
+  }
+}
+
+TEST_P(Projections, AreFoundUnlessTheyCannotReachWhatIsKnown) {
+  const TestCloud<float> cloud = test::gaussian<float>(20'000, 11, 3, 1e3);
+  const ProjectionSet set = set_of(test::random_directions(13, 8));
+  const ChunkFarthest all = run(GetParam(), cloud.view(), set);
+  ReachedProjections same = nothing();
+  ReachedProjections beyond = nothing();
+  for (std::size_t end = 0; end < 2 * set.count; ++end) {
+    same[end] = surely_reached(set, end, all.ends[end].point);
+    beyond[end] = same[end] + 1;
+  }
+  expect_same(run(GetParam(), cloud.view(), set, same), all, set.count);
+  for (const FarthestPoint& end : run(GetParam(), cloud.view(), set, beyond).ends)
+    EXPECT_FALSE(end.found);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryUsableSet, Projections, testing::ValuesIn(usable_isas()),
+                         [](const auto& param) { return std::string(isa_name(param.param)); });
+
+}  // namespace
+}  // namespace pcl_bv
