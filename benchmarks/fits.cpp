@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The method table, driven; AnyVolume compares by value.
+
+#include "fits.h"
+
+#include <benchmark/benchmark.h>
+
+#include <stdexcept>
+
+#include "pcl_bv/fitting/verify.h"
+
+namespace pcl_bv::bench {
+namespace {
+
+const std::string kWithPoints = "-points";
+
+Extremes extremes_with_points(const Cloud& cloud, const Execution& execution) {
+  return find_extremes(cloud.view, DirectionSet::dop26, ExtremeDetail::points, execution);
+}
+
+bool same_points(const Extremes& a, const Extremes& b) {
+  for (std::size_t k = 0; k < kMaxDirections; ++k) {
+    if (a.low_point[k].index != b.low_point[k].index || a.high_point[k].index != b.high_point[k].index) {
+      return false;
+    }
+  }
+  return a.used == b.used;
+}
+
+}  // namespace
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+Fit::Fit(const std::string& work) : name_(work), with_points_(work.ends_with(kWithPoints)) {
+  method_ = find_method(with_points_ ? work.substr(0, work.size() - kWithPoints.size()) : work);
+  require(method_ != nullptr, "no method " + work);
+}
+
+AnyVolume Fit::volume(const Cloud& cloud, const Execution& execution) const {
+  AnyVolume fitted;
+  method_->fit(cloud.view, fitted, execution);
+  return fitted;
+}
+
+void Fit::check(Cloud& cloud, const Execution& execution) const {
+  const Execution reference{Serial{}, Isa::scalar};
+  const std::string row = name_ + " of " + cloud.name.text();
+  if (!cloud.proven.contains(method_->name)) {
+    const AnyVolume expected = volume(cloud, reference);
+    require(verify(expected, cloud.view, {OpenMP{}, Isa::automatic}).outside == 0,
+            row + ": a point is outside");
+    cloud.proven.emplace(method_->name, expected);
+  }
+  require(volume(cloud, execution) == cloud.proven.at(method_->name), row + ": not the reference's answer");
+  if (!with_points_) return;
+  if (!cloud.extremes) cloud.extremes = extremes_with_points(cloud, reference);
+  require(same_points(extremes_with_points(cloud, execution), *cloud.extremes), row + ": other points");
+}
+
+void Fit::operator()(const Cloud& cloud, const Execution& execution) const {
+  if (with_points_) {
+    benchmark::DoNotOptimize(extremes_with_points(cloud, execution));
+  } else {
+    benchmark::DoNotOptimize(volume(cloud, execution));
+  }
+}
+
+}  // namespace pcl_bv::bench

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Others who bound points, run on the same clouds: PCL, Eigen, FCL, and two plain loops for the 26-DOP.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clouds.h"
+
+namespace pcl_bv::bench {
+
+/// A peer runs on layouts "xyz" and "packed" as it would in its own home: the clouds that it takes are given.
+struct Peer {
+  std::string name;
+  std::string layout;  ///< That it reads.
+  void (*run)(const Cloud&);
+  /// Runs it once; how many finite points lie outside its answer, by arithmetic in double. Throws if the
+  /// answer is further than float rounding from ours.
+  std::size_t (*outside)(Cloud&);
+};
+
+/// "pcl-dense", "pcl-non-dense" (pcl::getMinMax3D as is_dense says), "eigen-minmax" (rowwise minCoeff and
+/// maxCoeff), "eigen-box" (AlignedBox3f::extend), "naive-dop26" (-O2), "plain-dop26" (-O3, shared sums, not
+/// vectorised), and with FCL "fcl-kdop18", "fcl-kdop24" (fcl::fit).
+const std::vector<Peer>& peers();
+
+const Peer& peer(const std::string& name);
+
+}  // namespace pcl_bv::bench

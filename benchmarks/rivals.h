@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What our kernels are held against, on the same instruction sets: memory that is only read, and the paper's
+// Figure 2 with neither a test of the points nor exact arithmetic.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "pcl_bv/kernels/directions.h"
+#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv::bench {
+
+/// The exclusive or of all 64-bit words of an array, each vector loaded once: nothing that looks at all bytes
+/// can be faster than the best number of `streams` (1, 2, 4 or 8 places that are read in turn).
+std::uint64_t read_words(Isa isa, const std::uint64_t* words, std::size_t count, unsigned streams);
+
+/// Least and greatest rounded projections along the first 3 or all 13 of kCubeDirections.
+struct UncheckedExtents {
+  std::array<float, kMaxDirections> low;
+  std::array<float, kMaxDirections> high;
+};
+
+/// Of a view of pcl::PointXYZ, a multiple of 16 points; what a NaN does to it is not said. `isa` is not
+/// `scalar`.
+UncheckedExtents unchecked_aabb(Isa isa, const PointView& points);
+UncheckedExtents unchecked_dop26(Isa isa, const PointView& points);
+
+}  // namespace pcl_bv::bench

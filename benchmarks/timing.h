@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Short timings beside those of Google Benchmark: to choose between ways, and to compare two of them in
+// turns.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace pcl_bv::bench {
+
+template <typename Run>
+double seconds(Run&& run, int times) {
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < times; ++i)
+    run();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / times;
+}
+
+/// How often to run what is short, so that reading the clock does not count: 100 us in all.
+template <typename Run>
+int times_for(Run&& run) {
+  const double once = std::min(seconds(run, 1), seconds(run, 1));
+  return once > 100e-6 ? 1 : static_cast<int>(100e-6 / std::max(once, 1e-9)) + 1;
+}
+
+inline constexpr int kPairs = 30;
+
+/// Runs both in turns, the order changing, once per iteration of `state` (manual time: the second's).
+/// Counters: the time of the first over that of the second as median of the pairs (`ratio`) and from the two
+/// minima
+/// (`ratio_of_minima`), which other work on the machine disturbs less; the minima in microseconds.
+template <typename First, typename Second>
+void compare(benchmark::State& state, First&& first, Second&& second) {
+  const int first_times = times_for(first), second_times = times_for(second);
+  std::vector<double> ratios;
+  double least_first = 1e9, least_second = 1e9;
+  for (auto _ : state) {
+    const bool swapped = ratios.size() % 2 == 1;
+    double a = swapped ? 0 : seconds(first, first_times);
+    const double b = seconds(second, second_times);
+    if (swapped) a = seconds(first, first_times);
+    ratios.push_back(a / b);
+    least_first = std::min(least_first, a);
+    least_second = std::min(least_second, b);
+    state.SetIterationTime(b);
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
+  state.counters["ratio"] = ratios[ratios.size() / 2];
+  state.counters["ratio_of_minima"] = least_first / least_second;
+  state.counters["first_us"] = 1e6 * least_first;
+  state.counters["second_us"] = 1e6 * least_second;
+}
+
+}  // namespace pcl_bv::bench
