@@ -81,7 +81,7 @@ void lay_out_indices(Coordinates xyz, Cloud& out) {
 
 struct LayoutEntry {
   std::string name;
-  void (*lay_out)(const Coordinates&, Cloud&);
+  void (*lay_out)(Coordinates, Cloud&);
 };
 
 const std::vector<LayoutEntry>& layout_table() {

@@ -14,7 +14,6 @@
 #include "fits.h"
 #include "peers.h"
 #include "reading.h"
-#include "rivals.h"
 #include "timing.h"
 
 namespace pcl_bv::bench {
@@ -90,13 +89,12 @@ void over_pcl(std::size_t points) {
 
 // What the test of every point and the exact look cost: less than 1 is slower than a kernel without both.
 void over_unchecked(std::size_t points) {
-  using Kernel = UncheckedExtents (*)(Isa, const PointView&);
-  for (const auto& [work, kernel] :
-       {std::pair<std::string, Kernel>{"aabb", unchecked_aabb}, {"dop26", unchecked_dop26}}) {
+  for (const Unchecked& kernel : unchecked()) {
     for (const Isa isa : simd_isas()) {
-      add("over-unchecked", Fit(work), {Serial{}, isa}, {"gauss", points}, "",
-          [isa, run = kernel](const Cloud& cloud) {
-            return [&cloud, isa, run] { benchmark::DoNotOptimize(run(isa, cloud.view)); };
+      add("over-unchecked", Fit(kernel.work), {Serial{}, isa}, {"gauss", points}, "",
+          [isa, kernel](const Cloud& cloud) {
+            kernel.check(isa, cloud);
+            return [&cloud, isa, kernel] { benchmark::DoNotOptimize(kernel.run(isa, cloud.view)); };
           });
     }
   }

@@ -163,4 +163,19 @@ const Peer& peer(const std::string& name) {
   return *found;
 }
 
+void Unchecked::check(Isa isa, const Cloud& cloud) const {
+  const UncheckedExtents extents = run(isa, cloud.view);
+  const PlainDop26 expected = plain<plain_dop26>(cloud);
+  for (std::size_t k = 0; k < directions; ++k) {
+    require(extents.low[k] == expected.low[k] && extents.high[k] == expected.high[k],
+            "unchecked " + work + " of " + cloud.name.text() + ": not the plain loop's answer");
+  }
+}
+
+const std::vector<Unchecked>& unchecked() {
+  static const std::vector<Unchecked> all = {{"aabb", unchecked_aabb, 3},
+                                             {"dop26", unchecked_dop26, kMaxDirections}};
+  return all;
+}
+
 }  // namespace pcl_bv::bench

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Others who bound points, run on the same clouds: PCL, Eigen, FCL, and two plain loops for the 26-DOP.
+// Others who bound points, run on the same clouds: PCL, Eigen, FCL, plain loops for the 26-DOP, and kernels
+// that check nothing.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "clouds.h"
+#include "rivals.h"
 
 namespace pcl_bv::bench {
 
@@ -27,5 +29,17 @@ struct Peer {
 const std::vector<Peer>& peers();
 
 const Peer& peer(const std::string& name);
+
+/// A kernel of rivals.h.
+struct Unchecked {
+  std::string work;  ///< Ours that it is held against.
+  UncheckedExtents (*run)(Isa, const PointView&);
+  std::size_t directions;
+
+  /// Throws unless it gives what the plain loop gives. Layout "xyz", no NaN.
+  void check(Isa isa, const Cloud& cloud) const;
+};
+
+const std::vector<Unchecked>& unchecked();
 
 }  // namespace pcl_bv::bench
