@@ -4,10 +4,13 @@
 // The limit of every kernel: how fast the same bytes can be read at all.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "clouds.h"
+#include "pcl_bv/kernels/isa.h"
 
 namespace pcl_bv::bench {
 
