@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/synth/synth.h"
 
 namespace pcl_bv::bench {
@@ -66,6 +67,13 @@ void lay_out_packed(Coordinates xyz, Cloud& out) {
   out.memory = copy;
 }
 
+void lay_out_groups(Coordinates xyz, Cloud& out) {
+  const auto groups =
+      std::make_shared<PointGroups>(PointView::of(xyz.data(), 3 * sizeof(float), xyz.size() / 3));
+  out.view = groups->view();
+  out.memory = groups;
+}
+
 void lay_out_indices(Coordinates xyz, Cloud& out) {
   struct Both {
     std::shared_ptr<pcl::PointCloud<pcl::PointXYZ>> points;
@@ -87,8 +95,7 @@ struct LayoutEntry {
 const std::vector<LayoutEntry>& layout_table() {
   static const std::vector<LayoutEntry> table = {
       {"xyz", lay_out_xyz},         {"packed", lay_out_packed<float>},  {"xyzi", lay_out_xyzi},
-      {"indices", lay_out_indices}, {"double", lay_out_packed<double>},
-      // PLACE FOR "groups": PointGroups of kernels/point_groups.h, once it is there.
+      {"indices", lay_out_indices}, {"double", lay_out_packed<double>}, {"groups", lay_out_groups},
   };
   return table;
 }

@@ -40,7 +40,8 @@ struct CloudName {
 };
 
 /// "xyz" (pcl::PointXYZ), "packed" (12 bytes), "xyzi" (pcl::PointXYZI, 32 bytes), "indices" (all of a
-/// pcl::PointXYZ cloud by an index list), "double" (24 bytes).
+/// pcl::PointXYZ cloud by an index list), "double" (24 bytes), "groups" (PointGroups: 12 bytes, by
+/// coordinate).
 const std::vector<std::string>& layouts();
 
 struct Cloud {

@@ -7,14 +7,14 @@
 
 namespace pcl_bv::bench {
 
-#define PCL_BV_EACH_DIRECTION(DO)                                                                     \
-  DO(0, x)                                                                                            \
-  DO(1, y)                                                                                            \
-  DO(2, z)                                                                                            \
-  DO(3, sum + z)                                                                                      \
-  DO(4, sum - z)                                                                                      \
-  DO(5, difference + z) DO(6, difference - z) DO(7, sum) DO(8, difference) DO(9, x + z) DO(10, x - z) \
-      DO(11, y + z) DO(12, y - z)
+#define PCL_BV_EACH_DIRECTION(DO) \
+  DO(0, x)                        \
+  DO(1, y)                        \
+  DO(2, z)                        \
+  DO(3, sum + z)                  \
+  DO(4, sum - z)                  \
+  DO(5, difference + z)           \
+  DO(6, difference - z) DO(7, sum) DO(8, difference) DO(9, x + z) DO(10, x - z) DO(11, y + z) DO(12, y - z)
 #define PCL_BV_DECLARE(k, projection) float low##k = 3.402823466e38F, high##k = -3.402823466e38F;
 #define PCL_BV_STEP(k, projection)       \
   {                                      \
