@@ -209,6 +209,19 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 #endif
 }
 
+/// Asks for what a packet some hundred points on will load. A loop with much arithmetic per packet fills the
+/// core's window before its loads reach far enough: 26-DOP from memory on AVX-512, 11 GB/s without, 23 with 8
+/// KiB.
+template <class D>
+HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) {
+  if (points.indices != nullptr) return;
+  const bool records = points.order == PointOrder::records;
+  const std::size_t bytes = hn::Lanes(d) * (records ? points.stride : 3 * sizeof(hn::TFromD<D>));
+  const std::byte* ahead = points.address(first) + 8192;
+  for (std::size_t line = 0; line < bytes; line += 64)
+    __builtin_prefetch(ahead + line);
+}
+
 /// Keeps a loop's integer accumulator in its register. g++ 12 does not see that the float and integer types
 /// of one register are one, and moves and spills it instead: 2600 Mpt/s became 4500 (26-DOP, AVX-512).
 template <class Vector>
