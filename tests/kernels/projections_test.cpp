@@ -12,6 +12,7 @@
 #include "clouds.h"
 #include "directions.h"
 #include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/kernels/point_groups.h"
 
 namespace pcl_bv {
 namespace {
@@ -115,6 +116,20 @@ TEST_P(Projections, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
     for (const std::size_t stride : {24, 32, 40}) {
       SCOPED_TRACE(testing::Message() << n << " double points, stride " << stride);
       expect_definition(Records<double>(test::gaussian<double>(n, n), stride).view(), directions);
+    }
+  }
+}
+
+TEST_P(Projections, AreThoseOfTheDefinitionForGroupsAndTheirSlices) {
+  // The last packet of a block may start amid a group, where a vector of x must not end in y.
+  const Directions directions = test::random_directions(3, 7);
+  for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
+    const PointGroups floats(test::gaussian<float>(n, n).view());
+    const PointGroups doubles(test::gaussian<double>(n, n).view());
+    for (std::size_t begin = 0; begin < n; begin += 1 + n / 5) {
+      SCOPED_TRACE(testing::Message() << n << " points from " << begin);
+      expect_definition(floats.view().slice(begin, n - begin), directions);
+      expect_definition(doubles.view().slice(begin, n - begin), directions);
     }
   }
 }

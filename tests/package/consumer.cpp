@@ -6,6 +6,7 @@
 #include <pcl/point_types.h>
 #include <pcl_bv/estimation/bounding_volume_estimation.h>
 #include <pcl_bv/estimation/fit_cloud.h>
+#include <pcl_bv/kernels/point_groups.h>
 #include <pcl_bv/segmentation/extract_clusters.h>
 
 #include <cstdio>
@@ -40,6 +41,22 @@ int main() {
   estimation.compute(clusters, kdops);
   if (kdops.size() != 2 || kdops[0].max(0) > 1 || kdops[1].min(0) < 9) {
     std::puts("wrong clusters");
+    return 1;
+  }
+
+  // What the README shows.
+  const pcl_bv::CloudSummary all = pcl_bv::summarize(*cloud);
+  const auto directions = std::make_shared<pcl_bv::KdopSet>(
+      std::vector<Eigen::Vector3d>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 4, 0}});
+  pcl_bv::Kdop kdop;
+  pcl_bv::SlabPoints touching;
+  pcl_bv::fit_kdop(*cloud, directions, kdop, touching, {pcl_bv::OpenMP{2}, pcl_bv::Isa::automatic});
+  const auto hit = kdop.intersect({-5, 0.5, 1}, {1, 0, 0});
+  const pcl_bv::PointGroups groups(pcl_bv::point_view(*cloud));
+  pcl_bv::Kdop same;
+  pcl_bv::fit_kdop(groups.view(), directions, same);
+  if (all.aabb() != kdop.aabb() || touching.min.size() != 4 || !hit || hit->enter > 5 || same != kdop) {
+    std::puts("wrong summary or k-DOP");
     return 1;
   }
 

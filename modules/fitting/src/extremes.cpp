@@ -125,6 +125,7 @@ Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail 
   if (set == DirectionSet::dop6 && detail == ExtremeDetail::bounds) {
     find_bounds(points, execution, isa, extremes);
     extremes.used = points.count - extremes.dropped;
+    if (extremes.used == 0) extremes.low = extremes.high = {};
   } else {
     find_points(points, execution, isa, extremes);
     finish_extremes(points.count, extremes);

@@ -44,13 +44,12 @@ template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& spread,
                 std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
-  [[maybe_unused]] const auto limit = hn::Set(d, coordinate_limit<T>());
   const auto center_x = hn::Set(d, center[0]);
   const auto center_y = hn::Set(d, center[1]);
   const auto center_z = hn::Set(d, center[2]);
   auto spread_x = no_high_reach(d), spread_y = no_high_reach(d), spread_z = no_high_reach(d);
   [[maybe_unused]] auto total = hn::Zero(d);
-  std::size_t valid_lanes = 0;
+  std::size_t valid_count = 0;
   for (std::size_t i = 0; i < block.count; i += n, points += 3 * n) {
     V<D> x, y, z;
     if (HWY_LIKELY(i + n <= block.count)) {
@@ -58,12 +57,11 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
     } else if (masked || block.count < n) {
       load_few(d, block, i, block.count - i, center, x, y, z);
     } else {
-      load_packet<layout>(d, block, block.count - n, x, y, z);  // some points twice do no harm
+      load_packet_anywhere<layout>(d, block, block.count - n, x, y, z);  // some points twice do no harm
     }
     if constexpr (masked) {
-      const auto valid =
-          hn::And(hn::And(hn::Le(hn::Abs(x), limit), hn::Le(hn::Abs(y), limit)), hn::Le(hn::Abs(z), limit));
-      valid_lanes += hn::CountTrue(d, valid);
+      const auto valid = valid_lanes(d, x, y, z);
+      valid_count += hn::CountTrue(d, valid);
       x = hn::IfThenElse(valid, x, center_x);
       y = hn::IfThenElse(valid, y, center_y);
       z = hn::IfThenElse(valid, z, center_z);
@@ -82,7 +80,7 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
   const auto x = high_reach(d, spread_x), y = high_reach(d, spread_y), z = high_reach(d, spread_z);
   dropped = 0;
   if constexpr (masked) {
-    dropped = (block.count + n - 1) / n * n - valid_lanes;
+    dropped = (block.count + n - 1) / n * n - valid_count;
   } else if (!all_valid(d, center, x, y, z, total)) {
     return false;
   }

@@ -146,7 +146,8 @@ void extremes_of_chunk(const PointView& chunk, const ReachedEnds& reached, Chunk
   }
   const T c[3] = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
   constexpr std::size_t ends = 2 * direction_count(set);
-  HWY_ALIGN T values[kChunkPoints / kPackets * ends];  // 52 KiB for floats, whatever the vectors
+  HWY_ALIGN T
+      values[kChunkPoints / kPackets * ends];  // 104 KiB for floats, 208 for doubles, whatever the vectors
   const LaneReach<T> reach(values, ends);
   out.dropped = reach_of_blocks<layout, set>(chunk, c, reach);
   RoundedEnds top;

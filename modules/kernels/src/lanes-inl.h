@@ -70,7 +70,7 @@ void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_
       const std::size_t point = point_of_lane<layout>(lane, n);
       look(begin + point, n, whole);
       if (whole == begin + count) continue;
-      // The last packet: either of points in order, or of the last n.
+      // The last packet: either of points in order, or of the last n, which may begin in an earlier block.
       look(whole + lane, n, begin + count);
       if (begin + count >= n) look(begin + count - n + point, n, begin + count);
     }

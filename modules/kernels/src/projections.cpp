@@ -163,7 +163,9 @@ void farthest_of_part(const PointView& part, const ProjectionSet& set, const Lan
       const EndSearch what = plan.of(end % 2 != 0, top, reached[end]);
       if (what.kind == EndSearch::Kind::none) continue;
       search_end<layout>(part, set, end, reach, what, {relief.center, what.threshold}, out.ends[end]);
-      if (more) reached[end] = HWY_MAX(reached[end], surely_reached(set, end, out.ends[end].point));
+      if (more && out.ends[end].found) {
+        reached[end] = HWY_MAX(reached[end], surely_reached(set, end, out.ends[end].point));
+      }
     }
   }
 }
