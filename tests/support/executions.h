@@ -19,7 +19,8 @@ inline constexpr bool kEmulated = true;
 inline constexpr bool kEmulated = false;
 #endif
 
-/// Points that every set takes 200 us for, from where on fits are threaded. Arm's sets are reckoned slower.
+/// Points whose 26-DOP every set takes 200 us for, from where on it is threaded. Arm's sets are reckoned
+/// slower.
 inline constexpr std::size_t kThreadedPoints = kEmulated ? 200'000 : 1'100'000;
 
 inline std::vector<unsigned> thread_counts() {
