@@ -94,6 +94,23 @@ TEST(ExactDot, SeesProductsBelowTheSmallestDouble) {
   EXPECT_EQ(project_down(n, {0, -1e-300, 0}), -std::numeric_limits<double>::denorm_min());
 }
 
+TEST(ExactDot, HasRoomForEverySum) {
+  // Three greatest products, all of a sign, at every distance from a least one.
+  const double full = 0x1p53 - 1;
+  for (int exponent = 0; exponent < 200; ++exponent) {
+    for (const double sign : {1.0, -1.0}) {
+      const double great = sign * std::ldexp(full, exponent - 100);
+      for (const Direction& n :
+           {Direction{great, great, great}, Direction{great, great, sign * full * 0x1p-100}}) {
+        SCOPED_TRACE(testing::Message() << "exponent " << exponent);
+        const Coordinates p{full, full, full};
+        ASSERT_EQ(project_up(n, p), test::least_double_above(test::exact_dot(n, p)));
+        ASSERT_EQ(project_down(n, p), test::greatest_double_below(test::exact_dot(n, p)));
+      }
+    }
+  }
+}
+
 TEST(ExactDot, NeverReturnsNegativeZero) {
   for (const Coordinates& p :
        {Coordinates{-0.0, -0.0, -0.0}, Coordinates{1, -1, 0}, Coordinates{-1e-320, 0, 0}}) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -168,14 +169,81 @@ TEST_P(Projections, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
   }
 }
 
+TEST_P(Projections, AreThoseOfTheDefinitionForEveryTailOfABlock) {
+  const Directions directions = {{0.3, 0.2, 0.1}, {-0.1, 0.1, 0.5}};
+  for (const std::size_t whole : {64, 128, 256, 512, 1024}) {
+    for (std::size_t n = whole + 1; n < whole + 18; ++n) {
+      TestCloud<float> cloud = test::gaussian<float>(n, n);
+      for (std::size_t i = n - 17; i < n; ++i)
+        cloud.xyz[3 * i + i % 3] *= 100;  // all that matters is in the tail
+      SCOPED_TRACE(testing::Message() << n << " points");
+      for (const std::size_t stride : {12, 16, 32})
+        expect_definition(Records<float>(cloud, stride).view(), directions);
+      const TestCloud<double> doubles{"", {cloud.xyz.begin(), cloud.xyz.end()}};
+      expect_definition(doubles.view(), directions);
+    }
+  }
+}
+
+TEST_P(Projections, OfEqualPointsAreTheSmallestIndexWhateverTheOrder) {
+  const std::vector<float> xyz(3 * 100, 0.7F);
+  const std::vector<std::int32_t> indices = {50, 7, 99, 3, 8};
+  const PointView view = PointView::of(xyz.data(), 12, indices.size(), indices.data());
+  expect_definition(view, test::nasty_directions());
+  EXPECT_EQ(run(GetParam(), view, set_of({{1, 2, 3}})).ends[0].index, 3U);
+}
+
+template <typename T>
+TestCloud<T> flat(std::uint64_t seed, double offset) {
+  TestCloud<T> cloud = test::gaussian<T>(9000, seed, 20, offset);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    cloud.xyz[3 * i + 2] = cloud.xyz[3 * i] / 3 + cloud.xyz[3 * i + 1];
+  return cloud;
+}
+
 TEST_P(Projections, OfPointsFlatInTheDirectionAreDecidedExactly) {
-  // A plane across (1, 2, -2) far from the origin: every point is within the filter's band, rounding decides.
+  // Planes far from the origin and near: every point is within the filter's band, the last bits decide.
+  const Directions directions = {{1.0 / 3, 1, -1}, {-1.0 / 3, -1, 1}, {0.1 / 3, 0.1, -0.1}};
   for (const double offset : {0.0, 5e6}) {
-    TestCloud<float> cloud = test::gaussian<float>(3000, 9, 20, offset);
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      cloud.xyz[3 * i + 2] = cloud.xyz[3 * i] / 2 + cloud.xyz[3 * i + 1];
-    SCOPED_TRACE(testing::Message() << "offset " << offset);
-    expect_definition(cloud.view(), {{1, 2, -2}, {-1, -2, 2}, {0.1, 0.2, -0.2}});
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      SCOPED_TRACE(testing::Message() << "offset " << offset << ", seed " << seed);
+      expect_definition(flat<float>(seed, offset).view(), directions);
+      expect_definition(flat<double>(seed, offset).view(), directions);
+    }
+  }
+}
+
+TEST_P(Projections, AreRightWherePartialSumsOverflow) {
+  // 1.9 x is -infinity in float; 1.9 (x + y) is the greatest projection.
+  TestCloud<float> cloud = test::gaussian<float>(200, 2, 1e36);
+  cloud.xyz.insert(cloud.xyz.begin() + 3 * 30, {-2e38F, 2.2e38F, 1e36F});
+  cloud.xyz.insert(cloud.xyz.begin() + 3 * 60, {2.1e38F, -2.4e38F, 1e36F});
+  expect_definition(cloud.view(), {{1.9, 1.9, 1.9}});
+  const ChunkFarthest farthest = run(GetParam(), cloud.view(), set_of({{1.9, 1.9, 1.9}}));
+  EXPECT_EQ(farthest.ends[0].index, 60U);
+  EXPECT_EQ(farthest.ends[1].index, 30U);
+}
+
+template <typename T>
+TestCloud<T> circle_across_x() {
+  TestCloud<T> cloud{"circle", {}};
+  for (int i = 0; i < 3000; ++i) {
+    cloud.xyz.insert(cloud.xyz.end(),
+                     {T(0), static_cast<T>(1e30 * std::cos(i)), static_cast<T>(1e30 * std::sin(i))});
+  }
+  return cloud;
+}
+
+TEST_P(Projections, AreRightWhereOnlyTinyComponentsOfTheDirectionMatter) {
+  // As floats the components keep a few bits or none, as scaled doubles too: the rounded ones point
+  // elsewhere.
+  for (const Direction& n :
+       {Direction{1, 1e-42, 3e-43}, Direction{1, 1e-44, 1.2e-44}, Direction{1, 1e-46, 3e-46},
+        Direction{1, 7e-319, 2e-318}, Direction{1e30, 1e-288, 3e-289}, Direction{1e30, 1e-293, 1.3e-293},
+        Direction{1e30, 1e-305, -2e-306}}) {
+    SCOPED_TRACE(testing::Message() << n[0] << ' ' << n[1] << ' ' << n[2]);
+    expect_definition(circle_across_x<float>().view(), {n});
+    expect_definition(circle_across_x<double>().view(), {n});
   }
 }
 
