@@ -60,8 +60,8 @@ struct ChunkFarthest {
 /// Finds the farthest points of at most kChunkPoints points: the exactly greatest projection; of equal ones
 /// the smallest index. Whether an end that cannot beat `reached` is found may depend on `isa`; any that is
 /// found is the same for all. `isa` must come from resolve_isa(). Paper §2 and §3. Never throws. O(n count),
-/// but where floats over- or underflow (extents above some 1e37 or below 1e-37) every point is looked at
-/// exactly. Runs in the caller's floating-point environment: hold a FloatEnvironment.
+/// but where floats over- or underflow (extents above 1e38 or below 1e-43) every point is looked at exactly.
+/// Runs in the caller's floating-point environment: hold a FloatEnvironment.
 void chunk_farthest(Isa isa, const PointView& chunk, const ProjectionSet& set,
                     const ReachedProjections& reached, ChunkFarthest& out);
 
