@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// GETSQUAREDDISTANCES of the paper's EXPANDSPHERE (Figure 3), a block at a time: float arithmetic rejects,
+// double arithmetic decides.
+
+#include "pcl_bv/kernels/distances.h"
+
+#include "distances_reference.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "distances.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "distances-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+void block_distances(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
+                     double* greatest) {
+  block_distances_reference(points, center, limit, filter, greatest);
+}
+
+#else
+
+// The greatest squared distance in float. Infinite only if some point is not finite or floats overflow,
+// unless `masked`, which leaves only the latter.
+template <Layout layout, bool masked>
+float greatest_in_float(const PointView& points, const DistanceCenter& center) {
+  const Tag<float> d;
+  const FloatCenter float_center(center);
+  const auto none = hn::Set(d, -1.0F);
+  auto greatest = none;
+  for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
+    V<decltype(d)> x, y, z;
+    load_some<layout>(d, points, i, x, y, z);
+    auto d2 = distances_in_float(d, float_center, x, y, z);
+    if constexpr (masked) d2 = hn::IfThenElse(valid_lanes(d, x, y, z), d2, none);
+    greatest = max_or_keep(d, d2, greatest);
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, greatest));
+}
+
+// The greatest squared_distance() of a block. Infinite only if some point is not valid, unless `masked`.
+template <Layout layout, typename T, bool masked>
+double greatest_in_double(const PointView& points, const DistanceCenter& center) {
+  const Tag<T> d;
+  const Tag<double> dd;
+  const auto none = hn::Set(dd, -1.0);
+  auto greatest = none;
+  for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
+    V<decltype(d)> x, y, z;
+    load_some<layout>(d, points, i, x, y, z);
+#define PCL_BV_STEP(x, y, z)                                     \
+  [[maybe_unused]] const auto counts = valid_lanes(dd, x, y, z); \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z);                 \
+  auto d2 = sum_of_squares(x, y, z);                             \
+  if constexpr (masked) d2 = hn::IfThenElse(counts, d2, none);   \
+  greatest = max_or_keep(dd, d2, greatest);
+    PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
+#undef PCL_BV_STEP
+  }
+  return hn::GetLane(hn::MaxOfLanes(dd, greatest));
+}
+
+template <Layout layout, typename T>
+double distance_of_block(const PointView& block, const DistanceCenter& center, double limit,
+                         FloatFilter filter) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  if constexpr (sizeof(T) == 4) {
+    if (filter == FloatFilter::reject) {
+      float greatest = greatest_in_float<layout, false>(block, center);
+      if (!(greatest < infinity)) greatest = greatest_in_float<layout, true>(block, center);
+      if (greatest < 0) return -1;
+      const double bound = FloatBound(center).from_float(greatest);
+      if (bound < limit) return bound;
+    }
+    const double greatest = greatest_in_double<layout, T, false>(block, center);
+    if (greatest < infinity) return greatest;
+  }
+  return greatest_in_double<layout, T, true>(block, center);
+}
+
+template <Layout layout, typename T>
+void distances_of_blocks(const PointView& points, const DistanceCenter& center, double limit,
+                         FloatFilter filter, double* greatest) {
+  for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
+    const PointView block = points.slice(begin, HWY_MIN(kBlockPoints, points.count - begin));
+    *greatest++ = distance_of_block<layout, T>(block, center, limit, filter);
+  }
+}
+
+template <typename T>
+void distances_of_type(const PointView& points, const DistanceCenter& center, double limit,
+                       FloatFilter filter, double* greatest) {
+#define PCL_BV_CALL(layout) distances_of_blocks<layout, T>(points, center, limit, filter, greatest)
+  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
+#undef PCL_BV_CALL
+}
+
+void block_distances(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
+                     double* greatest) {
+  if (points.scalar == ScalarType::float64) {
+    distances_of_type<double>(points, center, limit, filter, greatest);
+  } else {
+    distances_of_type<float>(points, center, limit, filter, greatest);
+  }
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+
+void block_distances(Isa isa, const PointView& points, const DistanceCenter& center, double limit,
+                     FloatFilter filter, double* greatest) {
+  static constexpr KernelTable<void(const PointView&, const DistanceCenter&, double, FloatFilter, double*)>
+      kTable = PCL_BV_KERNEL_TABLE(block_distances, &block_distances_reference);
+  kTable[isa](points, center, limit, filter, greatest);
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE

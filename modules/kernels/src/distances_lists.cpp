@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// UPDATESPHERE's side of the paper's EXPANDSPHERE (Figure 3): which points are outside.
+
+#include "distances_reference.h"
+#include "pcl_bv/kernels/distances.h"
+#include "square.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "distances_lists.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "distances-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+std::size_t list_reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
+                          double limit, std::uint32_t* positions) {
+  return list_reaching_reference(block, kept, center, limit, positions);
+}
+std::size_t list_distant(const PointView& points, const DistanceCenter& center, double limit,
+                         FloatFilter filter, std::uint32_t* positions) {
+  return list_distant_reference(points, center, limit, filter, positions);
+}
+
+#else
+
+// The lanes of runs that reach the limit, each with its kBoundPoints points.
+template <Layout layout>
+std::size_t reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
+                     double limit, std::uint32_t* positions) {
+  const Tag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const float* bounds = kept.bounds;
+  const float least = FloatBound(kept.center).to_float(kept.limit);
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < block.count; begin += kBoundPoints * lanes, bounds += lanes) {
+    if (hn::AllFalse(d, hn::Gt(hn::LoadU(d, bounds), hn::Set(d, least)))) continue;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!(bounds[lane] > least)) continue;
+      for (std::size_t packet = begin; packet < begin + kBoundPoints * lanes; packet += lanes) {
+        // The last packet of a view is loaded in order.
+        const std::size_t i =
+            packet + (packet + lanes <= block.count ? point_of_lane<layout>(lane, lanes) : lane);
+        if (i >= block.count) break;
+        positions[count] = static_cast<std::uint32_t>(i);
+        count += square(load_as<float>(block, i), center) >= limit;
+      }
+    }
+  }
+  return count;
+}
+
+// SIMD finds the packets that hold such points; inside a packet each is looked at again.
+template <Layout layout, typename T>
+std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& center, double limit,
+                        std::uint32_t* positions) {
+  const Tag<T> d;
+  const Tag<double> dd;
+  const auto least = hn::Set(dd, limit);
+  std::size_t count = 0;
+  for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    V<decltype(d)> x, y, z;
+    load_some<layout>(d, points, i, x, y, z);
+    bool any = false;
+#define PCL_BV_STEP(x, y, z)                     \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z); \
+  any |= !hn::AllFalse(dd, hn::Ge(sum_of_squares(x, y, z), least));
+    PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
+#undef PCL_BV_STEP
+    if (!any) continue;
+    const PointView packet = points.slice(i, HWY_MIN(hn::Lanes(d), points.count - i));
+    std::uint32_t* const found = positions + count;
+    const std::size_t n = list_distant_reference(packet, center, limit, FloatFilter::off, found);
+    for (std::size_t k = 0; k < n; ++k)
+      found[k] += static_cast<std::uint32_t>(i);
+    count += n;
+  }
+  return count;
+}
+
+template <Layout layout, typename T>
+std::size_t list_of(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
+                    std::uint32_t* positions) {
+  const Tag<T> d;
+  const InFloat in_float(center, limit);
+  std::size_t count = 0;
+  for (Run run = run_at(d, 0, points.count); run.begin < points.count;
+       run = run_at(d, run.end, points.count)) {
+    if constexpr (sizeof(T) == 4) {
+      if (filter == FloatFilter::reject &&
+          hn::AllFalse(d, hn::Gt(greatest_in_float<layout>(d, points, run, in_float.center),
+                                 hn::Set(d, in_float.limit)))) {
+        continue;
+      }
+    }
+    count += list_of_run<layout, T>(points, run, center, limit, positions + count);
+  }
+  return count;
+}
+
+std::size_t list_reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
+                          double limit, std::uint32_t* positions) {
+  std::size_t count = 0;
+#define PCL_BV_CALL(layout) count = reaching<layout>(block, kept, center, limit, positions)
+  PCL_BV_FOR_LAYOUT(float, block, PCL_BV_CALL)
+#undef PCL_BV_CALL
+  return count;
+}
+
+template <typename T>
+std::size_t list_of_type(const PointView& points, const DistanceCenter& center, double limit,
+                         FloatFilter filter, std::uint32_t* positions) {
+  std::size_t count = 0;
+#define PCL_BV_CALL(layout) count = list_of<layout, T>(points, center, limit, filter, positions)
+  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
+#undef PCL_BV_CALL
+  return count;
+}
+
+std::size_t list_distant(const PointView& points, const DistanceCenter& center, double limit,
+                         FloatFilter filter, std::uint32_t* positions) {
+  return points.scalar == ScalarType::float64 ? list_of_type<double>(points, center, limit, filter, positions)
+                                              : list_of_type<float>(points, center, limit, filter, positions);
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+
+std::size_t list_reaching(Isa isa, const PointView& block, const KeptBounds& kept,
+                          const DistanceCenter& center, double limit, std::uint32_t* positions) {
+  static constexpr KernelTable<std::size_t(const PointView&, const KeptBounds&, const DistanceCenter&, double,
+                                           std::uint32_t*)>
+      kTable = PCL_BV_KERNEL_TABLE(list_reaching, &list_reaching_reference);
+  return kTable[isa](block, kept, center, limit, positions);
+}
+
+std::size_t list_distant(Isa isa, const PointView& points, const DistanceCenter& center, double limit,
+                         FloatFilter filter, std::uint32_t* positions) {
+  static constexpr KernelTable<std::size_t(const PointView&, const DistanceCenter&, double, FloatFilter,
+                                           std::uint32_t*)>
+      kTable = PCL_BV_KERNEL_TABLE(list_distant, &list_distant_reference);
+  return kTable[isa](points, center, limit, filter, positions);
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE
