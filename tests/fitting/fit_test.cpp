@@ -218,7 +218,7 @@ TEST(Sphere, Epos26IsWithinAHundredthOfTheOptimum) {
       const Coordinates p = load_point(cloud.view(), i);
       points.push_back(Eigen::Vector3d(p.x, p.y, p.z) - origin);
     }
-    const double optimum = std::sqrt(smallest_ball(points).squared_radius);
+    const double optimum = std::sqrt(smallest_ball(points.data(), points.size()).squared_radius);
     Sphere sphere;
     fit_sphere(cloud.view(), SphereMethod::epos26, sphere);
     EXPECT_GE(sphere.radius(), optimum * (1 - 1e-12));

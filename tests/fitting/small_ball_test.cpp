@@ -63,7 +63,7 @@ double farthest(const Points& points, const Eigen::Vector3d& center) {
 void expect_smallest(Points points) {
   const double expected = brute_force_squared_radius(points);
   const Points original = points;
-  const SmallBall ball = smallest_ball(points);
+  const SmallBall ball = smallest_ball(points.data(), points.size());
   EXPECT_NEAR(ball.squared_radius, expected, 1e-12 * (1 + expected));
   EXPECT_LE(farthest(original, ball.center), expected + 1e-12 * (1 + expected));
 }
@@ -98,7 +98,7 @@ TEST(SmallBall, OfTheCubeCornersIsTheCircumscribedOne) {
   for (int i = 0; i < 8; ++i)
     points.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
   expect_smallest(points);
-  EXPECT_NEAR(smallest_ball(points).squared_radius, 0.75, 1e-15);
+  EXPECT_NEAR(smallest_ball(points.data(), points.size()).squared_radius, 0.75, 1e-15);
 }
 
 TEST(SmallBall, OfPointsOnACircleOrALineIsFlatButRight) {
@@ -107,21 +107,62 @@ TEST(SmallBall, OfPointsOnACircleOrALineIsFlatButRight) {
     circle.emplace_back(std::cos(i), std::sin(i), 0);
     line.emplace_back(i, 2 * i, -i);
   }
-  EXPECT_NEAR(smallest_ball(circle).squared_radius, 1, 1e-12);
-  EXPECT_NEAR(smallest_ball(line).squared_radius, 11 * 11 * 6 / 4.0, 1e-10);
+  EXPECT_NEAR(smallest_ball(circle.data(), circle.size()).squared_radius, 1, 1e-12);
+  EXPECT_NEAR(smallest_ball(line.data(), line.size()).squared_radius, 11 * 11 * 6 / 4.0, 1e-10);
 }
 
 TEST(SmallBall, OfOnePointOrEqualPointsHasRadiusZero) {
   Points one = {{1, 2, 3}};
-  EXPECT_EQ(smallest_ball(one).squared_radius, 0);
+  EXPECT_EQ(smallest_ball(one.data(), one.size()).squared_radius, 0);
   Points equal(20, {0.1, 0.2, 0.3});
-  EXPECT_EQ(smallest_ball(equal).squared_radius, 0);
-  EXPECT_EQ(smallest_ball(equal).center, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(smallest_ball(equal.data(), equal.size()).squared_radius, 0);
+  EXPECT_EQ(smallest_ball(equal.data(), equal.size()).center, Eigen::Vector3d(0.1, 0.2, 0.3));
+}
+
+// Weights of a support prove that nothing is smaller; on these sets solvers with a tolerance give up or err.
+TEST(SmallBall, AgreesWithItsLowerBoundOnNearlyDegenerateSets) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  for (const double noise : {0.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
+    for (int kind = 0; kind < 4; ++kind) {
+      for (int i = 0; i < 200; ++i) {
+        Points points(2 + random() % 30);
+        for (auto& p : points) {
+          const Eigen::Vector3d x(normal(random), normal(random), normal(random));
+          if (kind == 0) p = x.normalized() + noise * x;
+          if (kind == 1) p = Eigen::Vector3d(x.x(), x.y(), 0).normalized() + noise * x;
+          if (kind == 2) p = Eigen::Vector3d(1, 2, 3) * x.x() + noise * x;
+          if (kind == 3)
+            p = Eigen::Vector3d(static_cast<double>(random() % 2), 0, static_cast<double>(random() % 3)) +
+                noise * x;
+        }
+        const Eigen::Vector3d origin = points[0];
+        for (auto& p : points)
+          p -= origin;
+        const SmallBall ball = smallest_ball(points.data(), points.size());
+        SCOPED_TRACE(testing::Message() << "kind " << kind << ", noise " << noise << ", case " << i);
+        EXPECT_LE(ball.squared_radius, ball.squared_lower_bound * (1 + 1e-14) + 1e-300);
+        EXPECT_GE(ball.squared_radius, ball.squared_lower_bound * (1 - 1e-14));
+        EXPECT_LE(farthest(points, ball.center), ball.squared_radius * (1 + 1e-15));
+      }
+    }
+  }
+}
+
+TEST(SmallBall, StartsFromABallOfSomeOfThePoints) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  Points points(40);
+  for (auto& p : points)
+    p = {normal(random), normal(random), normal(random)};
+  const SmallBall start = smallest_ball(points.data(), 20);
+  const SmallBall all = smallest_ball(points.data(), 40);
+  EXPECT_NEAR(smallest_ball(points.data(), 40, &start).squared_radius, all.squared_radius, 1e-14);
 }
 
 TEST(SmallBall, OfNoPointIsEmpty) {
   Points none;
-  EXPECT_LT(smallest_ball(none).squared_radius, 0);
+  EXPECT_LT(smallest_ball(none.data(), none.size()).squared_radius, 0);
 }
 
 // Walking solvers stop for ever on this one: three points almost on a line, one beside them.
@@ -129,7 +170,7 @@ TEST(SmallBall, EndsOnNearlyCollinearPoints) {
   for (const double e : {1e-3, 1e-8, 1e-12, 1e-15, 1e-17, 0.0}) {
     Points points = {{0, 0, 0}, {1, e, 0}, {0.5, 0, e}, {0.25, -e, e}, {1, 0, 0}};
     const Points original = points;
-    const SmallBall ball = smallest_ball(points);
+    const SmallBall ball = smallest_ball(points.data(), points.size());
     EXPECT_LE(farthest(original, ball.center), 0.25 + 2 * e + 1e-12) << e;
     EXPECT_GE(ball.squared_radius, 0.25 - 1e-12) << e;
   }

@@ -14,7 +14,7 @@
 namespace pcl_bv {
 namespace {
 
-// A fit's serial time, roughly: what 300-point clusters cost (0.2 us for a box, 15 us for a sphere) lies on
+// A fit's serial time, roughly: what 300-point clusters cost (0.2 us for a box, 4 us for a sphere) lies on
 // both sides.
 constexpr double kSecondsPerPoint = 5e-9;
 constexpr std::size_t kManyPoints = 200'000;

@@ -1,166 +1,138 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// EPOS (Larsson 2008): a ball of few extremal points, grown over the points that it leaves outside.
+// Ritter's sphere, EPOS (Larsson 2008) and the smallest one: a first ball of few points, then what the method
+// does about those outside.
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
+#include <cstdlib>
 #include <vector>
 
+#include "exact_sphere.h"
+#include "growth.h"
+#include "pcl_bv/fitting/extreme_points.h"
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/fitting/small_ball.h"
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/float_environment.h"
-#include "pcl_bv/parallel/for_each_chunk.h"
-#include "schedule.h"
+#include "sphere_seed.h"
 
 namespace pcl_bv {
 namespace {
 
-// Half of 2^-48, the bound on d2's relative error that numerics allows itself: it covers the root, too.
-constexpr double kOutward = 1.0 + 0x1p-49;
-
-Eigen::Vector3d vector(const Coordinates& p) {
-  return {p.x, p.y, p.z};
+DirectionSet seed_directions(SphereMethod method) {
+  switch (method) {
+    case SphereMethod::ritter:
+    case SphereMethod::epos6:
+      return DirectionSet::dop6;
+    case SphereMethod::epos14:
+      return DirectionSet::dop14;
+    default:
+      return DirectionSet::dop26;
+  }
 }
 
-// Distances in units of a power of two near the cloud's extent, so that no square over- or underflows.
-class ScaledDistance {
- public:
-  explicit ScaledDistance(double extent)
-      : scale_(std::ldexp(1.0, -std::clamp(std::ilogb(extent), -1000, 1000))) {}
-
-  // Separate products and sums: the same bits on every machine.
-  double squared(const Eigen::Vector3d& p, const Eigen::Vector3d& center) const {
-    const double x = (p.x() - center.x()) * scale_;
-    const double y = (p.y() - center.y()) * scale_;
-    const double z = (p.z() - center.z()) * scale_;
-    return (x * x + y * y) + z * z;
-  }
-
-  Eigen::Vector3d scaled(const Eigen::Vector3d& p, const Eigen::Vector3d& origin) const {
-    return (p - origin) * scale_;
-  }
-  Eigen::Vector3d unscaled(const Eigen::Vector3d& p, const Eigen::Vector3d& origin) const {
-    return origin + p / scale_;
-  }
-
-  // A radius in the cloud's unit, not smaller; dividing by a power of two is inexact only among denormals.
-  double unscaled_radius(double r) const {
-    const double radius = r / scale_;
-    return radius * scale_ < r ? std::nextafter(radius, std::numeric_limits<double>::infinity()) : radius;
-  }
-
- private:
-  double scale_;
+struct FirstBall {
+  Eigen::Vector3d center;
+  double squared_radius;  // as the kernels measure
 };
 
-std::vector<Eigen::Vector3d> extremal_points(const Extremes& extremes) {
-  std::vector<const ExtremePoint*> ends;
-  ends.reserve(2 * direction_count(extremes.set));
-  for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
-    ends.push_back(&extremes.low_point[k]);
-    ends.push_back(&extremes.high_point[k]);
+// Half-way between the ends of the axis whose ends are farthest apart.
+FirstBall ritter_ball(const Extremes& extremes, const LocalFrame& frame) {
+  FirstBall ball{Eigen::Vector3d::Zero(), -1};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Coordinates& low = extremes.low_point[axis].point;
+    const Coordinates& high = extremes.high_point[axis].point;
+    const Eigen::Vector3d center = frame.global((frame.local(low) + frame.local(high)) / 2);
+    const DistanceCenter from = frame.center(center);
+    const double squared = std::max(squared_distance(low, from), squared_distance(high, from));
+    if (squared > ball.squared_radius) ball = {center, squared};
   }
-  std::sort(ends.begin(), ends.end(), [](const auto* a, const auto* b) { return a->index < b->index; });
-  ends.erase(std::unique(ends.begin(), ends.end(),
-                         [](const auto* a, const auto* b) { return a->index == b->index; }),
-             ends.end());
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(ends.size());
-  for (const ExtremePoint* end : ends)
-    points.push_back(vector(end->point));
-  return points;
+  return ball;
 }
 
-struct Violator {
-  std::size_t index;
-  Eigen::Vector3d point;
-};
-
-// The points farther from the centre than the (scaled, squared) radius, by the index of the cloud.
-std::vector<Violator> find_violators(const PointView& points, const Eigen::Vector3d& center,
-                                     double squared_radius, const ScaledDistance& distance,
-                                     const ParallelPolicy& parallel) {
-  constexpr std::size_t chunk_points = 32 * kBlockPoints;
-  const auto find = [&](std::size_t chunk) {
-    const FloatEnvironment environment;
-    std::vector<Violator> found;
-    const std::size_t begin = chunk * chunk_points;
-    const std::size_t end = std::min(begin + chunk_points, points.count);
-    for (std::size_t i = begin; i < end; ++i) {
-      const Coordinates p = load_point(points, i);
-      if (distance.squared(vector(p), center) <= squared_radius || !is_valid(p)) continue;
-      found.push_back({points.index(i), vector(p)});
+// Types (0,1,2), (1,1,2) and (1,2,2) of Larsson 2008 in all places and signs, of opposite ones one: 36.
+std::vector<std::array<double, 3>> epos98_directions() {
+  std::vector<std::array<double, 3>> directions;
+  for (int a = 0; a <= 2; ++a) {
+    for (int b = -2; b <= 2; ++b) {
+      for (int c = -2; c <= 2; ++c) {
+        const int ones = (a == 1) + (std::abs(b) == 1) + (std::abs(c) == 1);
+        const int twos = (a == 2) + (std::abs(b) == 2) + (std::abs(c) == 2);
+        const bool first_positive = a > 0 || b > 0 || (b == 0 && c > 0);
+        if (twos > 0 && ones > 0 && ones + twos >= 2 && first_positive) {
+          directions.push_back({static_cast<double>(a), static_cast<double>(b), static_cast<double>(c)});
+        }
+      }
     }
-    return found;
-  };
-  const auto append = [](std::vector<Violator>& all, std::vector<Violator> found) {
-    all.insert(all.end(), found.begin(), found.end());
-  };
-  const double serial_seconds = 2e-9 * static_cast<double>(points.count);
-  std::vector<Violator> violators =
-      reduce_chunks(worthwhile(parallel, serial_seconds), (points.count + chunk_points - 1) / chunk_points,
-                    std::vector<Violator>{}, find, append);
-  // An index list may name the points in any order, or twice.
-  std::sort(violators.begin(), violators.end(),
-            [](const auto& a, const auto& b) { return a.index < b.index; });
-  return violators;
-}
-
-// Ritter's step: the ball through p and the far side of the old one; its radius, with what rounding may have
-// moved.
-void grow(const Eigen::Vector3d& p, const ScaledDistance& distance, Eigen::Vector3d& center, double& radius) {
-  const double d = std::sqrt(distance.squared(p, center));
-  if (d * kOutward <= radius) return;
-  const double grown = (d + radius) / 2;
-  const Eigen::Vector3d old = center;
-  center = old + (d - grown) / d * (p - old);
-  const double moved = std::sqrt(distance.squared(center, old)) * kOutward;
-  const double reach = std::sqrt(distance.squared(p, center)) * kOutward;
-  radius = std::max({grown, (moved + radius) * kOutward, reach});
-}
-
-Sphere epos_sphere(const PointView& points, const Extremes& extremes, const ParallelPolicy& parallel) {
-  std::vector<Eigen::Vector3d> seeds = extremal_points(extremes);
-  double extent = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    extent = std::max(extent, extremes.high[axis] - extremes.low[axis]);
-  if (extent == 0) return {seeds.front(), 0.0};
-
-  const ScaledDistance distance(extent);
-  const Eigen::Vector3d origin = seeds.front();
-  std::vector<Eigen::Vector3d> local;
-  local.reserve(seeds.size());
-  for (const Eigen::Vector3d& p : seeds)
-    local.push_back(distance.scaled(p, origin));
-  Eigen::Vector3d center = distance.unscaled(smallest_ball(local).center, origin);
-  double squared_radius = 0;
-  for (const Eigen::Vector3d& p : seeds)
-    squared_radius = std::max(squared_radius, distance.squared(p, center));
-
-  // Holds, exactly, whatever is no violator: d2 and the root are off by less than 2^-50.
-  double radius = std::sqrt(squared_radius) * kOutward;
-  for (const Violator& violator : find_violators(points, center, squared_radius, distance, parallel)) {
-    grow(violator.point, distance, center, radius);
   }
-  return {center, distance.unscaled_radius(radius)};
+  return directions;
+}
+
+// EPOS of no more points than it has ends of directions is the ball of all of them (Larsson 2008).
+FirstBall epos_ball(const PointView& points, SphereMethod method, const Extremes& extremes,
+                    const LocalFrame& frame, const Execution& execution) {
+  const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(extremes.set);
+  const bool few = points.count <= ends;
+  SeedPoints seeds = few ? SeedPoints(points) : SeedPoints(extremes);
+  if (method == SphereMethod::epos98 && !few) {
+    static const std::vector<std::array<double, 3>> directions = epos98_directions();
+    for (const DirectionExtremes& along : find_extreme_points(points, directions, execution).along) {
+      seeds.add(along.low_point.index, along.low_point.point);
+      seeds.add(along.high_point.index, along.high_point.point);
+    }
+  }
+  const Eigen::Vector3d center = frame.global(seeds.smallest_ball(frame).center);
+  return {center, seeds.greatest_distance(frame.center(center))};
+}
+
+Sphere grown_sphere(const PointView& points, const SphereOptions& options, const Extremes& extremes,
+                    const LocalFrame& frame, const Execution& execution) {
+  const FirstBall ball = options.method == SphereMethod::ritter
+                             ? ritter_ball(extremes, frame)
+                             : epos_ball(points, options.method, extremes, frame, execution);
+  const DistanceScan scan(points, execution);
+  return grow_sphere(scan, frame, ball.center, ball.squared_radius, options.growth);
 }
 
 }  // namespace
 
-EstimationResult fit_sphere(const PointView& points, SphereMethod method, Sphere& sphere,
+EstimationResult fit_sphere(const PointView& points, const SphereOptions& options, Sphere& sphere,
                             const Execution& execution) {
-  const FloatEnvironment environment;
-  switch (method) {
-    case SphereMethod::epos26:
-      break;
+  if (options.method == SphereMethod::exact) {
+    SphereCertificate certificate;
+    return fit_smallest_sphere(points, sphere, certificate, execution);
   }
+  const FloatEnvironment environment;
+  const Extremes extremes =
+      find_extremes(points, seed_directions(options.method), ExtremeDetail::points, execution);
+  sphere = Sphere();
+  if (extremes.used > 0) {
+    const LocalFrame frame(points, extremes);
+    sphere = frame.extent() > 0 ? grown_sphere(points, options, extremes, frame, execution)
+                                : Sphere(vector(extremes.low_point[0].point), 0.0);
+  }
+  return result_of(extremes);
+}
+
+EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
+                                     const Execution& execution) {
+  const FloatEnvironment environment;
   const Extremes extremes = find_extremes(points, DirectionSet::dop26, ExtremeDetail::points, execution);
-  sphere = extremes.used == 0 ? Sphere() : epos_sphere(points, extremes, execution.parallel);
+  sphere = Sphere();
+  certificate = SphereCertificate();
+  if (extremes.used > 0) {
+    const LocalFrame frame(points, extremes);
+    if (frame.extent() > 0) {
+      DistanceScan scan(points, execution);
+      sphere = exact_sphere(scan, frame, SeedPoints(extremes), certificate);
+    } else {
+      sphere = Sphere(vector(extremes.low_point[0].point), 0.0);
+      certificate.support_size = 1;
+      certificate.support[0] = extremes.low_point[0].index;
+      certificate.weights[0] = 1;
+    }
+  }
   return result_of(extremes);
 }
 

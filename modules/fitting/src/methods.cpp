@@ -6,22 +6,27 @@
 #include "pcl_bv/fitting/methods.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace pcl_bv {
 namespace {
 
-EstimationResult aabb(const PointView& points, AnyVolume& volume, const Execution& execution) {
+EstimationResult aabb(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                      const Execution& execution) {
   return fit_aabb(points, volume.emplace<Aabb>(), execution);
 }
 
 template <const std::shared_ptr<const KdopSet>& (*set)()>
-EstimationResult kdop(const PointView& points, AnyVolume& volume, const Execution& execution) {
+EstimationResult kdop(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                      const Execution& execution) {
   return fit_kdop(points, set(), volume.emplace<Kdop>(set()), execution);
 }
 
 template <SphereMethod method>
-EstimationResult sphere(const PointView& points, AnyVolume& volume, const Execution& execution) {
-  return fit_sphere(points, method, volume.emplace<Sphere>(), execution);
+EstimationResult sphere(const PointView& points, const MethodOptions& options, AnyVolume& volume,
+                        const Execution& execution) {
+  return fit_sphere(points, {method, options.growth}, volume.emplace<Sphere>(), execution);
 }
 
 }  // namespace
@@ -33,7 +38,12 @@ const std::vector<Method>& methods() {
       {"dop14", {}, "kdop", kdop<KdopSet::dop14>},
       {"dop18", {}, "kdop", kdop<KdopSet::dop18>},
       {"dop26", {}, "kdop", kdop<KdopSet::dop26>},
+      {"sphere-ritter", {}, "sphere", sphere<SphereMethod::ritter>},
+      {"sphere-epos6", {}, "sphere", sphere<SphereMethod::epos6>},
+      {"sphere-epos14", {}, "sphere", sphere<SphereMethod::epos14>},
       {"sphere-epos26", {}, "sphere", sphere<SphereMethod::epos26>},
+      {"sphere-epos98", {}, "sphere", sphere<SphereMethod::epos98>},
+      {"sphere-exact", {"sphere"}, "sphere", sphere<SphereMethod::exact>},
   };
   return table;
 }
@@ -45,6 +55,14 @@ const Method* find_method(std::string_view name) {
       return &method;
   }
   return nullptr;
+}
+
+SphereGrowth parse_growth(std::string_view name) {
+  if (name == "sequential") return SphereGrowth::sequential;
+  if (name == "stationary") return SphereGrowth::stationary;
+  if (name == "deferred") return SphereGrowth::deferred;
+  throw std::invalid_argument("unknown growth '" + std::string(name) +
+                              "'; known are sequential, stationary, deferred");
 }
 
 }  // namespace pcl_bv

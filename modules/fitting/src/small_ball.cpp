@@ -1,141 +1,248 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Gaertner, "Fast and robust smallest enclosing balls", ESA 1999, written from its description.
+// Farthest point in, best support of five out, until nothing is outside.
 
 #include "pcl_bv/fitting/small_ball.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 namespace pcl_bv {
 namespace {
 
+using Vector = Eigen::Vector3d;
+
+constexpr double kRounding = 1 + 0x1p-50;  // what a squared distance may differ by without meaning anything
+constexpr double kTie = 1 + 0x1p-46;       // and what that of two centres of one ball may
+
 // One stated order and no fused operations, where Eigen's reductions may differ between architectures.
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+double dot(const Vector& a, const Vector& b) {
   return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
 }
 
-double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+double squared_distance(const Vector& a, const Vector& b) {
   return dot(a - b, a - b);
 }
 
-// The smallest ball with up to four given points on its boundary, built one point at a time.
-class SupportBall {
- public:
-  int size() const { return size_; }
-  const SmallBall& ball() const { return balls_[static_cast<std::size_t>(size_)]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
+}
 
-  double excess(const Eigen::Vector3d& p) const {
-    return squared_distance(p, ball().center) - ball().squared_radius;
+// x with rows[i] . x = right[i], by elimination with row pivoting: its residual is small even where the rows
+// are nearly dependent, and the residual is what decides how far points of a support stick out. False if they
+// are dependent.
+bool solve(std::array<Vector, 3> rows, Vector right, Vector& x) {
+  for (int column = 0; column < 3; ++column) {
+    int pivot = column;
+    for (int row = column + 1; row < 3; ++row) {
+      if (std::abs(rows[row][column]) > std::abs(rows[pivot][column])) pivot = row;
+    }
+    if (rows[pivot][column] == 0) return false;
+    std::swap(rows[pivot], rows[column]);
+    std::swap(right[pivot], right[column]);
+    for (int row = column + 1; row < 3; ++row) {
+      const double factor = rows[row][column] / rows[column][column];
+      for (int k = column + 1; k < 3; ++k)
+        rows[row][k] -= factor * rows[column][k];
+      right[row] -= factor * right[column];
+    }
+  }
+  x.z() = right.z() / rows[2].z();
+  x.y() = (right.y() - rows[1].z() * x.z()) / rows[1].y();
+  x.x() = ((right.x() - rows[0].y() * x.y()) - rows[0].z() * x.z()) / rows[0].x();
+  return true;
+}
+
+// The weights of three spokes that add up to x; NaN if they are dependent.
+Vector weights(const std::array<Vector, 3>& spokes, const Vector& x) {
+  std::array<Vector, 3> rows;
+  for (int axis = 0; axis < 3; ++axis)
+    rows[axis] = {spokes[0][axis], spokes[1][axis], spokes[2][axis]};
+  Vector result;
+  return solve(rows, x, result) ? result : Vector::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
+// The best ball of a support of up to four points and one new point, which must be on its boundary. All is
+// relative to the new point.
+class Step {
+ public:
+  Step(const Vector* points, const std::array<std::size_t, 4>& support, int size, std::size_t pivot)
+      : size_(size) {
+    for (int i = 0; i < size; ++i) {
+      spokes_[i] = points[support[i]] - points[pivot];
+      squared_[i] = dot(spokes_[i], spokes_[i]);
+    }
   }
 
-  // Makes p a boundary point. False, and nothing changes, if p lies in the affine hull of those that are
-  // there.
-  bool push(const Eigen::Vector3d& p) {
-    const auto m = static_cast<std::size_t>(size_);
-    if (m == 0) {
-      origin_ = p;
-      balls_[1] = {p, 0.0};
-    } else {
-      Eigen::Vector3d normal = p - origin_;  // becomes the part of p orthogonal to the affine hull
-      for (std::size_t i = 1; i < m; ++i)
-        normal -= 2.0 / z_[i] * dot(normals_[i], p - origin_) * normals_[i];
-      const double z = 2.0 * dot(normal, normal);
-      // Relative to the ball, since coordinates have any unit: closer to the hull than 1e-13 radii is on it.
-      if (!(z > 1e-26 * balls_[m].squared_radius)) return false;
-      const double e = excess(p);
-      normals_[m] = normal;
-      z_[m] = z;
-      balls_[m + 1] = {balls_[m].center + e / z * normal, balls_[m].squared_radius + e * (e / z) / 2.0};
-    }
-    ++size_;
-    return true;
-  }
-
-  void pop() { --size_; }
-
- private:
-  int size_ = 0;
-  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  std::array<SmallBall, 5> balls_;
-  std::array<Eigen::Vector3d, 4> normals_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                                             Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  std::array<double, 4> z_{};
-};
-
-class Solver {
- public:
-  explicit Solver(std::vector<Eigen::Vector3d>& points) : points_(points) {}
-
-  SmallBall solve() {
-    if (points_.empty()) return {};
-    std::size_t looked_at = 1;
-    move_to_front_ball(looked_at);
-    for (;;) {
-      const std::size_t pivot = farthest(looked_at);
-      if (pivot == points_.size()) return best_;
-      // The support of the best ball and the pivot decide the next one.
-      SmallBall before = best_;
-      const std::size_t old_support = support_;
-      support_ball_.push(points_[pivot]);
-      move_to_front_ball(old_support);
-      support_ball_.pop();
-      move_to_front(pivot);
-      looked_at = old_support + 1;
-      // Rounding can make the radius stand still; without this it could circle for ever.
-      if (!(best_.squared_radius > before.squared_radius)) return before;
-    }
+  // The members of the support that stay, as bits; the centre relative to the new point.
+  unsigned solve(Vector& center) {
+    // Smaller supports first: what they span and what holds all is the smallest ball.
+    if (!try_pairs() && !try_triples()) try_quadruples();
+    center = center_;
+    return members_;
   }
 
  private:
-  // The smallest ball of the first `end` points with those of the support ball on its boundary, into best_.
-  void move_to_front_ball(std::size_t end) {
-    support_ = 0;
-    best_ = support_ball_.ball();
-    if (support_ball_.size() == 4) return;
-    for (std::size_t k = 0; k < end; ++k) {
-      if (!(excess(points_[k]) > 0.0) || !support_ball_.push(points_[k])) continue;
-      move_to_front_ball(k);
-      support_ball_.pop();
-      move_to_front(k);
+  // Whether nothing is outside of a ball with this centre, whose surface the new point (the origin) is on.
+  // Cospherical points span the same ball many times; of equal ones that with the greatest least weight is
+  // taken, since a support with a negative weight does not ask for its ball.
+  template <typename LeastWeight>
+  bool offer(unsigned members, const Vector& center, LeastWeight&& least_weight) {
+    const double squared_radius = dot(center, center);
+    double greatest = squared_radius;
+    for (int i = 0; i < size_; ++i)
+      greatest = std::max(greatest, squared_distance(spokes_[i], center));
+    if (!(greatest <= greatest_ * kTie)) return false;
+    const double weight = least_weight();
+    if (greatest * kTie < greatest_ || weight > least_weight_) {
+      greatest_ = greatest;
+      least_weight_ = weight;
+      members_ = members;
+      center_ = center;
     }
+    return greatest <= squared_radius * kRounding;
   }
 
-  double excess(const Eigen::Vector3d& p) const {
-    return squared_distance(p, best_.center) - best_.squared_radius;
+  bool try_pairs() {
+    for (int i = 0; i < size_; ++i) {
+      if (offer(1U << i, spokes_[i] / 2, [] { return 0.5; })) return true;
+    }
+    return false;
   }
 
-  std::size_t farthest(std::size_t begin) const {
-    std::size_t pivot = points_.size();
-    double greatest = 0.0;
-    for (std::size_t k = begin; k < points_.size(); ++k) {
-      const double e = excess(points_[k]);
-      if (e > greatest) {
-        greatest = e;
-        pivot = k;
+  bool try_triples() {
+    for (int i = 0; i < size_; ++i) {
+      for (int j = i + 1; j < size_; ++j) {
+        const double product = dot(spokes_[i], spokes_[j]);
+        // Of a triangle that is not acute, the longest side spans the ball.
+        if (product <= 0 || product >= squared_[i] || product >= squared_[j]) continue;
+        Vector center;
+        const std::array<Vector, 3> rows = {spokes_[i], spokes_[j], cross(spokes_[i], spokes_[j])};
+        if (!pcl_bv::solve(rows, {squared_[i] / 2, squared_[j] / 2, 0}, center)) continue;
+        if (offer(1U << i | 1U << j, center, [] { return 0.0; })) return true;
       }
     }
-    return pivot;
+    return false;
   }
 
-  void move_to_front(std::size_t k) {
-    std::rotate(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(k),
-                points_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-    if (k >= support_) ++support_;
+  // A sphere through four points may hold the fifth without being the smallest: all are tried.
+  void try_quadruples() {
+    for (int i = 0; i < size_; ++i) {
+      for (int j = i + 1; j < size_; ++j) {
+        for (int k = j + 1; k < size_; ++k) {
+          Vector center;
+          if (pcl_bv::solve({spokes_[i], spokes_[j], spokes_[k]},
+                            {squared_[i] / 2, squared_[j] / 2, squared_[k] / 2}, center)) {
+            const bool holds_all = offer(1U << i | 1U << j | 1U << k, center, [&] {
+              const Vector rest = weights({spokes_[i], spokes_[j], spokes_[k]}, center);
+              return std::min(rest.minCoeff(), 1 - ((rest.x() + rest.y()) + rest.z()));
+            });
+            if (holds_all && least_weight_ >= 0) return;
+          }
+        }
+      }
+    }
   }
 
-  std::vector<Eigen::Vector3d>& points_;
-  SupportBall support_ball_;
-  SmallBall best_;
-  std::size_t support_ = 0;  // how many of the first points support best_
+  int size_;
+  std::array<Vector, 4> spokes_;
+  std::array<double, 4> squared_{};
+  double greatest_ = std::numeric_limits<double>::infinity();
+  double least_weight_ = -std::numeric_limits<double>::infinity();
+  unsigned members_ = 0;
+  Vector center_ = Vector::Zero();
 };
+
+// Weights with which the support's points have the centre as their mean. A negative one, which only rounding
+// can bring, becomes 0.
+void weigh(const Vector* points, SmallBall& ball) {
+  const Vector origin = points[ball.support[0]];
+  std::array<Vector, 3> spokes = {Vector::Zero(), Vector::Zero(), Vector::Zero()};
+  for (int i = 1; i < ball.support_size; ++i)
+    spokes[i - 1] = points[ball.support[i]] - origin;
+  Vector rest = Vector::Zero();
+  if (ball.support_size == 2) rest = {0.5, 0, 0};
+  if (ball.support_size == 3) spokes[2] = cross(spokes[0], spokes[1]);
+  if (ball.support_size > 2) rest = weights(spokes, ball.center - origin);
+  double sum = 0;
+  for (int i = 1; i < ball.support_size; ++i)
+    sum += ball.weights[i] = std::max(0.0, rest[i - 1]);
+  ball.weights[0] = std::max(0.0, 1 - sum);
+  sum += ball.weights[0];
+  for (double& weight : ball.weights)
+    weight /= sum;
+}
+
+// sum w_i |q_i|^2 - |sum w_i q_i|^2 for q relative to the centre: for any weights, no ball around these
+// points is smaller.
+double squared_lower_bound(const Vector* points, const SmallBall& ball) {
+  double squares = 0;
+  Vector mean = Vector::Zero();
+  for (int i = 0; i < ball.support_size; ++i) {
+    const Vector q = points[ball.support[i]] - ball.center;
+    squares += ball.weights[i] * dot(q, q);
+    mean += ball.weights[i] * q;
+  }
+  return squares - dot(mean, mean);
+}
+
+std::size_t farthest(const Vector* points, std::size_t count, const Vector& center, double& greatest) {
+  std::size_t found = 0;
+  greatest = -1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double d2 = squared_distance(points[i], center);
+    if (d2 > greatest) {
+      greatest = d2;
+      found = i;
+    }
+  }
+  return found;
+}
 
 }  // namespace
 
-SmallBall smallest_ball(std::vector<Eigen::Vector3d>& points) {
-  return Solver(points).solve();
+SmallBall smallest_ball(const Eigen::Vector3d* points, std::size_t count, const SmallBall* start) {
+  SmallBall best;
+  if (count == 0) return best;
+  double greatest = 0;
+  SmallBall ball;
+  if (start != nullptr && start->support_size > 0) {
+    ball = *start;
+  } else {
+    ball.support = {farthest(points, count, points[0], greatest)};
+    ball.support_size = 1;
+    ball.center = points[ball.support[0]];
+    ball.squared_radius = 0;
+  }
+  // Each step's ball is greater than the last, until rounding hides it: far fewer steps are needed than this.
+  for (int steps = 0; steps < 200; ++steps) {
+    const std::size_t pivot = farthest(points, count, ball.center, greatest);
+    const bool done = greatest <= ball.squared_radius * kRounding;
+    if (done || best.squared_radius < 0 || greatest < best.squared_radius) {
+      best = ball;
+      best.squared_radius = greatest;
+    }
+    if (done) break;
+    Vector center;
+    const unsigned members = Step(points, ball.support, ball.support_size, pivot).solve(center);
+    std::array<std::size_t, 4> support{pivot};
+    int size = 1;
+    for (int i = 0; i < ball.support_size; ++i) {
+      if ((members >> i & 1U) != 0) support[size++] = ball.support[i];
+    }
+    ball.support = support;
+    ball.support_size = size;
+    ball.center = points[pivot] + center;
+    ball.squared_radius = 0;
+    for (int i = 0; i < size; ++i)
+      ball.squared_radius = std::max(ball.squared_radius, squared_distance(points[support[i]], ball.center));
+  }
+  weigh(points, best);
+  best.squared_lower_bound = squared_lower_bound(points, best);
+  return best;
 }
 
 }  // namespace pcl_bv

@@ -12,11 +12,21 @@
 
 namespace pcl_bv {
 
+/// What a method's user may choose besides it. Methods ignore what does not concern them.
+struct MethodOptions {
+  SphereGrowth growth = SphereGrowth::deferred;  ///< Spheres that grow: all but sphere-exact.
+};
+
 struct Method {
   std::string_view name;                  ///< The canonical name, as written into results: "dop26".
   std::vector<std::string_view> aliases;  ///< Other names that mean it.
   std::string_view shape;                 ///< "aabb", "kdop" or "sphere".
-  EstimationResult (*fit)(const PointView&, AnyVolume&, const Execution&);
+  EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
+
+  EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,
+                       const MethodOptions& options = {}) const {
+    return fit_with(points, options, volume, execution);
+  }
 };
 
 /// All methods of this build, in the order of the documentation.
@@ -24,5 +34,8 @@ const std::vector<Method>& methods();
 
 /// The method with this name or alias, or null.
 const Method* find_method(std::string_view name);
+
+/// "sequential", "stationary" or "deferred". Throws std::invalid_argument, naming these, for any other text.
+SphereGrowth parse_growth(std::string_view name);
 
 }  // namespace pcl_bv

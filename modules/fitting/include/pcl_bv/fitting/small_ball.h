@@ -5,22 +5,31 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <array>
+#include <cstddef>
 
 namespace pcl_bv {
 
-/// A ball by centre and squared radius, of few points near the origin.
+/// A ball of few points, and why it cannot be smaller.
 struct SmallBall {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double squared_radius = -1;  ///< Negative: no point.
+  double squared_radius = -1;  ///< The greatest squared distance of a point, as measured; negative: no point.
+  int support_size = 0;        ///< 1 to 4 points that alone ask for a ball of this size.
+  std::array<std::size_t, 4> support{};  ///< Their positions in the input.
+  std::array<double, 4> weights{};       ///< Not negative, sum 1: the centre is their weighted mean.
+  /// No smaller squared radius is possible, up to rounding: with c = sum w_i p_i, the sum of w_i |p_i - c|^2.
+  double squared_lower_bound = 0;
 };
 
-/// The smallest ball around the points, to about 1e-14 of its radius; points of its surface may lie outside
-/// by that much, so callers that promise enclosure measure again. Coordinates should be of the order of 1 and
-/// relative to one of the points. Duplicates, collinear, coplanar and cospherical points are fine; no point
-/// gives an empty ball.
+/// The smallest ball around the points: squared_radius and squared_lower_bound agree to about 1e-15.
+/// Duplicates, collinear, coplanar and cospherical points are fine; no point gives an empty ball. Magnitudes
+/// should be from 1e-50 to 1e50 and relative to one of the points. O(count) in practice; no allocation.
 ///
-/// Welzl 1991 with move-to-front and the pivoting of Gaertner 1999; for tens of points. Reorders `points`.
-SmallBall smallest_ball(std::vector<Eigen::Vector3d>& points);
+/// The farthest point joins the at most four that support the ball (the pivoting of Gaertner 1999); the ball
+/// of these five is, of those spanned by two, three or four of them, the one that leaves the least outside.
+/// No tolerance decides what is flat: a support too flat to be solved leaves more outside and is not taken.
+///
+/// `start`, a ball of this function for the first of these points, saves the steps that led to it.
+SmallBall smallest_ball(const Eigen::Vector3d* points, std::size_t count, const SmallBall* start = nullptr);
 
 }  // namespace pcl_bv

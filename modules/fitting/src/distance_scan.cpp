@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Chunks of blocks; results by chunk, merged in order.
+
+#include "distance_scan.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "schedule.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t kBlocksPerChunk = 32;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// With so few blocks, each is likely to hold a point on the sphere, which float arithmetic cannot reject.
+constexpr std::size_t kFewBlocks = 4;
+
+// Only the order of magnitude matters: it decides whether threads are worth starting.
+double nanoseconds_per_point(Isa isa) {
+  return isa == Isa::scalar ? 1.2 : isa == Isa::avx512 ? 0.15 : isa == Isa::avx2 ? 0.25 : 0.4;
+}
+
+// Room for the rounding of distances and of their sums, of which there are a few dozen at most.
+constexpr double kRoundUp = 1 + 0x1p-44;
+constexpr double kRoundDown = 1 - 0x1p-44;
+
+double distance_up(const DistanceCenter& a, const DistanceCenter& b) {
+  return std::sqrt(squared_distance({a.x, a.y, a.z}, b)) * kRoundUp;
+}
+
+bool beats(const FarPoint& a, const FarPoint& b) {
+  if (a.squared_distance != b.squared_distance) return a.squared_distance > b.squared_distance;
+  return a.squared_distance >= 0 && a.index < b.index;
+}
+
+// The block's points of that octant and distance compete for `best`.
+void find_in_block(Isa isa, const PointView& block, const DistanceCenter& center, std::size_t in_octant,
+                   double squared, FloatFilter filter, FarPoint& best) {
+  std::array<std::uint32_t, kBlockPoints> positions;
+  const std::size_t count = list_distant(isa, block, center, squared, filter, positions.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Coordinates p = load_point(block, positions[i]);
+    if (octant(p, center) != in_octant) continue;
+    const FarPoint candidate{squared_distance(p, center), block.index(positions[i]), p};
+    if (beats(candidate, best)) best = candidate;
+  }
+}
+
+}  // namespace
+
+DistanceScan::DistanceScan(const PointView& points, const Execution& execution)
+    : points_(points),
+      parallel_(execution.parallel),
+      isa_(resolve_isa(execution.isa)),
+      filter_(FloatFilter::off),
+      blocks_(block_count(points.count)) {
+  if (points.scalar == ScalarType::float32 && blocks_ > kFewBlocks) filter_ = FloatFilter::reject;
+}
+
+bool DistanceScan::serial() const {
+  return thread_count(policy(blocks_)) == 1;
+}
+
+PointView DistanceScan::blocks(std::size_t first, std::size_t count) const {
+  const std::size_t begin = first * kBlockPoints;
+  return points_.slice(begin, std::min(count * kBlockPoints, points_.count - begin));
+}
+
+ParallelPolicy DistanceScan::policy(std::size_t expected) const {
+  return worthwhile(parallel_,
+                    nanoseconds_per_point(isa_) * 1e-9 * static_cast<double>(expected * kBlockPoints));
+}
+
+// visit(chunk, first block, number of blocks) for all chunks; `expected` blocks are looked at in them.
+template <typename Visit>
+void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const {
+  const std::size_t chunks = (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk;
+  for_each_chunk(policy(expected), chunks, [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    const std::size_t first = chunk * kBlocksPerChunk;
+    visit(chunk, first, std::min(kBlocksPerChunk, blocks_ - first));
+  });
+}
+
+void DistanceScan::bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const {
+  bounds.resize(blocks_);
+  visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
+    block_distances(isa_, blocks(first, count), center, limit, filter_, bounds.data() + first);
+  });
+}
+
+double DistanceScan::greatest(const DistanceCenter& center, double at_least) const {
+  BlockNumbers found;
+  bound(center, at_least, found);
+  // Below at_least, a block's entry may be only a bound.
+  return std::max(at_least, *std::max_element(found.begin(), found.end()));
+}
+
+void DistanceScan::list_block(std::size_t block, const DistanceCenter& center, double limit,
+                              Positions& positions) const {
+  const PointView part = blocks(block, 1);
+  std::array<std::uint32_t, kBlockPoints> listed;
+  const std::size_t count = list_distant(isa_, part, center, limit, filter_, listed.data());
+  for (std::size_t i = 0; i < count; ++i)
+    positions.push_back(block * kBlockPoints + listed[i]);
+}
+
+void DistanceScan::list(const DistanceCenter& center, double limit, Positions& positions) const {
+  if (blocks_ <= kBlocksPerChunk) {
+    for (std::size_t block = 0; block < blocks_; ++block)
+      list_block(block, center, limit, positions);
+    return;
+  }
+  std::vector<std::vector<std::size_t>> lists((blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk);
+  visit_chunks(blocks_, [&](std::size_t chunk, std::size_t first, std::size_t count) {
+    Positions found;
+    for (std::size_t block = first; block < first + count; ++block)
+      list_block(block, center, limit, found);
+    lists[chunk].assign(found.begin(), found.end());
+  });
+  for (const auto& part : lists) {
+    for (const std::size_t position : part)
+      positions.push_back(position);
+  }
+}
+
+// The greatest distances in each octant of a chunk's blocks; the points are looked for when all chunks are
+// known.
+struct DistanceScan::ChunkOctants {
+  std::array<double, 8> best;
+  std::array<std::array<double, 8>, kBlocksPerChunk> blocks;
+  bool filtered;  // whether floats rejected points
+};
+
+void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center,
+                              double limit, ChunkOctants& result) {
+  OctantScan scan{center, limit, filter_};
+  result.best.fill(-1);
+  for (std::size_t b = 0; b < count; ++b) {
+    scan.bounds = bounds_ == nullptr ? nullptr : &bounds_[(first + b) * kBlockBounds];
+    // Points that are nearer than the best of every octant so far do not matter either.
+    scan.limit = std::max(limit, *std::min_element(result.best.begin(), result.best.end()));
+    scan_octants(isa_, blocks(first + b, 1), scan);
+    result.blocks[b] = scan.greatest;
+    for (std::size_t o = 0; o < 8; ++o)
+      result.best[o] = std::max(result.best[o], scan.greatest[o]);
+  }
+  result.filtered = scan.filter == FloatFilter::reject;
+}
+
+void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
+  // Written whole by the kernel: no need to clear it.
+  if (!scanned_ && filter_ == FloatFilter::reject) bounds_.reset(new float[blocks_ * kBlockBounds]);
+  scanned_ = true;
+  first_center_ = center;
+  SmallVector<ChunkOctants, 1> chunks((blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk);
+  visit_chunks(blocks_, [&](std::size_t chunk, std::size_t first, std::size_t count) {
+    scan_chunk(first, count, center, limit, chunks[chunk]);
+  });
+  for (std::size_t o = 0; o < 8; ++o) {
+    double best = -1;
+    for (const ChunkOctants& chunk : chunks)
+      best = std::max(best, chunk.best[o]);
+    for (std::size_t block = 0; block < blocks_ && best >= 0; ++block) {
+      const ChunkOctants& chunk = chunks[block / kBlocksPerChunk];
+      if (chunk.best[o] != best || chunk.blocks[block % kBlocksPerChunk][o] != best) continue;
+      find_in_block(isa_, blocks(block, 1), center, o, best, filter_, found[o]);
+    }
+  }
+  const auto filtered =
+      std::count_if(chunks.begin(), chunks.end(), [](const ChunkOctants& c) { return c.filtered; });
+  // Where floats reject nothing, all points are near the surface, and bounds do not help either.
+  if (2 * static_cast<std::size_t>(filtered) < chunks.size()) {
+    filter_ = FloatFilter::off;
+    bounds_.reset();
+  }
+}
+
+// Lists the points that matter, now and to spheres that move an eighth as far again. False if they are not
+// few.
+bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
+  if (bounds_ == nullptr) return false;
+  const double moved = distance_up(center, first_center_);
+  shell_.clear();
+  shell_center_ = center;
+  shell_distance_ = distance - moved / 8;
+  const double least = (shell_distance_ - moved) * kRoundDown;
+  if (!(least > 0)) return false;
+  KeptBounds kept{first_center_, nullptr, least * least * kRoundDown};
+  const double limit = shell_distance_ * shell_distance_ * kRoundDown;
+  std::array<std::uint32_t, kBlockPoints> positions;
+  for (std::size_t block = 0; block < blocks_; ++block) {
+    kept.bounds = &bounds_[block * kBlockBounds];
+    const std::size_t count = list_reaching(isa_, blocks(block, 1), kept, center, limit, positions.data());
+    for (std::size_t i = 0; i < count; ++i)
+      shell_.push_back(block * kBlockPoints + positions[i]);
+    if (shell_.size() > 64 + points_.count / 16) return false;
+  }
+  return true;
+}
+
+void DistanceScan::scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const {
+  for (const std::size_t i : shell_) {
+    const Coordinates p = load_point(points_, i);
+    const double squared = squared_distance(p, center);
+    if (!(squared >= limit) || !is_valid(p)) continue;
+    const FarPoint candidate{squared, points_.index(i), p};
+    FarPoint& best = found[octant(p, center)];
+    if (beats(candidate, best)) best = candidate;
+  }
+}
+
+bool DistanceScan::farthest(const DistanceCenter& center, double limit, OctantPoints& found) {
+  const double distance = std::sqrt(limit) * kRoundDown;
+  found = {};
+  // What is not in the shell can have come to shell_distance_ and the way of the centre together.
+  listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
+  listed_ = listed_ || (scanned_ && list_shell(center, distance));
+  if (listed_) {
+    scan_shell(center, limit, found);
+  } else {
+    scan_all(center, limit, found);
+  }
+  return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A cloud's points against a radius, block by block and over the cores: what is outside, how far, and what
+// need not be looked at again.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/kernels/distances.h"
+#include "small_vector.h"
+
+namespace pcl_bv {
+
+/// A point outside, or none (squared_distance < 0).
+struct FarPoint {
+  double squared_distance = -1;
+  std::size_t index = 0;  ///< The cloud's number of the point.
+  Coordinates point{};
+};
+
+/// The farthest point in each octant around a centre.
+using OctantPoints = std::array<FarPoint, 8>;
+
+/// Positions of points in a view. The inline part is for small clusters.
+using Positions = SmallVector<std::size_t, 512>;
+
+/// One number for each block.
+using BlockNumbers = SmallVector<double, 16>;
+
+/// All squared distances are squared_distance() of the kernels. No result depends on the execution.
+class DistanceScan {
+ public:
+  /// Keeps the view, and the execution, whose set must be usable.
+  DistanceScan(const PointView& points, const Execution& execution);
+
+  const PointView& points() const { return points_; }
+
+  /// Whether a pass over all points would run in one thread.
+  bool serial() const;
+
+  /// For each block what block_distances() gives.
+  void bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const;
+
+  /// The greatest squared distance of a valid point, or `at_least` if that is greater.
+  double greatest(const DistanceCenter& center, double at_least) const;
+
+  /// Appends the positions of the valid points with a squared distance of at least `limit`, ascending.
+  void list(const DistanceCenter& center, double limit, Positions& positions) const;
+
+  /// The same for one block only.
+  void list_block(std::size_t block, const DistanceCenter& center, double limit, Positions& positions) const;
+
+  /// Of the valid points with a squared distance of at least `limit` the farthest in each octant, of equally
+  /// far ones that with the smallest index. Whether there is any.
+  ///
+  /// For spheres that hardly move between calls: the first one keeps how far every few points reach, and
+  /// later ones look only at those that can have come to reach the limit, if they are few.
+  bool farthest(const DistanceCenter& center, double limit, OctantPoints& found);
+
+ private:
+  struct ChunkOctants;
+
+  ParallelPolicy policy(std::size_t expected_blocks) const;
+  template <typename Visit>
+  void visit_chunks(std::size_t expected_blocks, const Visit& visit) const;
+  PointView blocks(std::size_t first, std::size_t count) const;
+  void scan_all(const DistanceCenter& center, double limit, OctantPoints& found);
+  void scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center, double limit,
+                  ChunkOctants& result);
+  bool list_shell(const DistanceCenter& center, double distance);
+  void scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const;
+
+  PointView points_;
+  ParallelPolicy parallel_;
+  Isa isa_;
+  FloatFilter filter_;
+  std::size_t blocks_;
+
+  std::unique_ptr<float[]> bounds_;  // of the first scan, from first_center_
+  DistanceCenter first_center_;
+  bool scanned_ = false;
+
+  // All points not nearer than shell_distance_ to shell_center_, by position, if listed_.
+  std::vector<std::size_t> shell_;
+  DistanceCenter shell_center_;
+  double shell_distance_ = 0;
+  bool listed_ = false;
+};
+
+}  // namespace pcl_bv

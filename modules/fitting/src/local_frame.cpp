@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Powers of two and one origin.
+
+#include "local_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_bv {
+
+LocalFrame::LocalFrame(const PointView& points, const Extremes& extremes)
+    : origin_(vector(extremes.low_point[0].point)), extent_(0) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    extent_ = std::max(extent_, extremes.high[axis] - extremes.low[axis]);
+  scale_ = extent_ > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(extent_), -1000, 1000)) : 1.0;
+  kernel_scale_ = points.scalar == ScalarType::float64 ? scale_ : 1.0;
+}
+
+double LocalFrame::length_down(double local) const {
+  const double length = local / scale_;
+  return length * scale_ > local ? std::nextafter(length, 0.0) : length;
+}
+
+double LocalFrame::radius(double distance) const {
+  // Dividing by a power of two is inexact only among denormals.
+  const double radius = distance / kernel_scale_;
+  return radius * kernel_scale_ < distance ? std::nextafter(radius, std::numeric_limits<double>::infinity())
+                                           : radius;
+}
+
+}  // namespace pcl_bv

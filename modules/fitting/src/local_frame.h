@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The coordinates in which spheres are computed: near zero and about 1, whatever the cloud's are.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/kernels/distances.h"
+
+namespace pcl_bv {
+
+/// Half of the 2^-48 that the numeric rules allow a squared distance to be off by: it covers the root, too.
+inline constexpr double kOutward = 1.0 + 0x1p-49;
+
+inline Eigen::Vector3d vector(const Coordinates& p) {
+  return {p.x, p.y, p.z};
+}
+
+/// Relative to one of the cloud's points, in units of a power of two near its extent.
+class LocalFrame {
+ public:
+  /// Of a cloud with at least one valid point.
+  LocalFrame(const PointView& points, const Extremes& extremes);
+
+  /// The greatest width along an axis; 0 if all points are equal. Unit of the points.
+  double extent() const { return extent_; }
+
+  Eigen::Vector3d local(const Coordinates& p) const { return (vector(p) - origin_) * scale_; }
+  Eigen::Vector3d global(const Eigen::Vector3d& local) const { return origin_ + local / scale_; }
+
+  /// A local length in the unit of the points, not greater.
+  double length_down(double local) const;
+
+  /// For the kernels, and the measures that they give: in the unit of the points for float clouds.
+  DistanceCenter center(const Eigen::Vector3d& global) const {
+    return {global.x(), global.y(), global.z(), kernel_scale_};
+  }
+
+  /// A kernel's distance as a radius in the unit of the points, not smaller.
+  double radius(double distance) const;
+
+ private:
+  Eigen::Vector3d origin_;
+  double extent_;
+  double scale_;
+  double kernel_scale_;
+};
+
+}  // namespace pcl_bv
