@@ -224,7 +224,7 @@ TEST(Estimation, ABatchEqualsOneByOne) {
     ASSERT_EQ(spheres.size(), clusters.size());
     for (std::size_t c = 0; c < clusters.size(); ++c) {
       Sphere sphere;
-      fit_sphere(*cloud, clusters[c].indices, SphereMethod::epos26, sphere);
+      fit_sphere(*cloud, clusters[c].indices, SphereMethod::exact, sphere);
       EXPECT_EQ(results[c].used, clusters[c].indices.size());
       EXPECT_EQ(spheres[c].radius(), sphere.radius()) << "cluster " << c;
       if (!sphere.empty()) {

@@ -28,13 +28,13 @@ PCL_BV_ISA in the environment sets the default of --isa.)";
 
 /// Options of the documentation that this build refuses, so that a typing error and a missing feature read
 /// differently.
-constexpr const char* unavailable[] = {"--mesh", "--growth", "--info", "--progress"};
+constexpr const char* unavailable[] = {"--mesh", "--info", "--progress"};
 
 /// The command line as texts, before the values are looked at.
 struct Texts {
   std::vector<std::string> inputs;
   std::string volume, range, cluster, min_size, max_size, ground, up, sensor_height, format, output, labels,
-      image, view, threads, isa;
+      image, view, threads, isa, growth;
   bool check = false, timings = false, version = false;
 };
 
@@ -68,6 +68,8 @@ void declare(CLI::App& app, Texts& texts) {
          "Write the input with a field `label`; several inputs: a folder");
   option("--image", texts.image, "FILE.png", "Draw cloud and volumes; several inputs: a folder");
   option("--view", texts.view, "NAME", "From where the picture is taken: iso (iso)");
+  option("--growth", texts.growth, "POLICY",
+         "How Ritter's and EPOS spheres grow: sequential, stationary or deferred (deferred)");
   option("--threads", texts.threads, "N", "Threads, 0 for all processors (0)");
   option("--isa", texts.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   app.add_flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
@@ -153,6 +155,7 @@ Options to_options(const CLI::App& app, const Texts& texts) {
   if (given("--threads")) {
     threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
   }
+  if (given("--growth")) options.method_options.growth = parse_sphere_growth(texts.growth);
   options.execution = {threads, parse_usable_isa(given("--isa") ? texts.isa : "auto")};
   options.check = texts.check;
   options.timings = texts.timings;

@@ -36,6 +36,7 @@ struct Options {
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, image;
+  MethodOptions method_options;
   Execution execution;
   bool check = false;
   bool timings = false;

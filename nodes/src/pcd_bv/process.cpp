@@ -40,7 +40,8 @@ void fit(const Segmentation& segmentation, const Options& options, Report& repor
     for (const Method* method : options.methods) {
       VolumeEntry& entry = cluster.volumes.emplace_back();
       entry.method = method->name;
-      const EstimationResult result = method->fit(points, entry.volume, options.execution);
+      const EstimationResult result =
+          method->fit(points, entry.volume, options.execution, options.method_options);
       cluster.points = result.used;
       if (!looks_at_points(options)) report.counts.nonfinite = result.dropped;
     }

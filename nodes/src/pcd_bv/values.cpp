@@ -123,6 +123,14 @@ Isa parse_usable_isa(const std::string& text) {
   }
 }
 
+SphereGrowth parse_sphere_growth(std::string_view text) {
+  try {
+    return parse_growth(text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--growth: ") + error.what());
+  }
+}
+
 std::vector<const Method*> parse_methods(std::string_view list) {
   std::vector<const Method*> chosen;
   for (std::size_t begin = 0; begin <= list.size();) {
@@ -136,9 +144,7 @@ std::vector<const Method*> parse_methods(std::string_view list) {
 std::vector<const Method*> default_methods() {
   std::vector<const Method*> chosen;
   for (const std::string_view name : {"aabb", "sphere", "obb"}) {
-    const Method* method = find_method(name);
-    if (!method && name == "sphere") method = find_method("sphere-epos26");
-    if (method) chosen.push_back(method);
+    if (const Method* method = find_method(name)) chosen.push_back(method);
   }
   return chosen;
 }

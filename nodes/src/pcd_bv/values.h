@@ -23,6 +23,7 @@ UpAxis parse_up(std::string_view text);
 double parse_sensor_height(std::string_view text);
 OutputFormat parse_format(std::string_view text);
 Isa parse_usable_isa(const std::string& text);
+SphereGrowth parse_sphere_growth(std::string_view text);
 
 /// Methods of a comma-separated list of names, aliases and `all`, each once, in the order of its first
 /// mention.

@@ -97,20 +97,24 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   static const std::shared_ptr<const KdopSet>& set();
 };
 
-/// A bounding sphere. See fit_sphere().
+/// A bounding sphere: the smallest one unless another method is set. See fit_sphere().
 template <typename PointT>
 class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
  public:
-  void setMethod(SphereMethod method) { method_ = method; }
-  SphereMethod getMethod() const { return method_; }
+  void setMethod(SphereMethod method) { options_.method = method; }
+  SphereMethod getMethod() const { return options_.method; }
+
+  /// How Ritter's and EPOS's spheres grow; SphereGrowth::deferred by default.
+  void setGrowth(SphereGrowth growth) { options_.growth = growth; }
+  SphereGrowth getGrowth() const { return options_.growth; }
 
  protected:
   EstimationResult fit(const PointView& points, Sphere& sphere, const Execution& execution) const override {
-    return fit_sphere(points, method_, sphere, execution);
+    return fit_sphere(points, options_, sphere, execution);
   }
 
  private:
-  SphereMethod method_ = SphereMethod::epos26;
+  SphereOptions options_;
 };
 
 }  // namespace pcl_bv

@@ -50,15 +50,29 @@ EstimationResult fit_kdop(const pcl::PointCloud<PointT>& cloud, const pcl::Indic
 }
 
 template <typename PointT>
-EstimationResult fit_sphere(const pcl::PointCloud<PointT>& cloud, SphereMethod method, Sphere& sphere,
-                            const Execution& execution = {}) {
-  return fit_sphere(point_view(cloud), method, sphere, execution);
+EstimationResult fit_sphere(const pcl::PointCloud<PointT>& cloud, const SphereOptions& options,
+                            Sphere& sphere, const Execution& execution = {}) {
+  return fit_sphere(point_view(cloud), options, sphere, execution);
 }
 
 template <typename PointT>
 EstimationResult fit_sphere(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
-                            SphereMethod method, Sphere& sphere, const Execution& execution = {}) {
-  return fit_sphere(point_view(cloud, indices), method, sphere, execution);
+                            const SphereOptions& options, Sphere& sphere, const Execution& execution = {}) {
+  return fit_sphere(point_view(cloud, indices), options, sphere, execution);
+}
+
+/// As fit_smallest_sphere() of fitting/fit.h.
+template <typename PointT>
+EstimationResult fit_smallest_sphere(const pcl::PointCloud<PointT>& cloud, Sphere& sphere,
+                                     SphereCertificate& certificate, const Execution& execution = {}) {
+  return fit_smallest_sphere(point_view(cloud), sphere, certificate, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_smallest_sphere(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                                     Sphere& sphere, SphereCertificate& certificate,
+                                     const Execution& execution = {}) {
+  return fit_smallest_sphere(point_view(cloud, indices), sphere, certificate, execution);
 }
 
 /// As summarize() of fitting/summary.h.
