@@ -7,34 +7,13 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-
-#include "clouds.h"
-#include "fits.h"
-#include "peers.h"
 #include "reading.h"
+#include "rows.h"
 
 namespace pcl_bv::bench {
 namespace {
 
 const std::vector<std::string> kBoth = {"aabb", "dop26"};
-
-template <typename Body>
-benchmark::internal::Benchmark* add(const std::string& work, const std::string& isa, const CloudName& cloud,
-                                    Body body) {
-  return benchmark::RegisterBenchmark((work + '/' + isa + '/' + cloud.text()).c_str(), body)
-      ->Unit(benchmark::kMicrosecond)
-      ->ComputeStatistics(
-          "min", [](const std::vector<double>& all) { return *std::min_element(all.begin(), all.end()); });
-}
-
-template <typename Run>
-void time_passes(benchmark::State& state, const Cloud& cloud, Run&& run) {
-  for (auto _ : state)
-    run();
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cloud.view.count));
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(cloud.bytes));
-}
 
 void add_fit(const std::string& work, Isa isa, const CloudName& name) {
   const Fit fit(work);
@@ -51,15 +30,6 @@ void add_fits(const std::vector<std::string>& works, const CloudName& name) {
     for (const Isa isa : usable_isas())
       add_fit(work, isa, name);
   }
-}
-
-void add_peer(const Peer& peer, const CloudName& name) {
-  add(peer.name, "peer", name, [=](benchmark::State& state) {
-    Cloud& points = cloud(name);
-    if (!points.outside.contains(peer.name)) points.outside[peer.name] = peer.outside(points);
-    time_passes(state, points, [&] { peer.run(points); });
-    state.counters["outside"] = static_cast<double>(points.outside[peer.name]);
-  });
 }
 
 void add_peers(const std::vector<std::string>& names, const CloudName& cloud) {
@@ -96,7 +66,7 @@ void tables_of_the_paper() {
   for (const std::size_t points : kPaperSizes) {
     const CloudName cloud{"paper", points};
     add_fits({"aabb", "dop14", "dop26"}, cloud);
-    if (points == 100'722) add_fits({"dop18", "sphere-epos26"}, cloud);
+    if (points == 100'722) add_fits({"dop18"}, cloud);
     add_peers({"pcl-dense", "pcl-non-dense", "naive-dop26", "plain-dop26"}, cloud);
   }
 }

@@ -13,6 +13,7 @@
 #include "pcl_bv/estimation/point_cloud_view.h"
 #include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/synth/synth.h"
+#include "shapes.h"
 
 namespace pcl_bv::bench {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 using Coordinates = std::span<const float>;
 
 std::vector<float> make_scene(const std::string& scene, std::size_t points) {
+  if (std::vector<float> shape = make_shape(scene, points); !shape.empty()) return shape;
   const std::string count = std::to_string(points);
   const std::string spec = scene == "paper"  ? "paper-" + count
                            : scene == "cube" ? "box:" + count

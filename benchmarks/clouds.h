@@ -29,7 +29,8 @@ inline constexpr std::size_t kL1 = 2048, kL2 = 32'768, kL3 = 1'000'000, kMemory 
 inline constexpr std::size_t kPaperSizes[] = {4010, 7260, 30'892, 32'875, 48'485, 100'722, 327'323};
 
 struct CloudName {
-  std::string scene;           ///< "gauss", "cube", "street" (a LiDAR sweep), "paper" (kPaperSizes only).
+  std::string
+      scene;  ///< "gauss", "cube", "street" (a LiDAR sweep), "paper" (kPaperSizes only), a shape of shapes.h.
   std::size_t points = 0;      ///< A multiple of 64 for the street.
   std::string layout = "xyz";  ///< One of layouts().
   std::string bad = "no-nan";  ///< Or "one-nan" (the middle point), "1pc-nan" (every hundredth).
@@ -50,8 +51,8 @@ struct Cloud {
   std::size_t bytes = 0;  ///< That a pass reads: all of the records, and the indices.
   std::shared_ptr<const pcl::PointCloud<pcl::PointXYZ>> pcl;  ///< Layout "xyz" only; is_dense is true.
   std::shared_ptr<const void> memory;                         ///< What `view` looks at.
-  /// The scalar reference's answers, by method: what fits.cpp compares with.
-  std::map<std::string_view, AnyVolume> proven;
+  /// The scalar reference's answers, by work: what fits.cpp compares with.
+  std::map<std::string, AnyVolume> proven;
   std::optional<Extremes> extremes;
   std::map<std::string_view, std::size_t> outside;  ///< By peer: points outside its answer.
 };

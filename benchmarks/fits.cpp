@@ -36,26 +36,29 @@ void require(bool holds, const std::string& what) {
 }
 
 Fit::Fit(const std::string& work) : name_(work), with_points_(work.ends_with(kWithPoints)) {
-  method_ = find_method(with_points_ ? work.substr(0, work.size() - kWithPoints.size()) : work);
+  const std::size_t plus = work.find('+');
+  if (plus != std::string::npos) options_.growth = parse_growth(work.substr(plus + 1));
+  method_ =
+      find_method(with_points_ ? work.substr(0, work.size() - kWithPoints.size()) : work.substr(0, plus));
   require(method_ != nullptr, "no method " + work);
 }
 
 AnyVolume Fit::volume(const Cloud& cloud, const Execution& execution) const {
   AnyVolume fitted;
-  method_->fit(cloud.view, fitted, execution);
+  method_->fit(cloud.view, fitted, execution, options_);
   return fitted;
 }
 
 void Fit::check(Cloud& cloud, const Execution& execution) const {
   const Execution reference{Serial{}, Isa::scalar};
   const std::string row = name_ + " of " + cloud.name.text();
-  if (!cloud.proven.contains(method_->name)) {
+  if (!cloud.proven.contains(name_)) {
     const AnyVolume expected = volume(cloud, reference);
     require(verify(expected, cloud.view, {OpenMP{}, Isa::automatic}).outside == 0,
             row + ": a point is outside");
-    cloud.proven.emplace(method_->name, expected);
+    cloud.proven.emplace(name_, expected);
   }
-  require(volume(cloud, execution) == cloud.proven.at(method_->name), row + ": not the reference's answer");
+  require(volume(cloud, execution) == cloud.proven.at(name_), row + ": not the reference's answer");
   if (!with_points_) return;
   if (!cloud.extremes) cloud.extremes = extremes_with_points(cloud, reference);
   require(same_points(extremes_with_points(cloud, execution), *cloud.extremes), row + ": other points");

@@ -12,7 +12,8 @@
 
 namespace pcl_bv::bench {
 
-/// A method of fitting/methods.h, or "dop26-points": the extremes of a 26-DOP and the points that reach them.
+/// A method of fitting/methods.h, with "+sequential", "+stationary" or "+deferred" after it grown that way;
+/// or "dop26-points": the extremes of a 26-DOP and the points that reach them.
 class Fit {
  public:
   explicit Fit(const std::string& work);
@@ -25,10 +26,12 @@ class Fit {
   /// What is timed.
   void operator()(const Cloud& cloud, const Execution& execution) const;
 
- private:
   AnyVolume volume(const Cloud& cloud, const Execution& execution) const;
+
+ private:
   std::string name_;
   const Method* method_;
+  MethodOptions options_;
   bool with_points_;
 };
 

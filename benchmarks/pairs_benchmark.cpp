@@ -10,6 +10,7 @@
 
 #include <cstdlib>
 
+#include "cgal.h"
 #include "clouds.h"
 #include "fits.h"
 #include "peers.h"
@@ -59,6 +60,36 @@ void over_scalar() {
         add("over-" + plain, dop26, {Serial{}, isa}, name, "",
             [=](const Cloud& points) { return [&points, run = peer(plain).run] { run(points); }; });
       }
+    }
+  }
+}
+
+void spheres_over_scalar() {
+  const Fit epos26("sphere-epos26");
+  for (const CloudName& name : {CloudName{"gauss", kL2}, CloudName{"paper", 100'722}}) {
+    for (const Isa isa : simd_isas()) {
+      add("over-scalar", epos26, {Serial{}, isa}, name, "", [=](const Cloud& points) {
+        return [&points, epos26] { epos26(points, {Serial{}, Isa::scalar}); };
+      });
+    }
+  }
+}
+
+// The smallest sphere beside one that is nearly so, and beside another solver.
+void smallest_sphere() {
+  const Fit exact("sphere-exact");
+  for (const std::string scene : {"gauss", "cube", "ball", "car", "golfball", "surface"}) {
+    for (const std::size_t points : {100'722, 1'000'000}) {
+      const CloudName name{scene, points};
+      for (const Isa isa : simd_isas()) {
+        add("over-epos26", exact, {Serial{}, isa}, name, "",
+            [isa, epos26 = Fit("sphere-epos26")](const Cloud& cloud) {
+              return [&cloud, isa, epos26] { epos26(cloud, {Serial{}, isa}); };
+            });
+      }
+      if (points < 1'000'000 || cgal_min_sphere() == nullptr) continue;
+      add("over-cgal", exact, {Serial{}, usable_isas().back()}, name, "",
+          [run = cgal_min_sphere()->run](const Cloud& cloud) { return [&cloud, run] { run(cloud); }; });
     }
   }
 }
@@ -127,6 +158,8 @@ void two_threads_over_one() {
 int main(int argc, char** argv) {
   if (pcl_bv::usable_isas().size() > 1) {
     pcl_bv::bench::over_scalar();
+    pcl_bv::bench::spheres_over_scalar();
+    pcl_bv::bench::smallest_sphere();
     for (const std::size_t points : {pcl_bv::bench::kL2, pcl_bv::bench::kMemory}) {
       pcl_bv::bench::over_pcl(points);
       pcl_bv::bench::over_unchecked(points);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints a file of benchmarks/results as Markdown: the paper's Tables 2 and 5, what was aimed at and what is
+"""Prints a file of benchmarks/results as Markdown: the paper's Tables 2 to 5, what was aimed at and what is
 reached, memory, layouts, bad points, peers.
 
 usage: benchmarks/tables.py RESULTS.json
@@ -10,6 +10,9 @@ import sys
 
 from results import LEVELS, PAPER, Results, table
 
+SPHERES = [("Ritter", "sphere-ritter"), ("EPOS-6", "sphere-epos6"), ("EPOS-14", "sphere-epos14"),
+           ("EPOS-26", "sphere-epos26"), ("EPOS-98", "sphere-epos98"), ("smallest", "sphere-exact")]
+SHAPES = ("gauss", "cube", "ball", "car", "golfball", "surface")
 VOLUMES = [("AABB", "aabb"), ("14-DOP", "dop14"), ("26-DOP", "dop26")]
 
 # Work, points, comparison, what to reach by instruction set. Ratios of two sides that ran in turns.
@@ -30,6 +33,21 @@ TARGETS = [
     ("AABB over getMinMax3D, dense, memory", "over-pcl-dense/aabb/{}/gauss/xyz/no-nan/n:16000000", {}),
     ("AABB over getMinMax3D, not dense, memory", "over-pcl-non-dense/aabb/{}/gauss/xyz/no-nan/n:16000000",
      {"avx512": 6, "avx2": 6, "sse4": 6}),
+]
+TARGETS += [
+    (f"EPOS-26 over its scalar reference, {n}", f"over-scalar/sphere-epos26/{{}}/{c}", {"avx512": 12, "sse4": 3.5})
+    for n, c in (("L2", "gauss/xyz/no-nan/n:32768"), ("100722", "paper/xyz/no-nan/n:100722"))
+]
+TARGETS += [
+    (f"smallest sphere over EPOS-26, {shape} {n}", f"over-epos26/sphere-exact/{{}}/{shape}/xyz/no-nan/n:{n}",
+     {"avx512": round(1 / most, 2)})
+    for most, shapes in ((1.3, ("gauss", "cube", "ball", "car")), (3, ("golfball", "surface")))
+    for shape in shapes for n in (100722, 1000000)
+]
+TARGETS += [
+    (f"smallest sphere over CGAL's Min_sphere_d, {shape}", f"over-cgal/sphere-exact/{{}}/{shape}/xyz/no-nan/n:1000000",
+     {"avx512": 25})
+    for shape in ("gauss", "cube", "ball", "car", "golfball", "surface")
 ]
 # Work, comparison, the greatest extra time in percent by instruction set.
 COSTS = [
@@ -106,6 +124,43 @@ def table_2(results):
     return table(["points"] + [f"{label} {s}" for label, _ in VOLUMES for s in sets], lines)
 
 
+def table_3(results):
+    sets = results.sets()
+    lines = []
+    for points, mesh in PAPER.items():
+        cells = [f"{mesh} ({points})"]
+        for _, work in SPHERES:
+            times = [results.milliseconds(f"{work}/{s}/paper/xyz/no-nan/n:{points}") for s in sets]
+            cells += [f"{times[0]:.3f}"] + [f"{t:.4f} ({times[0] / t:.1f})" for t in times[1:]] if times[0] else [None] * len(sets)
+        lines.append(cells)
+    return table(["points"] + [f"{label} {s}" for label, _ in SPHERES for s in sets], lines)
+
+
+def table_4(results):
+    """Radii in units of the longest side of the box, and how far over the smallest one."""
+    best = results.sets()[-1]
+    clouds = [(f"{mesh} ({n})", f"paper/xyz/no-nan/n:{n}") for n, mesh in PAPER.items()]
+    clouds += [(f"{shape} ({n})", f"{shape}/xyz/no-nan/n:{n}") for shape in SHAPES for n in (300, 100722, 1000000)]
+    lines = []
+    for label, cloud in clouds:
+        rows = [results.row(f"{work}/{best}/{cloud}") for _, work in SPHERES]
+        if rows[0]:
+            lines.append([label] + [f"{r['radius']:.4f} ({100 * (r['over_optimum'] - 1):+.2f} %)" for r in rows])
+    return table(["points"] + [label for label, _ in SPHERES], lines)
+
+
+def growth(results):
+    lines = []
+    for method in ("sphere-ritter", "sphere-epos26"):
+        for way in ("sequential", "stationary", "deferred"):
+            for n in (100722, 1000000):
+                rows = [results.row(f"{method}+{way}/{t}/ball/xyz/no-nan/n:{n}") for t in ("1-thread", "2-threads")]
+                if all(rows):
+                    lines.append([f"{method}, {way}", n] + [f"{r['items_per_second'] / 1e6:.0f}" for r in rows]
+                                 + [f"{100 * (rows[0]['over_optimum'] - 1):+.3f} %"])
+    return table(["points in a ball", "points", "Mpt/s, one thread", "two", "over the smallest"], lines)
+
+
 def table_5(results):
     sets = sorted({n.split("/")[2] for n in results.rows if n.startswith("two-threads/") and "/paper/" in n})
     lines = []
@@ -152,6 +207,9 @@ def sections(results):
     yield "Targets", targets(results) + "\n\n" + thread_targets(results)
     yield "Two threads over one, median of 30 pairs (ratio of minima)", threads(results)
     yield "Table 2 of the paper: ms of one core (speed-up over scalar)", table_2(results)
+    yield "Table 3 of the paper: spheres, ms of one core (speed-up over scalar)", table_3(results)
+    yield "Table 4 of the paper: radii over the box's longest side (over the smallest radius)", table_4(results)
+    yield "Ways to grow a sphere", growth(results)
     yield "Table 5 of the paper: 26-DOP on one and two cores, ms, minima", table_5(results)
     yield "Bytes that pass, gauss", bandwidth(results)
     yield "Levels of memory, gauss", speeds(

@@ -6,6 +6,7 @@
 #include "distance_scan.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -131,26 +132,52 @@ void DistanceScan::list(const DistanceCenter& center, double limit, Positions& p
   }
 }
 
+// The greatest distance in each octant of all that has been scanned, by any thread. Points nearer than all
+// eight do not matter any more: results do not depend on who raised them when.
+class DistanceScan::SharedOctants {
+ public:
+  SharedOctants() {
+    for (std::atomic<double>& b : best_)
+      b.store(-1, std::memory_order_relaxed);
+  }
+
+  double least() const {
+    double least = kInfinity;
+    for (const std::atomic<double>& b : best_)
+      least = std::min(least, b.load(std::memory_order_relaxed));
+    return least;
+  }
+
+  double operator[](std::size_t octant) const { return best_[octant].load(std::memory_order_relaxed); }
+
+  void raise(const std::array<double, 8>& greatest) {
+    for (std::size_t o = 0; o < 8; ++o) {
+      double known = (*this)[o];
+      while (greatest[o] > known && !best_[o].compare_exchange_weak(known, greatest[o])) {
+      }
+    }
+  }
+
+ private:
+  std::array<std::atomic<double>, 8> best_;
+};
+
 // The greatest distances in each octant of a chunk's blocks; the points are looked for when all chunks are
 // known.
 struct DistanceScan::ChunkOctants {
-  std::array<double, 8> best;
   std::array<std::array<double, 8>, kBlocksPerChunk> blocks;
   bool filtered;  // whether floats rejected points
 };
 
 void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center,
-                              double limit, ChunkOctants& result) {
+                              double limit, SharedOctants& best, ChunkOctants& result) {
   OctantScan scan{center, limit, filter_};
-  result.best.fill(-1);
   for (std::size_t b = 0; b < count; ++b) {
     scan.bounds = bounds_ == nullptr ? nullptr : &bounds_[(first + b) * kBlockBounds];
-    // Points that are nearer than the best of every octant so far do not matter either.
-    scan.limit = std::max(limit, *std::min_element(result.best.begin(), result.best.end()));
+    scan.limit = std::max(limit, best.least());
     scan_octants(isa_, blocks(first + b, 1), scan);
     result.blocks[b] = scan.greatest;
-    for (std::size_t o = 0; o < 8; ++o)
-      result.best[o] = std::max(result.best[o], scan.greatest[o]);
+    best.raise(scan.greatest);
   }
   result.filtered = scan.filter == FloatFilter::reject;
 }
@@ -160,18 +187,15 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
   if (!scanned_ && filter_ == FloatFilter::reject) bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;
   first_center_ = center;
+  SharedOctants best;
   SmallVector<ChunkOctants, 1> chunks((blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk);
   visit_chunks(blocks_, [&](std::size_t chunk, std::size_t first, std::size_t count) {
-    scan_chunk(first, count, center, limit, chunks[chunk]);
+    scan_chunk(first, count, center, limit, best, chunks[chunk]);
   });
   for (std::size_t o = 0; o < 8; ++o) {
-    double best = -1;
-    for (const ChunkOctants& chunk : chunks)
-      best = std::max(best, chunk.best[o]);
-    for (std::size_t block = 0; block < blocks_ && best >= 0; ++block) {
-      const ChunkOctants& chunk = chunks[block / kBlocksPerChunk];
-      if (chunk.best[o] != best || chunk.blocks[block % kBlocksPerChunk][o] != best) continue;
-      find_in_block(isa_, blocks(block, 1), center, o, best, filter_, found[o]);
+    for (std::size_t block = 0; block < blocks_ && best[o] >= 0; ++block) {
+      if (chunks[block / kBlocksPerChunk].blocks[block % kBlocksPerChunk][o] != best[o]) continue;
+      find_in_block(isa_, blocks(block, 1), center, o, best[o], filter_, found[o]);
     }
   }
   const auto filtered =

@@ -63,6 +63,7 @@ class DistanceScan {
   bool farthest(const DistanceCenter& center, double limit, OctantPoints& found);
 
  private:
+  class SharedOctants;
   struct ChunkOctants;
 
   ParallelPolicy policy(std::size_t expected_blocks) const;
@@ -71,7 +72,7 @@ class DistanceScan {
   PointView blocks(std::size_t first, std::size_t count) const;
   void scan_all(const DistanceCenter& center, double limit, OctantPoints& found);
   void scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center, double limit,
-                  ChunkOctants& result);
+                  SharedOctants& best, ChunkOctants& result);
   bool list_shell(const DistanceCenter& center, double distance);
   void scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const;
 

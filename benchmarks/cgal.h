@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// CGAL, where it is installed (libcgal-dev). Its headers are GPL: only programs that measure include them.
+#pragma once
+
+#include "peers.h"
+
+namespace pcl_bv::bench {
+
+/// "cgal-min-sphere": CGAL::Min_sphere_d in double, which solves what sphere-exact solves. Its `outside`
+/// throws if the radius is off the proven bounds of the smallest one by more than 1e-9 of it (it is off by up
+/// to 1e-11 on smooth meshes). Null if CGAL is not installed.
+const Peer* cgal_min_sphere();
+
+}  // namespace pcl_bv::bench
