@@ -83,7 +83,7 @@ bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std:
   std::size_t valid_count = 0;
   for (std::size_t i = 0; i < block.count; i += n) {
     V<D> x, y, z;
-    prefetch_ahead(d, block, i);
+    prefetch_ahead<layout>(d, block, i);
     if (HWY_LIKELY(i + n <= block.count)) {
       load_packet<layout>(d, block, i, x, y, z);
     } else if (masked || block.count < n) {
