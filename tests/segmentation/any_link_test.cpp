@@ -14,13 +14,17 @@
 
 namespace {
 
-using pcl_bv::any_link;
 using pcl_bv::Point;
-using pcl_bv::PointGroup;
+using pcl_bv::PointRun;
 using Points = std::vector<Point<float>>;
 
-PointGroup<float> group(Points& points) {
-  return {points.data(), points.size(), pcl_bv::box_of(points.data(), points.size())};
+bool any_link(const Points& a, const Points& b, float r2) {
+  pcl_bv::LinkScratch<float> scratch;
+  const PointRun<float> run_a{a.data(), a.size()};
+  const PointRun<float> run_b{b.data(), b.size()};
+  const bool found = pcl_bv::any_link(run_a, run_b, r2, scratch);
+  EXPECT_EQ(pcl_bv::any_link_of_many(run_a, run_b, r2, scratch), found);
+  return found;
 }
 
 float least_of_all(const Points& a, const Points& b) {
@@ -48,36 +52,36 @@ Points sheet(std::size_t count, float height, unsigned seed) {
 TEST(AnyLink, FindsTheClosestPairAndNothingBelowIt) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
-    Points a = sheet(10 + 7 * seed, 0.F, seed);
-    Points b = sheet(1500 - 7 * seed, 0.3F, seed + 1000);
+    const Points a = sheet(1 + 7 * seed, 0.F, seed);
+    const Points b = sheet(1500 - 7 * seed, 0.3F, seed + 1000);
     const float least = least_of_all(a, b);
-    EXPECT_FALSE(any_link(group(a), group(b), least));
-    EXPECT_TRUE(any_link(group(a), group(b), std::nextafter(least, 1.F)));
+    EXPECT_FALSE(any_link(a, b, least));
+    EXPECT_TRUE(any_link(a, b, std::nextafter(least, 1.F)));
   }
 }
 
 TEST(AnyLink, LeavesACrossApartWhoseArmsAreAllAtTheTolerance) {
-  Points a{{-1, 0, 0}, {1, 0, 0}};
-  Points b{{0, -1, 0}, {0, 1, 0}};
-  EXPECT_FALSE(any_link(group(a), group(b), 2.F));
-  EXPECT_TRUE(any_link(group(a), group(b), 2.000001F));
+  const Points a{{-1, 0, 0}, {1, 0, 0}};
+  const Points b{{0, -1, 0}, {0, 1, 0}};
+  EXPECT_FALSE(any_link(a, b, 2.F));
+  EXPECT_TRUE(any_link(a, b, 2.000001F));
 }
 
 TEST(AnyLink, HandlesManyEqualPoints) {
-  Points a(5000, {0, 0, 0});
+  const Points a(5000, {0, 0, 0});
   Points b(5000, {1, 0, 0});
   b[4321] = {0.5F, 0, 0};
-  EXPECT_FALSE(any_link(group(a), group(b), 0.25F));
-  EXPECT_TRUE(any_link(group(a), group(b), 0.2500001F));
+  EXPECT_FALSE(any_link(a, b, 0.25F));
+  EXPECT_TRUE(any_link(a, b, 0.2500001F));
 }
 
 TEST(AnyLink, IsFarFromQuadraticOnSheetsBarelyApart) {
-  Points a = sheet(150'000, 0.F, 1);
-  Points b = sheet(150'000, 0.45F, 2);
+  const Points a = sheet(150'000, 0.F, 1);
+  const Points b = sheet(150'000, 0.45F, 2);
   const float nearly =
       0.159F;  // r = 0.39875; the sheets are at least (0.45 - 0.004) / sqrt(1.25) = 0.3989 apart
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_FALSE(any_link(group(a), group(b), nearly));
+  EXPECT_FALSE(any_link(a, b, nearly));
   // 2e10 pair tests would take longer.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(12));
 }

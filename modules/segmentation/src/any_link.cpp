@@ -9,19 +9,13 @@
 namespace pcl_bv {
 namespace {
 
-// Below so many pairs, testing them all is cheaper than splitting (measured on 64-beam sweeps: 64 to 1024
-// alike).
-constexpr std::size_t few_pairs = 256;
-
+// Points in a row with their box; their order means nothing.
 template <typename T>
-bool any_link_of_all(const PointGroup<T>& a, const PointGroup<T>& b, T r2) {
-  for (std::size_t i = 0; i < a.count; ++i) {
-    for (std::size_t j = 0; j < b.count; ++j) {
-      if (squared_distance(a.points[i], b.points[j]) < r2) return true;
-    }
-  }
-  return false;
-}
+struct Group {
+  Point<T>* points;
+  std::size_t count;
+  Box<T> box;
+};
 
 template <typename T>
 Point<T> extent(const Box<T>& box) {
@@ -36,7 +30,7 @@ T longest_side(const Box<T>& box) {
 
 // Halves by number along the longest side, so that the depth is logarithmic whatever the spread.
 template <typename T>
-std::pair<PointGroup<T>, PointGroup<T>> split(const PointGroup<T>& group) {
+std::pair<Group<T>, Group<T>> split(const Group<T>& group) {
   const Point<T> e = extent(group.box);
   const T Point<T>::*axis = e.x >= e.y && e.x >= e.z ? &Point<T>::x
                             : e.y >= e.z             ? &Point<T>::y
@@ -49,21 +43,58 @@ std::pair<PointGroup<T>, PointGroup<T>> split(const PointGroup<T>& group) {
           {middle, group.count - half, box_of(middle, group.count - half)}};
 }
 
-}  // namespace
-
 template <typename T>
-bool any_link(PointGroup<T> a, PointGroup<T> b, T r2) {
+bool any_link_of_groups(Group<T> a, Group<T> b, T r2) {
   if (!(least_squared_distance(a.box, b.box) < r2)) return false;
   if (greatest_squared_distance(a.box, b.box) < r2) return true;
-  if (a.count * b.count <= few_pairs) return any_link_of_all(a, b, r2);
+  if (a.count * b.count <= few_pairs) {
+    return any_link_of_few(PointRun<T>{a.points, a.count}, PointRun<T>{b.points, b.count}, r2);
+  }
   // Two groups without extent were decided above, so the longer one has two points at least.
   if (longest_side(a.box) < longest_side(b.box)) std::swap(a, b);
   auto [near, far] = split(a);
   if (least_squared_distance(far.box, b.box) < least_squared_distance(near.box, b.box)) std::swap(near, far);
-  return any_link(near, b, r2) || any_link(far, b, r2);
+  return any_link_of_groups(near, b, r2) || any_link_of_groups(far, b, r2);
 }
 
-template bool any_link(PointGroup<float>, PointGroup<float>, float);
-template bool any_link(PointGroup<double>, PointGroup<double>, double);
+template <typename T>
+Group<T> copy_of(const PointRun<T>& run, std::vector<Point<T>>& copy) {
+  copy.assign(run.points, run.points + run.count);
+  return {copy.data(), run.count, box_of(run.points, run.count)};
+}
+
+template <typename T>
+struct Nearest {
+  const Point<T>* point;
+  T squared_distance;
+};
+
+template <typename T>
+Nearest<T> nearest(const PointRun<T>& run, const Point<T>& to) {
+  Nearest<T> best{run.points, squared_distance(run.points[0], to)};
+  for (const Point<T>* p = run.points + 1; p != run.points + run.count; ++p) {
+    const T d2 = squared_distance(*p, to);
+    if (d2 < best.squared_distance) best = {p, d2};
+  }
+  return best;
+}
+
+// Whether there is a link from the point of a that is nearest to some point of b. Most links are found so.
+template <typename T>
+bool is_soon_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
+  const Nearest<T> of_a = nearest(a, *b.points);
+  return of_a.squared_distance < r2 || nearest(b, *of_a.point).squared_distance < r2;
+}
+
+}  // namespace
+
+template <typename T>
+bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
+  if (is_soon_linked(a, b, r2)) return true;
+  return any_link_of_groups(copy_of(a, scratch.a), copy_of(b, scratch.b), r2);
+}
+
+template bool any_link_of_many(PointRun<float>, PointRun<float>, float, LinkScratch<float>&);
+template bool any_link_of_many(PointRun<double>, PointRun<double>, double, LinkScratch<double>&);
 
 }  // namespace pcl_bv

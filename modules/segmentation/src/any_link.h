@@ -5,26 +5,53 @@
 // sheets barely out of each other's reach would cost.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "distance.h"
 
 namespace pcl_bv {
 
-/// Points in a row with their box. The order of the points means nothing; any_link() changes it.
+/// Points in a row.
 template <typename T>
-struct PointGroup {
-  Point<T>* points;
+struct PointRun {
+  const Point<T>* points;
   std::size_t count;
-  Box<T> box;
 };
 
-/// Whether squared_distance(p, q) < r2 for some p of a and q of b. Neither is empty.
-///
-/// Descends into both groups as into kd-trees built on the way: about m^1.5 tests for two parallel sheets of
-/// m points each, a handful when the groups are clearly near or apart.
+/// Room for copies of two runs.
 template <typename T>
-bool any_link(PointGroup<T> a, PointGroup<T> b, T r2);
+struct LinkScratch {
+  std::vector<Point<T>> a, b;
+};
 
-extern template bool any_link(PointGroup<float>, PointGroup<float>, float);
-extern template bool any_link(PointGroup<double>, PointGroup<double>, double);
+/// The same as any_link(), by looking at the points of each run that are nearest to some of the other, and
+/// then by descending into both runs as into kd-trees built on the way: about m^1.5 tests for two parallel
+/// sheets of m points each.
+template <typename T>
+bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch);
+
+extern template bool any_link_of_many(PointRun<float>, PointRun<float>, float, LinkScratch<float>&);
+extern template bool any_link_of_many(PointRun<double>, PointRun<double>, double, LinkScratch<double>&);
+
+/// The same as any_link(), by testing pairs until one is linked.
+template <typename T>
+bool any_link_of_few(PointRun<T> a, PointRun<T> b, T r2) {
+  for (std::size_t i = 0; i < a.count; ++i) {
+    for (std::size_t j = 0; j < b.count; ++j) {
+      if (squared_distance(a.points[i], b.points[j]) < r2) return true;
+    }
+  }
+  return false;
+}
+
+/// Below so many pairs, testing them all is cheaper than splitting.
+inline constexpr std::size_t few_pairs = 256;
+
+/// Whether squared_distance(p, q) < r2 for some p of a and q of b. Neither is empty.
+template <typename T>
+bool any_link(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
+  return a.count * b.count <= few_pairs ? any_link_of_few(a, b, r2) : any_link_of_many(a, b, r2, scratch);
+}
 
 }  // namespace pcl_bv

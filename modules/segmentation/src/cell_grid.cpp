@@ -4,6 +4,7 @@
 // The rare and the once-a-call half of the cell grid.
 #include "cell_grid.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace pcl_bv {
@@ -18,10 +19,14 @@ std::int64_t far_cell_number(double cells) {
 }
 
 void CellGrid::add_axis(std::size_t axis, double min, double max) {
-  origin[axis] = cell_number(min, inverse_side) - 2;
+  constexpr std::int64_t spare = 4;  // A block's worth of cells.
+  const std::int64_t low = cell_number(min, inverse_side);
+  const std::int64_t high = cell_number(max, inverse_side);
+  origin[axis] = low - spare;
   shift[axis] = key_bits;
-  const std::int64_t last = cell_number(max, inverse_side) + 2 - origin[axis];
-  key_bits += static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(last)));
+  const std::int64_t last_block = (high + spare - origin[axis]) / 4;
+  key_bits += static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(last_block)));
+  near = near && static_cast<double>(std::max(std::abs(low), std::abs(high))) < near_cells;
 }
 
 }  // namespace pcl_bv

@@ -1,49 +1,64 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The occupied cells of a cloud and their joining into components.
+// The occupied cells of a cloud.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "block_index.h"
 #include "cell_grid.h"
 #include "distance.h"
 #include "radix_sort.h"
-#include "union_find.h"
 
 namespace pcl_bv {
 
-/// Points by cell. All points of a cell belong together.
+/// Number of bits set: twelve instructions inline, where a call would be made for x86-64 without POPCNT.
+inline std::uint32_t count_bits(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x5555555555555555U;
+  bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fU;
+  return static_cast<std::uint32_t>(bits * 0x0101010101010101U >> 56);
+}
+
+/// 4 x 4 x 4 cells, those that hold points numbered in the order of their bits.
+struct Block {
+  std::uint64_t occupied = 0;    ///< A bit for each cell that holds points.
+  std::uint32_t first_cell = 0;  ///< Number of the first of them.
+  bool united = false;           ///< Whether all points of the block are known to belong together.
+
+  std::uint32_t cell(unsigned bit) const {
+    return first_cell + count_bits(occupied & ((std::uint64_t{1} << bit) - 1));
+  }
+};
+
+/// Points by cell.
 template <typename T>
 struct Cells {
-  std::vector<Point<T>> points;              ///< Cell by cell.
-  std::vector<std::uint32_t> begin;          ///< Where each cell begins in `points`; size() + 1 entries.
-  std::vector<Box<T>> boxes;                 ///< Of each cell's points.
-  std::vector<std::uint32_t> cell_of_point;  ///< By position in the array that the cells were made from.
+  std::vector<Point<T>> points;      ///< Cell by cell.
+  std::vector<std::uint32_t> begin;  ///< Where each cell begins in `points`; one entry more than cells.
+  std::vector<Block> blocks;         ///< By ascending key.
+  std::vector<std::uint32_t> node;   ///< Of each point of the array that the cells were made from.
+  bool by_point = false;             ///< Nodes are places in `points` if true, else cells.
 
-  std::uint32_t size() const { return static_cast<std::uint32_t>(boxes.size()); }
-  std::uint32_t count(std::uint32_t cell) const { return begin[cell + 1] - begin[cell]; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(begin.size() - 1); }
 };
 
 /// Keys of one width, and the room to sort them.
 template <typename Key>
-struct CellKeys {
-  std::vector<Key> keys;  ///< Of each cell, ascending.
+struct BlockKeys {
+  std::vector<Key> keys;  ///< Of each block, ascending.
   std::vector<KeyedPoint<Key>> order, spare;
+  BlockIndex<Key> index;
+  std::vector<std::uint32_t> block_of_point, rank;
+  std::vector<std::uint8_t> bit_of_point;
+  std::vector<std::uint64_t> occupied;  ///< By number in `index`.
 };
 
-/// Sorts the points into cells of `grid`. Where rounding lets two points of a grid cell be r apart after all
-/// (squares near the smallest float, doubles 10^12 cells out), each of its points becomes a cell with the
-/// same key.
+/// Sorts the points into the cells of `grid`; within a cell they keep their order. Reads cells.by_point.
 template <typename T, typename Key>
-void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, T r2, Cells<T>& cells,
-                CellKeys<Key>& keys);
-
-/// Joins in `sets`, which holds each cell by itself, the cells that have linked points. A pair d2 < r2 may
-/// span two cells along each axis, so all 124 neighbours are asked. The order of points within a cell
-/// changes.
-template <typename T, typename Key>
-void join_cells(const CellGrid& grid, T r2, Cells<T>& cells, const std::vector<Key>& keys, UnionFind& sets);
+void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, Cells<T>& cells,
+                BlockKeys<Key>& keys);
 
 }  // namespace pcl_bv

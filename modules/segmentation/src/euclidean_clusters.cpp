@@ -13,6 +13,7 @@
 
 #include "cells.h"
 #include "gather.h"
+#include "join_cells.h"
 #include "pcl_bv/kernels/float_environment.h"
 
 namespace pcl_bv {
@@ -23,25 +24,32 @@ template <typename T>
 struct PointScratch {
   ValidPoints<T> valid;
   Cells<T> cells;
+  JoinScratch<T> join;
 };
 
 struct Component {
   std::uint32_t root, size, first_point;
 };
 
-// Components by cell, and where the next index of each goes.
+// Components by root, and where the next index of each goes.
 struct Collector {
-  std::vector<std::uint32_t> size;  // Points of each root's component.
-  std::vector<std::size_t> next;    // By root; `unseen` before, `dropped` if of a size not wanted.
+  std::vector<std::uint32_t> size;
+  std::vector<std::uint32_t> next;  // `unseen` before, `dropped` if of a size not wanted.
   std::vector<Component> kept;
 };
-constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t dropped = unseen - 1;
+constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t dropped = unseen - 1;
 
-void check(float tolerance) {
-  if (tolerance > 0 && std::isfinite(tolerance)) return;
+void check(const ClusterSettings& settings) {
   std::ostringstream message;
-  message << "cluster tolerance is " << tolerance << ", must be finite and greater than 0";
+  if (!(settings.tolerance > 0 && std::isfinite(settings.tolerance))) {
+    message << "cluster tolerance is " << settings.tolerance << ", must be finite and greater than 0";
+  } else if (settings.min_size > settings.max_size) {
+    message << "cluster min_size is " << settings.min_size << ", must be at most max_size, "
+            << settings.max_size;
+  } else {
+    return;
+  }
   throw std::invalid_argument(message.str());
 }
 
@@ -55,27 +63,31 @@ double inverse_cell_side(T r2) {
   return std::sqrt(3.0) * (1 + 1e-6) / reach;
 }
 
+// Whether all pairs of points in a cell are linked for certain: the margin of the cells' side covers the
+// rounding of d2 where it is relative to d2, and that of where cells end.
+template <typename T>
+bool cells_are_solid(const CellGrid& grid, T r2) {
+  return grid.near && r2 >= T(1e-30) && r2 <= T(1e30);
+}
+
 template <typename T, typename Key>
-void find_components(PointScratch<T>& scratch, const CellGrid& grid, T r2, CellKeys<Key>& keys,
-                     UnionFind& sets) {
-  make_cells(scratch.valid.points, grid, r2, scratch.cells, keys);
-  sets.reset(scratch.cells.size());
-  if (r2 > 0) join_cells(grid, r2, scratch.cells, keys.keys, sets);
+void find_components(PointScratch<T>& scratch, const CellGrid& grid, T r2, const ParallelPolicy& policy,
+                     BlockKeys<Key>& keys, UnionFind& sets) {
+  scratch.cells.by_point = !cells_are_solid(grid, r2);
+  make_cells(scratch.valid.points, grid, scratch.cells, keys);
+  join_cells(grid, r2, policy, keys.keys, scratch.cells, sets, scratch.join);
 }
 
 // Sizes, and the components to keep in the order of the result.
-template <typename T>
-void select(const Cells<T>& cells, UnionFind& sets, const ClusterSettings& settings, Collector& collector,
-            Clusters& clusters) {
-  collector.size.assign(cells.size(), 0);
-  for (std::uint32_t cell = 0; cell < cells.size(); ++cell) {
-    collector.size[sets.find(cell)] += cells.count(cell);
-  }
-  collector.next.assign(cells.size(), unseen);
+void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
+            const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
+  collector.size.assign(roots.size(), 0);
+  for (const std::uint32_t n : node)
+    ++collector.size[roots[n]];
+  collector.next.assign(roots.size(), unseen);
   collector.kept.clear();
-  const auto n = static_cast<std::uint32_t>(cells.cell_of_point.size());
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t root = sets.find(cells.cell_of_point[i]);
+  for (std::uint32_t i = 0; i < node.size(); ++i) {
+    const std::uint32_t root = roots[node[i]];
     if (collector.next[root] != unseen) continue;
     collector.next[root] = dropped;
     const std::uint32_t size = collector.size[root];
@@ -92,15 +104,17 @@ void select(const Cells<T>& cells, UnionFind& sets, const ClusterSettings& setti
   });
 }
 
-void write(const std::vector<std::uint32_t>& cell_of_point, const std::vector<std::int32_t>& numbers,
-           UnionFind& sets, Collector& collector, Clusters& clusters) {
+void write(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
+           const std::vector<std::int32_t>& numbers, Collector& collector, Clusters& clusters) {
+  std::uint32_t end = 0;
   for (const Component& component : collector.kept) {
-    collector.next[component.root] = clusters.offsets.back();
-    clusters.offsets.push_back(clusters.offsets.back() + component.size);
+    collector.next[component.root] = end;
+    end += component.size;
+    clusters.offsets.push_back(end);
   }
-  clusters.indices.resize(clusters.offsets.back());
+  clusters.indices.resize(end);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    std::size_t& next = collector.next[sets.find(cell_of_point[i])];
+    std::uint32_t& next = collector.next[roots[node[i]]];
     if (next != dropped) clusters.indices[next++] = numbers[i];
   }
 }
@@ -109,17 +123,19 @@ void write(const std::vector<std::uint32_t>& cell_of_point, const std::vector<st
 
 struct EuclideanClusterer::Scratch {
   std::tuple<PointScratch<float>, PointScratch<double>> points;
-  std::tuple<CellKeys<std::uint32_t>, CellKeys<std::uint64_t>, CellKeys<WideKey>> keys;
+  BlockKeys<std::uint64_t> keys;
+  BlockKeys<WideKey> wide_keys;
   UnionFind sets;
   Collector collector;
 
   template <typename T>
-  void extract(const PointView& view, const ClusterSettings& settings, Clusters& clusters);
+  void extract(const PointView& view, const ClusterSettings& settings, const ParallelPolicy& policy,
+               Clusters& clusters);
 };
 
 template <typename T>
 void EuclideanClusterer::Scratch::extract(const PointView& view, const ClusterSettings& settings,
-                                          Clusters& clusters) {
+                                          const ParallelPolicy& policy, Clusters& clusters) {
   auto& scratch = std::get<PointScratch<T>>(points);
   const std::vector<Point<T>>& valid = scratch.valid.points;
   gather(view, scratch.valid);
@@ -127,16 +143,15 @@ void EuclideanClusterer::Scratch::extract(const PointView& view, const ClusterSe
 
   const double r = settings.tolerance;
   const T r2 = static_cast<T>(r * r);
-  const CellGrid grid(box_of(valid.data(), valid.size()), inverse_cell_side(r2));
-  if (grid.key_bits <= 32) {
-    find_components(scratch, grid, r2, std::get<CellKeys<std::uint32_t>>(keys), sets);
-  } else if (grid.key_bits <= 64) {
-    find_components(scratch, grid, r2, std::get<CellKeys<std::uint64_t>>(keys), sets);
+  const CellGrid grid(scratch.valid.box, inverse_cell_side(r2));
+  if (grid.key_bits <= 64) {
+    find_components(scratch, grid, r2, policy, keys, sets);
   } else {
-    find_components(scratch, grid, r2, std::get<CellKeys<WideKey>>(keys), sets);
+    find_components(scratch, grid, r2, policy, wide_keys, sets);
   }
-  select(scratch.cells, sets, settings, collector, clusters);
-  write(scratch.cells.cell_of_point, scratch.valid.numbers, sets, collector, clusters);
+  const std::vector<std::uint32_t>& roots = sets.roots();
+  select(roots, scratch.cells.node, settings, collector, clusters);
+  write(roots, scratch.cells.node, scratch.valid.numbers, collector, clusters);
 }
 
 EuclideanClusterer::EuclideanClusterer() = default;
@@ -144,19 +159,19 @@ EuclideanClusterer::~EuclideanClusterer() = default;
 EuclideanClusterer::EuclideanClusterer(EuclideanClusterer&&) noexcept = default;
 EuclideanClusterer& EuclideanClusterer::operator=(EuclideanClusterer&&) noexcept = default;
 
-void EuclideanClusterer::extract(const PointView& points, const ClusterSettings& settings,
-                                 Clusters& clusters) {
+void EuclideanClusterer::extract(const PointView& points, const ClusterSettings& settings, Clusters& clusters,
+                                 const ParallelPolicy& policy) {
   const FloatEnvironment environment;
-  check(settings.tolerance);
+  check(settings);
   clusters.indices.clear();
   clusters.offsets.assign(1, 0);
   clusters.small_points = 0;
   clusters.large_points = 0;
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
   if (points.scalar == ScalarType::float32) {
-    scratch_->extract<float>(points, settings, clusters);
+    scratch_->extract<float>(points, settings, policy, clusters);
   } else {
-    scratch_->extract<double>(points, settings, clusters);
+    scratch_->extract<double>(points, settings, policy, clusters);
   }
 }
 

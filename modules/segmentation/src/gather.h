@@ -16,6 +16,7 @@ template <typename T>
 struct ValidPoints {
   std::vector<Point<T>> points;
   std::vector<std::int32_t> numbers;      ///< Number in the cloud of each point; strictly ascending.
+  Box<T> box;                             ///< Of the points; of no meaning if there are none.
   std::vector<std::int32_t> sorted_list;  ///< Room for a sorted copy of the view's index list.
 };
 

@@ -1,44 +1,66 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Disjoint sets of cells.
+// Disjoint sets, joined by any number of threads.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace pcl_bv {
 
-/// Disjoint sets of 0 .. n-1. The root of a set is its smallest member, so the outcome does not depend on the
-/// order of the unions.
+/// Disjoint sets of 0 .. n-1. The root of a set is its smallest member, so the outcome depends neither on the
+/// order of the unions nor on who does them.
+///
+/// A parent is smaller than its child and only ever replaced by another ancestor, so that a reader that comes
+/// late finds a longer way to the same root: relaxed order will do (Anderson and Woll 1991).
 class UnionFind {
  public:
+  /// n sets of one.
   void reset(std::size_t n) {
     parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
+  /// Puts a root under another one, not greater, while no other thread knows either.
+  void set_root(std::uint32_t i, std::uint32_t root) { parent_[i] = root; }
+
   std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
+    for (std::uint32_t up = parent(i); up != i;) {
+      const std::uint32_t next = parent(up);
+      if (next != up) reference(i).store(next, std::memory_order_relaxed);
+      i = up;
+      up = next;
     }
     return i;
   }
 
-  /// Whether a and b are known to be in one set without a search; false says nothing.
-  bool surely_united(std::uint32_t a, std::uint32_t b) const { return parent_[a] == parent_[b]; }
-
-  void unite_roots(std::uint32_t a, std::uint32_t b) {
-    if (a < b) {
-      parent_[b] = a;
-    } else {
-      parent_[a] = b;
+  /// Joins the sets of two members.
+  void unite(std::uint32_t a, std::uint32_t b) {
+    for (;;) {
+      a = find(a);
+      b = find(b);
+      if (a == b) return;
+      if (a > b) std::swap(a, b);
+      std::uint32_t expected = b;
+      if (reference(b).compare_exchange_weak(expected, a, std::memory_order_relaxed)) return;
     }
   }
 
+  /// After the last union: every member's root.
+  const std::vector<std::uint32_t>& roots() {
+    for (std::uint32_t& parent : parent_)
+      parent = parent_[parent];  // Parents come first and are done.
+    return parent_;
+  }
+
  private:
+  std::atomic_ref<std::uint32_t> reference(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
+  std::uint32_t parent(std::uint32_t i) { return reference(i).load(std::memory_order_relaxed); }
+
   std::vector<std::uint32_t> parent_;
 };
 

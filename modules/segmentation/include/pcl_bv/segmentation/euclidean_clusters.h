@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -60,7 +61,8 @@ class EuclideanClusterer {
   ///
   /// Throws std::invalid_argument if the tolerance is not finite and > 0, std::length_error if a point number
   /// exceeds 2^31 - 1. Memory is kept for the next call: about 60 bytes a point.
-  void extract(const PointView& points, const ClusterSettings& settings, Clusters& clusters);
+  void extract(const PointView& points, const ClusterSettings& settings, Clusters& clusters,
+               const ParallelPolicy& policy = Serial{});
 
  private:
   struct Scratch;

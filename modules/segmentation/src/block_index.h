@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Numbers for the keys of blocks, in the order in which a sensor meets them.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace pcl_bv {
+
+/// Hash table from a block's key to the block's number. Points come in scan order and mostly stay in the
+/// block of the one before, so this costs less than sorting the points.
+template <typename Key>
+class BlockIndex {
+ public:
+  /// Forgets all keys. The room is that of the last time, as far as it suits so many points.
+  void reset(std::size_t points) {
+    const std::size_t least = std::bit_ceil(std::max<std::size_t>(points / 4, 64));
+    count_ = 0;
+    make_room(std::clamp(slots_.size(), least, 16 * least));
+  }
+
+  /// The key's number: those not seen before get 0, 1, 2, ...
+  std::uint32_t number(Key key) {
+    Slot* slot = find(key);
+    if (slot->number == none) {
+      if (2 * (count_ + 1) > slots_.size()) slot = grow(key);
+      *slot = {key, count_++};
+    }
+    return slot->number;
+  }
+
+ private:
+  struct Slot {
+    Key key;
+    std::uint32_t number;
+  };
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  void make_room(std::size_t slots) {
+    slots_.assign(slots, {0, none});
+    shift_ = 64U - static_cast<unsigned>(std::bit_width(slots - 1));
+  }
+
+  Slot* find(Key key) {
+    std::uint64_t folded = static_cast<std::uint64_t>(key);
+    if constexpr (sizeof(Key) > sizeof folded)
+      folded ^= static_cast<std::uint64_t>(key >> 64) * 0xff51afd7ed558ccdU;
+    std::size_t i = folded * 0x9e3779b97f4a7c15U >> shift_;  // 2^64 / golden section
+    while (slots_[i].number != none && slots_[i].key != key)
+      i = (i + 1) & (slots_.size() - 1);
+    return &slots_[i];
+  }
+
+  Slot* grow(Key key) {
+    old_.swap(slots_);
+    make_room(2 * old_.size());
+    for (const Slot& slot : old_) {
+      if (slot.number != none) *find(slot.key) = slot;
+    }
+    return find(key);
+  }
+
+  std::vector<Slot> slots_, old_;
+  unsigned shift_ = 0;
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace pcl_bv
