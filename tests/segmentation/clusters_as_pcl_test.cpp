@@ -14,6 +14,7 @@
 #include <set>
 #include <string>
 
+#include "pcl_bv/synth/street.h"
 #include "reference.h"
 
 namespace {
@@ -72,6 +73,36 @@ TEST(ClustersAsPcl, OnObjectsInAStreet) {
   }
   for (const float r : {0.1F, 0.2F, 0.3F, 0.5F, 1.F, 2.F})
     expect_as_pcl(cloud, r);
+}
+
+TEST(ClustersAsPcl, OnASweepOfTheStreet) {
+  const SynthCloud sweep = make_street_frame({}, 0).cloud;
+  Cloud<float> whole, above_ground;
+  for (std::size_t i = 0; i < sweep.size(); ++i) {
+    const std::array<float, 3> p{sweep.xyz[3 * i], sweep.xyz[3 * i + 1], sweep.xyz[3 * i + 2]};
+    if (p == std::array<float, 3>{}) continue;  // Rays without a return, over which PCL broods for a second.
+    whole.push_back(p);
+    if (!sweep.ground[i]) above_ground.push_back(p);
+  }
+  ASSERT_GT(above_ground.size(), 40'000U);
+  for (const float r : {0.01F, 0.1F, 0.2F, 0.5F, 1.F})
+    expect_as_pcl(above_ground, r);
+  expect_as_pcl(whole, 0.2F);
+}
+
+TEST(ClustersAsPcl, OnSheetsBarelyApart) {
+  for (const float gap : {0.499F, 0.5F, 0.501F}) {
+    Cloud<float> cloud = uniform_cloud(6000, 1.F, 10);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      cloud[i][2] = 0.2F * cloud[i][0] + (i % 2 ? gap * 1.0198039F : 0.F);
+    expect_as_pcl(cloud, 0.5F);
+  }
+}
+
+TEST(ClustersAsPcl, OnSparseCloudsAndLargeTolerances) {
+  expect_as_pcl(uniform_cloud(3000, 15.F, 11), 0.5F);
+  expect_as_pcl(uniform_cloud(3000, 15.F, 11), 5.F);
+  expect_as_pcl(uniform_cloud(3000, 200.F, 12), 5.F);
 }
 
 TEST(ClustersAsPcl, OnLatticesSpacedByTheTolerance) {

@@ -80,6 +80,13 @@ TEST(EuclideanClusters, RefuseATolerance) {
   }
 }
 
+TEST(EuclideanClusters, RefuseAMinimumAboveTheMaximum) {
+  const Cloud<float> cloud{{0, 0, 0}};
+  Clusters clusters;
+  EuclideanClusterer().extract(view_of(cloud), {1.F, 3, 3}, clusters);
+  EXPECT_THROW(EuclideanClusterer().extract(view_of(cloud), {1.F, 4, 3}, clusters), std::invalid_argument);
+}
+
 TEST(EuclideanClusters, RefusePointNumbersBeyondInt32) {
   const float point[3] = {0, 0, 0};
   PointView view = PointView::of(point, 0, std::size_t{1} << 32);

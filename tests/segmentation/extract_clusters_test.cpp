@@ -183,6 +183,26 @@ TEST(ExtractClusters, RefusesWrongUse) {
     extraction.setClusterTolerance(bad);
     EXPECT_THROW(extraction.extract(clusters), std::invalid_argument) << bad;
   }
+  extraction.setClusterTolerance(1);
+  extraction.setMinClusterSize(3);
+  extraction.setMaxClusterSize(2);
+  EXPECT_THROW(extraction.extract(clusters), std::invalid_argument);
+}
+
+TEST(ExtractClusters, AreTheSameForEveryNumberOfThreads) {
+  pcl_bv::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
+  extraction.setInputCloud(cloud_of<pcl::PointXYZ>(pcl_bv::test::uniform_cloud(30'000, 1.F, 43)));
+  extraction.setClusterTolerance(0.03);
+  std::vector<pcl::PointIndices> expected, clusters;
+  extraction.extract(expected);
+  EXPECT_GT(expected.size(), 100U);
+  for (const unsigned threads : {0U, 2U, 5U}) {
+    extraction.setNumberOfThreads(threads);
+    extraction.extract(clusters);
+    ASSERT_EQ(clusters.size(), expected.size());
+    for (std::size_t i = 0; i < clusters.size(); ++i)
+      EXPECT_EQ(clusters[i].indices, expected[i].indices);
+  }
 }
 
 }  // namespace

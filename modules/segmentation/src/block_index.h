@@ -44,6 +44,7 @@ class BlockIndex {
 
   void make_room(std::size_t slots) {
     slots_.assign(slots, {0, none});
+    old_.reserve(slots / 2);  // So that no later call finds it too small.
     shift_ = 64U - static_cast<unsigned>(std::bit_width(slots - 1));
   }
 
@@ -58,7 +59,7 @@ class BlockIndex {
   }
 
   Slot* grow(Key key) {
-    old_.swap(slots_);
+    old_ = slots_;
     make_room(2 * old_.size());
     for (const Slot& slot : old_) {
       if (slot.number != none) *find(slot.key) = slot;

@@ -68,11 +68,16 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   void setMaxClusterSize(pcl::uindex_t size) { max_size_ = size; }
   pcl::uindex_t getMaxClusterSize() const { return max_size_; }
 
+  /// Threads for extract(): 0 means all processors, 1 (the default) the calling thread. Never changes the
+  /// result.
+  void setNumberOfThreads(unsigned threads) { policy_ = OpenMP{threads}; }
+
   /// Replaces `clusters` with those of the input cloud, or of its points in setIndices() (null: the whole
   /// cloud): largest first, indices ascending, each with the cloud's header. No finite point: no clusters.
   ///
   /// Throws std::logic_error without an input cloud, std::out_of_range for an index outside it,
-  /// std::invalid_argument if the tolerance is not finite and > 0 as a float.
+  /// std::invalid_argument if the tolerance is not finite and > 0 as a float, or the minimum size exceeds the
+  /// maximum.
   void extract(std::vector<pcl::PointIndices>& clusters);
 
  private:
@@ -85,6 +90,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   double tolerance_ = 0;
   pcl::uindex_t min_size_ = 1;
   pcl::uindex_t max_size_ = std::numeric_limits<pcl::uindex_t>::max();
+  ParallelPolicy policy_ = Serial{};
   EuclideanClusterer clusterer_;
   Clusters found_;
 };
@@ -100,7 +106,7 @@ PointView EuclideanClusterExtraction<PointT>::view() const {
 template <typename PointT>
 void EuclideanClusterExtraction<PointT>::extract(std::vector<pcl::PointIndices>& clusters) {
   const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_};
-  clusterer_.extract(view(), settings, found_);
+  clusterer_.extract(view(), settings, found_, policy_);
   clusters.resize(found_.size());
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     clusters[i].header = input_->header;

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a stream of sweeps asks of the clusterer: the same bits from any number of threads, and no memory once
+// it is warm.
+#include <gtest/gtest.h>
+
+#include <latch>
+#include <optional>
+#include <vector>
+
+#include "allocations.h"
+#include "flush_to_zero.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/synth/street.h"
+#include "reference.h"
+
+namespace {
+
+using namespace pcl_bv;
+using namespace pcl_bv::test;
+
+PointView view_of(const SynthCloud& cloud) {
+  return PointView::of(cloud.xyz.data(), 12, cloud.size());
+}
+
+std::vector<SynthCloud> sweeps() {
+  std::vector<SynthCloud> frames;
+  for (const std::size_t points : {64'000U, 24'000U, 128'000U}) {
+    StreetOptions options;
+    options.points = points;
+    frames.push_back(make_street_frame(options, frames.size()).cloud);
+  }
+  return frames;
+}
+
+template <typename View>
+void expect_the_same_from_threads(const View& points, float tolerance) {
+  SCOPED_TRACE(testing::Message() << points.count << " points, tolerance " << tolerance);
+  Clusters serial, threaded;
+  EuclideanClusterer clusterer;
+  clusterer.extract(points, {tolerance}, serial);
+  for (const unsigned threads : {2U, 3U, 5U}) {
+    for (const ParallelPolicy& policy : {ParallelPolicy(OpenMP{threads}), ParallelPolicy(Threads{threads})}) {
+      SCOPED_TRACE(threads);
+      clusterer.extract(points, {tolerance}, threaded, policy);
+      EXPECT_EQ(threaded.indices, serial.indices);
+      EXPECT_EQ(threaded.offsets, serial.offsets);
+    }
+  }
+}
+
+TEST(ClustersInAStream, AreTheSameFromAnyNumberOfThreads) {
+  for (const SynthCloud& sweep : sweeps()) {
+    for (const float r : {0.1F, 0.3F, 1.F})
+      expect_the_same_from_threads(view_of(sweep), r);
+  }
+  // Sheets that take long to tell apart, doubles whose cells are joined point by point, keys beyond 64 bits.
+  Cloud<float> sheets = uniform_cloud(60'000, 12.F, 3);
+  for (std::size_t i = 0; i < sheets.size(); ++i)
+    sheets[i][2] = i % 2 ? 0.F : 0.505F;
+  expect_the_same_from_threads(test::view_of(sheets), 0.5F);
+  expect_the_same_from_threads(test::view_of(uniform_cloud(30'000, 1e-3, 4, {4e5, 5e6, 100.0})), 5e-5F);
+  Cloud<float> wide = uniform_cloud(30'000, 1.F, 5);
+  wide.push_back({3e37F, -3e37F, 3e37F});
+  expect_the_same_from_threads(test::view_of(wide), 0.02F);
+}
+
+thread_local std::optional<FlushToZero> flush_to_zero;
+
+// Calls body in each of three threads of OpenMP's pool, this one among them: none leaves before all are
+// there.
+template <typename Body>
+void in_each_thread(Body body) {
+  constexpr unsigned threads = 3;
+  std::latch arrived(threads);
+  for_each_chunk(OpenMP{threads}, threads, [&](std::size_t) {
+    arrived.arrive_and_wait();
+    body();
+  });
+}
+
+TEST(ClustersInAStream, KeepDenormalsOnThreadsThatFlushThem) {
+  const Cloud<float> cloud = uniform_cloud(30'000, 1e-19F, 6);
+  Clusters expected, found;
+  EuclideanClusterer().extract(test::view_of(cloud), {5e-22F}, expected);
+  EXPECT_LT(expected.size(), cloud.size());
+  in_each_thread([] { flush_to_zero.emplace(); });
+  EuclideanClusterer().extract(test::view_of(cloud), {5e-22F}, found, OpenMP{3});
+  in_each_thread([] { flush_to_zero.reset(); });
+  EXPECT_EQ(found.indices, expected.indices);
+  EXPECT_EQ(found.offsets, expected.offsets);
+}
+
+TEST(ClustersInAStream, TakeNoMemoryInTheSecondPass) {
+  const std::vector<SynthCloud> frames = sweeps();
+  for (const ParallelPolicy& policy : {ParallelPolicy(Serial{}), ParallelPolicy(OpenMP{2})}) {
+    EuclideanClusterer clusterer;
+    Clusters clusters;
+    std::size_t before = 0;
+    for (int pass = 0; pass < 3; ++pass) {
+      if (pass == 1) before = allocations();
+      for (const SynthCloud& frame : frames) {
+        for (const float r : {0.1F, 0.5F})
+          clusterer.extract(view_of(frame), {r, 10}, clusters, policy);
+      }
+    }
+    EXPECT_EQ(allocations(), before);
+    EXPECT_GT(clusters.size(), 10U);
+  }
+}
+
+}  // namespace
