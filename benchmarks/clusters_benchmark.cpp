@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Euclidean clusters beside other people's, both sides in turns (timing.h: the counter `ratio` says how many
+// times faster ours is), after a check that both find the same. Rows are named
+// over-PEER/SCENE/n:POINTS/r:TOLERANCE.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "cluster_peers.h"
+#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/synth/street.h"
+#include "timing.h"
+
+namespace pcl_bv::bench {
+namespace {
+
+/// Scenes: "street" (a LiDAR sweep above ground), "street-whole" (with its ground), "sheets" (two, dense,
+/// just out of reach of 0.5 m), "sparse" (hardly a point within 0.5 m of another). `size` is rays for the
+/// first two.
+struct Scene {
+  std::string name;
+  std::size_t size;
+};
+
+ClusterCloud::Ptr street(std::size_t rays, bool with_ground) {
+  StreetOptions options;
+  options.points = rays;
+  const SynthCloud sweep = make_street_frame(options, 0).cloud;
+  const auto cloud = std::make_shared<ClusterCloud>();
+  for (std::size_t i = 0; i < sweep.size(); ++i) {
+    const float* const p = &sweep.xyz[3 * i];
+    const bool returned =
+        p[0] != 0 || p[1] != 0 || p[2] != 0;  // PCL takes seconds over the copies of (0, 0, 0).
+    if (returned && (with_ground || sweep.ground[i] == 0)) cloud->push_back({p[0], p[1], p[2]});
+  }
+  return cloud;
+}
+
+ClusterCloud::Ptr scattered(std::size_t points, float half_side, bool as_sheets) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> coordinate(-half_side, half_side);
+  const auto cloud = std::make_shared<ClusterCloud>();
+  for (std::size_t i = 0; i < points; ++i) {
+    const float x = coordinate(random), y = coordinate(random), z = coordinate(random);
+    cloud->push_back({x, y, as_sheets ? (i % 2 ? 0.505F : 0.F) : z});
+  }
+  return cloud;
+}
+
+ClusterCloud::Ptr make(const Scene& scene) {
+  if (scene.name == "sheets") return scattered(scene.size, 5, true);
+  if (scene.name == "sparse") return scattered(scene.size, std::cbrt(static_cast<float>(scene.size)), false);
+  return street(scene.size, scene.name == "street-whole");
+}
+
+ClusterSets sorted(ClusterSets sets) {
+  std::sort(sets.begin(), sets.end());
+  return sets;
+}
+
+class Ours {
+ public:
+  Ours(const ClusterCloud& cloud, float tolerance, ParallelPolicy policy)
+      : view_(point_view(cloud)), tolerance_(tolerance), policy_(policy) {}
+
+  void operator()() { clusterer_.extract(view_, {tolerance_}, clusters_, policy_); }
+
+  ClusterSets sets() const {
+    ClusterSets all;
+    for (std::size_t i = 0; i < clusters_.size(); ++i)
+      all.emplace_back(clusters_.cluster(i), clusters_.cluster(i) + clusters_.cluster_size(i));
+    return all;
+  }
+
+ private:
+  PointView view_;
+  float tolerance_;
+  ParallelPolicy policy_;
+  EuclideanClusterer clusterer_;
+  Clusters clusters_;
+};
+
+// Registers a comparison of what first(cloud) returns with ours.
+template <typename MakeFirst>
+void add(const std::string& comparison, const Scene& scene, float tolerance, const ParallelPolicy& policy,
+         int pairs, MakeFirst make_first) {
+  const std::string points = std::to_string(make(scene)->size());
+  const std::string row =
+      comparison + '/' + scene.name + "/n:" + points + "/r:" + std::to_string(tolerance).substr(0, 3);
+  benchmark::RegisterBenchmark(row.c_str(),
+                               [=](benchmark::State& state) {
+                                 const ClusterCloud::ConstPtr cloud = make(scene);
+                                 Ours ours(*cloud, tolerance, policy);
+                                 ours();
+                                 compare(state, make_first(cloud, ours), ours);
+                                 state.counters["clusters"] = static_cast<double>(ours.sets().size());
+                               })
+      ->Iterations(pairs)
+      ->Repetitions(1)
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
+}
+
+void over_peers(const Scene& scene, float tolerance, int pairs) {
+  for (const ClusterPeer& peer : cluster_peers()) {
+    add("over-" + peer.name, scene, tolerance, Serial{}, pairs,
+        [=](const ClusterCloud::ConstPtr& cloud, const Ours& ours) {
+          if (sorted(peer.run(cloud, tolerance)) != sorted(ours.sets())) {
+            throw std::runtime_error(peer.name + " finds other clusters in " + scene.name);
+          }
+          return [=] { peer.run(cloud, tolerance); };
+        });
+  }
+}
+
+void two_threads(const Scene& scene, float tolerance) {
+  add("two-threads", scene, tolerance, OpenMP{2}, kPairs,
+      [=](const ClusterCloud::ConstPtr& cloud, const Ours&) {
+        return [cloud, one = std::make_shared<Ours>(*cloud, tolerance, Serial{})] { (*one)(); };
+      });
+}
+
+void register_all() {
+  for (const float r : {0.1F, 0.2F, 0.5F, 1.F}) {
+    for (const std::size_t rays : {56'000U, 128'000U})  // 19 k and 43 k points
+      over_peers({"street", rays}, r, 5);
+    over_peers({"street", 300'000}, r, 3);  // 100 k points
+    over_peers({"street", 900'000}, r, 1);  // 300 k points
+    over_peers({"street-whole", 128'000}, r, 3);
+    two_threads({"street-whole", 128'000}, r);
+  }
+  for (const std::size_t points : {20'000U, 100'000U, 300'000U}) {
+    over_peers({"sparse", points}, 0.5F, 3);
+    two_threads({"sparse", points}, 0.5F);
+    two_threads({"sheets", points}, 0.5F);
+  }
+  over_peers({"sheets", 20'000}, 0.5F, 3);  // Where a search finds thousands of neighbours.
+}
+
+}  // namespace
+}  // namespace pcl_bv::bench
+
+int main(int argc, char** argv) {
+  pcl_bv::bench::register_all();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
