@@ -7,18 +7,11 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <stdexcept>
-#include <string>
+
+#include "ground_checks.h"
 
 namespace pcl_bv {
 namespace {
-
-void check_numbers(const PointView& view) {
-  constexpr std::size_t max_number = std::numeric_limits<std::int32_t>::max();
-  if (view.indices || view.empty() || view.first + view.count - 1 <= max_number) return;
-  throw std::length_error("point number " + std::to_string(view.first + view.count - 1) +
-                          " does not fit an index of a cluster (0 .. 2147483647)");
-}
 
 // The same points in strictly ascending order.
 PointView ascending(const PointView& view, std::vector<std::int32_t>& sorted_list) {

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "ground_checks.h"
 #include "ground_sample.h"
 #include "pcl_bv/kernels/float_environment.h"
 #include "plane_search.h"
@@ -19,30 +19,11 @@ namespace {
 
 constexpr std::array<std::string_view, 6> axis_names{"x", "y", "z", "-x", "-y", "-z"};
 
-void require(bool in_range, const char* name, double value, const char* range) {
-  if (in_range) return;
-  throw std::invalid_argument(std::string("ground plane: ") + name + " is " + std::to_string(value) +
-                              ", must be " + range);
-}
-
 void check(const GroundPlaneSettings& settings) {
-  constexpr double largest = std::numeric_limits<double>::max();
-  const double sensor_height = settings.sensor_height.value_or(0);
-  require(settings.distance > 0 && settings.distance <= largest, "distance", settings.distance,
-          "finite and greater than 0");
-  require(settings.max_slope_degrees >= 0 && settings.max_slope_degrees <= 89, "max_slope_degrees",
-          settings.max_slope_degrees, "0 to 89");
-  require(sensor_height >= 0 && sensor_height <= largest, "sensor_height", sensor_height,
-          "finite and at least 0");
-  require(settings.iterations >= 1 && settings.iterations <= 1'000'000, "iterations", settings.iterations,
-          "1 to 1000000");
-}
-
-void check_numbers(const PointView& points) {
-  constexpr std::size_t max_number = std::numeric_limits<std::int32_t>::max();
-  if (points.indices || points.empty() || points.first + points.count - 1 <= max_number) return;
-  throw std::length_error("point number " + std::to_string(points.first + points.count - 1) +
-                          " does not fit an index (0 .. 2147483647)");
+  constexpr const char* who = "ground plane";
+  check_ground(who, settings.distance, settings.max_slope_degrees, settings.sensor_height);
+  require(settings.iterations >= 1 && settings.iterations <= 1'000'000, who, "iterations",
+          settings.iterations, "1 to 1000000");
 }
 
 // Every number is written to both lists, and kept in one by moving its end: half the time of a branch that a

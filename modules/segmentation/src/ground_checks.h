@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What both ways of finding the ground refuse.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv {
+
+/// Throws std::invalid_argument naming `who`, the setting, its value and the range.
+inline void require(bool in_range, const char* who, const char* name, double value, const char* range) {
+  if (in_range) return;
+  throw std::invalid_argument(std::string(who) + ": " + name + " is " + std::to_string(value) + ", must be " +
+                              range);
+}
+
+/// The settings that both have.
+inline void check_ground(const char* who, double distance, double max_slope_degrees,
+                         std::optional<double> sensor_height) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const double height = sensor_height.value_or(0);
+  require(distance > 0 && distance <= largest, who, "distance", distance, "finite and greater than 0");
+  require(max_slope_degrees >= 0 && max_slope_degrees <= 89, who, "max_slope_degrees", max_slope_degrees,
+          "0 to 89");
+  require(height >= 0 && height <= largest, who, "sensor_height", height, "finite and at least 0");
+}
+
+/// Throws std::length_error if a point number does not fit an index. Lists hold such numbers only.
+inline void check_numbers(const PointView& points) {
+  constexpr std::size_t max_number = std::numeric_limits<std::int32_t>::max();
+  if (points.indices || points.empty() || points.first + points.count - 1 <= max_number) return;
+  throw std::length_error("point number " + std::to_string(points.first + points.count - 1) +
+                          " does not fit an index (0 .. 2147483647)");
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A histogram of heights over the expected plane says where the ground is, least squares how it lies.
+#include "patch_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double bin_height = 0.1;  // metres; a layer is two bins thick
+constexpr std::size_t max_bins = 24;
+constexpr std::size_t bins_above = 8;
+constexpr std::uint32_t min_points = 6;
+
+// The lowest layer with a quarter of the points of the fullest one: reflections below the ground are fewer.
+constexpr double least_share = 0.25;
+
+// Points of a fit are so far below the plane at most, and half as far above it, where feet of walls and
+// hedges are: of the layer, then of the first fit. A curb passes.
+constexpr double layer_reach = 0.2;
+constexpr double plane_reach = 0.15;
+
+// The tilt expected is worth as much as points whose squared distances from the centre add up to this: a
+// constant, so that a single scan line, which says nothing of the tilt across, keeps it; and a share per
+// point, so that one patch with half a curb or hedge in it does not send its outer neighbours up. m^2.
+constexpr double tilt_weight = 2;
+constexpr double tilt_weight_per_point = 0.3;
+
+double above(const Slope& plane, const GroundPoint& p) {
+  return p.height - plane.height(p.u, p.v);
+}
+
+// Points by height above the expected plane less gate.
+struct Histogram {
+  std::array<std::uint32_t, max_bins + bins_above> count{};
+  std::size_t bins;  // In which a layer may begin or end.
+
+  std::uint32_t layer(std::size_t i) const { return count[i] + count[i + 1]; }
+
+  // Walls, hedges and cars are as full over the layer as in it; over the ground is little.
+  bool is_ground(std::size_t i) const {
+    std::uint32_t higher = 0;
+    for (std::size_t k = i + 2; k < i + 2 + bins_above && k < count.size(); ++k)
+      higher += count[k];
+    return layer(i) >= higher;
+  }
+};
+
+Histogram histogram(const Patch& patch, const Slope& expected, double gate) {
+  Histogram heights;
+  heights.bins = std::min(max_bins, static_cast<std::size_t>(std::ceil(2 * gate / bin_height)));
+  for (std::size_t i = 0; i < patch.count; ++i) {
+    const double bin = (above(expected, patch.points[i]) + gate) / bin_height;
+    if (bin >= 0 && bin < static_cast<double>(heights.bins + bins_above))
+      ++heights.count[static_cast<std::size_t>(bin)];
+  }
+  return heights;
+}
+
+// Height of the ground's layer's middle above the expected plane.
+std::optional<double> lowest_layer(const Histogram& heights, double gate) {
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i + 1 < heights.bins; ++i)
+    most = std::max(most, heights.layer(i));
+  const double enough = std::max<double>(min_points, least_share * most);
+  for (std::size_t i = 0; i + 1 < heights.bins; ++i) {
+    if (heights.layer(i) < enough) continue;
+    while (i + 2 < heights.bins && heights.layer(i + 1) > heights.layer(i))
+      ++i;
+    if (heights.is_ground(i)) return static_cast<double>(i + 1) * bin_height - gate;
+  }
+  return {};
+}
+
+// Least squares of the points within `reach` of `guess`, as a change of `expected` with the slopes of which
+// it is reluctant to part.
+std::optional<Slope> fit(const Patch& patch, const Slope& expected, const Slope& guess, double reach) {
+  double n = 0, u1 = 0, v1 = 0, uu = 0, uv = 0, vv = 0, h1 = 0, uh = 0, vh = 0;
+  for (std::size_t i = 0; i < patch.count; ++i) {
+    const GroundPoint& p = patch.points[i];
+    const double residual = above(guess, p);
+    if (!(residual >= -reach && residual <= 0.5 * reach)) continue;
+    const double u = p.u - patch.center_u, v = p.v - patch.center_v, h = above(expected, p);
+    n += 1, u1 += u, v1 += v, h1 += h;
+    uu += u * u, uv += u * v, vv += v * v;
+    uh += u * h, vh += v * h;
+  }
+  if (n < min_points) return {};
+  const double mean_u = u1 / n, mean_v = v1 / n, mean_h = h1 / n;
+  const double weight = tilt_weight + tilt_weight_per_point * n;
+  uu += weight - u1 * mean_u;
+  vv += weight - v1 * mean_v;
+  uv -= u1 * mean_v;
+  uh -= u1 * mean_h;
+  vh -= v1 * mean_h;
+  const double determinant = uu * vv - uv * uv;
+  const double du = (uh * vv - vh * uv) / determinant;
+  const double dv = (vh * uu - uh * uv) / determinant;
+  const double offset = (mean_h - du * (patch.center_u + mean_u)) - dv * (patch.center_v + mean_v);
+  return Slope{expected.offset + offset, expected.slope_u + du, expected.slope_v + dv};
+}
+
+}  // namespace
+
+std::optional<Slope> fit_patch(const Patch& patch, const Slope& expected, double gate, double max_slope) {
+  if (patch.count < min_points) return {};
+  const std::optional<double> layer = lowest_layer(histogram(patch, expected, gate), gate);
+  if (!layer) return {};
+  const Slope level{expected.offset + *layer, expected.slope_u, expected.slope_v};
+  std::optional<Slope> plane = fit(patch, expected, level, layer_reach);
+  if (plane) plane = fit(patch, expected, *plane, plane_reach);
+  if (!plane) return {};
+  const double step =
+      plane->height(patch.center_u, patch.center_v) - expected.height(patch.center_u, patch.center_v);
+  const double slope2 = plane->slope_u * plane->slope_u + plane->slope_v * plane->slope_v;
+  if (!(std::abs(step) <= gate && slope2 <= max_slope * max_slope)) return {};
+  return plane;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,304 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The ground of many planes on scenes whose ground is known by construction: a sensor 1.7 m above it.
+#include "pcl_bv/segmentation/ground_zones.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "allocations.h"
+#include "ground_scenes.h"
+
+namespace pcl_bv {
+namespace {
+
+using Height = double (*)(double, double);
+
+// The rings of a sensor's beams on ground of the given height, noise of 1 cm, out to 70 m.
+Cloud<float> ground_of(Height height) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Cloud<float> cloud;
+  for (double radius = 3; radius < 70; radius *= 1.04) {
+    for (int i = 0; i < 500; ++i) {
+      const double angle = (i + unit(random)) * 0.0125664, r = radius * (1 + 0.02 * unit(random));
+      const double x = r * std::cos(angle), y = r * std::sin(angle);
+      cloud.push_back({static_cast<float>(x), static_cast<float>(y),
+                       static_cast<float>(height(x, y) + 0.01 * unit(random))});
+    }
+  }
+  return cloud;
+}
+
+// Boxes on the ground, their sides 0.3 m to 2 m above it.
+void add_boxes(Cloud<float>& cloud, Height height) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int box = 0; box < 12; ++box) {
+    const double x = (8 + 4 * box) * std::cos(0.9 * box), y = (8 + 4 * box) * std::sin(0.9 * box);
+    for (int i = 0; i < 200; ++i) {
+      const double px = x + 0.8 * unit(random), py = y + 0.8;
+      cloud.push_back({static_cast<float>(px), static_cast<float>(py),
+                       static_cast<float>(height(px, py) + 1.15 + 0.85 * unit(random))});
+    }
+  }
+}
+
+GroundSplit split(const PointView& points, const GroundZonesSettings& settings = {}) {
+  GroundSplit result;
+  GroundZones().split(points, settings, result);
+  return result;
+}
+
+// Of the ground's points, which come first, at least 99 % are found; of the others none.
+void expect_split(const GroundSplit& result, std::size_t ground, std::size_t all) {
+  ASSERT_TRUE(result.found);
+  EXPECT_EQ(result.ground.size() + result.rest.size(), all);
+  EXPECT_GE(static_cast<double>(result.ground.size()), 0.99 * static_cast<double>(ground));
+  if (!result.ground.empty()) {
+    EXPECT_LT(result.ground.back(), static_cast<std::int32_t>(ground));
+  }
+}
+
+double level(double, double) {
+  return -1.7;
+}
+double hill(double x, double) {
+  return -1.7 + 0.12 * std::max(0.0, x - 15);
+}
+double valley(double x, double y) {
+  return -1.7 - 0.1 * std::max(0.0, std::sqrt(x * x + y * y) - 12);
+}
+double wavy(double x, double y) {
+  return -1.7 + 0.8 * std::sin(0.05 * x) + 0.6 * std::cos(0.06 * y) - 0.6;
+}
+double camber(double x, double y) {
+  return -1.7 + 0.05 * x - 0.08 * y;
+}
+double curb(double, double y) {
+  return y > 4 || y < -3 ? -1.58 : -1.7;
+}
+
+TEST(GroundZones, FollowTheGround) {
+  for (const Height height : {level, hill, valley, wavy, camber, curb}) {
+    SCOPED_TRACE(height(40, 20));
+    Cloud<float> cloud = ground_of(height);
+    const std::size_t ground = cloud.size();
+    add_boxes(cloud, height);
+    expect_split(split(view(cloud)), ground, cloud.size());
+  }
+}
+
+TEST(GroundZones, GoWhereOnePlaneCannot) {
+  for (const Height height : {hill, valley, wavy}) {
+    Cloud<float> cloud = ground_of(height);
+    const std::size_t ground = cloud.size();
+    const GroundSplit plane = split(cloud, GroundPlaneSettings{});
+    EXPECT_LT(static_cast<double>(plane.ground.size()), 0.97 * static_cast<double>(ground)) << height(40, 20);
+  }
+}
+
+TEST(GroundZones, KnowTheHeightOfTheSensor) {
+  const GroundSplit result = split(view(ground_of(camber)));
+  ASSERT_TRUE(result.found);
+  EXPECT_NEAR(-result.offset / result.normal.z(), 1.7, 0.02);
+  EXPECT_NEAR(-result.normal.x() / result.normal.z(), 0.05, 0.005);
+  EXPECT_NEAR(-result.normal.y() / result.normal.z(), -0.08, 0.005);
+  EXPECT_NEAR(result.normal.norm(), 1, 1e-12);
+}
+
+TEST(GroundZones, TakeAWrongSensorHeightAsAHint) {
+  for (const double height : {1.4, 1.7, 2.0}) {
+    SCOPED_TRACE(height);
+    Cloud<float> cloud = ground_of(hill);
+    const std::size_t ground = cloud.size();
+    add_boxes(cloud, hill);
+    GroundZonesSettings settings;
+    settings.sensor_height = height;
+    expect_split(split(view(cloud), settings), ground, cloud.size());
+  }
+}
+
+TEST(GroundZones, TakeReflectionsBelowAsGroundButAreNotDrawnDownByThem) {
+  Cloud<float> cloud = ground_of(camber);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  for (int i = 0; i < 3000; ++i) {
+    const float x = 25 * unit(random), y = 25 * unit(random);
+    cloud.push_back({x, y, static_cast<float>(camber(x, y)) - 2 + 1.5F * unit(random)});
+  }
+  const std::size_t low = cloud.size();
+  add_boxes(cloud, camber);
+  expect_split(split(view(cloud)), low, cloud.size());
+}
+
+TEST(GroundZones, DoNotTakeAWallsFootForGround) {
+  Cloud<float> cloud = ground_of(level);
+  std::erase_if(cloud, [](const auto& p) { return p[1] > 6; });
+  const std::size_t ground = cloud.size();
+  for (float x = -20; x < 20; x += 0.05F) {
+    for (float z = -1.6F; z < 1; z += 0.05F)  // 0.1 m above the ground and more
+      cloud.push_back({x, 6, z});
+  }
+  expect_split(split(view(cloud)), ground, cloud.size());
+}
+
+TEST(GroundZones, AreNoneWithoutPoints) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const Cloud<float>& cloud :
+       {Cloud<float>{}, Cloud<float>{{nan, 0, 0}, {0, INFINITY, 0}}, Cloud<float>{{1, 2, 3}}}) {
+    const GroundSplit result = split(view(cloud));
+    EXPECT_FALSE(result.found);
+    EXPECT_TRUE(result.ground.empty());
+    EXPECT_EQ(result.rest.size(), cloud.size() == 1 ? 1U : 0U);
+    EXPECT_EQ(result.normal, Eigen::Vector3d::Zero());
+  }
+}
+
+TEST(GroundZones, AreAllOfABareField) {
+  const Cloud<float> cloud = ground_of(level);
+  EXPECT_EQ(split(view(cloud)).ground, numbers(0, cloud.size()));
+}
+
+TEST(GroundZones, AreNoneBeforeAWall) {
+  Cloud<float> cloud;
+  for (float y = -10; y < 10; y += 0.1F) {
+    for (float z = -1; z < 3; z += 0.1F)
+      cloud.push_back({7, y, z});
+  }
+  EXPECT_FALSE(split(view(cloud)).found);
+  GroundZonesSettings settings;
+  settings.sensor_height = 1.7;
+  const GroundSplit result = split(view(cloud), settings);
+  EXPECT_TRUE(result.found);  // Level ground 1.7 m below, of which nothing is seen.
+  EXPECT_EQ(result.rest, numbers(0, cloud.size()));
+}
+
+TEST(GroundZones, SkipPointsWithAnyCoordinateNotFinite) {
+  Cloud<float> cloud = ground_of(hill);
+  const GroundSplit before = split(view(cloud));
+  Cloud<float> spoiled;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    spoiled.push_back(cloud[i]);
+    spoiled.push_back({i % 3 == 0 ? NAN : 1.F, i % 3 == 1 ? INFINITY : 1.F, i % 3 == 2 ? -INFINITY : 1.F});
+  }
+  const GroundSplit result = split(view(spoiled));
+  for (const auto* list : {&result.ground, &result.rest}) {
+    for (const std::int32_t i : *list)
+      ASSERT_EQ(i % 2, 0);
+  }
+  EXPECT_EQ(result.ground.size() + result.rest.size(), cloud.size());
+  EXPECT_GE(static_cast<double>(result.ground.size()), 0.99 * static_cast<double>(before.ground.size()));
+}
+
+TEST(GroundZones, FollowTheUpAxis) {
+  Cloud<float> upright = ground_of(camber);
+  const std::size_t ground = upright.size();
+  add_boxes(upright, camber);
+  for (int axis = 0; axis < 6; ++axis) {
+    SCOPED_TRACE(axis);
+    GroundZonesSettings settings;
+    settings.up = static_cast<UpAxis>(axis);
+    Cloud<float> turned;
+    for (const auto& p : upright) {
+      std::array<float, 3> q;
+      q[static_cast<std::size_t>(axis) % 3] = axis < 3 ? p[2] : -p[2];
+      q[static_cast<std::size_t>(axis + 1) % 3] = p[0];
+      q[static_cast<std::size_t>(axis + 2) % 3] = p[1];
+      turned.push_back(q);
+    }
+    const GroundSplit result = split(view(turned), settings);
+    EXPECT_GT(result.normal.dot(up_direction(settings.up)), 0.99);
+    expect_split(result, ground, turned.size());
+  }
+}
+
+TEST(GroundZones, FindTheSensorInTheMapsFrame) {
+  Cloud<float> local = ground_of(wavy);
+  const std::size_t ground = local.size();
+  add_boxes(local, wavy);
+  GroundZonesSettings settings;
+  settings.sensor = {4e5, 5e6, 300};
+  Cloud<double> map;
+  for (const auto& p : local)
+    map.push_back({4e5 + p[0], 5e6 + p[1], 300.0 + p[2]});
+  expect_split(split(view(map), settings), ground, map.size());
+  settings.sensor_height = 1.7;
+  expect_split(split(view(map), settings), ground, map.size());
+}
+
+TEST(GroundZones, NameTheCloudsPointsThroughListsAndSlices) {
+  Cloud<float> cloud = ground_of(hill);
+  const std::size_t ground = cloud.size();
+  add_boxes(cloud, hill);
+  const GroundSplit whole = split(view(cloud));
+  std::vector<std::int32_t> all = numbers(0, cloud.size());
+  PointView listed = view(cloud);
+  listed.indices = all.data();
+  EXPECT_EQ(split(listed).ground, whole.ground);
+  Cloud<float> longer(1000, {0, 0, 50});
+  longer.insert(longer.end(), cloud.begin(), cloud.end());
+  const GroundSplit sliced = split(view(longer).slice(1000, cloud.size()));
+  ASSERT_EQ(sliced.ground.size(), whole.ground.size());
+  for (std::size_t i = 0; i < whole.ground.size(); ++i)
+    ASSERT_EQ(sliced.ground[i], whole.ground[i] + 1000);
+  EXPECT_LT(sliced.ground.back(), static_cast<std::int32_t>(1000 + ground));
+}
+
+TEST(GroundZones, OutliveGreatCoordinates) {
+  Cloud<double> cloud;
+  for (const auto& p : ground_of(level))
+    cloud.push_back({p[0], p[1], p[2]});
+  const std::size_t ground = cloud.size();
+  cloud.push_back({1e99, -1e99, 1e99});
+  cloud.push_back({-3e38, 3e38, 1});
+  const GroundSplit result = split(view(cloud));
+  ASSERT_TRUE(result.found);
+  EXPECT_GE(result.ground.size(), ground);
+  EXPECT_EQ(result.ground.size() + result.rest.size(), cloud.size());
+}
+
+TEST(GroundZones, RefuseSettingsOutOfRange) {
+  const auto refuses = [](auto change) {
+    GroundZonesSettings settings;
+    change(settings);
+    EXPECT_THROW(split(view(Cloud<float>{{0, 0, 0}}), settings), std::invalid_argument);
+  };
+  for (const double bad : {0.0, -1.0, double{INFINITY}, double{NAN}})
+    refuses([bad](auto& s) { s.distance = bad; });
+  for (const double bad : {-1.0, 90.0, double{NAN}})
+    refuses([bad](auto& s) { s.max_slope_degrees = bad; });
+  for (const double bad : {-0.1, double{INFINITY}, double{NAN}})
+    refuses([bad](auto& s) { s.sensor_height = bad; });
+  for (const double bad : {double{INFINITY}, double{NAN}})
+    refuses([bad](auto& s) { s.sensor.y() = bad; });
+}
+
+TEST(GroundZones, OfAUsedObjectAreThoseOfAFreshOneAndTakeNoMemory) {
+  std::vector<Cloud<float>> clouds{ground_of(hill), ground_of(level), ground_of(wavy)};
+  clouds[1].resize(5000);
+  std::vector<GroundSplit> fresh;
+  for (Cloud<float>& cloud : clouds) {
+    add_boxes(cloud, hill);
+    fresh.push_back(split(view(cloud)));
+  }
+  GroundZones zones;
+  GroundSplit used;
+  std::size_t before = 0;
+  for (int pass = 0; pass < 3; ++pass) {
+    if (pass == 1) before = allocations();
+    for (std::size_t i = 0; i < clouds.size(); ++i) {
+      zones.split(view(clouds[i]), {}, used);
+      EXPECT_TRUE(used.ground == fresh[i].ground && used.rest == fresh[i].rest);
+      EXPECT_TRUE(used.normal == fresh[i].normal && used.offset == fresh[i].offset);
+    }
+  }
+  EXPECT_EQ(allocations(), before);
+}
+
+}  // namespace
+}  // namespace pcl_bv
