@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Euclidean clusters beside other people's, both sides in turns (timing.h: the counter `ratio` says how many
-// times faster ours is), after a check that both find the same. Rows are named
+// Ground, and Euclidean clusters beside other people's, both sides in turns (timing.h: the counter `ratio`
+// says how many times faster ours is), after a check that both find the same. Rows are named
 // over-PEER/SCENE/n:POINTS/r:TOLERANCE.
 
 #include <benchmark/benchmark.h>
@@ -14,6 +14,7 @@
 #include "cluster_peers.h"
 #include "pcl_bv/estimation/point_cloud_view.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/ground_zones.h"
 #include "pcl_bv/synth/street.h"
 #include "timing.h"
 
@@ -143,11 +144,38 @@ void register_all() {
   over_peers({"sheets", 20'000}, 0.5F, 3);  // Where a search finds thousands of neighbours.
 }
 
+// A whole sweep, by one plane and by zones: rows ground/KIND/n:POINTS, with precision and recall.
+template <typename Split>
+void add_ground(const std::string& kind, Split split) {
+  benchmark::RegisterBenchmark(("ground/" + kind + "/n:128000").c_str(), [split](benchmark::State& state) {
+    const SynthCloud sweep = make_street_frame({}, 0).cloud;
+    const PointView view = PointView::of(sweep.xyz.data(), 12, sweep.size());
+    GroundSplit result;
+    for (auto _ : state)
+      split(view, result);
+    double truth = 0, right = 0;
+    for (const std::uint32_t ground : sweep.ground)
+      truth += ground;
+    for (const std::int32_t i : result.ground)
+      right += sweep.ground[static_cast<std::size_t>(i)];
+    state.counters["recall"] = right / truth;
+    state.counters["precision"] = right / static_cast<double>(result.ground.size());
+  })->Unit(benchmark::kMicrosecond);
+}
+
+void ground() {
+  add_ground("plane", [](const PointView& view, GroundSplit& result) { split_ground(view, {}, result); });
+  add_ground("zones", [zones = std::make_shared<GroundZones>()](const PointView& view, GroundSplit& result) {
+    zones->split(view, {}, result);
+  });
+}
+
 }  // namespace
 }  // namespace pcl_bv::bench
 
 int main(int argc, char** argv) {
   pcl_bv::bench::register_all();
+  pcl_bv::bench::ground();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

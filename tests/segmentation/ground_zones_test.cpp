@@ -16,38 +16,6 @@
 namespace pcl_bv {
 namespace {
 
-using Height = double (*)(double, double);
-
-// The rings of a sensor's beams on ground of the given height, noise of 1 cm, out to 70 m.
-Cloud<float> ground_of(Height height) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  Cloud<float> cloud;
-  for (double radius = 3; radius < 70; radius *= 1.04) {
-    for (int i = 0; i < 500; ++i) {
-      const double angle = (i + unit(random)) * 0.0125664, r = radius * (1 + 0.02 * unit(random));
-      const double x = r * std::cos(angle), y = r * std::sin(angle);
-      cloud.push_back({static_cast<float>(x), static_cast<float>(y),
-                       static_cast<float>(height(x, y) + 0.01 * unit(random))});
-    }
-  }
-  return cloud;
-}
-
-// Boxes on the ground, their sides 0.3 m to 2 m above it.
-void add_boxes(Cloud<float>& cloud, Height height) {
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  for (int box = 0; box < 12; ++box) {
-    const double x = (8 + 4 * box) * std::cos(0.9 * box), y = (8 + 4 * box) * std::sin(0.9 * box);
-    for (int i = 0; i < 200; ++i) {
-      const double px = x + 0.8 * unit(random), py = y + 0.8;
-      cloud.push_back({static_cast<float>(px), static_cast<float>(py),
-                       static_cast<float>(height(px, py) + 1.15 + 0.85 * unit(random))});
-    }
-  }
-}
-
 GroundSplit split(const PointView& points, const GroundZonesSettings& settings = {}) {
   GroundSplit result;
   GroundZones().split(points, settings, result);
@@ -70,6 +38,9 @@ double level(double, double) {
 double hill(double x, double) {
   return -1.7 + 0.12 * std::max(0.0, x - 15);
 }
+double ramp(double x, double) {
+  return -1.7 + 0.2 * std::max(0.0, x - 20);
+}
 double valley(double x, double y) {
   return -1.7 - 0.1 * std::max(0.0, std::sqrt(x * x + y * y) - 12);
 }
@@ -91,6 +62,11 @@ TEST(GroundZones, FollowTheGround) {
     add_boxes(cloud, height);
     expect_split(split(view(cloud)), ground, cloud.size());
   }
+}
+
+TEST(GroundZones, ClimbARampThatBeginsWithinAPatch) {
+  const GroundSplit result = split(view(ground_of(ramp)));
+  EXPECT_GE(result.ground.size(), 39'400U);  // of 40'500; 36'641 without a look for ramps
 }
 
 TEST(GroundZones, GoWhereOnePlaneCannot) {
@@ -129,7 +105,8 @@ TEST(GroundZones, TakeReflectionsBelowAsGroundButAreNotDrawnDownByThem) {
   std::uniform_real_distribution<float> unit(-1, 1);
   for (int i = 0; i < 3000; ++i) {
     const float x = 25 * unit(random), y = 25 * unit(random);
-    cloud.push_back({x, y, static_cast<float>(camber(x, y)) - 2 + 1.5F * unit(random)});
+    const float depth = i % 2 ? 2 + 1.5F * unit(random) : 0.35F;
+    cloud.push_back({x, y, static_cast<float>(camber(x, y)) - depth});
   }
   const std::size_t low = cloud.size();
   add_boxes(cloud, camber);

@@ -24,11 +24,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr float near_radius = 20;      // metres, of the plane around the sensor: a border of rings
+// The plane around the sensor is sought within 12.5 m, where the ground is seen best and bends least; if
+// there is none, within 25 m, then everywhere.
+constexpr std::array<std::size_t, 3> central_rings{4, 7, rings.size()};
 constexpr unsigned plane_tries = 300;  // of them the 100th was mostly the last to win, on streets
 constexpr double inner_gate = 0.4;     // metres, of the innermost ring against the plane around the sensor
 constexpr double gate_growth = 0.05;   // metres per metre from the inner neighbour
 constexpr double max_gate = 0.7;       // metres; bonnets are higher
+
+constexpr double tilt_loss = 0.15;  // from ring to ring
 
 // Where something stands, a fifth of the distance makes ground: else the feet of walls, hedges and cars, two
 // of a hundred points in a street, would go with it.
@@ -150,32 +154,34 @@ void GroundZones::Scratch::sort() {
 std::optional<Plane> GroundZones::Scratch::central_plane(const PointView& view,
                                                          const GroundZonesSettings& settings,
                                                          GroundScratch& sample) const {
-  std::size_t ring = 0;
-  while (rings[ring].outer < near_radius)
-    ++ring;
-  PointView near = view;
-  near.indices = sorted_numbers.data();
-  near.count = begin[first_patch[ring + 1]];
-  if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
   GroundPlaneSettings search;
   search.up = settings.up;
   search.max_slope_degrees = settings.max_slope_degrees;
   search.sensor_height = settings.sensor_height;
   search.seed = settings.seed;
   search.iterations = plane_tries;
-  const Vector3d origin = sample_ground(near, settings.up, settings.seed, sample);
-  std::optional<Plane> plane = find_ground_plane(sample, settings.sensor - origin, search);
-  if (plane) plane->offset += dot(plane->normal, origin);
-  return plane;
+  PointView near = view;
+  near.indices = sorted_numbers.data();
+  if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
+  for (const std::size_t ring_count : central_rings) {
+    near.count = begin[first_patch[ring_count]];
+    const Vector3d origin = sample_ground(near, settings.up, settings.seed, sample);
+    std::optional<Plane> plane = find_ground_plane(sample, settings.sensor - origin, search);
+    if (!plane) continue;
+    plane->offset += dot(plane->normal, origin);
+    return plane;
+  }
+  return {};
 }
 
-// What the inner neighbour's plane says, half as tilted against the central one: tilts go on, but their
+// What the inner neighbour's plane says, but less tilted against the central one: tilts go on, but their
 // errors must not grow with the distance.
 Slope GroundZones::Scratch::expect(std::size_t ring, unsigned sector, const Slope& central) const {
   const std::size_t inner = inner_neighbour(ring, sector);
   const Slope& plane = planes[inner];
   const PatchCenter& center = patch_centers[inner];
-  Slope expected{0, 0.5 * (plane.slope_u + central.slope_u), 0.5 * (plane.slope_v + central.slope_v)};
+  Slope expected{0, plane.slope_u + tilt_loss * (central.slope_u - plane.slope_u),
+                 plane.slope_v + tilt_loss * (central.slope_v - plane.slope_v)};
   expected.offset = plane.height(center.u, center.v) - expected.height(center.u, center.v);
   return expected;
 }

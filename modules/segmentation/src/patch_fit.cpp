@@ -17,8 +17,8 @@ constexpr std::size_t max_bins = 24;
 constexpr std::size_t bins_above = 8;
 constexpr std::uint32_t min_points = 6;
 
-// The lowest layer with a quarter of the points of the fullest one: reflections below the ground are fewer.
-constexpr double least_share = 0.25;
+// A ramp holds so many of the points near it in a layer.
+constexpr double ramp_share = 0.7;
 
 // Points of a fit are so far below the plane at most, and half as far above it, where feet of walls and
 // hedges are: of the layer, then of the first fit. A curb passes.
@@ -42,7 +42,8 @@ struct Histogram {
 
   std::uint32_t layer(std::size_t i) const { return count[i] + count[i + 1]; }
 
-  // Walls, hedges and cars are as full over the layer as in it; over the ground is little.
+  // Walls, hedges and cars are as full over the layer as in it, and over reflections is the ground; over the
+  // ground is little.
   bool is_ground(std::size_t i) const {
     std::uint32_t higher = 0;
     for (std::size_t k = i + 2; k < i + 2 + bins_above && k < count.size(); ++k)
@@ -64,12 +65,8 @@ Histogram histogram(const Patch& patch, const Slope& expected, double gate) {
 
 // Height of the ground's layer's middle above the expected plane.
 std::optional<double> lowest_layer(const Histogram& heights, double gate) {
-  std::uint32_t most = 0;
-  for (std::size_t i = 0; i + 1 < heights.bins; ++i)
-    most = std::max(most, heights.layer(i));
-  const double enough = std::max<double>(min_points, least_share * most);
   for (std::size_t i = 0; i + 1 < heights.bins; ++i) {
-    if (heights.layer(i) < enough) continue;
+    if (heights.layer(i) < min_points) continue;
     while (i + 2 < heights.bins && heights.layer(i + 1) > heights.layer(i))
       ++i;
     if (heights.is_ground(i)) return static_cast<double>(i + 1) * bin_height - gate;
@@ -77,14 +74,18 @@ std::optional<double> lowest_layer(const Histogram& heights, double gate) {
   return {};
 }
 
-// Least squares of the points within `reach` of `guess`, as a change of `expected` with the slopes of which
-// it is reluctant to part.
-std::optional<Slope> fit(const Patch& patch, const Slope& expected, const Slope& guess, double reach) {
+// What a fit looks at, and how reluctant it is to part with the slopes expected.
+struct Reach {
+  double below, above, tilt_weight;
+};
+
+// Least squares of the points within reach of `guess`, as a change of `expected`.
+std::optional<Slope> fit(const Patch& patch, const Slope& expected, const Slope& guess, const Reach& reach) {
   double n = 0, u1 = 0, v1 = 0, uu = 0, uv = 0, vv = 0, h1 = 0, uh = 0, vh = 0;
   for (std::size_t i = 0; i < patch.count; ++i) {
     const GroundPoint& p = patch.points[i];
     const double residual = above(guess, p);
-    if (!(residual >= -reach && residual <= 0.5 * reach)) continue;
+    if (!(residual >= -reach.below && residual <= reach.above)) continue;
     const double u = p.u - patch.center_u, v = p.v - patch.center_v, h = above(expected, p);
     n += 1, u1 += u, v1 += v, h1 += h;
     uu += u * u, uv += u * v, vv += v * v;
@@ -92,7 +93,7 @@ std::optional<Slope> fit(const Patch& patch, const Slope& expected, const Slope&
   }
   if (n < min_points) return {};
   const double mean_u = u1 / n, mean_v = v1 / n, mean_h = h1 / n;
-  const double weight = tilt_weight + tilt_weight_per_point * n;
+  const double weight = tilt_weight + reach.tilt_weight * n;
   uu += weight - u1 * mean_u;
   vv += weight - v1 * mean_v;
   uv -= u1 * mean_v;
@@ -105,15 +106,38 @@ std::optional<Slope> fit(const Patch& patch, const Slope& expected, const Slope&
   return Slope{expected.offset + offset, expected.slope_u + du, expected.slope_v + dv};
 }
 
+// The plane of the ground where it starts to climb or sink, so that the patch's points lie in no layer: that
+// of all points within the gate, if most of them lie in it.
+std::optional<Slope> fit_ramp(const Patch& patch, const Slope& expected, double gate) {
+  const std::optional<Slope> all = fit(patch, expected, expected, {gate, gate, 0});
+  if (!all) return {};
+  const std::optional<Slope> ramp = fit(patch, *all, *all, {layer_reach, layer_reach, 0});
+  if (!ramp) return {};
+  const Histogram heights = histogram(patch, *ramp, gate);
+  std::uint32_t near = 0;
+  for (std::size_t i = 0; i < heights.bins; ++i)
+    near += heights.count[i];
+  const std::size_t middle = heights.bins / 2 - 1;
+  if (!(heights.layer(middle) >= ramp_share * near && heights.is_ground(middle))) return {};
+  return ramp;
+}
+
+std::optional<Slope> fit_layer(const Patch& patch, const Slope& expected, double gate) {
+  const std::optional<double> layer = lowest_layer(histogram(patch, expected, gate), gate);
+  if (!layer) return {};
+  const Slope level{expected.offset + *layer, expected.slope_u, expected.slope_v};
+  const std::optional<Slope> plane =
+      fit(patch, expected, level, {layer_reach, 0.5 * layer_reach, tilt_weight_per_point});
+  if (!plane) return {};
+  return fit(patch, expected, *plane, {plane_reach, 0.5 * plane_reach, tilt_weight_per_point});
+}
+
 }  // namespace
 
 std::optional<Slope> fit_patch(const Patch& patch, const Slope& expected, double gate, double max_slope) {
   if (patch.count < min_points) return {};
-  const std::optional<double> layer = lowest_layer(histogram(patch, expected, gate), gate);
-  if (!layer) return {};
-  const Slope level{expected.offset + *layer, expected.slope_u, expected.slope_v};
-  std::optional<Slope> plane = fit(patch, expected, level, layer_reach);
-  if (plane) plane = fit(patch, expected, *plane, plane_reach);
+  std::optional<Slope> plane = fit_layer(patch, expected, gate);
+  if (!plane) plane = fit_ramp(patch, expected, gate);
   if (!plane) return {};
   const double step =
       plane->height(patch.center_u, patch.center_v) - expected.height(patch.center_u, patch.center_v);
