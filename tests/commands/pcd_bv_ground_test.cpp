@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 
@@ -84,10 +85,12 @@ TEST_F(PcdBv, UpSaysWhereTheGroundIs) {
   for (const auto& [up, points] : cases) {
     SCOPED_TRACE(up);
     const std::string cloud = ascii("turned.pcd", points);
-    const Json report =
-        run({"--ground", "plane", "--up", up, "--cluster", "0.6", "--format", "jsonl", cloud}).json();
-    EXPECT_EQ(report["counts"]["ground"], 41 * 41);
-    EXPECT_EQ(report["clusters"].size(), 2u);
+    for (const std::string kind : {"plane", "zones"}) {
+      const Json report =
+          run({"--ground", kind, "--up", up, "--cluster", "0.6", "--format", "jsonl", cloud}).json();
+      EXPECT_EQ(report["counts"]["ground"], 41 * 41);
+      EXPECT_EQ(report["clusters"].size(), 2u);
+    }
   }
 }
 
@@ -101,6 +104,25 @@ TEST_F(PcdBv, ASensorHeightThatFitsNoPlaneLeavesTheCloudWhole) {
   EXPECT_EQ(ground("30"), 0);
 }
 
+TEST_F(PcdBv, ZonesFollowARoadThatClimbs) {
+  std::vector<std::string> points;
+  for (int i = -80; i <= 80; ++i) {
+    for (int j = -20; j <= 20; ++j) {
+      const double x = 0.5 * i, y = 0.5 * j;
+      points.push_back(std::to_string(x) + " " + std::to_string(y) + " " +
+                       std::to_string(-1.5 + 0.1 * std::max(0.0, x - 12)));
+    }
+  }
+  const std::string cloud = ascii("climb.pcd", points);
+  const auto ground = [&](const char* kind) {
+    return run({"--ground", kind, "--sensor-height", "1.6", "--format", "jsonl", cloud})
+        .json()["counts"]["ground"]
+        .get<std::size_t>();
+  };
+  EXPECT_LT(ground("plane"), points.size() * 9 / 10);
+  EXPECT_GE(ground("zones"), points.size() * 98 / 100);
+}
+
 TEST_F(PcdBv, BadGroundValuesAreWrongUse) {
   const std::string cloud = ascii("floor.pcd", {"1 2 3"});
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
@@ -109,7 +131,7 @@ TEST_F(PcdBv, BadGroundValuesAreWrongUse) {
       {{"--sensor-height", "1.7"}, "--sensor-height: only useful with --ground"},
       {{"--ground", "plane", "--sensor-height", "-1"}, "'-1' is not a finite height of at least 0"},
       {{"--ground", "plane", "--sensor-height", "nan"}, "'nan' is not a finite height"},
-      {{"--ground", "magic"}, "unknown kind 'magic'; known are none, plane"},
+      {{"--ground", "magic"}, "unknown kind 'magic'; known are none, plane, zones"},
   };
   for (auto [arguments, reason] : cases) {
     SCOPED_TRACE(reason);

@@ -81,9 +81,14 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
 TEST_F(PcdBv, WhatIsNotBuiltYetSaysSo) {
   const std::string good = ascii("good.pcd", {"1 2 3"});
   const std::vector<std::vector<std::string>> cases = {
-      {"--ground", "zones"}, {"--mesh", "a.ply"},       {"--info"},
-      {"--progress"},        {"--format", "csv"},       {"--image", at("a.svg")},
-      {"--volume", "best"},  {"--volume", "aabb,hull"}, {"--volume", "ellipsoid"},
+      {"--mesh", "a.ply"},
+      {"--info"},
+      {"--progress"},
+      {"--format", "csv"},
+      {"--image", at("a.svg")},
+      {"--volume", "best"},
+      {"--volume", "aabb,hull"},
+      {"--volume", "ellipsoid"},
   };
   for (auto arguments : cases) {
     SCOPED_TRACE(testing::PrintToString(arguments));

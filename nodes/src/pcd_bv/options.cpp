@@ -17,7 +17,7 @@ namespace {
 constexpr const char* examples = R"(Examples:
   pcd_bv scan.pcd                                        volumes around the whole cloud
   pcd_bv --volume dop26 --check --format json *.pcd      each proven to hold every point
-  pcd_bv --ground plane --cluster 0.5 --image o.png s.pcd  around each object, and a picture
+  pcd_bv --ground zones --cluster 0.5 --image o.png s.pcd  around each object, and a picture
   pcd_bv --cluster 0.5 --format jsonl sweeps/ | jq .counts
   pcd_bv --timings synth:street
 
@@ -59,7 +59,8 @@ void declare(CLI::App& app, Texts& texts) {
          "Segment first: points nearer than TOL to each other are one object");
   option("--min-size", texts.min_size, "N", "Drop clusters of fewer points (10)");
   option("--max-size", texts.max_size, "N", "Drop clusters of more points (no limit)");
-  option("--ground", texts.ground, "KIND", "Take the ground away first: none or plane (none)");
+  option("--ground", texts.ground, "KIND",
+         "Take the ground away first: plane, zones (outdoors) or none (none)");
   option("--up", texts.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
   option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
   option("--format", texts.format, "FORMAT", "text, json or jsonl (text)");

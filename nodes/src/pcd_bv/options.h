@@ -24,14 +24,23 @@ struct RangeFilter {
   double max = std::numeric_limits<double>::infinity();
 };
 
+enum class GroundKind { plane, zones };
+
+/// What is taken for ground.
+struct GroundOptions {
+  GroundKind kind = GroundKind::plane;
+  UpAxis up = UpAxis::z;
+  std::optional<double> sensor_height;  ///< Metres; learnt if not given.
+};
+
 enum class OutputFormat { text, json, jsonl };
 
 struct Options {
   std::vector<std::string> inputs;
   std::vector<const Method*> methods;
   std::optional<RangeFilter> range;
-  std::optional<GroundPlaneSettings> ground;  ///< Take the ground away if set.
-  std::optional<float> tolerance;             ///< Cluster if set.
+  std::optional<GroundOptions> ground;  ///< Take the ground away if set.
+  std::optional<float> tolerance;       ///< Cluster if set.
   std::size_t min_size = 10;
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
   OutputFormat format = OutputFormat::text;

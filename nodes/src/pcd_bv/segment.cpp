@@ -9,6 +9,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/picture.h"
+#include "pcl_bv/segmentation/ground_zones.h"
 
 namespace pcl_bv {
 namespace {
@@ -43,9 +44,19 @@ void filter(const PointView& cloud, const RangeFilter& range, Segmentation& resu
 }
 
 /// Fills ground, points and the count.
-void remove_ground(const PointView& cloud, const GroundPlaneSettings& settings, Segmentation& result) {
+void remove_ground(const PointView& cloud, const GroundOptions& options, Segmentation& result) {
   GroundSplit split;
-  split_ground(result.in_range, settings, split);
+  if (options.kind == GroundKind::plane) {
+    GroundPlaneSettings settings;
+    settings.up = options.up;
+    settings.sensor_height = options.sensor_height;
+    split_ground(result.in_range, settings, split);
+  } else {
+    GroundZonesSettings settings;
+    settings.up = options.up;
+    settings.sensor_height = options.sensor_height;
+    GroundZones().split(result.in_range, settings, split);
+  }
   result.counts.ground = split.ground.size();
   result.ground = std::move(split.ground);
   result.above_ground = std::move(split.rest);

@@ -86,11 +86,11 @@ RangeFilter parse_range(std::string_view text) {
   throw UsageError("--range: " + quoted(text) + " is not MIN:MAX with 0 <= MIN <= MAX");
 }
 
-std::optional<GroundPlaneSettings> parse_ground(std::string_view kind) {
+std::optional<GroundOptions> parse_ground(std::string_view kind) {
   if (kind == "none") return std::nullopt;
-  if (kind == "plane") return GroundPlaneSettings{};
-  if (kind == "zones") throw not_available_yet("--ground zones");
-  throw UsageError("--ground: unknown kind " + quoted(kind) + "; known are none, plane");
+  if (kind == "plane") return GroundOptions{};
+  if (kind == "zones") return GroundOptions{GroundKind::zones, UpAxis::z, {}};
+  throw UsageError("--ground: unknown kind " + quoted(kind) + "; known are none, plane, zones");
 }
 
 UpAxis parse_up(std::string_view text) {

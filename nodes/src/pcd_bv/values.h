@@ -18,7 +18,7 @@ std::size_t parse_whole_number(std::string_view option, std::string_view text, s
                                std::size_t max);
 float parse_tolerance(std::string_view text);
 RangeFilter parse_range(std::string_view text);
-std::optional<GroundPlaneSettings> parse_ground(std::string_view kind);
+std::optional<GroundOptions> parse_ground(std::string_view kind);
 UpAxis parse_up(std::string_view text);
 double parse_sensor_height(std::string_view text);
 OutputFormat parse_format(std::string_view text);

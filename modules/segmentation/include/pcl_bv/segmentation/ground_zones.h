@@ -30,7 +30,7 @@ struct GroundZonesSettings {
 
 /// Splits clouds of a sensor that stands or drives on the ground into ground and rest.
 ///
-/// The ground is cut into 512 patches: rings around the sensor, each in sectors. The plane around the sensor
+/// The ground is cut into 504 patches: rings around the sensor, each in sectors. The plane around the sensor
 /// comes first, found like that of split_ground() among the points within 20 m; then, from the innermost ring
 /// outwards, each patch looks near its inner neighbour's plane for the lowest height at which points are many
 /// and fits a plane to these; a patch that shows too little ground takes over its neighbour's plane. So the
