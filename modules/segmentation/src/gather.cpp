@@ -27,7 +27,7 @@ PointView ascending(const PointView& view, std::vector<std::int32_t>& sorted_lis
   return sorted;
 }
 
-// is_valid(), for float in two thirds of the time: a float is below the limit if it is finite.
+// is_valid(); a float is below the limit if it is finite.
 bool is_valid(const float (&p)[3]) {
   return 0 * p[0] + 0 * p[1] + 0 * p[2] == 0;
 }

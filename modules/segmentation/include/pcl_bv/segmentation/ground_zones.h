@@ -31,10 +31,10 @@ struct GroundZonesSettings {
 /// Splits clouds of a sensor that stands or drives on the ground into ground and rest.
 ///
 /// The ground is cut into 504 patches: rings around the sensor, each in sectors. The plane around the sensor
-/// comes first, found like that of split_ground() among the points within 20 m; then, from the innermost ring
-/// outwards, each patch looks near its inner neighbour's plane for the lowest height at which points are many
-/// and fits a plane to these; a patch that shows too little ground takes over its neighbour's plane. So the
-/// ground may rise and fall with the distance, reflections below it do not draw it down, and roofs and
+/// comes first, found like that of split_ground() among the points within 12.5 m; then, from the innermost
+/// ring outwards, each patch looks near its inner neighbour's plane for the lowest height at which points are
+/// many and fits a plane to these; a patch that shows too little ground takes over its neighbour's plane. So
+/// the ground may rise and fall with the distance, reflections below it do not draw it down, and roofs and
 /// bonnets do not pass for it.
 ///
 /// Ground is every point at most `distance` above the plane of its patch, however deep it lies below, as with
