@@ -41,6 +41,19 @@ bool holds(const Sphere& sphere, const Coordinates& p) {
   return test::exactly_within(sphere.center(), sphere.radius(), p);
 }
 
+bool holds(const Obb& box, const Coordinates& p) {
+  const Eigen::Vector3d& c = box.center();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d a = box.axis(i);
+    const double x = a.x() * (p.x - c.x()), y = a.y() * (p.y - c.y()), z = a.z() * (p.z - c.z());
+    const double terms = std::abs(x) + std::abs(y) + std::abs(z);
+    if (std::abs(x + y + z) + test::kClearly * terms + test::kUnderflow < box.half_extents()[i]) continue;
+    const test::Rational exact = test::exact_dot(a, p) - test::exact_dot(a, Coordinates{c.x(), c.y(), c.z()});
+    if (abs(exact) > test::Rational(box.half_extents()[i])) return false;
+  }
+  return true;
+}
+
 void expect_encloses(const AnyVolume& volume, const PointView& points) {
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);

@@ -28,6 +28,13 @@ inline std::vector<double> numbers(const Sphere& sphere) {
   return {sphere.center().x(), sphere.center().y(), sphere.center().z(), sphere.radius()};
 }
 
+inline std::vector<double> numbers(const Obb& box) {
+  std::vector<double> all(box.center().begin(), box.center().end());
+  all.insert(all.end(), box.axes().data(), box.axes().data() + 9);
+  all.insert(all.end(), box.half_extents().begin(), box.half_extents().end());
+  return all;
+}
+
 inline std::vector<double> numbers(const AnyVolume& volume) {
   return std::visit([](const auto& shape) { return numbers(shape); }, volume);
 }

@@ -15,11 +15,13 @@ TEST(AnyVolume, NamesItsShape) {
   EXPECT_EQ(shape_name(Aabb()), "aabb");
   EXPECT_EQ(shape_name(Kdop()), "kdop");
   EXPECT_EQ(shape_name(Sphere()), "sphere");
+  EXPECT_EQ(shape_name(Obb()), "obb");
 }
 
 TEST(AnyVolume, ForwardsToTheVolumeHeld) {
   const Aabb box({0, 0, 0}, {1, 2, 4});
-  const AnyVolume volumes[] = {box, Kdop().extend(box.min()).extend(box.max()), Sphere({0.5, 1, 2}, 3)};
+  const AnyVolume volumes[] = {box, Kdop().extend(box.min()).extend(box.max()), Sphere({0.5, 1, 2}, 3),
+                               Obb(box)};
   for (const AnyVolume& v : volumes) {
     SCOPED_TRACE(shape_name(v));
     EXPECT_FALSE(empty(v));

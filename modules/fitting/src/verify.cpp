@@ -69,6 +69,23 @@ double violation(const Sphere& sphere, const Eigen::Vector3d& p) {
   return std::max(std::sqrt(squared) - r, std::numeric_limits<double>::denorm_min());
 }
 
+double violation(const Obb& box, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d q = p - box.center();
+  const double bound = 8 * kU * ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) + kTiny;
+  double worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d a = box.axis(i);
+    const double rounded = (a.x() * q.x() + a.y() * q.y()) + a.z() * q.z();
+    if (std::abs(rounded) + bound <= box.half_extents()[i]) continue;
+    Rational exact = 0;
+    for (int k = 0; k < 3; ++k)
+      exact += Rational(a[k]) * (Rational(p[k]) - Rational(box.center()[k]));
+    const Rational limit(box.half_extents()[i]);
+    worst = std::max(worst, positive((exact < 0 ? Rational(-exact) : exact) - limit, 1.0));
+  }
+  return worst;
+}
+
 void merge(Verification& all, const Verification& part) {
   all.checked += part.checked;
   all.outside += part.outside;

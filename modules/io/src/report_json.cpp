@@ -85,6 +85,14 @@ void add_numbers(const Sphere& sphere, Json& entry) {
   entry["radius"] = sphere.radius();
 }
 
+void add_numbers(const Obb& box, Json& entry) {
+  entry["center"] = array3(box.center());
+  entry["axes"] = Json::array({array3(box.axis(0)), array3(box.axis(1)), array3(box.axis(2))});
+  entry["half_extents"] = array3(box.half_extents());
+  const Eigen::Quaterniond q = box.quaternion();
+  entry["quaternion"] = Json::array({q.x(), q.y(), q.z(), q.w()});
+}
+
 Json volume_json(const VolumeEntry& entry) {
   Json json{{"shape", std::string(shape_name(entry.volume))}, {"method", entry.method}};
   if (empty(entry.volume)) {

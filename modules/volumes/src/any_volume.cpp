@@ -16,6 +16,9 @@ std::string_view name_of(const Kdop&) {
 std::string_view name_of(const Sphere&) {
   return "sphere";
 }
+std::string_view name_of(const Obb&) {
+  return "obb";
+}
 
 }  // namespace
 

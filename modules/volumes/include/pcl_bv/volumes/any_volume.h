@@ -13,12 +13,13 @@
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/mesh.h"
+#include "pcl_bv/volumes/obb.h"
 #include "pcl_bv/volumes/ray_interval.h"
 #include "pcl_bv/volumes/sphere.h"
 
 namespace pcl_bv {
 
-using AnyVolume = std::variant<Aabb, Kdop, Sphere>;
+using AnyVolume = std::variant<Aabb, Kdop, Sphere, Obb>;
 
 /// Each forwards to the verb of the volume held.
 bool empty(const AnyVolume& volume);
@@ -34,7 +35,7 @@ Aabb aabb(const AnyVolume& volume);
 Mesh mesh(const AnyVolume& volume);
 AnyVolume transformed(const AnyVolume& volume, const Eigen::Isometry3d& transform);
 
-/// The shape's name in results: "aabb", "kdop" or "sphere".
+/// The shape's name in results: "aabb", "kdop", "sphere" or "obb".
 std::string_view shape_name(const AnyVolume& volume);
 
 }  // namespace pcl_bv

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A box around two boxes: there is no smallest one to be had cheaply, so the best of three frames.
+#include <algorithm>
+#include <array>
+
+#include "directed.h"
+#include "pcl_bv/volumes/obb.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+// A total order, so that merging is commutative.
+bool precedes(const Obb& a, const Obb& b) {
+  const auto numbers = [](const Obb& box) {
+    std::array<double, 15> all;
+    std::copy_n(box.half_extents().data(), 3, all.begin());
+    std::copy_n(box.center().data(), 3, all.begin() + 3);
+    std::copy_n(box.axes().data(), 9, all.begin() + 6);
+    return all;
+  };
+  return numbers(a) > numbers(b);
+}
+
+bool is_smaller(const Obb& a, const Obb& b) {
+  return a.volume() != b.volume() ? a.volume() < b.volume() : a.surface_area() < b.surface_area();
+}
+
+// Upper bound of axis . (to - from).
+double along_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, const Eigen::Vector3d& from) {
+  ExactSum sum;
+  for (int k = 0; k < 3; ++k)
+    sum.add_product(axis[k], to[k]).add_product(-axis[k], from[k]);
+  return sum.up();
+}
+
+}  // namespace
+
+bool Obb::surely_holds(const Obb& other) const {
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = axes_.col(i);
+    const double away =
+        std::max(along_up(axis, other.center_, center_), along_up(axis, center_, other.center_));
+    if (add_up(away, other.reach_up(axis)) > half_extents_[i]) return false;
+  }
+  return true;
+}
+
+Obb Obb::merged(const Obb& other) const {
+  if (other.empty()) return *this;
+  if (empty()) return other;
+  const bool this_first = precedes(*this, other);
+  const Obb& first = this_first ? *this : other;
+  const Obb& second = this_first ? other : *this;
+  if (first.surely_holds(second)) return first;
+  if (second.surely_holds(first)) return second;
+  const auto along = [&](const Eigen::Matrix3d& axes) {
+    Eigen::Vector3d low, high;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d axis = axes.col(i), origin = Eigen::Vector3d::Zero();
+      const double a = first.reach_up(axis), b = second.reach_up(axis);
+      high[i] = std::max(add_up(along_up(axis, first.center_, origin), a),
+                         add_up(along_up(axis, second.center_, origin), b));
+      low[i] = -std::max(add_up(along_up(axis, origin, first.center_), a),
+                         add_up(along_up(axis, origin, second.center_), b));
+    }
+    return from_slabs(axes, low, high);
+  };
+  Obb best = along(first.axes_);
+  for (const Eigen::Matrix3d& axes : {second.axes_, Eigen::Matrix3d(Eigen::Matrix3d::Identity())}) {
+    const Obb box = along(axes);
+    if (is_smaller(box, best)) best = box;
+  }
+  return best;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What an Obb's axes are and what they are called: made orthonormal, named in a standard way, or as those of
+// another box.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pcl_bv/volumes/obb.h"
+
+namespace pcl_bv {
+namespace {
+
+// Written out, not left to Eigen, which fuses or vectorises as it is compiled: fits must give the same bits.
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
+Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
+}
+
+Eigen::Vector3d unit(const Eigen::Vector3d& v) {
+  const double length = std::sqrt(dot(v, v));
+  return {v.x() / length, v.y() / length, v.z() / length};
+}
+
+// What rounding may do to a component of an axis, and much less than a turn that anybody would notice.
+constexpr double same_component = 1e-9;
+
+Eigen::Vector3d pointing_positive(const Eigen::Vector3d& axis) {
+  const double largest = axis.cwiseAbs().maxCoeff();
+  for (const double c : axis) {
+    if (std::abs(c) >= largest - same_component) return c < 0 ? Eigen::Vector3d(-axis) : axis;
+  }
+  return axis;
+}
+
+// Of axes that point_positive(): more along x first, then along y, z.
+bool comes_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  for (int k = 0; k < 3; ++k) {
+    const double difference = std::abs(a[k]) - std::abs(b[k]);
+    if (std::abs(difference) > same_component) return difference > 0;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(a[k] - b[k]) > same_component) return a[k] > b[k];
+  }
+  return false;
+}
+
+using Order = std::array<int, 3>;
+
+Obb named(const Obb& box, const Order& order, const Eigen::Matrix3d& axes) {
+  const Eigen::Vector3d& h = box.half_extents();
+  return {box.center(), axes, {h[order[0]], h[order[1]], h[order[2]]}};
+}
+
+}  // namespace
+
+Eigen::Matrix3d orthonormal_axes(const Eigen::Matrix3d& axes) {
+  const Eigen::Vector3d u = unit(axes.col(0));
+  Eigen::Vector3d v = axes.col(1);
+  for (int round = 0; round < 2; ++round) {  // the second takes away what the first one's rounding left
+    const double along = dot(u, v);
+    v = unit({v.x() - along * u.x(), v.y() - along * u.y(), v.z() - along * u.z()});
+  }
+  Eigen::Matrix3d result;
+  result << u, v, unit(cross(u, v));
+  return result;
+}
+
+Obb Obb::canonical() const {
+  if (empty()) return *this;
+  const double same_size = 0x1p-40 * half_extents_.maxCoeff() +
+                           0x1p-50 * center_.cwiseAbs().maxCoeff();  // and rounding of the centre
+  Order order{0, 1, 2};
+  std::array<Eigen::Vector3d, 3> axes;
+  for (int i = 0; i < 3; ++i)
+    axes[static_cast<std::size_t>(i)] = pointing_positive(axes_.col(i));
+  const auto size = [&](int i) { return half_extents_[i]; };
+  const auto axis = [&](int i) { return axes[static_cast<std::size_t>(i)]; };
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return size(i) > size(j); });
+  for (std::size_t begin = 0; begin < 3;) {
+    std::size_t end = begin + 1;
+    while (end < 3 && size(order[end - 1]) - size(order[end]) <= same_size)
+      ++end;
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
+              order.begin() + static_cast<std::ptrdiff_t>(end),
+              [&](int i, int j) { return comes_first(axis(i), axis(j)); });
+    begin = end;
+  }
+  Eigen::Matrix3d sorted;
+  sorted << axis(order[0]), axis(order[1]), axis(order[2]);
+  return named(*this, order, sorted);  // turns the last axis round if that is what makes them right-handed
+}
+
+Obb Obb::oriented_as(const Obb& previous) const {
+  if (empty() || previous.empty()) return *this;
+  Order order{0, 1, 2}, best = order;
+  Eigen::Vector3d best_signs = Eigen::Vector3d::Ones();
+  double most = -4;
+  do {
+    Eigen::Vector3d along, signs;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto k = static_cast<int>(i);
+      along[k] = dot(axes_.col(order[i]), previous.axes_.col(k));
+      signs[k] = along[k] < 0 ? -1 : 1;
+    }
+    const bool even = (order[1] - order[0] + 3) % 3 == 1;  // 012, 120, 201
+    if ((signs.prod() > 0) != even) {                      // left-handed: turn the axis that loses least
+      Eigen::Index least;
+      along.cwiseAbs().minCoeff(&least);
+      signs[least] = -signs[least];
+    }
+    const double sum = dot(along, signs);
+    if (sum <= most) continue;
+    most = sum;
+    best = order;
+    best_signs = signs;
+  } while (std::next_permutation(order.begin(), order.end()));
+  Eigen::Matrix3d axes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<int>(i);
+    axes.col(k) = best_signs[k] * axes_.col(best[i]);
+  }
+  return named(*this, best, axes);
+}
+
+}  // namespace pcl_bv
