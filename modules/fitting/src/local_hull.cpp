@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Drops the points inside, finds out how many dimensions the others span, and hands them to the hull of that
+// many.
+
+#include "local_hull.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "inner_polytope.h"
+#include "map_chunks.h"
+#include "planar_hull.h"
+#include "schedule.h"
+
+namespace pcl_bv {
+namespace {
+
+// Thinner than this, in local coordinates, is flat: a hundred times what Qhull can tell apart there.
+constexpr double kFlat = 0x1p-36;
+
+// Fewer points than this are a hull's work of no more time than the polytope takes.
+constexpr std::size_t kFewPoints = 100;
+
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
+Eigen::Vector3d unit(const Eigen::Vector3d& v) {
+  return v / std::sqrt(dot(v, v));
+}
+
+// What a point costs; it decides whether threads are worth starting.
+double seconds_per_point(Isa isa) {
+  return isa == Isa::scalar ? 20e-9 : 3e-9;
+}
+
+std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
+                                       const LocalFrame& frame, const Execution& execution) {
+  const Isa isa = resolve_isa(execution.isa);
+  std::vector<HullPoint> all;
+  const auto list = [&](const PointView& chunk) {
+    std::vector<std::uint32_t> positions(chunk.count);
+    positions.resize(list_outside(isa, chunk, inside, positions.data()));
+    std::vector<HullPoint> found;
+    for (const std::uint32_t i : positions) {
+      const Coordinates p = load_point(chunk, i);
+      if (is_valid(p)) found.push_back({p, frame.local(p), chunk.index(i)});
+    }
+    return found;
+  };
+  const auto append = [&](std::vector<HullPoint> part) {
+    if (all.empty()) {
+      all = std::move(part);
+    } else {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+  };
+  const double seconds = seconds_per_point(isa) * static_cast<double>(points.count);
+  map_chunks<std::vector<HullPoint>>(points, worthwhile(execution.parallel, seconds), list, append);
+  return all;
+}
+
+// The candidate that is farthest from the origin's line along col(0) of `axes`, or from the plane of its
+// first two columns.
+const HullPoint& farthest(const LocalHull& hull, const Eigen::Vector3d& origin, int dimensions,
+                          double& distance) {
+  const HullPoint* found = &hull.candidates.front();
+  distance = 0;
+  for (const HullPoint& candidate : hull.candidates) {
+    Eigen::Vector3d q = candidate.local - origin;
+    for (int k = 0; k < dimensions; ++k)
+      q -= dot(hull.axes.col(k), q) * hull.axes.col(k);
+    const double squared = dot(q, q);
+    if (squared <= distance) continue;
+    distance = squared;
+    found = &candidate;
+  }
+  distance = std::sqrt(distance);
+  return *found;
+}
+
+// Dimension after dimension: the direction of the point that is farthest from those so far.
+void find_rank(const Eigen::Vector3d& start, LocalHull& hull) {
+  for (hull.rank = 0; hull.rank < 3; ++hull.rank) {
+    double distance = 0;
+    Eigen::Vector3d q = farthest(hull, start, hull.rank, distance).local - start;
+    if (!(distance > kFlat)) break;
+    for (int pass = 0; pass < 2; ++pass) {
+      for (int k = 0; k < hull.rank; ++k)
+        q -= dot(hull.axes.col(k), q) * hull.axes.col(k);
+    }
+    hull.axes.col(hull.rank) = unit(q);
+  }
+  // The others complete the frame.
+  if (hull.rank < 2) {
+    int least = 0;
+    const Eigen::Vector3d first = hull.axes.col(0);
+    if (hull.rank == 1) first.cwiseAbs().minCoeff(&least);
+    if (hull.rank == 1) hull.axes.col(1) = unit(first.cross(Eigen::Vector3d::Unit(least)));
+  }
+  hull.axes.col(2) = unit(hull.axes.col(0).cross(hull.axes.col(1)));
+}
+
+void keep_vertices(const std::vector<std::size_t>& positions, LocalHull& hull) {
+  for (const std::size_t i : positions)
+    hull.vertices.push_back(hull.candidates[i]);
+}
+
+// Leaves out the coordinate that says least, which rounds nothing.
+void find_polygon(LocalHull& hull) {
+  Eigen::Index dropped = 0;
+  hull.axes.col(2).cwiseAbs().maxCoeff(&dropped);
+  const Eigen::Index u = (dropped + 1) % 3, v = (dropped + 2) % 3;
+  std::vector<Eigen::Vector2d> flat;
+  for (const HullPoint& candidate : hull.candidates)
+    flat.emplace_back(candidate.local[u], candidate.local[v]);
+  std::vector<std::size_t> corners = planar_hull(flat);
+  if (hull.axes(dropped, 2) < 0) std::reverse(corners.begin() + 1, corners.end());
+  keep_vertices(corners, hull);
+}
+
+void find_ends(LocalHull& hull) {
+  std::size_t low = 0, high = 0;
+  const auto along = [&](std::size_t i) { return dot(hull.axes.col(0), hull.candidates[i].local); };
+  for (std::size_t i = 1; i < hull.candidates.size(); ++i) {
+    if (along(i) < along(low)) low = i;
+    if (along(i) > along(high)) high = i;
+  }
+  keep_vertices({low, high}, hull);
+}
+
+void find_solid(LocalHull& hull) {
+  std::vector<Eigen::Vector3d> local;
+  for (const HullPoint& candidate : hull.candidates)
+    local.push_back(candidate.local);
+  hull.triangles = hull_triangles(local);
+  if (hull.triangles.empty()) throw std::runtime_error("local_hull: Qhull finds no hull");
+  std::vector<std::int32_t> number(local.size(), -1);
+  for (const Triangle& t : hull.triangles) {
+    for (const std::int32_t corner : t)
+      number[static_cast<std::size_t>(corner)] = 0;
+  }
+  std::int32_t next = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] < 0) continue;
+    number[i] = next++;
+    hull.vertices.push_back(hull.candidates[i]);
+  }
+  for (Triangle& t : hull.triangles) {
+    for (std::int32_t& corner : t)
+      corner = number[static_cast<std::size_t>(corner)];
+  }
+}
+
+}  // namespace
+
+std::vector<std::array<std::int32_t, 2>> LocalHull::edges() const {
+  std::vector<std::array<std::int32_t, 2>> result;
+  for (const Triangle& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (t[i] < t[(i + 1) % 3]) result.push_back({t[i], t[(i + 1) % 3]});
+    }
+  }
+  if (rank == 1) result.push_back({0, 1});
+  const auto corners = static_cast<std::int32_t>(vertices.size());
+  for (std::int32_t i = 0; i < corners && rank == 2; ++i)
+    result.push_back({i, (i + 1) % corners});
+  return result;
+}
+
+LocalHull local_hull(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+                     const Execution& execution) {
+  LocalHull hull;
+  HalfSpaces inside;
+  if (extremes.used > kFewPoints) inside = inner_polytope(points, extremes, frame);
+  hull.candidates = find_candidates(points, inside, frame, execution);
+  find_rank(frame.local(extremes.low_point[0].point), hull);
+  switch (hull.rank) {
+    case 3:
+      find_solid(hull);
+      break;
+    case 2:
+      find_polygon(hull);
+      break;
+    case 1:
+      find_ends(hull);
+      break;
+    default:
+      keep_vertices({0}, hull);
+  }
+  return hull;
+}
+
+}  // namespace pcl_bv

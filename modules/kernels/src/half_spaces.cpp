@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A packet of points at a time, dropped as a whole where all of it is inside.
+
+#include "pcl_bv/kernels/half_spaces.h"
+
+#include "half_spaces_reference.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "half_spaces.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "load-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+std::size_t list_outside(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
+  return list_outside_reference(points, inside, positions);
+}
+
+#else
+
+// The lanes that no half-space denies.
+template <typename T, class D>
+HWY_INLINE hn::Mask<D> inside_lanes(D d, const HalfSpaces& inside, const T (*planes)[4], V<D> x, V<D> y,
+                                    V<D> z) {
+  constexpr std::size_t kBetweenLooks = 4;
+  const auto squared = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+  const auto in_ball = hn::Lt(squared, hn::Set(d, static_cast<T>(inside.squared_ball)));
+  if (hn::AllTrue(d, in_ball)) return in_ball;
+  auto in = hn::Eq(x, x);
+  for (std::size_t k = 0; k < inside.count;) {
+    const std::size_t end = HWY_MIN(k + kBetweenLooks, inside.count);
+    for (; k < end; ++k) {
+      const auto reach =
+          hn::Add(hn::Add(hn::Mul(hn::Set(d, planes[k][0]), x), hn::Mul(hn::Set(d, planes[k][1]), y)),
+                  hn::Mul(hn::Set(d, planes[k][2]), z));
+      in = hn::And(in, hn::Lt(reach, hn::Set(d, planes[k][3])));
+    }
+    if (hn::AllFalse(d, in)) break;
+  }
+  return hn::Or(in, in_ball);
+}
+
+template <Layout layout, typename T>
+std::size_t list_of(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
+  const Tag<T> d;
+  const std::size_t lanes = hn::Lanes(d);
+  T planes[kMaxHalfSpaces][4];
+  for (std::size_t k = 0; k < inside.count; ++k) {
+    const HalfSpace& h = inside.planes[k];
+    const double numbers[4] = {h.x, h.y, h.z, h.limit};
+    for (std::size_t c = 0; c < 4; ++c)
+      planes[k][c] = static_cast<T>(numbers[c]);
+  }
+  const auto cx = hn::Set(d, static_cast<T>(inside.center.x));
+  const auto cy = hn::Set(d, static_cast<T>(inside.center.y));
+  const auto cz = hn::Set(d, static_cast<T>(inside.center.z));
+  std::size_t count = 0, i = 0;
+  for (; i + lanes <= points.count; i += lanes) {
+    V<decltype(d)> x, y, z;
+    load_packet<layout>(d, points, i, x, y, z);
+    const auto in = inside_lanes<T>(d, inside, planes, hn::Sub(x, cx), hn::Sub(y, cy), hn::Sub(z, cz));
+    if (HWY_LIKELY(hn::AllTrue(d, in))) continue;
+    HWY_ALIGN std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Not(in), bits);
+    std::uint8_t is_out[kGroupBytes / 4] = {};
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      is_out[point_of_lane<layout>(lane, lanes)] = bits[lane / 8] >> (lane % 8) & 1;
+    for (std::size_t k = 0; k < lanes; ++k) {
+      positions[count] = static_cast<std::uint32_t>(i + k);
+      count += is_out[k];
+    }
+  }
+  const std::size_t rest =
+      list_outside_reference(points.slice(i, points.count - i), inside, positions + count);
+  for (std::size_t k = 0; k < rest; ++k)
+    positions[count + k] += static_cast<std::uint32_t>(i);
+  return count + rest;
+}
+
+template <typename T>
+std::size_t list_of_type(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
+  std::size_t count = 0;
+#define PCL_BV_CALL(layout) count = list_of<layout, T>(points, inside, positions)
+  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
+#undef PCL_BV_CALL
+  return count;
+}
+
+std::size_t list_outside(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
+  if (inside.count == 0) return list_outside_reference(points, inside, positions);
+  return points.scalar == ScalarType::float64 ? list_of_type<double>(points, inside, positions)
+                                              : list_of_type<float>(points, inside, positions);
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+
+std::size_t list_outside(Isa isa, const PointView& points, const HalfSpaces& inside,
+                         std::uint32_t* positions) {
+  static constexpr KernelTable<std::size_t(const PointView&, const HalfSpaces&, std::uint32_t*)> kTable =
+      PCL_BV_KERNEL_TABLE(list_outside, &list_outside_reference);
+  return kTable[isa](points, inside, positions);
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE
