@@ -157,8 +157,10 @@ TEST(Fit, ScalesExactlyByPowersOfTwo) {
     method.fit(cloud.view(), a, {});
     method.fit(scaled.view(), b, {});
     std::vector<double> expected = numbers(a);
-    for (double& v : expected)
-      v *= 0x1p-60;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const bool of_axes = std::holds_alternative<Obb>(a) && i >= 3 && i < 12;
+      if (!of_axes) expected[i] *= 0x1p-60;
+    }
     EXPECT_EQ(numbers(b), expected);
   }
 }

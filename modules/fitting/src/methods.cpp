@@ -29,6 +29,12 @@ EstimationResult sphere(const PointView& points, const MethodOptions& options, A
   return fit_sphere(points, {method, options.growth}, volume.emplace<Sphere>(), execution);
 }
 
+template <ObbMethod method>
+EstimationResult obb(const PointView& points, const MethodOptions& options, AnyVolume& volume,
+                     const Execution& execution) {
+  return fit_obb(points, {method, options.up}, volume.emplace<Obb>(), execution);
+}
+
 }  // namespace
 
 const std::vector<Method>& methods() {
@@ -44,6 +50,11 @@ const std::vector<Method>& methods() {
       {"sphere-epos26", {}, "sphere", sphere<SphereMethod::epos26>},
       {"sphere-epos98", {}, "sphere", sphere<SphereMethod::epos98>},
       {"sphere-exact", {"sphere"}, "sphere", sphere<SphereMethod::exact>},
+      {"obb-pca", {}, "obb", obb<ObbMethod::pca>},
+      {"obb-dito14", {}, "obb", obb<ObbMethod::dito14>},
+      {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>},
+      {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>},
+      {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>},
   };
   return table;
 }

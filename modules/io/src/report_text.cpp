@@ -68,9 +68,9 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
     row[3 + k] = length(middle[k], decimals);
   if (const auto* sphere = std::get_if<Sphere>(&entry.volume)) {
     row[6] = "r " + length(sphere->radius(), decimals);
-  } else if (const auto* box = std::get_if<Obb>(&entry.volume)) {
+  } else if (const auto* oriented = std::get_if<Obb>(&entry.volume)) {
     for (int k = 0; k < 3; ++k)  // along its own axes
-      row[6 + k] = length(2 * box->half_extents()[k], decimals);
+      row[6 + k] = length(2 * oriented->half_extents()[k], decimals);
   } else {
     const Aabb box = aabb(entry.volume);
     for (int k = 0; k < 3; ++k)

@@ -8,19 +8,21 @@
 #include <vector>
 
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace pcl_bv {
 
 /// What a method's user may choose besides it. Methods ignore what does not concern them.
 struct MethodOptions {
-  SphereGrowth growth = SphereGrowth::deferred;  ///< Spheres that grow: all but sphere-exact.
+  SphereGrowth growth = SphereGrowth::deferred;   ///< Spheres that grow: all but sphere-exact.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Upright boxes: obb-yaw and obb-lshape.
 };
 
 struct Method {
   std::string_view name;                  ///< The canonical name, as written into results: "dop26".
   std::vector<std::string_view> aliases;  ///< Other names that mean it.
-  std::string_view shape;                 ///< "aabb", "kdop" or "sphere".
+  std::string_view shape;                 ///< "aabb", "kdop", "sphere" or "obb".
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
 
   EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,

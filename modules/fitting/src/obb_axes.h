@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The choices of axes that boxes are measured along.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "local_frame.h"
+#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/summary.h"
+#include "pcl_bv/volumes/obb.h"
+#include "small_vector.h"
+
+namespace pcl_bv {
+
+/// The smallest canonical box along the axes around all valid points, of which there must be one: exact
+/// extremes, rounded outward. Columns unit and orthogonal to 1e-12. Needs a FloatEnvironment.
+Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Execution& execution);
+
+/// Eigenvectors of the covariance.
+Eigen::Matrix3d principal_axes(const CloudSummary& summary);
+
+/// A few points in local coordinates.
+using FewPoints = SmallVector<Eigen::Vector3d, 32>;
+
+/// The points of both ends of all directions, or, of no more points than that, all valid ones; each once.
+FewPoints few_points(const PointView& points, const Extremes& extremes, const LocalFrame& frame);
+
+/// The axes of least half surface, measured on `few`, among the coordinate axes and those of DiTO's triangles
+/// (Larsson, Kallberg 2011). `extremes` along dop14 at least, with points.
+Eigen::Matrix3d dito_axes(const FewPoints& few, const Extremes& extremes, const LocalFrame& frame);
+
+/// Half of the surface of the box of the points along the axes.
+double half_area(const FewPoints& few, const Eigen::Matrix3d& axes);
+
+/// The axes of the least box that a search over the hull finds. `summary` of the same points.
+Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
+                             const Execution& execution);
+
+/// Axes of which one is `up`, a unit vector; the others as the least area from above wants them, or the
+/// closeness of the sides. `extremes` along dop26, with points.
+Eigen::Matrix3d yaw_axes(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+                         const Eigen::Vector3d& up, const Execution& execution);
+Eigen::Matrix3d lshape_axes(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+                            const Eigen::Vector3d& up, const Execution& execution);
+
+}  // namespace pcl_bv
