@@ -5,6 +5,8 @@
 
 #include "farthest_points.h"
 
+#include <limits>
+
 #include "map_chunks.h"
 #include "schedule.h"
 #include "shared_reach.h"
@@ -25,13 +27,18 @@ double serial_seconds(Isa isa, std::size_t directions, std::size_t points) {
 
 ChunkFarthest find_farthest(const PointView& points, const ProjectionSet& set, const Execution& execution) {
   const Isa isa = resolve_isa(execution.isa);
-  SharedReach<kMaxProjectionEnds> reach;
-  const bool shared = chunk_count(points.count) > 1;
   ChunkFarthest all;
+  if (chunk_count(points.count) <= 1) {  // 5 kB need not be copied for 300 points
+    ReachedProjections nothing;
+    nothing.fill(-std::numeric_limits<double>::infinity());
+    chunk_farthest(isa, points, set, nothing, all);
+    return all;
+  }
+  SharedReach<kMaxProjectionEnds> reach;
   const auto find = [&](const PointView& chunk) {
     ChunkFarthest farthest;
     chunk_farthest(isa, chunk, set, reach.snapshot(), farthest);
-    for (std::size_t end = 0; end < 2 * set.count && shared; ++end) {
+    for (std::size_t end = 0; end < 2 * set.count; ++end) {
       const FarthestPoint& point = farthest.ends[end];
       if (point.found) reach.raise(end, surely_reached(set, end, point.point));
     }

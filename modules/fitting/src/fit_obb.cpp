@@ -36,12 +36,10 @@ EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& 
   const Extremes extremes = find_extremes(points, DirectionSet::dop14, ExtremeDetail::points, execution);
   if (extremes.used > 0) {
     const LocalFrame frame(points, extremes);
-    box = Obb(aabb_of(extremes)).canonical();
     const Eigen::Matrix3d axes = dito_axes(few_points(points, extremes, frame), extremes, frame);
-    if (!axes.isIdentity(0)) {
-      const Obb turned = measured_box(axes, points, execution);
-      if (turned.surface_area() < box.surface_area()) box = turned;
-    }
+    const Aabb upright = aabb_of(extremes);
+    if (!axes.isIdentity(0)) box = measured_box(axes, points, execution);
+    if (box.empty() || !(box.surface_area() < upright.surface_area())) box = Obb(upright).canonical();
   }
   return result_of(extremes);
 }

@@ -26,15 +26,12 @@ Eigen::Matrix3d principal_axes(const CloudSummary& summary);
 /// A few points in local coordinates.
 using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 
-/// The points of both ends of all directions, or, of no more points than that, all valid ones; each once.
+/// The points of both ends of all directions, or, of no more points than that, all valid ones.
 FewPoints few_points(const PointView& points, const Extremes& extremes, const LocalFrame& frame);
 
-/// The axes of least half surface, measured on `few`, among the coordinate axes and those of DiTO's triangles
-/// (Larsson, Kallberg 2011). `extremes` along dop14 at least, with points.
+/// The axes of least half surface, measured on 'few' in floats, among the coordinate axes and those of DiTO's
+/// triangles (Larsson, Kallberg 2011). `extremes` along dop14, with points, and `few` of them.
 Eigen::Matrix3d dito_axes(const FewPoints& few, const Extremes& extremes, const LocalFrame& frame);
-
-/// Half of the surface of the box of the points along the axes.
-double half_area(const FewPoints& few, const Eigen::Matrix3d& axes);
 
 /// The axes of the least box that a search over the hull finds. `summary` of the same points.
 Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "obb_axes.h"
-#include "sphere_seed.h"
 
 namespace pcl_bv {
 namespace {
@@ -17,30 +16,59 @@ namespace {
 // Local coordinates have an extent from 1 to 2. What is thinner than 1e-10 of it, squared, is flat.
 constexpr double kThin = 1e-10;
 
-struct Best {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  double half_area = std::numeric_limits<double>::infinity();
-
-  void compete(const FewPoints& few, const Eigen::Vector3d& edge, const Eigen::Vector3d& normal) {
-    const Eigen::Vector3d e = edge.normalized();
-    Eigen::Matrix3d frame;
-    frame << e, normal, e.cross(normal);
-    const double area = pcl_bv::half_area(few, frame);
-    if (area < half_area) {
-      axes = frame;
-      half_area = area;
+// Few points side by side: frames are compared in floats, all points at a time.
+class Lanes {
+ public:
+  explicit Lanes(const FewPoints& few) {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const Eigen::Vector3f p = few[std::min(i, few.size() - 1)].cast<float>();
+      const auto lane = static_cast<Eigen::Index>(i);
+      x_[lane] = p.x();
+      y_[lane] = p.y();
+      z_[lane] = p.z();
     }
   }
 
-  void compete(const FewPoints& few, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-               const Eigen::Vector3d& c) {
+  float extent(const Eigen::Vector3d& axis) const {
+    const Eigen::Vector3f a = axis.cast<float>();
+    const Array along = (a.x() * x_ + a.y() * y_) + a.z() * z_;
+    return along.maxCoeff() - along.minCoeff();
+  }
+
+ private:
+  static constexpr std::size_t kCount = 16;  // at least the 14 points
+  using Array = Eigen::Array<float, static_cast<int>(kCount), 1>;
+  Array x_, y_, z_;
+};
+
+struct Best {
+  explicit Best(const FewPoints& few) : lanes(few) {
+    const auto size = [&](int axis) { return lanes.extent(Eigen::Vector3d::Unit(axis)); };
+    half_area = size(0) * size(1) + size(1) * size(2) + size(2) * size(0);
+  }
+
+  void compete(const Eigen::Vector3d& edge, const Eigen::Vector3d& normal, float thickness) {
+    const Eigen::Vector3d e = edge.normalized(), f = e.cross(normal);
+    const float length = lanes.extent(e), width = lanes.extent(f);
+    const float area = length * width + thickness * (length + width);
+    if (!(area < half_area)) return;
+    axes << e, normal, f;
+    half_area = area;
+  }
+
+  void compete(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
     const Eigen::Vector3d normal = (b - a).cross(c - a);
     if (normal.squaredNorm() < kThin * kThin) return;
     const Eigen::Vector3d n = normal.normalized();
-    compete(few, b - a, n);
-    compete(few, c - b, n);
-    compete(few, a - c, n);
+    const float thickness = lanes.extent(n);
+    compete(b - a, n, thickness);
+    compete(c - b, n, thickness);
+    compete(a - c, n, thickness);
   }
+
+  Lanes lanes;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  float half_area;
 };
 
 // The two points of a direction's ends that are farthest apart.
@@ -75,47 +103,38 @@ Eigen::Matrix3d along_line(const Eigen::Vector3d& e) {
 }  // namespace
 
 FewPoints few_points(const PointView& points, const Extremes& extremes, const LocalFrame& frame) {
-  const bool all = points.count <= 2 * direction_count(extremes.set);
-  const SeedPoints seeds = all ? SeedPoints(points) : SeedPoints(extremes);
   FewPoints few;
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-    few.push_back(frame.local(seeds[i].point));
+  const std::size_t directions = direction_count(extremes.set);
+  for (std::size_t i = 0; i < points.count && points.count <= 2 * directions; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (is_valid(p)) few.push_back(frame.local(p));
+  }
+  for (std::size_t k = 0; k < directions && points.count > 2 * directions; ++k) {
+    few.push_back(frame.local(extremes.low_point[k].point));
+    few.push_back(frame.local(extremes.high_point[k].point));
+  }
   return few;
 }
 
-double half_area(const FewPoints& few, const Eigen::Matrix3d& axes) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const Eigen::Vector3d& p : few) {
-    for (int i = 0; i < 3; ++i) {
-      const double along = (axes(0, i) * p.x() + axes(1, i) * p.y()) + axes(2, i) * p.z();
-      low[i] = std::min(low[i], along);
-      high[i] = std::max(high[i], along);
-    }
-  }
-  const Eigen::Vector3d size = high - low;
-  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
-}
-
 Eigen::Matrix3d dito_axes(const FewPoints& few, const Extremes& extremes, const LocalFrame& frame) {
-  Best best;
-  if (!(frame.extent() > 0)) return best.axes;
-  best.half_area = half_area(few, best.axes);
+  if (!(frame.extent() > 0)) return Eigen::Matrix3d::Identity();
+  Best best(few);
   Eigen::Vector3d p0 = few[0], p1 = few[0];
   farthest_pair(extremes, frame, p0, p1);
   const Eigen::Vector3d e = (p1 - p0).normalized();
   const Eigen::Vector3d p2 = farthest_from_line(few, p0, e);
   const Eigen::Vector3d normal = (p1 - p0).cross(p2 - p0);
   if (normal.squaredNorm() < kThin * kThin) return along_line(e);
-  best.compete(few, p0, p1, p2);
+  best.compete(p0, p1, p2);
   const auto below = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return normal.dot(a - p0) < normal.dot(b - p0);
   };
   const auto [lowest, highest] = std::minmax_element(few.begin(), few.end(), below);
   for (const Eigen::Vector3d* apex : {lowest, highest}) {
     if (std::abs(normal.dot(*apex - p0)) < kThin * normal.norm()) continue;
-    best.compete(few, p0, p1, *apex);
-    best.compete(few, p1, p2, *apex);
-    best.compete(few, p2, p0, *apex);
+    best.compete(p0, p1, *apex);
+    best.compete(p1, p2, *apex);
+    best.compete(p2, p0, *apex);
   }
   return best.axes.isIdentity(0) ? best.axes : orthonormal_axes(best.axes);
 }

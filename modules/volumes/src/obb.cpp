@@ -95,7 +95,7 @@ Obb Obb::from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& low, con
   for (int round = 0; round < 2; ++round) {
     Eigen::Vector3d missing;
     for (int i = 0; i < 3; ++i)
-      missing[i] = -exact_dot(axes.col(i), center).add(-middle[i]).value();
+      missing[i] = middle[i] - dot(axes.col(i), center);
     center += (axes.col(0) * missing[0] + axes.col(1) * missing[1]) + axes.col(2) * missing[2];
   }
   Eigen::Vector3d half_extents;
