@@ -25,38 +25,53 @@ bool turns_left(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
   return cross(b - a, c - a) > 0;
 }
 
-// Sorts `count` points along x so that the chain over them is at the front; returns its length.
-std::size_t upper_or_lower(Eigen::Vector2d* points, std::size_t count) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d next = points[i];
-    while (kept >= 2 && !turns_left(points[kept - 2], points[kept - 1], next))
-      --kept;
-    std::swap(points[kept++], points[i]);
-  }
-  return kept;
-}
-
 }  // namespace
 
+// The leftmost, lowest, rightmost and highest points are corners; of the others, those inside of the four
+// matter no more, and the rest falls into four runs from one of them to the next.
 std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
-  const auto before = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  if (count < 2) return count;
+  Eigen::Vector2d* const end = points + count;
+  const auto before = [](const auto& a, const auto& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   };
-  std::sort(points, points + count, before);
-  count = static_cast<std::size_t>(std::unique(points, points + count) - points);
-  if (count < 3) return count;
-  // The swaps leave the points that are not on the lower chain behind it, with its last one; sorted the other
-  // way, and with the first one after them, they give the upper chain.
-  const std::size_t lower = upper_or_lower(points, count);
-  const Eigen::Vector2d first = points[0];
-  std::sort(points + lower - 1, points + count, [&](const auto& a, const auto& b) { return before(b, a); });
-  const std::size_t upper = upper_or_lower(points + lower - 1, count - lower + 1);
-  std::size_t corners = lower - 1 + upper;
-  // The upper chain ended before the first point: it may still bend inward there.
-  while (corners > lower && !turns_left(points[corners - 2], points[corners - 1], first))
-    --corners;
-  return corners;
+  const auto below = [](const auto& a, const auto& b) {
+    return a.y() != b.y() ? a.y() < b.y() : a.x() > b.x();
+  };
+  const auto [left, right] = std::minmax_element(points, end, before);
+  const auto [low, high] = std::minmax_element(points, end, below);
+  const Eigen::Vector2d corner[5] = {*left, *low, *right, *high, *left};
+  Eigen::Vector2d* begin[5];
+  begin[4] = end;
+  for (int run = 3; run >= 0; --run) {
+    const auto beyond = [&](const auto& p) {
+      return cross(corner[run + 1] - corner[run], p - corner[run]) < 0 &&
+             std::find(corner, corner + 4, p) == corner + 4;
+    };
+    begin[run] = std::partition(points, begin[run + 1], [&](const auto& p) { return !beyond(p); });
+  }
+  // The corners are before begin[0]: as the runs are read, there is room for what is written.
+  std::size_t kept = 0;
+  const auto add = [&](const Eigen::Vector2d& next, std::size_t first) {
+    while (kept >= first + 2 && !turns_left(points[kept - 2], points[kept - 1], next))
+      --kept;
+    points[kept++] = next;
+  };
+  for (int run = 0; run < 4; ++run) {
+    const bool to_the_right = run < 2;
+    std::sort(begin[run], begin[run + 1], [&](const auto& a, const auto& b) {
+      return to_the_right ? a.x() < b.x() || (a.x() == b.x() && (run == 0 ? a.y() > b.y() : a.y() < b.y()))
+                          : a.x() > b.x() || (a.x() == b.x() && (run == 2 ? a.y() < b.y() : a.y() > b.y()));
+    });
+    const bool is_new = kept == 0 || (points[kept - 1] != corner[run] && points[0] != corner[run]);
+    if (is_new) points[kept++] = corner[run];
+    const std::size_t first = kept - 1;
+    for (const Eigen::Vector2d* p = begin[run]; p != begin[run + 1]; ++p)
+      add(Eigen::Vector2d(*p), first);
+    while (kept >= first + 2 && !turns_left(points[kept - 2], points[kept - 1], corner[run + 1]))
+      --kept;
+  }
+  return kept;
 }
 
 FlatBox least_rectangle(const Eigen::Vector2d* corners, std::size_t count) {

@@ -53,8 +53,8 @@ const std::vector<Method>& methods() {
       {"obb-pca", {}, "obb", obb<ObbMethod::pca>},
       {"obb-dito14", {}, "obb", obb<ObbMethod::dito14>},
       {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>},
-      {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>},
-      {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>},
+      {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>, true},
+      {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>, true},
   };
   return table;
 }

@@ -24,6 +24,8 @@
 namespace pcl_bv {
 namespace {
 
+using Vertices = std::vector<Eigen::Vector3d>;
+
 struct Frame {
   Eigen::Matrix3d axes;
   double volume;
@@ -43,7 +45,7 @@ Eigen::Vector3d extents(const Eigen::Vector3d* points, std::size_t count, const 
 }
 
 // Turns the frame about its axes in turn until none of the three makes the box smaller.
-Frame turned(Eigen::Matrix3d axes, const std::vector<Eigen::Vector3d>& vertices) {
+Frame turned(Eigen::Matrix3d axes, const Vertices& vertices) {
   constexpr int kMaxTurns = 100;
   constexpr double kSmaller = 1 - 1e-9;  // less is not worth another round
   std::vector<Eigen::Vector2d> flat(vertices.size());
@@ -67,12 +69,11 @@ Frame turned(Eigen::Matrix3d axes, const std::vector<Eigen::Vector3d>& vertices)
 }
 
 // From the unit quaternions of seeded integers: the same on every machine.
-std::vector<Eigen::Matrix3d> scattered_frames() {
-  constexpr std::size_t kFrames = 20;
+std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
   std::vector<Eigen::Matrix3d> frames;
   std::mt19937_64 random(1);
   const auto component = [&] { return static_cast<double>(random() >> 40) * 0x1p-23 - 1; };
-  while (frames.size() < kFrames) {
+  while (frames.size() < count) {
     Eigen::Vector4d q;
     for (double& c : q)
       c = component();
@@ -114,12 +115,15 @@ void add_triangle_frames(const FewPoints& few, std::vector<Eigen::Matrix3d>& fra
       frames.push_back(orthonormal_axes(frame.axes));
 }
 
+// The first of the starts: what the box must not be greater than.
+constexpr std::size_t kSureStarts = 3;
+
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
                                           const LocalFrame& frame) {
   Extremes extremes = summary.extremes;
   extremes.set = DirectionSet::dop14;  // whose directions come first
   const FewPoints few = few_points(points, extremes, frame);
-  static const std::vector<Eigen::Matrix3d> scattered = scattered_frames();
+  static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(40);
   std::vector<Eigen::Matrix3d> frames{dito_axes(few, extremes, frame), principal_axes(summary),
                                       Eigen::Matrix3d::Identity()};
   add_triangle_frames(few, frames);
@@ -138,8 +142,29 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
   return orthonormal_axes(axes);
 }
 
-Eigen::Matrix3d solid_axes(const std::vector<Eigen::Vector3d>& vertices,
-                           const std::vector<Eigen::Matrix3d>& starts, const Execution& execution) {
+// Those that are farthest along scattered directions: what nearly all of the shape is made of.
+Vertices salient(const Vertices& vertices, const std::vector<Eigen::Matrix3d>& frames) {
+  std::vector<bool> chosen(vertices.size());
+  for (const Eigen::Matrix3d& frame : frames) {
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d n = frame.col(i);
+      const auto less = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+        return n.dot(a) < n.dot(b);
+      };
+      const auto [low, high] = std::minmax_element(vertices.begin(), vertices.end(), less);
+      chosen[static_cast<std::size_t>(low - vertices.begin())] = true;
+      chosen[static_cast<std::size_t>(high - vertices.begin())] = true;
+    }
+  }
+  Vertices result;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (chosen[i]) result.push_back(vertices[i]);
+  return result;
+}
+
+// Each start turned as far as it gets, best first.
+std::vector<Frame> searched(const std::vector<Eigen::Matrix3d>& starts, const Vertices& vertices,
+                            const Execution& execution) {
   constexpr double seconds_per_vertex = 1e-6;  // some ten turns of a sort and the calipers
   std::vector<Frame> found(starts.size());
   const double seconds = seconds_per_vertex * static_cast<double>(starts.size() * vertices.size());
@@ -147,9 +172,23 @@ Eigen::Matrix3d solid_axes(const std::vector<Eigen::Vector3d>& vertices,
     const FloatEnvironment environment;
     found[i] = turned(starts[i], vertices);
   });
-  const auto least = std::min_element(found.begin(), found.end(),
-                                      [](const Frame& a, const Frame& b) { return a.volume < b.volume; });
-  return orthonormal_axes(least->axes);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Frame& a, const Frame& b) { return a.volume < b.volume; });
+  return found;
+}
+
+// Many vertices are searched in two rounds: all starts on the salient ones, the best of them on all.
+Eigen::Matrix3d solid_axes(const Vertices& vertices, std::vector<Eigen::Matrix3d> starts,
+                           const Execution& execution) {
+  constexpr std::size_t kManyVertices = 300, kFinalists = 6;
+  if (vertices.size() > kManyVertices) {
+    static const std::vector<Eigen::Matrix3d> directions = scattered_frames(60);
+    const std::vector<Frame> found = searched(starts, salient(vertices, directions), execution);
+    starts.resize(kSureStarts);
+    for (std::size_t i = 0; i < kFinalists; ++i)
+      starts.push_back(found[i].axes);
+  }
+  return orthonormal_axes(searched(starts, vertices, execution).front().axes);
 }
 
 }  // namespace
@@ -160,7 +199,7 @@ Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summar
   const LocalHull hull = local_hull(points, summary.extremes, frame, execution);
   if (hull.rank < 2) return orthonormal_axes(hull.axes);
   if (hull.rank == 2) return flat_axes(hull);
-  std::vector<Eigen::Vector3d> vertices;
+  Vertices vertices;
   for (const HullPoint& vertex : hull.vertices)
     vertices.push_back(vertex.local);
   return solid_axes(vertices, start_frames(points, summary, frame), execution);

@@ -8,6 +8,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 
 #include "values.h"
 
@@ -61,7 +62,8 @@ void declare(CLI::App& app, Texts& texts) {
   option("--max-size", texts.max_size, "N", "Drop clusters of more points (no limit)");
   option("--ground", texts.ground, "KIND",
          "Take the ground away first: plane, zones (outdoors) or none (none)");
-  option("--up", texts.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
+  option("--up", texts.up, "AXIS",
+         "Against gravity, for --ground, obb-yaw, obb-lshape: x, y, z, -x, -y or -z (z)");
   option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
   option("--format", texts.format, "FORMAT", "text, json or jsonl (text)");
   option("--output", texts.output, "FILE", "Write the results here, not to standard output");
@@ -120,6 +122,17 @@ void refuse_unavailable(const CLI::App& app, const Texts& texts) {
   refuse_other_pictures(texts.image);
 }
 
+/// For those who ask: the ground and upright boxes.
+void set_up(UpAxis up, bool wants_ground, Options& options) {
+  const bool wants_upright = std::any_of(options.methods.begin(), options.methods.end(),
+                                         [](const Method* method) { return method->upright; });
+  if (!wants_ground && !wants_upright) {
+    throw UsageError("--up: only useful with --ground or an upright box, obb-yaw or obb-lshape");
+  }
+  if (options.ground) options.ground->up = up;
+  options.method_options.up = up_direction(up);
+}
+
 Options to_options(const CLI::App& app, const Texts& texts) {
   constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
   constexpr std::size_t max_threads = 1024;
@@ -127,7 +140,6 @@ Options to_options(const CLI::App& app, const Texts& texts) {
   for (const auto& [option, needed] : {std::pair{"--min-size", "--cluster"},
                                        {"--max-size", "--cluster"},
                                        {"--view", "--image"},
-                                       {"--up", "--ground"},
                                        {"--sensor-height", "--ground"}}) {
     if (given(option) && !given(needed))
       throw UsageError(std::string(option) + ": only useful with " + needed);
@@ -137,7 +149,7 @@ Options to_options(const CLI::App& app, const Texts& texts) {
   options.methods = given("--volume") ? parse_methods(texts.volume) : default_methods();
   if (given("--range")) options.range = parse_range(texts.range);
   if (given("--ground")) options.ground = parse_ground(texts.ground);
-  if (options.ground && given("--up")) options.ground->up = parse_up(texts.up);
+  if (given("--up")) set_up(parse_up(texts.up), given("--ground"), options);
   if (options.ground && given("--sensor-height")) {
     options.ground->sensor_height = parse_sensor_height(texts.sensor_height);
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_obb.h"
 
 namespace pcl_bv {
 
@@ -115,6 +116,27 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
 
  private:
   SphereOptions options_;
+};
+
+/// An oriented box: the smallest that is found unless another method is set. See fit_obb().
+template <typename PointT>
+class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
+ public:
+  void setMethod(ObbMethod method) { options_.method = method; }
+  ObbMethod getMethod() const { return options_.method; }
+
+  /// Against gravity, of any length, z by default: for the upright methods. compute() throws
+  /// std::invalid_argument for one that is none.
+  void setUpAxis(const Eigen::Vector3d& up) { options_.up = up; }
+  const Eigen::Vector3d& getUpAxis() const { return options_.up; }
+
+ protected:
+  EstimationResult fit(const PointView& points, Obb& box, const Execution& execution) const override {
+    return fit_obb(points, options_, box, execution);
+  }
+
+ private:
+  ObbOptions options_;
 };
 
 }  // namespace pcl_bv

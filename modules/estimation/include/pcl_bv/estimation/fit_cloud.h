@@ -6,12 +6,14 @@
 
 #include "pcl_bv/estimation/point_cloud_view.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/fitting/summary.h"
 
 namespace pcl_bv {
 
-/// As fit_aabb(), fit_kdop() and fit_sphere() of fitting/fit.h, for a pcl::PointCloud or the points of it
-/// that an index list names. Throws std::out_of_range for an index outside the cloud.
+/// As fit_aabb(), fit_kdop() and fit_sphere() of fitting/fit.h and fit_obb() of fitting/fit_obb.h, for a
+/// pcl::PointCloud or the points of it that an index list names. Throws std::out_of_range for an index
+/// outside the cloud.
 template <typename PointT>
 EstimationResult fit_aabb(const pcl::PointCloud<PointT>& cloud, Aabb& box, const Execution& execution = {}) {
   return fit_aabb(point_view(cloud), box, execution);
@@ -59,6 +61,18 @@ template <typename PointT>
 EstimationResult fit_sphere(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
                             const SphereOptions& options, Sphere& sphere, const Execution& execution = {}) {
   return fit_sphere(point_view(cloud, indices), options, sphere, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_obb(const pcl::PointCloud<PointT>& cloud, const ObbOptions& options, Obb& box,
+                         const Execution& execution = {}) {
+  return fit_obb(point_view(cloud), options, box, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_obb(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                         const ObbOptions& options, Obb& box, const Execution& execution = {}) {
+  return fit_obb(point_view(cloud, indices), options, box, execution);
 }
 
 /// As fit_smallest_sphere() of fitting/fit.h.

@@ -24,6 +24,7 @@ struct Method {
   std::vector<std::string_view> aliases;  ///< Other names that mean it.
   std::string_view shape;                 ///< "aabb", "kdop", "sphere" or "obb".
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
+  bool upright = false;  ///< Whether it asks for MethodOptions::up.
 
   EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,
                        const MethodOptions& options = {}) const {

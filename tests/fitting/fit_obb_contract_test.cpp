@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Claims of the oriented boxes beyond those that fit_test.cpp makes of every method (enclosure in exact
+// arithmetic, the same bits everywhere): degenerate clouds, tightness, names of axes, what is refused.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "allocations.h"
+#include "executions.h"
+#include "numbers.h"
+#include "obbs.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/fitting/verify.h"
+
+namespace pcl_bv {
+namespace {
+
+using namespace test;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+TEST(Obb, OfNothingIsEmptyAndOfOnePointThatPoint) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const TestCloud<float> nothing{"", {}}, bad{"", {nan, 0, 0}}, one{"", {5e6F, -3, 0.1F}},
+      many{"", {0.1F, 0.2F, 7, 0.1F, 0.2F, 7, nan, 0, 0, 0.1F, 0.2F, 7}};
+  for (const ObbMethod method : kMethods) {
+    Obb box(Aabb({0, 0, 0}, {1, 1, 1}));
+    EXPECT_EQ(fit_obb(nothing.view(), method, box).status, EstimationStatus::no_valid_points);
+    EXPECT_TRUE(box.empty());
+    EXPECT_EQ(fit_obb(bad.view(), method, box).dropped, 1U);
+    EXPECT_TRUE(box.empty());
+    EXPECT_EQ(fit_obb(one.view(), method, box).rank, 0);
+    EXPECT_LE((box.center() - Vector3d(5e6F, -3, double(0.1F))).norm(), 1e-9);
+    EXPECT_LE(box.half_extents().norm(), 1e-9);
+    const EstimationResult result = fit_obb(many.view(), method, box);
+    EXPECT_EQ(result.rank, 0);
+    EXPECT_EQ(result.used, 3U);
+    EXPECT_LE(box.half_extents().norm(), 1e-14);
+  }
+}
+
+TEST(Obb, OfALineIsThinAlongItAndOfAPlaneFlatInIt) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 20; ++i) {
+    const Matrix3d turn = random_turn(random);
+    TestCloud<double> line{"line", {}}, plane{"plane", {}};
+    for (int n = 0; n < 300; ++n) {
+      for (const double c : Vector3d(turn * Vector3d(4 * uniform(random), 0, 0) + Vector3d(7, 8, 9)))
+        line.xyz.push_back(c);
+      Vector3d p(4 * uniform(random), 2 * uniform(random), 0);
+      if (n < 4) p = {n & 1 ? 4.0 : -4.0, n & 2 ? 2.0 : -2.0, 0};
+      for (const double c : Vector3d(turn * p + Vector3d(7, 8, 9)))
+        plane.xyz.push_back(c);
+    }
+    for (const ObbMethod method : kAnyAxes) {
+      EXPECT_LE(fit(line, method).half_extents()[1], 1e-13) << static_cast<int>(method);
+      EXPECT_LE(fit(plane, method).half_extents()[2], 1e-13) << static_cast<int>(method);
+    }
+    const Obb tile = fit(plane, ObbMethod::minimal);
+    EXPECT_TRUE(tile.half_extents().head<2>().isApprox(Eigen::Vector2d(4, 2), 1e-12))
+        << tile.half_extents().transpose();
+  }
+}
+
+TEST(Obb, IsTightAlongEachAxisAtUtmCoordinatesToo) {
+  for (const double offset : {0.0, 5e6}) {
+    const TestCloud<double> cloud = test::gaussian<double>(3000, 9, 20, offset);
+    for (const ObbMethod method : kMethods) {
+      const Obb box = fit(cloud, method);
+      for (int i = 0; i < 3; ++i) {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (std::size_t n = 0; n < cloud.size(); ++n) {
+          const Vector3d q =
+              Vector3d(cloud.xyz[3 * n], cloud.xyz[3 * n + 1], cloud.xyz[3 * n + 2]) - box.center();
+          low = std::min(low, box.axis(i).dot(q));
+          high = std::max(high, box.axis(i).dot(q));
+        }
+        const double ulp = 4e-16 * (offset + 100);
+        EXPECT_NEAR(high, box.half_extents()[i], 6 * ulp);
+        EXPECT_NEAR(low, -box.half_extents()[i], 6 * ulp);
+      }
+    }
+  }
+}
+
+TEST(Obb, ACubeDoesNotFlipUnderNoise) {
+  std::mt19937_64 random(10);
+  std::uniform_real_distribution<double> noise(-1e-14, 1e-14);
+  Obb first;
+  for (int i = 0; i < 30; ++i) {
+    TestCloud<double> cube = box_cloud<double>({1, 1, 1}, Matrix3d::Identity(), {0, 0, 0}, 500, 11);
+    for (double& c : cube.xyz)
+      c += noise(random);
+    const Obb box = fit(cube, ObbMethod::minimal);
+    if (i == 0) first = box;
+    EXPECT_TRUE(box.axes().isApprox(first.axes(), 1e-9)) << i;
+  }
+}
+
+TEST(Obb, IsCanonical) {
+  for (const ObbMethod method : kMethods) {
+    const Obb box = fit(test::gaussian<float>(500, 12), method);
+    EXPECT_EQ(box, box.canonical());
+  }
+}
+
+TEST(Obb, LargeCloudsHaveTheSameBitsOnAnyNumberOfThreads) {
+  const TestCloud<float> cloud =
+      test::gaussian<float>(std::min<std::size_t>(300'000, test::kThreadedPoints), 13);
+  for (const ObbMethod method : kMethods) {
+    const Obb expected = fit(cloud, method, {Serial{}, Isa::automatic});
+    EXPECT_EQ(verify(expected, cloud.view()).outside, 0U);
+    for (const auto& [name, execution] : test::every_execution()) {
+      SCOPED_TRACE(name);
+      EXPECT_EQ(test::bits(fit(cloud, method, execution)), test::bits(expected));
+    }
+  }
+}
+
+TEST(Obb, OfAnIndexListIsThatOfItsPoints) {
+  const TestCloud<float> cloud = test::gaussian<float>(3000, 14);
+  std::vector<std::int32_t> indices(1200);
+  std::iota(indices.begin(), indices.end(), 900);
+  PointView view = cloud.view(), slice = view.slice(900, 1200);
+  view.indices = indices.data();
+  view.count = indices.size();
+  for (const ObbMethod method : kMethods) {
+    Obb listed, sliced;
+    fit_obb(view, method, listed);
+    fit_obb(slice, method, sliced);
+    EXPECT_EQ(listed, sliced);
+  }
+}
+
+TEST(Obb, OfAClusterAllocatesNothingForDito14AndYaw) {
+  const TestCloud<float> cloud = test::gaussian<float>(300, 15);
+  Obb box;
+  for (const ObbMethod method : {ObbMethod::pca, ObbMethod::dito14, ObbMethod::yaw}) {
+    fit_obb(cloud.view(), method, box);  // what is made once is made now
+    const std::size_t before = allocations();
+    fit_obb(cloud.view(), method, box);
+    EXPECT_EQ(allocations(), before) << static_cast<int>(method);
+  }
+}
+
+TEST(Obb, RefusesAnUpThatIsNone) {
+  Obb box;
+  const TestCloud<float> cloud = test::gaussian<float>(10, 16);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const ObbMethod method : kUpright) {
+    for (const Vector3d& up :
+         {Vector3d(0, 0, 0), Vector3d(0, nan, 1), Vector3d(1e-31, 0, 0), Vector3d(0, 1e31, 0)})
+      EXPECT_THROW(fit_obb(cloud.view(), {method, up}, box), std::invalid_argument);
+  }
+  EXPECT_NO_THROW(fit_obb(cloud.view(), {ObbMethod::pca, {0, 0, 0}}, box)) << "it does not ask for it";
+}
+
+}  // namespace
+}  // namespace pcl_bv

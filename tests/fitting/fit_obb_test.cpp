@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Claims about which boxes the methods find.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "obbs.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/fit_obb.h"
+
+namespace pcl_bv {
+namespace {
+
+using namespace test;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+TEST(Obb, OfATurnedBoxIsThatBox) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 40; ++i) {
+    const Matrix3d turn = random_turn(random);
+    const Vector3d half(3, 2, 1), center(10, -20, 5);
+    const auto cloud = box_cloud<double>(half, turn, center, 400, static_cast<std::uint64_t>(i));
+    const Obb box = fit(cloud, ObbMethod::minimal);
+    EXPECT_LT(misalignment(box, turn), 1e-12) << i;
+    EXPECT_TRUE(box.half_extents().isApprox(half, 1e-12)) << box.half_extents().transpose();
+    EXPECT_TRUE(box.center().isApprox(center, 1e-13));
+    EXPECT_LT(fit(cloud, ObbMethod::dito14).volume(), 48 * 1.6);
+  }
+}
+
+TEST(Obb, OfEightCornersIsFoundByDito14) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 40; ++i) {
+    const Matrix3d turn = random_turn(random);
+    const auto cloud = box_cloud<double>({5, 2, 1}, turn, {1, 2, 3}, 8, 0);
+    EXPECT_NEAR(fit(cloud, ObbMethod::dito14).volume(), 80, 1e-10) << i;
+  }
+}
+
+TEST(Obb, OfAGaussianCloudHasThePrincipalAxes) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const Matrix3d turn = random_turn(random);
+  TestCloud<float> cloud{"gauss", {}};
+  for (int i = 0; i < 100'000; ++i) {
+    const Vector3d p = turn * Vector3d(5 * normal(random), 2 * normal(random), normal(random));
+    for (const double c : p)
+      cloud.xyz.push_back(static_cast<float>(c));
+  }
+  EXPECT_LT(misalignment(fit(cloud, ObbMethod::pca), turn), 0.01);
+}
+
+TEST(Obb, UprightMethodsFindTheYawOfATurnedBoxForAnyUp) {
+  for (const ObbMethod method : kUpright) {
+    for (const double angle : {0.0, 0.1, 0.7, 1.2, -0.4, 2.9}) {
+      const auto cloud = box_cloud<double>({4, 1.5, 1}, yaw_turn(angle), {100, -50, 3}, 2000, 7);
+      const double tolerance = method == ObbMethod::yaw ? 1e-12 : 0.02;
+      EXPECT_LT(misalignment(fit(cloud, method), yaw_turn(angle)), tolerance) << angle;
+      for (const Vector3d& up :
+           {Vector3d(0, 0, 1), Vector3d(0, 0, -1), Vector3d(0, 5e-20, 0), Vector3d(1, 2, 3)}) {
+        const Matrix3d lift = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up).toRotationMatrix();
+        const auto lifted = box_cloud<double>({4, 1.5, 1}, lift * yaw_turn(angle), {10, -5, 3}, 2000, 7);
+        const Obb box = fit(lifted, ObbOptions(method, up));
+        EXPECT_LT(misalignment(box, lift * yaw_turn(angle)), tolerance + 1e-11)
+            << angle << ", up " << up.transpose();
+        EXPECT_NEAR((box.axes().transpose() * up.normalized()).cwiseAbs().maxCoeff(), 1, 1e-15)
+            << "not upright";
+      }
+    }
+  }
+}
+
+TEST(Obb, AboutAnAxisOfTheFrameIsExactlyUpright) {
+  const TestCloud<float> cloud = test::gaussian<float>(1000, 4);
+  for (const ObbMethod method : kUpright) {
+    for (int k = 0; k < 3; ++k) {
+      const Obb box = fit(cloud, ObbOptions(method, -Vector3d::Unit(k)));
+      int along = 0;
+      for (int i = 0; i < 3; ++i)
+        along += box.axis(i).cwiseAbs() == Vector3d::Unit(k);
+      EXPECT_EQ(along, 1);
+    }
+  }
+}
+
+// Two sides of a car as a LiDAR sees them: the least area may turn it by what its one far corner allows.
+TEST(Obb, LShapeFindsTheSidesOfAnLThatTheLeastAreaMisses) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> noise(0, 0.02);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  int yaw_misses = 0;
+  for (int i = 0; i < 30; ++i) {
+    const double angle = 1.5 * uniform(random);
+    TestCloud<float> cloud{"L", {}};
+    for (int n = 0; n < 600; ++n) {
+      const bool long_side = n % 3 != 0;
+      const Vector3d p = yaw_turn(angle) * Vector3d(long_side ? 4.2 * uniform(random) : noise(random),
+                                                    long_side ? noise(random) : 1.7 * uniform(random),
+                                                    1.4 * uniform(random));
+      for (const double c : Vector3d(p + Vector3d(20, 10, 0)))
+        cloud.xyz.push_back(static_cast<float>(c));
+    }
+    EXPECT_LT(misalignment(fit(cloud, ObbMethod::lshape), yaw_turn(angle)), 0.03) << "angle " << angle;
+    yaw_misses += misalignment(fit(cloud, ObbMethod::yaw), yaw_turn(angle)) > 0.1;
+  }
+  EXPECT_GT(yaw_misses, 10) << "the cases are too easy";
+}
+
+TEST(Obb, MinimalIsNoGreaterThanTheOthers) {
+  constexpr double rounding = 1 + 1e-9;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    for (const std::size_t n : {4, 5, 10, 30, 300, 20'000}) {
+      TestCloud<float> cloud = test::gaussian<float>(n, seed);
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        cloud.xyz[3 * i + seed % 3] = 3 * cloud.xyz[3 * i + seed % 3] + cloud.xyz[3 * i + (seed + 1) % 3];
+      const double least = fit(cloud, ObbMethod::minimal).volume();
+      for (const ObbMethod method : kMethods)
+        EXPECT_LE(least, fit(cloud, method).volume() * rounding) << static_cast<int>(method) << ", n " << n;
+      Aabb upright;
+      fit_aabb(cloud.view(), upright);
+      EXPECT_LE(least, upright.volume() * rounding);
+      EXPECT_LE(fit(cloud, ObbMethod::dito14).surface_area(), upright.surface_area() * rounding);
+      EXPECT_LE(fit(cloud, ObbMethod::yaw).volume(), fit(cloud, ObbMethod::lshape).volume() * rounding);
+    }
+  }
+}
+
+// A regular tetrahedron's smallest box is the cube around it: a third of which it fills.
+TEST(Obb, MinimalOfATetrahedronIsItsCube) {
+  std::mt19937_64 random(6);
+  for (int i = 0; i < 20; ++i) {
+    const Matrix3d turn = random_turn(random);
+    TestCloud<double> cloud{"tetrahedron", {}};
+    for (const Vector3d& p :
+         {Vector3d(1, 1, 1), Vector3d(1, -1, -1), Vector3d(-1, 1, -1), Vector3d(-1, -1, 1)})
+      for (const double c : Vector3d(turn * p))
+        cloud.xyz.push_back(c);
+    EXPECT_NEAR(fit(cloud, ObbMethod::minimal).volume(), 8, 1e-7) << i;
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
