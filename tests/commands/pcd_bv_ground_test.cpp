@@ -127,7 +127,7 @@ TEST_F(PcdBv, BadGroundValuesAreWrongUse) {
   const std::string cloud = ascii("floor.pcd", {"1 2 3"});
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--ground", "plane", "--up", "w"}, "--up"},
-      {{"--up", "y"}, "--up: only useful with --ground"},
+      {{"--up", "y"}, "--up: only useful with --ground or an upright box"},
       {{"--sensor-height", "1.7"}, "--sensor-height: only useful with --ground"},
       {{"--ground", "plane", "--sensor-height", "-1"}, "'-1' is not a finite height of at least 0"},
       {{"--ground", "plane", "--sensor-height", "nan"}, "'nan' is not a finite height"},

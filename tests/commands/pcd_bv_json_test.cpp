@@ -144,5 +144,24 @@ TEST_F(PcdBv, RealSweepsHoldEveryPoint) {
   EXPECT_EQ(result.status, 0) << result.err;
 }
 
+TEST_F(PcdBv, UpTurnsUprightBoxesAndOrientedBoxesPassTheCheck) {
+  const std::string tile = ascii("tile.pcd", {"0 0 0", "3 4 0", "-4 3 1", "-1 7 2", "1 3 0.5"});
+  const Json volumes = run({"--volume", "obb-yaw,obb-lshape,obb-min,obb-pca,obb-dito14", "--up", "-y",
+                            "--check", "--format", "jsonl", tile})
+                           .json()["clusters"][0]["volumes"];
+  ASSERT_EQ(volumes.size(), 5u);
+  for (const Json& volume : volumes) {
+    EXPECT_EQ(volume["shape"], "obb");
+    EXPECT_EQ(volume["outside"], 0);
+    EXPECT_GE(volume["half_extents"][0], volume["half_extents"][2]);
+  }
+  for (const int upright : {0, 1}) {
+    int along_y = 0;
+    for (const Json& axis : volumes[upright]["axes"])
+      along_y += axis == Json::parse("[0,1,0]") || axis == Json::parse("[0,-1,0]");
+    EXPECT_EQ(along_y, 1) << volumes[upright];
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv::test

@@ -65,6 +65,8 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
       {"--threads", "many", good},
       {"--isa", "mmx", good},
       {"--growth", "fast", good},
+      {"--up", "w", "--volume", "obb-yaw", good},
+      {"--up", "y", "--volume", "obb-min", good},
       {"--output", "", good},
       {"--volume"},
   };
@@ -142,16 +144,18 @@ TEST_F(PcdBv, AllIsEveryMethodButNeverTheHull) {
   std::vector<std::string> names;
   for (const Json& volume : report["clusters"][0]["volumes"])
     names.push_back(volume["method"]);
-  EXPECT_THAT(names, testing::IsSupersetOf({"aabb", "dop6", "dop14", "dop18", "dop26", "sphere-epos26"}));
+  EXPECT_THAT(names, testing::IsSupersetOf({"aabb", "dop6", "dop14", "dop18", "dop26", "sphere-epos26",
+                                            "obb-pca", "obb-dito14", "obb-min", "obb-yaw", "obb-lshape"}));
   EXPECT_THAT(names, Not(testing::Contains("hull")));
 }
 
-TEST_F(PcdBv, DefaultIsABoxAndASphere) {
+TEST_F(PcdBv, DefaultIsABoxASphereAndAnOrientedBox) {
   const std::string good = ascii("good.pcd", {"1 2 3", "4 5 7"});
   const Json volumes = run({"--format", "jsonl", good}).json()["clusters"][0]["volumes"];
-  ASSERT_GE(volumes.size(), 2u);
+  ASSERT_EQ(volumes.size(), 3u);
   EXPECT_EQ(volumes[0]["shape"], "aabb");
   EXPECT_EQ(volumes[1]["shape"], "sphere");
+  EXPECT_EQ(volumes[2]["method"], "obb-min");
 }
 
 }  // namespace

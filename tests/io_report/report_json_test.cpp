@@ -63,6 +63,15 @@ TEST(ReportJson, ShapesHaveTheirOwnNumbers) {
               HasSubstr(R"("directions":[[1,0,0],[0,1,0],[0,0,1]],"min":[-1,-1,-1],"max":[2,2,2]}]}]})"));
   EXPECT_THAT(report_json(report_of({{"sphere-epos26", Sphere({1, 2, 3}, 0.5), {}}})),
               HasSubstr(R"("center":[1,2,3],"radius":0.5}]}]})"));
+  Eigen::Matrix3d axes;  // in columns
+  axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  EXPECT_THAT(
+      report_json(report_of({{"obb-min", Obb({1, 2, 3}, axes, {4, 2, 0.5}), 0}})),
+      testing::AllOf(
+          HasSubstr(
+              R"({"shape":"obb","method":"obb-min","volume":32,"center":[1,2,3],)"
+              R"("axes":[[0,1,0],[-1,0,0],[0,0,1]],"half_extents":[4,2,0.5],"quaternion":[0,0,0.707106)"),
+          Not(HasSubstr("-0"))));
 }
 
 TEST(ReportJson, FailedInputHasOnlyItsError) {
@@ -73,11 +82,14 @@ TEST(ReportJson, FailedInputHasOnlyItsError) {
 }
 
 TEST(ReportJson, EmptyVolumeHasNoNumbers) {
-  EXPECT_THAT(
-      report_json(report_of({{"aabb", Aabb(), {}}, {"dop26", Kdop(), 0}, {"sphere-epos26", Sphere(), {}}})),
-      HasSubstr(R"("volumes":[{"shape":"aabb","method":"aabb","empty":true},)"
-                R"({"shape":"kdop","method":"dop26","empty":true,"outside":0},)"
-                R"({"shape":"sphere","method":"sphere-epos26","empty":true}])"));
+  EXPECT_THAT(report_json(report_of({{"aabb", Aabb(), {}},
+                                     {"dop26", Kdop(), 0},
+                                     {"sphere-epos26", Sphere(), {}},
+                                     {"obb-pca", Obb(), {}}})),
+              HasSubstr(R"("volumes":[{"shape":"aabb","method":"aabb","empty":true},)"
+                        R"({"shape":"kdop","method":"dop26","empty":true,"outside":0},)"
+                        R"({"shape":"sphere","method":"sphere-epos26","empty":true},)"
+                        R"({"shape":"obb","method":"obb-pca","empty":true}])"));
 }
 
 TEST(ReportJson, NoClustersIsAnEmptyArray) {

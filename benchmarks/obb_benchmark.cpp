@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Oriented boxes: each method on each cloud and instruction set, with its volume over that of the smallest
+// box known
+// (`over_least`); in turns, ours against CGAL's, PCL's and what a 14-DOP costs; and clusters of 300 points by
+// the hundred. Results are checked, then timed.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "obb_clouds.h"
+#include "obb_peers.h"
+#include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/methods.h"
+#include "timing.h"
+
+namespace pcl_bv::bench {
+namespace {
+
+constexpr int kTurns = 9;
+
+void fit(benchmark::State& state, const std::string& name, const Method* method, Isa isa) {
+  const ObbCloud& cloud = obb_cloud(name);
+  AnyVolume volume;
+  method->fit(cloud.view(), volume, {Serial{}, isa});
+  require_enclosed(volume, cloud.view());
+  for (auto _ : state) {
+    method->fit(cloud.view(), volume, {Serial{}, isa});
+    benchmark::DoNotOptimize(volume);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cloud.points().size()));
+  state.counters["over_least"] = std::get<Obb>(volume).volume() / least_volume(cloud);
+}
+
+void against_peer(benchmark::State& state, const std::string& name, const ObbPeer* peer,
+                  const Method* method) {
+  const ObbCloud& cloud = obb_cloud(name);
+  AnyVolume volume;
+  method->fit(cloud.view(), volume, {});
+  require_enclosed(volume, cloud.view());
+  double theirs = 0;
+  compare(
+      state, [&] { theirs = peer->run(cloud); }, [&] { method->fit(cloud.view(), volume, {}); });
+  state.counters["volume_over_peer"] = std::get<Obb>(volume).volume() / theirs;
+}
+
+// What DiTO-14 is made of: the 14-DOP with its points, and the extents along three directions.
+void dito_against_its_passes(benchmark::State& state, const std::string& name) {
+  const ObbCloud& cloud = obb_cloud(name);
+  const std::vector<std::array<double, 3>> directions{{0.8, 0.6, 0}, {-0.6, 0.8, 0}, {0, 0, 1}};
+  AnyVolume volume;
+  compare(
+      state, [&] { find_method("obb-dito14")->fit(cloud.view(), volume, {}); },
+      [&] {
+        const Extremes extremes = find_extremes(cloud.view(), DirectionSet::dop14, ExtremeDetail::points, {});
+        benchmark::DoNotOptimize(extremes);
+        const ExtremePoints along = find_extreme_points(cloud.view(), directions);
+        benchmark::DoNotOptimize(along);
+      });
+}
+
+constexpr std::size_t kClusters = 100, kClusterPoints = 300;
+
+std::vector<PointView> clusters() {
+  static const ObbCloud cloud = make_clusters(kClusters, kClusterPoints);
+  std::vector<PointView> views;
+  for (std::size_t i = 0; i < kClusters; ++i)
+    views.push_back(cloud.view().slice(i * kClusterPoints, kClusterPoints));
+  return views;
+}
+
+void fit_clusters(const std::vector<PointView>& views, const std::vector<const Method*>& methods,
+                  const Execution& execution) {
+  for_each_view(views, execution, [&](std::size_t i, const Execution& inner) {
+    for (const Method* method : methods) {
+      AnyVolume volume;
+      method->fit(views[i], volume, inner);
+      benchmark::DoNotOptimize(volume);
+    }
+  });
+}
+
+std::vector<const Method*> named(const std::vector<std::string>& names) {
+  std::vector<const Method*> result;
+  for (const std::string& name : names)
+    result.push_back(find_method(name));
+  return result;
+}
+
+void many_clusters(benchmark::State& state, const std::vector<std::string>& names, unsigned threads) {
+  const std::vector<PointView> views = clusters();
+  const std::vector<const Method*> methods = named(names);
+  for (auto _ : state)
+    fit_clusters(views, methods, {OpenMP{threads}, Isa::automatic});
+  state.counters["us_per_cluster"] = benchmark::Counter(
+      kClusters * 1e-6, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void clusters_against_pcl(benchmark::State& state, const ObbPeer* peer) {
+  const std::vector<PointView> views = clusters();
+  std::vector<ObbCloud> theirs;
+  for (const PointView& view : views)
+    theirs.emplace_back(view);
+  const std::vector<const Method*> methods = named({"aabb", "obb-pca"});
+  compare(
+      state,
+      [&] {
+        for (const ObbCloud& cloud : theirs)
+          benchmark::DoNotOptimize(peer->run(cloud));
+      },
+      [&] { fit_clusters(views, methods, {}); });
+}
+
+template <typename... Arguments>
+auto* add(const std::string& name, Arguments... arguments) {
+  return benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMicrosecond);
+}
+
+void add_turns(const std::string& name, auto... arguments) {
+  add("turns/" + name, arguments...)->UseManualTime()->Iterations(kTurns);
+}
+
+void add_all() {
+  for (const std::string& cloud : obb_cloud_names()) {
+    for (const Method& method : methods()) {
+      if (method.shape != "obb") continue;
+      for (const Isa isa : usable_isas())
+        add(std::string(method.name) + '/' + cloud + '/' + std::string(isa_name(isa)), fit, cloud, &method,
+            isa);
+    }
+    for (const ObbPeer& peer : obb_peers())
+      add_turns(peer.name + " over " + peer.against + '/' + cloud, against_peer, cloud, &peer,
+                find_method(peer.against));
+    add_turns("obb-dito14 over its two passes/" + cloud, dito_against_its_passes, cloud);
+  }
+  for (const ObbPeer& peer : obb_peers()) {
+    if (peer.against == "obb-pca") {
+      add_turns("100 clusters of 300, " + peer.name + " over aabb + obb-pca", clusters_against_pcl, &peer);
+    }
+  }
+  for (const unsigned threads : {1U, 2U}) {
+    add("100 clusters of 300/aabb + sphere-exact + obb-dito14/threads:" + std::to_string(threads),
+        many_clusters, std::vector<std::string>{"aabb", "sphere-exact", "obb-dito14"}, threads)
+        ->UseRealTime();
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv::bench
+
+int main(int argc, char** argv) {
+  pcl_bv::bench::add_all();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
