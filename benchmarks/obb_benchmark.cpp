@@ -15,6 +15,7 @@
 #include "obb_clouds.h"
 #include "obb_peers.h"
 #include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/fitting/extreme_points.h"
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/fitting/methods.h"
 #include "timing.h"

@@ -33,6 +33,15 @@ bool holds(const Json& volume, const Coordinates& p) {
     const Rational radius(volume["radius"].get<double>());
     return exact_squared_distance(triple(volume["center"]), p) <= radius * radius;
   }
+  if (shape == "obb") {
+    const auto c = triple(volume["center"]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = triple(volume["axes"][i]);
+      const Rational at = exact_dot(axis, p) - exact_dot(axis, Coordinates{c[0], c[1], c[2]});
+      if (abs(at) > Rational(volume["half_extents"][i].get<double>())) return false;
+    }
+    return true;
+  }
   const Json axes = shape == "kdop" ? volume["directions"] : Json::parse("[[1,0,0],[0,1,0],[0,0,1]]");
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const Rational at = exact_dot(triple(axes[i]), p);

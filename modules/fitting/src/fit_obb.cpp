@@ -7,12 +7,15 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
-#include "farthest_points.h"
 #include "obb_axes.h"
-#include "pcl_bv/kernels/exact_dot.h"
+#include "pcl_bv/fitting/extreme_points.h"
+#include "pcl_bv/kernels/exact_sum.h"
 #include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/kernels/slab_extents.h"
+#include "summarize_bounds.h"
 
 namespace pcl_bv {
 namespace {
@@ -27,8 +30,9 @@ Eigen::Vector3d unit_up(const Eigen::Vector3d& up) {
 }
 
 EstimationResult fit_pca(const PointView& points, Obb& box, const Execution& execution) {
-  const CloudSummary summary = summarize(points, execution);
-  if (summary.extremes.used > 0) box = measured_box(principal_axes(summary), points, execution);
+  const CloudSummary summary = summarize_bounds(points, execution);
+  if (summary.extremes.used > 0)
+    box = measured_box(principal_axes(summary), points, summary.aabb(), execution);
   return summary.result();
 }
 
@@ -38,7 +42,7 @@ EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& 
     const LocalFrame frame(points, extremes);
     const Eigen::Matrix3d axes = dito_axes(few_points(points, extremes, frame), extremes, frame);
     const Aabb upright = aabb_of(extremes);
-    if (!axes.isIdentity(0)) box = measured_box(axes, points, execution);
+    if (!axes.isIdentity(0)) box = measured_box(axes, points, upright, execution);
     if (box.empty() || !(box.surface_area() < upright.surface_area())) box = Obb(upright).canonical();
   }
   return result_of(extremes);
@@ -48,7 +52,7 @@ EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution&
   const CloudSummary summary = summarize(points, execution);
   if (summary.extremes.used > 0) {
     const LocalFrame frame(points, summary.extremes);
-    box = measured_box(minimal_axes(points, summary, frame, execution), points, execution);
+    box = measured_box(minimal_axes(points, summary, frame, execution), points, summary.aabb(), execution);
   }
   return summary.result();
 }
@@ -60,24 +64,62 @@ EstimationResult fit_upright(const PointView& points, const ObbOptions& options,
   if (extremes.used > 0) {
     const LocalFrame frame(points, extremes);
     const auto axes = options.method == ObbMethod::yaw ? yaw_axes : lshape_axes;
-    box = measured_box(axes(points, extremes, frame, up, execution), points, execution);
+    box = measured_box(axes(points, extremes, frame, up, execution), points, aabb_of(extremes), execution);
   }
   return result_of(extremes);
 }
 
 }  // namespace
 
-Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Execution& execution) {
-  ProjectionSet set;
-  for (int i = 0; i < 3; ++i)
-    set.add({axes(0, i), axes(1, i), axes(2, i)});
-  const ChunkFarthest farthest = find_farthest(points, set, execution);
+namespace {
+
+Direction direction(const Eigen::Vector3d& axis) {
+  return {axis.x(), axis.y(), axis.z()};
+}
+
+// Few points all in double, a third of the time of the search on 300 of them. Rounding of n . q is 8 2^-53 of
+// |q|_1 at most, twice what it can be (obb.cpp); the sides of the points' box add up to no less than any
+// |q|_1, and the smallest normal covers products that underflow. Coordinate axes need none of that: the box
+// says exactly how far the points reach.
+Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Aabb& around, Isa isa) {
+  const Coordinates origin = *first_valid(points);
+  const SlabExtents found = slab_extents(
+      isa, points, origin, {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))});
+  const Eigen::Vector3d size = around.max() - around.min(), from(origin.x, origin.y, origin.z);
+  const double rounding = 0x1p-50 * ((size.x() + size.y()) + size.z()) + std::numeric_limits<double>::min();
   Eigen::Vector3d low, high;
-  for (std::size_t i = 0; i < 3; ++i) {
-    low[static_cast<int>(i)] = project_down(set.exact[i], farthest.ends[2 * i].point);
-    high[static_cast<int>(i)] = project_up(set.exact[i], farthest.ends[2 * i + 1].point);
+  for (int i = 0; i < 3; ++i) {
+    low[i] = found.low[static_cast<std::size_t>(i)] - rounding;
+    high[i] = found.high[static_cast<std::size_t>(i)] + rounding;
+    for (int k = 0; k < 3; ++k) {
+      if (axes.col(i) != Eigen::Vector3d::Unit(k)) continue;
+      low[i] = round_down(exact_sum(around.min()[k], -from[k], 0));
+      high[i] = round_up(exact_sum(around.max()[k], -from[k], 0));
+    }
   }
-  return Obb::from_slabs(axes, low, high).canonical();
+  return Obb::from_slabs(axes, from, low, high);
+}
+
+// Many points: floats reject nearly all of them, and the extremes are exact.
+Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Execution& execution) {
+  const ExtremePoints found = find_extreme_points(
+      points, {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))}, execution);
+  Eigen::Vector3d low, high;
+  for (int i = 0; i < 3; ++i) {
+    low[i] = found.along[static_cast<std::size_t>(i)].low;
+    high[i] = found.along[static_cast<std::size_t>(i)].high;
+  }
+  return Obb::from_slabs(axes, low, high);
+}
+
+}  // namespace
+
+Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Aabb& around,
+                 const Execution& execution) {
+  constexpr std::size_t few_points = 2048;
+  const Obb box = points.count <= few_points ? measure_few(axes, points, around, resolve_isa(execution.isa))
+                                             : measure_many(axes, points, execution);
+  return box.canonical();
 }
 
 Eigen::Matrix3d principal_axes(const CloudSummary& summary) {

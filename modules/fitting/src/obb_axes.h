@@ -16,9 +16,11 @@
 
 namespace pcl_bv {
 
-/// The smallest canonical box along the axes around all valid points, of which there must be one: exact
-/// extremes, rounded outward. Columns unit and orthogonal to 1e-12. Needs a FloatEnvironment.
-Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Execution& execution);
+/// A canonical box along the axes around all valid points, of which there must be one: by exact arithmetic,
+/// and tight to a few units in the last place of the extents and of the centre. Columns unit and orthogonal
+/// to 1e-12; `around` is the points' axis-aligned box. Needs a FloatEnvironment.
+Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Aabb& around,
+                 const Execution& execution);
 
 /// Eigenvectors of the covariance.
 Eigen::Matrix3d principal_axes(const CloudSummary& summary);

@@ -7,28 +7,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "extreme_search.h"
 #include "map_chunks.h"
+#include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/moments.h"
 #include "schedule.h"
+#include "summarize_bounds.h"
 
 namespace pcl_bv {
 namespace {
 
+// What a chunk gives; the extremes are those of a search, or the box alone.
+template <typename Found>
 struct Part {
-  ChunkExtremes extremes;
+  Found extremes;
   Moments moments;
 };
 
-std::optional<Coordinates> first_valid(const PointView& points) {
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (is_valid(p)) return p;
+void merge_bounds(const AxisExtents& part, Extremes& all) {
+  all.dropped += part.dropped;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all.low[axis] = std::min(all.low[axis], part.low[axis]);
+    all.high[axis] = std::max(all.high[axis], part.high[axis]);
+    all.constant[axis] = all.low[axis] == all.high[axis];
   }
-  return std::nullopt;
 }
 
 void merge_moments(const Moments& part, Moments& all) {
@@ -86,7 +92,43 @@ void finish(const Moments& moments, const Coordinates& origin, CloudSummary& sum
   }
 }
 
+// One pass: search(chunk) and the moments of the chunk, merge(found, extremes) in order.
+template <typename Found, typename Search, typename Merge>
+Moments pass(const PointView& points, const Execution& execution, double seconds, const Coordinates& origin,
+             Search&& search, const Merge& merge) {
+  const Isa isa = resolve_isa(execution.isa);
+  Moments moments;
+  map_chunks<Part<Found>>(
+      points, worthwhile(execution.parallel, seconds),
+      [&](const PointView& chunk) {
+        Part<Found> part;
+        part.extremes = search(chunk);
+        chunk_moments(isa, chunk, origin, part.moments);
+        return part;
+      },
+      [&](const Part<Found>& part) {
+        merge(part.extremes);
+        merge_moments(part.moments, moments);
+      });
+  return moments;
+}
+
+void finish(const PointView& points, const Execution& execution, const Coordinates& origin, Moments moments,
+            CloudSummary& summary) {
+  summary.scale = scale_for(summary.extremes);
+  if (summary.scale != 1) moments = scaled_moments(points, origin, summary.scale, resolve_isa(execution.isa));
+  finish(moments, origin, summary);
+}
+
 }  // namespace
+
+std::optional<Coordinates> first_valid(const PointView& points) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (is_valid(p)) return p;
+  }
+  return std::nullopt;
+}
 
 CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
@@ -99,25 +141,34 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
     return summary;
   }
   ExtremeSearch search(isa, DirectionSet::dop26, points.count);
-  Moments moments;
   // Moments cost about as much again as the extremes.
   const double seconds = 2 * search_seconds(isa, DirectionSet::dop26, points.count);
-  map_chunks<Part>(
-      points, worthwhile(execution.parallel, seconds),
-      [&](const PointView& chunk) {
-        Part part;
-        part.extremes = search(chunk);
-        chunk_moments(isa, chunk, *origin, part.moments);
-        return part;
-      },
-      [&](const Part& part) {
-        merge_extremes(part.extremes, summary.extremes);
-        merge_moments(part.moments, moments);
-      });
+  const Moments moments =
+      pass<ChunkExtremes>(points, execution, seconds, *origin, search,
+                          [&](const ChunkExtremes& found) { merge_extremes(found, summary.extremes); });
   finish_extremes(points.count, summary.extremes);
-  summary.scale = scale_for(summary.extremes);
-  if (summary.scale != 1) moments = scaled_moments(points, *origin, summary.scale, isa);
-  finish(moments, *origin, summary);
+  finish(points, execution, *origin, moments, summary);
+  return summary;
+}
+
+CloudSummary summarize_bounds(const PointView& points, const Execution& execution) {
+  const Isa isa = resolve_isa(execution.isa);
+  CloudSummary summary;
+  summary.extremes.set = DirectionSet::dop6;
+  const std::optional<Coordinates> origin = first_valid(points);
+  if (!origin) {
+    summary.extremes.dropped = points.count;
+    return summary;
+  }
+  summary.extremes.low.fill(std::numeric_limits<double>::infinity());
+  summary.extremes.high.fill(-std::numeric_limits<double>::infinity());
+  // Moments cost about as much as a 26-DOP, the box next to nothing.
+  const double seconds = search_seconds(isa, DirectionSet::dop26, points.count);
+  const Moments moments = pass<AxisExtents>(
+      points, execution, seconds, *origin, [isa](const PointView& chunk) { return axis_extents(isa, chunk); },
+      [&](const AxisExtents& found) { merge_bounds(found, summary.extremes); });
+  summary.extremes.used = points.count - summary.extremes.dropped;
+  finish(points, execution, *origin, moments, summary);
   return summary;
 }
 

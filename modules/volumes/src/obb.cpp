@@ -88,20 +88,27 @@ Obb::Obb(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen
 Obb::Obb(const Aabb& box) : Obb(from_slabs(Eigen::Matrix3d::Identity(), box.min(), box.max())) {}
 
 Obb Obb::from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  return from_slabs(axes, Eigen::Vector3d::Zero(), low, high);
+}
+
+Obb Obb::from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin, const Eigen::Vector3d& low,
+                    const Eigen::Vector3d& high) {
   if ((low.array() > high.array()).any()) return {};
   const Eigen::Vector3d middle = low + 0.5 * (high - low);
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  // A second time for what the axes lack of being orthogonal, times the distance from the origin.
+  Eigen::Vector3d center = origin;
+  // A second time for what the axes lack of being orthogonal.
   for (int round = 0; round < 2; ++round) {
     Eigen::Vector3d missing;
     for (int i = 0; i < 3; ++i)
-      missing[i] = middle[i] - dot(axes.col(i), center);
+      missing[i] = middle[i] - dot(axes.col(i), center - origin);
     center += (axes.col(0) * missing[0] + axes.col(1) * missing[1]) + axes.col(2) * missing[2];
   }
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
-    const ExactSum at = exact_dot(axes.col(i), center);
-    half_extents[i] = std::max({0.0, -ExactSum(at).add(-high[i]).down(), ExactSum(at).add(-low[i]).up()});
+    ExactSum at = exact_dot(axes.col(i), center);
+    for (int k = 0; k < 3; ++k)
+      at.add_product(-axes(k, i), origin[k]);
+    half_extents[i] = std::max({0.0, -ExactSum(at).add(-high[i]).down(), at.add(-low[i]).up()});
   }
   return {center, axes, half_extents};
 }

@@ -21,9 +21,9 @@ enum class ObbMethod : std::uint8_t {
            ///< the axis-aligned box where that has less.
   minimal,  ///< The least volume that a search over the convex hull finds; never more than the two above,
             ///< give or take rounding.
-  yaw,    ///< Upright: one axis is up, and the area seen from above is the least there is.
-  lshape  ///< Upright: the points seen from above are as close as can be to the box's sides (Zhang et al.
-          ///< 2017). For vehicles of which a LiDAR sees two sides, which the least area often turns wrong.
+  yaw,      ///< Upright: one axis is up, and the area seen from above is the least there is.
+  lshape    ///< Upright: the points seen from above are as close as can be to the box's sides (Zhang et al.
+            ///< 2017). For vehicles of which a LiDAR sees two sides, which the least area often turns wrong.
 };
 
 /// What fit_obb() is asked for.
@@ -42,7 +42,8 @@ struct ObbOptions {
 ///
 /// Empty input or no finite point: an empty box and `no_valid_points`. One point: a box of half extents 0.
 /// Points on a line or in a plane, to 1e-10 of their extent: a box along it, thin as rounding. The rank is
-/// that along the 26-DOP's directions (7 of them for `dito14`). The same bits for every execution.
+/// that along the 26-DOP's directions (7 of them for `dito14`, 3 for `pca`). The same bits for every
+/// execution.
 ///
 /// O(n) in two passes for `pca` and `dito14`, three for the others, and for those O(m log m) besides for the
 /// m points that are near the hull, or near its outline from above. `minimal` takes milliseconds for a hull

@@ -52,6 +52,10 @@ class Obb {
   /// constructor does.
   static Obb from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
+  /// The same with low[i] <= axes.col(i) . (p - origin) <= high[i]: tighter far from the frame's origin.
+  static Obb from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin,
+                        const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+
   const Eigen::Vector3d& center() const { return center_; }
   const Eigen::Matrix3d& axes() const { return axes_; }                  ///< In columns.
   Eigen::Vector3d axis(int i) const { return axes_.col(i); }             ///< i is 0, 1 or 2.

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Each block is laid out as groups first, with the origin, which changes no extreme, in the place of invalid
+// points and past the end: then all loads are alike, and the block stays in the first-level cache.
+
+#include "pcl_bv/kernels/slab_extents.h"
+
+#include "pcl_bv/kernels/chunks.h"
+#include "slab_extents_reference.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slab_extents.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "gather-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+SlabExtents slab_extents(const PointView& points, const Coordinates& origin,
+                         const std::array<Direction, 3>& axes) {
+  return slab_extents_reference(points, origin, axes);
+}
+
+#else
+
+template <class D>
+HWY_INLINE V<D> widened(D d, const float* p) {
+  return hn::PromoteTo(d, hn::Load(hn::Rebind<float, D>(), p));
+}
+template <class D>
+HWY_INLINE V<D> widened(D d, const double* p) {
+  return hn::Load(d, p);
+}
+
+#define PCL_BV_EACH_AXIS(DO) DO(0) DO(1) DO(2)
+#define PCL_BV_DECLARE(k)                   \
+  const auto x##k = hn::Set(d, axes[k][0]); \
+  const auto y##k = hn::Set(d, axes[k][1]); \
+  const auto z##k = hn::Set(d, axes[k][2]); \
+  auto low##k = hn::Zero(d), high##k = hn::Zero(d);
+#define PCL_BV_STEP(k)                                                                         \
+  const auto s##k = hn::Add(hn::Add(hn::Mul(x##k, qx), hn::Mul(y##k, qy)), hn::Mul(z##k, qz)); \
+  low##k = hn::Min(low##k, s##k);                                                              \
+  high##k = hn::Max(high##k, s##k);
+#define PCL_BV_KEEP(k)                                                                  \
+  result.low[k] = HWY_MIN(result.low[k], hn::GetLane(hn::MinOfLanes(d, low##k)) + 0.0); \
+  result.high[k] = HWY_MAX(result.high[k], hn::GetLane(hn::MaxOfLanes(d, high##k)) + 0.0);
+
+template <typename T>
+void grow_over_groups(const T* groups, std::size_t points, const Coordinates& origin,
+                      const std::array<Direction, 3>& axes, SlabExtents& result) {
+  constexpr std::size_t per_group = kGroupBytes / sizeof(T);
+  const Tag<double> d;
+  const auto ox = hn::Set(d, origin.x), oy = hn::Set(d, origin.y), oz = hn::Set(d, origin.z);
+  PCL_BV_EACH_AXIS(PCL_BV_DECLARE)
+  const T* group = groups;
+  for (std::size_t begin = 0; begin < points; begin += per_group, group += 3 * per_group) {
+    for (std::size_t first = 0; first < per_group; first += hn::Lanes(d)) {
+      const auto qx = hn::Sub(widened(d, group + first), ox);
+      const auto qy = hn::Sub(widened(d, group + per_group + first), oy);
+      const auto qz = hn::Sub(widened(d, group + 2 * per_group + first), oz);
+      PCL_BV_EACH_AXIS(PCL_BV_STEP)
+    }
+  }
+  PCL_BV_EACH_AXIS(PCL_BV_KEEP)
+}
+
+#undef PCL_BV_EACH_AXIS
+#undef PCL_BV_DECLARE
+#undef PCL_BV_STEP
+#undef PCL_BV_KEEP
+
+template <Layout layout, typename T>
+void extents_of_layout(const PointView& points, const Coordinates& origin,
+                       const std::array<Direction, 3>& axes, SlabExtents& result) {
+  HWY_ALIGN T groups[3 * kBlockPoints];
+  const T pad[3] = {static_cast<T>(origin.x), static_cast<T>(origin.y), static_cast<T>(origin.z)};
+  for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
+    const PointView block = points.slice(begin, HWY_MIN(kBlockPoints, points.count - begin));
+    gather<layout, true>(block, pad, groups);
+    grow_over_groups(groups, block.count, origin, axes, result);
+  }
+}
+
+template <typename T>
+SlabExtents extents_of(const PointView& points, const Coordinates& origin,
+                       const std::array<Direction, 3>& axes) {
+  SlabExtents result;
+#define PCL_BV_CALL(layout) extents_of_layout<layout, T>(points, origin, axes, result)
+  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
+#undef PCL_BV_CALL
+  return result;
+}
+
+SlabExtents slab_extents(const PointView& points, const Coordinates& origin,
+                         const std::array<Direction, 3>& axes) {
+  return points.scalar == ScalarType::float64 ? extents_of<double>(points, origin, axes)
+                                              : extents_of<float>(points, origin, axes);
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+
+SlabExtents slab_extents(Isa isa, const PointView& points, const Coordinates& origin,
+                         const std::array<Direction, 3>& axes) {
+  static constexpr KernelTable<SlabExtents(const PointView&, const Coordinates&,
+                                           const std::array<Direction, 3>&)>
+      kTable = PCL_BV_KERNEL_TABLE(slab_extents, &slab_extents_reference);
+  return kTable[isa](points, origin, axes);
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE
