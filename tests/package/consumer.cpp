@@ -52,6 +52,12 @@ int main() {
   pcl_bv::SlabPoints touching;
   pcl_bv::fit_kdop(*cloud, directions, kdop, touching, {pcl_bv::OpenMP{2}, pcl_bv::Isa::automatic});
   const auto hit = kdop.intersect({-5, 0.5, 1}, {1, 0, 0});
+  pcl_bv::Obb obb;
+  pcl_bv::fit_obb(*cloud, {pcl_bv::ObbMethod::yaw, Eigen::Vector3d::UnitZ()}, obb);
+  if (obb.oriented_as(obb) != obb || !obb.contains({0, 0.2, 1})) {
+    std::puts("wrong oriented box");
+    return 1;
+  }
   const pcl_bv::PointGroups groups(pcl_bv::point_view(*cloud));
   pcl_bv::Kdop same;
   pcl_bv::fit_kdop(groups.view(), directions, same);
