@@ -28,8 +28,8 @@ double pcl_cheapest(const ObbCloud& cloud) {
   pcl::getMinMax3D(cloud.points(), low, high);
   benchmark::DoNotOptimize(low);
   benchmark::DoNotOptimize(high);
-  Eigen::Matrix3f covariance;
-  Eigen::Vector4f mean;
+  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
+  Eigen::Vector4f mean = Eigen::Vector4f::Zero();
   pcl::computeMeanAndCovarianceMatrix(cloud.points(), covariance, mean);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(covariance);
   const Eigen::Matrix3f to_axes = solver.eigenvectors().transpose();
