@@ -83,14 +83,7 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
 TEST_F(PcdBv, WhatIsNotBuiltYetSaysSo) {
   const std::string good = ascii("good.pcd", {"1 2 3"});
   const std::vector<std::vector<std::string>> cases = {
-      {"--mesh", "a.ply"},
-      {"--info"},
-      {"--progress"},
-      {"--format", "csv"},
-      {"--image", at("a.svg")},
-      {"--volume", "best"},
-      {"--volume", "aabb,hull"},
-      {"--volume", "ellipsoid"},
+      {"--mesh", "a.ply"}, {"--info"}, {"--progress"}, {"--format", "csv"}, {"--image", at("a.svg")},
   };
   for (auto arguments : cases) {
     SCOPED_TRACE(testing::PrintToString(arguments));
@@ -147,6 +140,20 @@ TEST_F(PcdBv, AllIsEveryMethodButNeverTheHull) {
   EXPECT_THAT(names, testing::IsSupersetOf({"aabb", "dop6", "dop14", "dop18", "dop26", "sphere-epos26",
                                             "obb-pca", "obb-dito14", "obb-min", "obb-yaw", "obb-lshape"}));
   EXPECT_THAT(names, Not(testing::Contains("hull")));
+}
+
+TEST_F(PcdBv, BestIsOneVolumeThatSaysItsShape) {
+  const std::string pole =
+      ascii("pole.pcd", {"0 0 0", "1 0 0", "0 1 0", "1 1 0", "0 0 9", "1 0 9", "0 1 9", "1 1 9"});
+  const Json report = run({"--format", "jsonl", "--volume", "best,hull,ellipsoid", "--check", pole}).json();
+  const Json& volumes = report["clusters"][0]["volumes"];
+  ASSERT_EQ(volumes.size(), 3u);
+  EXPECT_EQ(volumes[0]["method"], "best");
+  EXPECT_EQ(volumes[0]["shape"], "aabb");
+  EXPECT_EQ(volumes[1]["faces"].size(), 12u);
+  EXPECT_EQ(volumes[1]["planes"].size(), 6u);
+  for (const Json& volume : volumes)
+    EXPECT_EQ(volume["outside"], 0);
 }
 
 TEST_F(PcdBv, DefaultIsABoxASphereAndAnOrientedBox) {

@@ -16,24 +16,10 @@
 
 #include "pcl_bv/estimation/fit_cloud.h"
 #include "pcl_bv/estimation/model_coefficients.h"
+#include "random_cloud.h"
 
 namespace pcl_bv {
 namespace {
-
-template <typename PointT>
-typename pcl::PointCloud<PointT>::Ptr random_cloud(std::size_t points, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<float> normal(3, 2);
-  typename pcl::PointCloud<PointT>::Ptr cloud(new pcl::PointCloud<PointT>);
-  for (std::size_t i = 0; i < points; ++i) {
-    PointT p;
-    p.x = normal(random);
-    p.y = normal(random);
-    p.z = normal(random);
-    cloud->push_back(p);
-  }
-  return cloud;
-}
 
 template <typename PointT>
 class EveryPointType : public testing::Test {};

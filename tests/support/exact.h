@@ -54,6 +54,14 @@ bool exactly_between(double low, const Direction& d, const Coordinates& p, doubl
   return Rational(low) <= exact && exact <= Rational(high);
 }
 
+/// Whether d . p <= high, exactly.
+template <typename Direction>
+bool exactly_at_most(const Direction& d, const Coordinates& p, double high) {
+  const RoundedDot s = rounded_dot(d, p);
+  if (s.value + kClearly * (s.terms + std::abs(high)) + kUnderflow < high) return true;
+  return exact_dot(d, p) <= Rational(high);
+}
+
 /// Whether |p - center| <= radius, exactly.
 template <typename Vector>
 bool exactly_within(const Vector& center, double radius, const Coordinates& p) {
@@ -61,6 +69,20 @@ bool exactly_within(const Vector& center, double radius, const Coordinates& p) {
   if (distance + kUnderflow < radius * (1 - kClearly)) return true;
   return exact_squared_distance(center, p) <= Rational(radius) * Rational(radius);
 }
+
+/// What the shapes with an axis are decided by: |q|^2, q . a and |a|^2 of q = p - origin, exactly.
+struct ExactAlong {
+  template <typename Vector>
+  ExactAlong(const Vector& origin, const Vector& axis, const Coordinates& p)
+      : squared(exact_squared_distance(origin, p)) {
+    const double coordinates[] = {p.x, p.y, p.z};
+    for (int k = 0; k < 3; ++k) {
+      along += (Rational(coordinates[k]) - Rational(origin[k])) * Rational(axis[k]);
+      squared_axis += Rational(axis[k]) * Rational(axis[k]);
+    }
+  }
+  Rational squared, along = 0, squared_axis = 0;
+};
 
 /// The least double >= the exact value.
 inline double least_double_above(const Rational& exact) {

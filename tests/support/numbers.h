@@ -35,8 +35,68 @@ inline std::vector<double> numbers(const Obb& box) {
   return all;
 }
 
+inline std::vector<double> numbers(const Cylinder& cylinder) {
+  const Eigen::Vector3d c = cylinder.center(), a = cylinder.axis();
+  return {c.x(), c.y(), c.z(), a.x(), a.y(), a.z(), cylinder.radius(), cylinder.half_height()};
+}
+
+inline std::vector<double> numbers(const Capsule& capsule) {
+  const Eigen::Vector3d a = capsule.a(), b = capsule.b();
+  return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), capsule.radius()};
+}
+
+inline std::vector<double> numbers(const Ellipsoid& ellipsoid) {
+  std::vector<double> all(ellipsoid.center().begin(), ellipsoid.center().end());
+  all.insert(all.end(), ellipsoid.axes().data(), ellipsoid.axes().data() + 9);
+  all.insert(all.end(), ellipsoid.radii().begin(), ellipsoid.radii().end());
+  return all;
+}
+
+inline std::vector<double> numbers(const Hull& hull) {
+  std::vector<double> all{static_cast<double>(hull.rank())};
+  for (const Eigen::Vector3d& v : hull.vertices())
+    all.insert(all.end(), v.begin(), v.end());
+  for (const Hull::Triangle& t : hull.triangles())
+    all.insert(all.end(), t.begin(), t.end());
+  for (const HullPlane& p : hull.planes())
+    all.insert(all.end(), {p.normal.x(), p.normal.y(), p.normal.z(), p.offset});
+  return all;
+}
+
 inline std::vector<double> numbers(const AnyVolume& volume) {
   return std::visit([](const auto& shape) { return numbers(shape); }, volume);
+}
+
+/// The same volume in a unit 1 / factor as long: what is no length stays.
+template <typename Volume>
+std::vector<double> scaled_numbers(const Volume& volume, double factor) {
+  std::vector<double> all = numbers(volume);
+  for (double& number : all)
+    number *= factor;
+  return all;
+}
+
+inline std::vector<double> scaled_numbers(const Obb& box, double factor) {
+  return numbers(Obb(box.center() * factor, box.axes(), box.half_extents() * factor));
+}
+
+inline std::vector<double> scaled_numbers(const Cylinder& cylinder, double factor) {
+  return numbers(Cylinder(cylinder.center() * factor, cylinder.axis(), cylinder.radius() * factor,
+                          cylinder.half_height() * factor));
+}
+
+inline std::vector<double> scaled_numbers(const Ellipsoid& ellipsoid, double factor) {
+  return numbers(Ellipsoid(ellipsoid.center() * factor, ellipsoid.axes(), ellipsoid.radii() * factor));
+}
+
+inline std::vector<double> scaled_numbers(const Hull& hull, double factor) {
+  std::vector<Eigen::Vector3d> vertices = hull.vertices();
+  for (Eigen::Vector3d& v : vertices)
+    v *= factor;
+  std::vector<HullPlane> planes = hull.planes();
+  for (HullPlane& p : planes)
+    p.offset *= factor;
+  return numbers(Hull(vertices, hull.triangles(), planes, hull.rank()));
 }
 
 /// Bits, not values: the centre of an empty sphere is NaN, and -0 is not 0.

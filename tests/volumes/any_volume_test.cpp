@@ -16,6 +16,10 @@ TEST(AnyVolume, NamesItsShape) {
   EXPECT_EQ(shape_name(Kdop()), "kdop");
   EXPECT_EQ(shape_name(Sphere()), "sphere");
   EXPECT_EQ(shape_name(Obb()), "obb");
+  EXPECT_EQ(shape_name(Cylinder()), "cylinder");
+  EXPECT_EQ(shape_name(Capsule()), "capsule");
+  EXPECT_EQ(shape_name(Ellipsoid()), "ellipsoid");
+  EXPECT_EQ(shape_name(Hull()), "hull");
 }
 
 TEST(AnyVolume, ForwardsToTheVolumeHeld) {

@@ -24,6 +24,11 @@ double LocalFrame::length_down(double local) const {
   return length * scale_ > local ? std::nextafter(length, 0.0) : length;
 }
 
+double LocalFrame::length_up(double local) const {
+  const double length = local / scale_;
+  return length * scale_ < local ? std::nextafter(length, std::numeric_limits<double>::infinity()) : length;
+}
+
 double LocalFrame::radius(double distance) const {
   // Dividing by a power of two is inexact only among denormals.
   const double radius = distance / kernel_scale_;

@@ -30,8 +30,18 @@ class LocalFrame {
   Eigen::Vector3d local(const Coordinates& p) const { return (vector(p) - origin_) * scale_; }
   Eigen::Vector3d global(const Eigen::Vector3d& local) const { return origin_ + local / scale_; }
 
-  /// A local length in the unit of the points, not greater.
+  /// Where a point is, seen from a place in the coordinates of the points, in local units: each coordinate is
+  /// rounded once, which changes it by at most 2^-53 of itself.
+  Eigen::Vector3d seen_from(const Eigen::Vector3d& center, const Coordinates& p) const {
+    return (vector(p) - center) * scale_;
+  }
+
+  /// A local length in the unit of the points, not greater, and not smaller.
   double length_down(double local) const;
+  double length_up(double local) const;
+
+  /// Local units per unit of the points: a power of two.
+  double scale() const { return scale_; }
 
   /// For the kernels, and the measures that they give: in the unit of the points for float clouds.
   DistanceCenter center(const Eigen::Vector3d& global) const {

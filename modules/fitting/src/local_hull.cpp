@@ -15,6 +15,7 @@
 #include "map_chunks.h"
 #include "planar_hull.h"
 #include "schedule.h"
+#include "vector3.h"
 
 namespace pcl_bv {
 namespace {
@@ -24,14 +25,6 @@ constexpr double kFlat = 0x1p-36;
 
 // Fewer points than this are a hull's work of no more time than the polytope takes.
 constexpr std::size_t kFewPoints = 100;
-
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
-
-Eigen::Vector3d unit(const Eigen::Vector3d& v) {
-  return v / std::sqrt(dot(v, v));
-}
 
 // What a point costs; it decides whether threads are worth starting.
 double seconds_per_point(Isa isa) {
@@ -73,8 +66,8 @@ const HullPoint& farthest(const LocalHull& hull, const Eigen::Vector3d& origin, 
   for (const HullPoint& candidate : hull.candidates) {
     Eigen::Vector3d q = candidate.local - origin;
     for (int k = 0; k < dimensions; ++k)
-      q -= dot(hull.axes.col(k), q) * hull.axes.col(k);
-    const double squared = dot(q, q);
+      q -= dot3(hull.axes.col(k), q) * hull.axes.col(k);
+    const double squared = dot3(q, q);
     if (squared <= distance) continue;
     distance = squared;
     found = &candidate;
@@ -91,18 +84,18 @@ void find_rank(const Eigen::Vector3d& start, LocalHull& hull) {
     if (!(distance > kFlat)) break;
     for (int pass = 0; pass < 2; ++pass) {
       for (int k = 0; k < hull.rank; ++k)
-        q -= dot(hull.axes.col(k), q) * hull.axes.col(k);
+        q -= dot3(hull.axes.col(k), q) * hull.axes.col(k);
     }
-    hull.axes.col(hull.rank) = unit(q);
+    hull.axes.col(hull.rank) = unit3(q);
   }
   // The others complete the frame.
   if (hull.rank < 2) {
     int least = 0;
     const Eigen::Vector3d first = hull.axes.col(0);
     if (hull.rank == 1) first.cwiseAbs().minCoeff(&least);
-    if (hull.rank == 1) hull.axes.col(1) = unit(first.cross(Eigen::Vector3d::Unit(least)));
+    if (hull.rank == 1) hull.axes.col(1) = unit3(first.cross(Eigen::Vector3d::Unit(least)));
   }
-  hull.axes.col(2) = unit(hull.axes.col(0).cross(hull.axes.col(1)));
+  hull.axes.col(2) = unit3(hull.axes.col(0).cross(hull.axes.col(1)));
 }
 
 void keep_vertices(const std::vector<std::size_t>& positions, LocalHull& hull) {
@@ -125,7 +118,7 @@ void find_polygon(LocalHull& hull) {
 
 void find_ends(LocalHull& hull) {
   std::size_t low = 0, high = 0;
-  const auto along = [&](std::size_t i) { return dot(hull.axes.col(0), hull.candidates[i].local); };
+  const auto along = [&](std::size_t i) { return dot3(hull.axes.col(0), hull.candidates[i].local); };
   for (std::size_t i = 1; i < hull.candidates.size(); ++i) {
     if (along(i) < along(low)) low = i;
     if (along(i) > along(high)) high = i;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace pcl_bv {
 namespace {
@@ -35,6 +36,31 @@ EstimationResult obb(const PointView& points, const MethodOptions& options, AnyV
   return fit_obb(points, {method, options.up}, volume.emplace<Obb>(), execution);
 }
 
+EstimationResult cylinder(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                          const Execution& execution) {
+  return fit_cylinder(points, volume.emplace<Cylinder>(), execution);
+}
+
+EstimationResult capsule(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                         const Execution& execution) {
+  return fit_capsule(points, volume.emplace<Capsule>(), execution);
+}
+
+EstimationResult ellipsoid(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                           const Execution& execution) {
+  return fit_ellipsoid(points, volume.emplace<Ellipsoid>(), execution);
+}
+
+EstimationResult hull(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                      const Execution& execution) {
+  return fit_hull(points, volume.emplace<Hull>(), execution);
+}
+
+EstimationResult best(const PointView& points, const MethodOptions& options, AnyVolume& volume,
+                      const Execution& execution) {
+  return fit_smallest(points, best_candidates(), volume, execution, options);
+}
+
 }  // namespace
 
 const std::vector<Method>& methods() {
@@ -55,6 +81,11 @@ const std::vector<Method>& methods() {
       {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>},
       {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>, true},
       {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>, true},
+      {"cylinder", {}, "cylinder", cylinder},
+      {"capsule", {}, "capsule", capsule},
+      {"ellipsoid", {}, "ellipsoid", ellipsoid},
+      {"hull", {}, "hull", hull},
+      {"best", {}, "", best},
   };
   return table;
 }
@@ -66,6 +97,37 @@ const Method* find_method(std::string_view name) {
       return &method;
   }
   return nullptr;
+}
+
+EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
+                              AnyVolume& volume, const Execution& execution, const MethodOptions& options,
+                              const Method** winner) {
+  if (among.empty()) throw std::invalid_argument("fit_smallest: among must name at least one method");
+  EstimationResult result;
+  const Method* found = nullptr;
+  const auto size = [](const AnyVolume& v) { return std::pair(pcl_bv::volume(v), surface_area(v)); };
+  for (const Method* method : among) {
+    AnyVolume candidate;
+    const EstimationResult said = method->fit(points, candidate, execution, options);
+    if (found != nullptr && !(size(candidate) < size(volume))) continue;
+    volume = std::move(candidate);
+    result = said;
+    found = method;
+  }
+  if (winner != nullptr) *winner = result.used > 0 ? found : nullptr;
+  return result;
+}
+
+const std::vector<const Method*>& best_candidates() {
+  static const std::vector<const Method*> candidates = [] {
+    std::vector<const Method*> found;
+    for (const std::string_view name :
+         {"aabb", "obb-dito14", "obb-min", "sphere-exact", "cylinder", "capsule"}) {
+      if (const Method* method = find_method(name)) found.push_back(method);
+    }
+    return found;
+  }();
+  return candidates;
 }
 
 SphereGrowth parse_growth(std::string_view name) {

@@ -7,6 +7,7 @@
 #include "pcl_bv/fitting/verify.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
@@ -84,6 +85,101 @@ double violation(const Obb& box, const Eigen::Vector3d& p) {
     worst = std::max(worst, positive((exact < 0 ? Rational(-exact) : exact) - limit, 1.0));
   }
   return worst;
+}
+
+double violation(const Hull& hull, const Eigen::Vector3d& p) {
+  double worst = 0;
+  for (const HullPlane& plane : hull.planes()) {
+    const Eigen::Vector3d& n = plane.normal;
+    const double rounded = (n.x() * p.x() + n.y() * p.y()) + n.z() * p.z();
+    const double bound =
+        8 * kU * ((std::abs(n.x() * p.x()) + std::abs(n.y() * p.y())) + std::abs(n.z() * p.z())) + kTiny;
+    if (rounded + bound <= plane.offset) continue;
+    const Rational exact = Rational(n.x()) * Rational(p.x()) + Rational(n.y()) * Rational(p.y()) +
+                           Rational(n.z()) * Rational(p.z());
+    worst = std::max(worst, positive(exact - Rational(plane.offset), n.norm()));
+  }
+  return worst;
+}
+
+double terms(const Eigen::Vector3d& q) {
+  return (std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z());
+}
+
+using ExactVector = std::array<Rational, 3>;
+
+ExactVector exact(const Eigen::Vector3d& v) {
+  return {Rational(v.x()), Rational(v.y()), Rational(v.z())};
+}
+
+ExactVector difference(const ExactVector& a, const ExactVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+Rational dot(const ExactVector& a, const ExactVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// With q = p - center, off by U of itself, and an axis of about length 1, q . axis and |q x axis| are off by
+// less than 32 U |q|_1 together with the axis' length.
+double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d q = p - cylinder.center(), axis = cylinder.axis();
+  const double along = std::abs(q.dot(axis)), across = q.cross(axis).stableNorm();
+  const double doubt = 32 * kU * terms(q) + kTiny;
+  const double r = cylinder.radius(), h = cylinder.half_height();
+  if (along + doubt <= h && across + doubt <= r) return 0.0;
+  const ExactVector exact_q = difference(exact(p), exact(cylinder.center())), a = exact(axis);
+  const Rational squared_axis = dot(a, a), projection = dot(exact_q, a), squared = projection * projection;
+  const bool too_far = squared > Rational(h) * Rational(h) * squared_axis;
+  // |q x a|^2 = |q|^2 |a|^2 - (q . a)^2
+  const bool too_wide =
+      dot(exact_q, exact_q) * squared_axis - squared > Rational(r) * Rational(r) * squared_axis;
+  if (!too_far && !too_wide) return 0.0;
+  return std::max({along - h, across - r, std::numeric_limits<double>::denorm_min()});
+}
+
+double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
+  const double r = capsule.radius();
+  const Eigen::Vector3d q = p - capsule.a(), e = capsule.b() - capsule.a();
+  const double length = e.stableNorm();
+  const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(e / length) : Eigen::Vector3d::Zero();
+  const double far = (q - std::clamp(q.dot(unit), 0.0, length) * unit).stableNorm();
+  if (far + 64 * kU * (terms(q) + terms(e)) + kTiny <= r) return 0.0;
+  const ExactVector a = exact(capsule.a()), edge = difference(exact(capsule.b()), a);
+  const ExactVector from_a = difference(exact(p), a);
+  const Rational squared_edge = dot(edge, edge);
+  Rational foot = squared_edge > 0 ? Rational(dot(from_a, edge) / squared_edge) : Rational(0);
+  foot = foot < 0 ? Rational(0) : foot > 1 ? Rational(1) : foot;
+  ExactVector away;
+  for (std::size_t i = 0; i < 3; ++i)
+    away[i] = from_a[i] - foot * edge[i];
+  if (dot(away, away) <= Rational(r) * Rational(r)) return 0.0;
+  return std::max(far - r, std::numeric_limits<double>::denorm_min());
+}
+
+double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d q = p - ellipsoid.center(), radii = ellipsoid.radii();
+  const double doubt = 16 * kU * terms(q) + kTiny;
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double ratio = (std::abs(q.dot(ellipsoid.axes().col(i))) + doubt) / radii[i];
+    sum += ratio * ratio;
+  }
+  if (sum <= 1 - 16 * kU) return 0.0;
+  const ExactVector exact_q = difference(exact(p), exact(ellipsoid.center()));
+  Rational exact_sum = 0;
+  bool off_plane = false;
+  for (int i = 0; i < 3; ++i) {
+    const Rational along = dot(exact_q, exact(ellipsoid.axes().col(i)));
+    if (radii[i] == 0) {
+      off_plane = off_plane || along != 0;
+    } else {
+      const Rational ratio = along / Rational(radii[i]);
+      exact_sum += ratio * ratio;
+    }
+  }
+  if (!off_plane && exact_sum <= 1) return 0.0;
+  return std::max(ellipsoid.distance(p), std::numeric_limits<double>::denorm_min());
 }
 
 void merge(Verification& all, const Verification& part) {

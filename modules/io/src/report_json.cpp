@@ -93,6 +93,40 @@ void add_numbers(const Obb& box, Json& entry) {
   entry["quaternion"] = Json::array({q.x(), q.y(), q.z(), q.w()});
 }
 
+void add_numbers(const Cylinder& cylinder, Json& entry) {
+  entry["center"] = array3(cylinder.center());
+  entry["axis"] = array3(cylinder.axis());
+  entry["radius"] = cylinder.radius();
+  entry["half_height"] = cylinder.half_height();
+}
+
+void add_numbers(const Capsule& capsule, Json& entry) {
+  entry["a"] = array3(capsule.a());
+  entry["b"] = array3(capsule.b());
+  entry["radius"] = capsule.radius();
+}
+
+void add_numbers(const Ellipsoid& ellipsoid, Json& entry) {
+  entry["center"] = array3(ellipsoid.center());
+  const Eigen::Matrix3d& axes = ellipsoid.axes();
+  entry["axes"] = Json::array({array3(axes.col(0)), array3(axes.col(1)), array3(axes.col(2))});
+  entry["radii"] = array3(ellipsoid.radii());
+}
+
+void add_numbers(const Hull& hull, Json& entry) {
+  Json vertices = Json::array(), faces = Json::array(), planes = Json::array();
+  for (const Eigen::Vector3d& v : hull.vertices())
+    vertices.push_back(array3(v));
+  for (const Hull::Triangle& t : hull.triangles())
+    faces.push_back(Json::array({t[0], t[1], t[2]}));
+  for (const HullPlane& p : hull.planes())
+    planes.push_back(Json::array({p.normal.x(), p.normal.y(), p.normal.z(), p.offset}));
+  entry["vertices"] = std::move(vertices);
+  entry["faces"] = std::move(faces);
+  entry["planes"] = std::move(planes);
+  if (hull.rank() < 3) entry["rank"] = hull.rank();
+}
+
 Json volume_json(const VolumeEntry& entry) {
   Json json{{"shape", std::string(shape_name(entry.volume))}, {"method", entry.method}};
   if (empty(entry.volume)) {

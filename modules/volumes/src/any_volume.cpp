@@ -19,6 +19,18 @@ std::string_view name_of(const Sphere&) {
 std::string_view name_of(const Obb&) {
   return "obb";
 }
+std::string_view name_of(const Cylinder&) {
+  return "cylinder";
+}
+std::string_view name_of(const Capsule&) {
+  return "capsule";
+}
+std::string_view name_of(const Ellipsoid&) {
+  return "ellipsoid";
+}
+std::string_view name_of(const Hull&) {
+  return "hull";
+}
 
 }  // namespace
 

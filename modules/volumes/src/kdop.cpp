@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "directed.h"
+#include "projection.h"
 #include "ray_clip.h"
 
 namespace pcl_bv {
@@ -21,28 +22,6 @@ using namespace volumes_internal;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// A projection in plain double and a bound of its error. Three products and two sums are off by at most
-// 3.01 2^-53 of the sum of magnitudes; the smallest normal covers products that underflow.
-struct Projection {
-  double value, error;
-};
-
-Projection project(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
-  const double x = p.x() * n.x(), y = p.y() * n.y(), z = p.z() * n.z();
-  return {(x + y) + z,
-          0x1p-51 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + std::numeric_limits<double>::min()};
-}
-
-// Twice the error, so that the ends hold the exact projection after their own rounding.
-struct Enclosed {
-  double low, high;
-};
-
-Enclosed enclose(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
-  const auto [value, error] = project(n, p);
-  return {value - 2 * error, value + 2 * error};
-}
 
 void require_equal_sets(const Kdop& a, const Kdop& b, const char* verb) {
   if (a.set() != b.set() && *a.set() != *b.set()) {

@@ -73,36 +73,6 @@ ClippedCube clipped(const LocalSlabs& slabs, const CubeMap& map) {
   return cube;
 }
 
-struct Measure {
-  double size = 0;  // volume, area or length by rank
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-
-  void add(double part, const Eigen::Vector3d& center) {
-    size += part;
-    moment += part * center;
-  }
-};
-
-// Of rank 3 by tetrahedra from the first vertex, of rank 2 by triangles.
-Measure measure(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces, int rank) {
-  Measure result;
-  const auto at = [&](const Face& f, std::size_t i) { return vertices[static_cast<std::size_t>(f[i])]; };
-  const Eigen::Vector3d apex = vertices.front();
-  for (const Face& face : faces) {
-    const Eigen::Vector3d a = at(face, 0);
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-      const Eigen::Vector3d b = at(face, i), c = at(face, i + 1);
-      const Eigen::Vector3d area = (b - a).cross(c - a);
-      if (rank == 3) {
-        result.add(area.dot(a - apex) / 6, (a + b + c + apex) / 4);
-      } else {
-        result.add(area.stableNorm() / 2, (a + b + c) / 3);
-      }
-    }
-  }
-  return result;
-}
-
 // Keeps the vertices that faces use, renumbered in order.
 void compact(const ClippedCube& cube, std::vector<Eigen::Vector3d>& vertices, std::vector<Face>& faces) {
   std::vector<std::int32_t> number(cube.vertices().size(), -1);
@@ -155,6 +125,25 @@ double distance_to_face(const Polytope& polytope, const Face& face, const Eigen:
 }
 
 }  // namespace
+
+Measure measure(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces, int rank) {
+  Measure result;
+  const auto at = [&](const Face& f, std::size_t i) { return vertices[static_cast<std::size_t>(f[i])]; };
+  const Eigen::Vector3d apex = vertices.front();
+  for (const Face& face : faces) {
+    const Eigen::Vector3d a = at(face, 0);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      const Eigen::Vector3d b = at(face, i), c = at(face, i + 1);
+      const Eigen::Vector3d area = (b - a).cross(c - a);
+      if (rank == 3) {
+        result.add(area.dot(a - apex) / 6, (a + b + c + apex) / 4);
+      } else {
+        result.add(area.stableNorm() / 2, (a + b + c) / 3);
+      }
+    }
+  }
+  return result;
+}
 
 Polytope intersect_slabs(const Kdop& kdop) {
   const LocalSlabs slabs = local_slabs(kdop);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The corners and faces of a k-DOP by intersection of its half-spaces.
+// Bodies as corners and faces: how they are measured, and those of a k-DOP.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +23,20 @@ struct Polytope {
   double volume = 0;
   Eigen::Vector3d centroid;  ///< Relative to the origin.
 };
+
+/// How much there is, and where.
+struct Measure {
+  double size = 0;  ///< Volume, area or length by rank.
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+
+  void add(double part, const Eigen::Vector3d& center) {
+    size += part;
+    moment += part * center;
+  }
+};
+
+/// Of rank 3 by tetrahedra from the first vertex, of rank 2 by triangles.
+Measure measure(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces, int rank);
 
 /// For a k-DOP that is not empty.
 Polytope intersect_slabs(const Kdop& kdop);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "directed.h"
+#include "motion.h"
 #include "ray_clip.h"
 
 namespace pcl_bv {
@@ -39,23 +40,6 @@ Sphere around(const Sphere& big, const Sphere& small) {
   const Eigen::Vector3d center = big.center() + part * step;
   const auto reach = [&](const Sphere& s) { return add_up(distance_up(center, s.center()), s.radius()); };
   return {center, std::max(reach(big), reach(small))};
-}
-
-// How much the matrix stretches any vector: |M| <= sqrt(max row sum of |M'M|), rounded up; 1 for the
-// identity.
-double stretch_up(const Eigen::Matrix3d& m) {
-  double result = 0;
-  for (int i = 0; i < 3; ++i) {
-    double row = 0;
-    for (int j = 0; j < 3; ++j) {
-      ExactSum dot;
-      for (int k = 0; k < 3; ++k)
-        dot.add_product(m(k, i), m(k, j));
-      row = add_up(row, std::max(dot.up(), -dot.down()));
-    }
-    result = std::max(result, row);
-  }
-  return sqrt_up(result);
 }
 
 // |a - b| <= r, or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2 by 5; the limit loses 3
@@ -144,16 +128,8 @@ Aabb Sphere::aabb() const {
 
 Sphere Sphere::transformed(const Eigen::Isometry3d& transform) const {
   if (empty()) return {};
-  const Eigen::Vector3d center = transform * center_;
-  Eigen::Vector3d error;
-  for (int i = 0; i < 3; ++i) {
-    ExactSum sum;
-    sum.add(transform(i, 3)).add(-center[i]);
-    for (int j = 0; j < 3; ++j)
-      sum.add_product(transform(i, j), center_[j]);
-    error[i] = std::max(sum.up(), -sum.down());
-  }
-  return {center, add_up(multiply_up(radius_, stretch_up(transform.linear())), norm_up(error))};
+  const MovedPoint center = move_point(transform, center_);
+  return {center.point, add_up(multiply_up(radius_, stretch_up(transform.linear())), center.error)};
 }
 
 Sphere& Sphere::extend(const Eigen::Vector3d& point) {

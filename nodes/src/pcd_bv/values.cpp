@@ -43,7 +43,7 @@ std::string known_methods() {
 void add_method(std::vector<const Method*>& list, std::string_view name) {
   if (name == "all") {
     for (const Method& method : methods()) {
-      if (method.shape != "hull") add_once(list, &method);
+      if (method.shape != "hull" && method.name != "best") add_once(list, &method);
     }
   } else if (const Method* method = find_method(name)) {
     add_once(list, method);

@@ -10,10 +10,12 @@
 #include <pcl/impl/pcl_base.hpp>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/fitting/methods.h"
 
 namespace pcl_bv {
 
@@ -137,6 +139,70 @@ class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
 
  private:
   ObbOptions options_;
+};
+
+/// The convex hull. See fit_hull().
+template <typename PointT>
+class HullEstimation : public BoundingVolumeEstimation<PointT, Hull> {
+ protected:
+  EstimationResult fit(const PointView& points, Hull& hull, const Execution& execution) const override {
+    return fit_hull(points, hull, execution);
+  }
+};
+
+/// A small cylinder. See fit_cylinder().
+template <typename PointT>
+class CylinderEstimation : public BoundingVolumeEstimation<PointT, Cylinder> {
+ protected:
+  EstimationResult fit(const PointView& points, Cylinder& cylinder,
+                       const Execution& execution) const override {
+    return fit_cylinder(points, cylinder, execution);
+  }
+};
+
+/// A small capsule. See fit_capsule().
+template <typename PointT>
+class CapsuleEstimation : public BoundingVolumeEstimation<PointT, Capsule> {
+ protected:
+  EstimationResult fit(const PointView& points, Capsule& capsule, const Execution& execution) const override {
+    return fit_capsule(points, capsule, execution);
+  }
+};
+
+/// The smallest ellipsoid. See fit_ellipsoid().
+template <typename PointT>
+class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
+ public:
+  using BoundingVolumeEstimation<PointT, Ellipsoid>::compute;
+
+  /// The same, and how near it is to the smallest and why.
+  EstimationResult compute(Ellipsoid& ellipsoid, EllipsoidCertificate& certificate) const {
+    return fit_ellipsoid(this->input(), ellipsoid, certificate, this->execution());
+  }
+
+ protected:
+  EstimationResult fit(const PointView& points, Ellipsoid& ellipsoid,
+                       const Execution& execution) const override {
+    return fit_ellipsoid(points, ellipsoid, execution);
+  }
+};
+
+/// Whichever of several volumes is the smallest. See fit_smallest().
+template <typename PointT>
+class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
+ public:
+  /// The methods to choose from; best_candidates() by default. Throws std::invalid_argument, naming it, for a
+  /// name that is no method, for `best` itself and for no names.
+  void setMethods(const std::vector<std::string>& names);
+
+ protected:
+  EstimationResult fit(const PointView& points, AnyVolume& volume,
+                       const Execution& execution) const override {
+    return fit_smallest(points, among_, volume, execution);
+  }
+
+ private:
+  std::vector<const Method*> among_ = best_candidates();
 };
 
 }  // namespace pcl_bv

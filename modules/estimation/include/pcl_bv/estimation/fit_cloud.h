@@ -89,6 +89,54 @@ EstimationResult fit_smallest_sphere(const pcl::PointCloud<PointT>& cloud, const
   return fit_smallest_sphere(point_view(cloud, indices), sphere, certificate, execution);
 }
 
+/// As fit_hull(), fit_cylinder(), fit_capsule() and fit_ellipsoid() of fitting/fit.h.
+template <typename PointT>
+EstimationResult fit_hull(const pcl::PointCloud<PointT>& cloud, Hull& hull, const Execution& execution = {}) {
+  return fit_hull(point_view(cloud), hull, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_hull(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices, Hull& hull,
+                          const Execution& execution = {}) {
+  return fit_hull(point_view(cloud, indices), hull, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_cylinder(const pcl::PointCloud<PointT>& cloud, Cylinder& cylinder,
+                              const Execution& execution = {}) {
+  return fit_cylinder(point_view(cloud), cylinder, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_cylinder(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                              Cylinder& cylinder, const Execution& execution = {}) {
+  return fit_cylinder(point_view(cloud, indices), cylinder, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_capsule(const pcl::PointCloud<PointT>& cloud, Capsule& capsule,
+                             const Execution& execution = {}) {
+  return fit_capsule(point_view(cloud), capsule, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_capsule(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                             Capsule& capsule, const Execution& execution = {}) {
+  return fit_capsule(point_view(cloud, indices), capsule, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_ellipsoid(const pcl::PointCloud<PointT>& cloud, Ellipsoid& ellipsoid,
+                               const Execution& execution = {}) {
+  return fit_ellipsoid(point_view(cloud), ellipsoid, execution);
+}
+
+template <typename PointT>
+EstimationResult fit_ellipsoid(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                               Ellipsoid& ellipsoid, const Execution& execution = {}) {
+  return fit_ellipsoid(point_view(cloud, indices), ellipsoid, execution);
+}
+
 /// As summarize() of fitting/summary.h.
 template <typename PointT>
 CloudSummary summarize(const pcl::PointCloud<PointT>& cloud, const Execution& execution = {}) {

@@ -1,36 +1,69 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes in the form that PCL's visualizer and its sample consensus models take.
+// Volumes in the form that PCL's visualizer and its sample consensus models take. Empty ones give NaN, and -1
+// for the radius.
 #pragma once
 
 #include <pcl/ModelCoefficients.h>
 
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "pcl_bv/volumes/cylinder.h"
 #include "pcl_bv/volumes/obb.h"
 #include "pcl_bv/volumes/sphere.h"
 
 namespace pcl_bv {
+namespace estimation_internal {
 
-/// As PCLVisualizer::addCube() takes it: translation x y z, rotation as a quaternion x y z w, and the sizes
-/// along the box's axes 0, 1 and 2. Rounded to float, so not a bound. Ten NaN for an empty box.
-inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
-  const Eigen::Vector3d& c = box.center();
-  const Eigen::Vector3d size = box.empty() ? c : Eigen::Vector3d(2 * box.half_extents());
-  const Eigen::Vector4d q = box.empty() ? Eigen::Vector4d::Constant(c.x()) : box.quaternion().coeffs();
+inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
   pcl::ModelCoefficients result;
-  for (const double value : {c.x(), c.y(), c.z(), q.x(), q.y(), q.z(), q.w(), size.x(), size.y(), size.z()})
+  for (const double value : values)
     result.values.push_back(static_cast<float>(value));
   return result;
 }
 
-/// As PCLVisualizer::addSphere() and SACMODEL_SPHERE take it: centre x y z and radius. Rounded to float, so
-/// not a bound. An empty sphere: NaN three times and -1.
+inline float float_above(double x) {
+  const float nearest = static_cast<float>(x);
+  return nearest < x ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
+}
+
+}  // namespace estimation_internal
+
+/// As PCLVisualizer::addCube() takes it: translation x y z, rotation as a quaternion x y z w, and the sizes
+/// along the box's axes 0, 1 and 2. Rounded to float, so not a bound.
+inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
+  const Eigen::Vector3d& c = box.center();
+  const Eigen::Vector3d size = box.empty() ? c : Eigen::Vector3d(2 * box.half_extents());
+  const Eigen::Vector4d q = box.empty() ? Eigen::Vector4d::Constant(c.x()) : box.quaternion().coeffs();
+  return estimation_internal::as_floats(
+      {c.x(), c.y(), c.z(), q.x(), q.y(), q.z(), q.w(), size.x(), size.y(), size.z()});
+}
+
+/// As PCLVisualizer::addSphere() and SACMODEL_SPHERE take it: centre and radius, as Sphere::cast_float()
+/// gives them; holds the sphere.
 inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
   const Eigen::Vector3d& c = sphere.center();
-  pcl::ModelCoefficients result;
-  for (const double value : {c.x(), c.y(), c.z(), sphere.radius()})
-    result.values.push_back(static_cast<float>(value));
-  return result;
+  if (sphere.empty()) return estimation_internal::as_floats({c.x(), c.y(), c.z(), -1});
+  const FloatSphere f = sphere.cast_float();
+  return estimation_internal::as_floats({f.center.x(), f.center.y(), f.center.z(), f.radius});
+}
+
+/// As PCLVisualizer::addCylinder() takes it without ends, and SACMODEL_CYLINDER: a point on the axis (the
+/// centre), the direction of the axis, the radius. It has grown by what the rounding of the others moves the
+/// axis between the ends, so the model holds the cylinder.
+inline pcl::ModelCoefficients to_model_coefficients(const Cylinder& cylinder) {
+  const Eigen::Vector3d& c = cylinder.center();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  if (cylinder.empty()) return estimation_internal::as_floats({nan, nan, nan, nan, nan, nan, -1});
+  const Eigen::Vector3f center = c.cast<float>(), axis = cylinder.axis().cast<float>();
+  const double moved = (center.cast<double>() - c).norm();
+  const double turned = 2 * (axis.cast<double>() - cylinder.axis()).norm();
+  const double grown = (cylinder.radius() + moved + turned * cylinder.half_height()) * (1 + 1e-12);
+  return estimation_internal::as_floats({center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(),
+                                         estimation_internal::float_above(grown)});
 }
 
 }  // namespace pcl_bv

@@ -15,6 +15,10 @@
 #include "pcl_bv/fitting/result.h"
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
+#include "pcl_bv/volumes/capsule.h"
+#include "pcl_bv/volumes/cylinder.h"
+#include "pcl_bv/volumes/ellipsoid.h"
+#include "pcl_bv/volumes/hull.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/sphere.h"
 
@@ -65,6 +69,18 @@ struct SphereCertificate {
   int passes = 0;          ///< Scans for points outside, after the one for the extremal points.
 };
 
+/// Why an ellipsoid is nearly the smallest: points p_i of the cloud with weights w_i > 0 whose sum is 1. With
+/// S their weighted covariance, no ellipsoid around them has a volume below 4 pi / 3 sqrt(27 det S)
+/// (Khachiyan 1996).
+struct EllipsoidCertificate {
+  std::vector<std::size_t> support;  ///< The cloud's numbers of the points.
+  std::vector<double> weights;
+  double lower_bound = 0;  ///< That volume, with room for its rounding; 0 for flat points.
+  /// By how much of the bound the volume exceeds it; for flat points the area or length that they span.
+  double excess = 0;
+  int iterations = 0;
+};
+
 /// The axis-aligned box of the points: their exact minimum and maximum. Paper §2.
 ///
 /// Empty input or no finite point: an empty box and `no_valid_points`. One point: a box of that point. O(n),
@@ -104,5 +120,37 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
 /// each octant. Two passes over most clouds; more over the part near the surface. It always ends.
 EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
                                      const Execution& execution = {});
+
+/// The convex hull of the points. Its vertices are points of the cloud (of equal ones any; axis by axis they
+/// reach as far as the cloud), its triangles the hull of them up to the rounding of doubles, and each plane's
+/// offset is the exact greatest projection of all points on its normal, rounded up. Same rules as fit_aabb();
+/// the rank is that of the points: 2 if they lie in a plane, however tilted, 1 on a line, 0 in one point, all
+/// to within 2^-36 of the extent. The planes enclose all the same. Throws std::runtime_error should Qhull
+/// fail.
+///
+/// Akl and Toussaint 1978 drop the points inside the hull of the extremal ones, O(n); of the m others Barber,
+/// Dobkin and Huhdanpaa 1996 find the hull, O(m log m) where not most of them are vertices.
+EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution = {});
+
+/// A small cylinder around the points: of the axes that a search over the hemisphere and steps from the best
+/// find good, the best; for that axis the smallest circle and the least height. No proof that no other axis
+/// is better. Same rules as fit_hull(); points in a plane give a disc, on a line a segment. As fit_hull(),
+/// and some thousand times O(vertices).
+EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const Execution& execution = {});
+
+/// A small capsule around the points, found as fit_cylinder() finds its axis; then each end is as far in as
+/// the points leave it, and the radius wider than the smallest where that makes it smaller. Never greater
+/// than the smallest sphere, but for rounding. Same rules.
+EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const Execution& execution = {});
+
+/// The smallest ellipsoid around the points, to some 1e-6 of its volume: the certificate says how near and
+/// why. Same rules as fit_hull(); radii along which the points are flat are 2^-30 of the greatest (all are 0
+/// for one point). As fit_hull(), and some hundred to thousand times O(vertices).
+///
+/// Khachiyan 1996; Harman, Filova and Richtarik 2020.
+EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
+                               EllipsoidCertificate& certificate, const Execution& execution = {});
+EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
+                               const Execution& execution = {});
 
 }  // namespace pcl_bv

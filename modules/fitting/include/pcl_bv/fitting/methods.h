@@ -22,7 +22,7 @@ struct MethodOptions {
 struct Method {
   std::string_view name;                  ///< The canonical name, as written into results: "dop26".
   std::vector<std::string_view> aliases;  ///< Other names that mean it.
-  std::string_view shape;                 ///< "aabb", "kdop", "sphere" or "obb".
+  std::string_view shape;  ///< As shape_name() says; empty for `best`, which depends on the points.
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
   bool upright = false;  ///< Whether it asks for MethodOptions::up.
 
@@ -37,6 +37,17 @@ const std::vector<Method>& methods();
 
 /// The method with this name or alias, or null.
 const Method* find_method(std::string_view name);
+
+/// Fits each of the methods (at least one, or std::invalid_argument) and keeps the volume that is smallest,
+/// of equally small (flat) ones that with the smallest surface, of equal ones the first. `winner`, if not
+/// null, becomes its method; null without a valid point.
+EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
+                              AnyVolume& volume, const Execution& execution = {},
+                              const MethodOptions& options = {}, const Method** winner = nullptr);
+
+/// What `best` chooses from: the boxes, the smallest sphere, cylinder and capsule, as far as this build has
+/// them.
+const std::vector<const Method*>& best_candidates();
 
 /// "sequential", "stationary" or "deferred". Throws std::invalid_argument, naming these, for any other text.
 SphereGrowth parse_growth(std::string_view name);

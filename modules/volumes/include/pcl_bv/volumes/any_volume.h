@@ -11,6 +11,10 @@
 #include <variant>
 
 #include "pcl_bv/volumes/aabb.h"
+#include "pcl_bv/volumes/capsule.h"
+#include "pcl_bv/volumes/cylinder.h"
+#include "pcl_bv/volumes/ellipsoid.h"
+#include "pcl_bv/volumes/hull.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/obb.h"
@@ -19,7 +23,7 @@
 
 namespace pcl_bv {
 
-using AnyVolume = std::variant<Aabb, Kdop, Sphere, Obb>;
+using AnyVolume = std::variant<Aabb, Kdop, Sphere, Obb, Cylinder, Capsule, Ellipsoid, Hull>;
 
 /// Each forwards to the verb of the volume held.
 bool empty(const AnyVolume& volume);
@@ -35,7 +39,8 @@ Aabb aabb(const AnyVolume& volume);
 Mesh mesh(const AnyVolume& volume);
 AnyVolume transformed(const AnyVolume& volume, const Eigen::Isometry3d& transform);
 
-/// The shape's name in results: "aabb", "kdop", "sphere" or "obb".
+/// The shape's name in results: "aabb", "kdop", "sphere", "obb", "cylinder", "capsule", "ellipsoid" or
+/// "hull".
 std::string_view shape_name(const AnyVolume& volume);
 
 }  // namespace pcl_bv

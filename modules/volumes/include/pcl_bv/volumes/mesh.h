@@ -10,8 +10,9 @@
 
 namespace pcl_bv {
 
-/// A closed polygon mesh in the frame and unit of the volume it came from. Faces are convex, counter-clockwise seen
-/// from outside. An empty volume has an empty mesh; a flat one has faces of area 0 or two that coincide.
+/// A closed polygon mesh in the frame and unit of the volume it came from. Faces are convex,
+/// counter-clockwise seen from outside. An empty volume has an empty mesh; a flat one has faces of area 0 or
+/// two that coincide.
 struct Mesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::vector<std::int32_t>> faces;  ///< Vertex numbers around each face.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "pcl_bv/estimation/bounding_volume_estimation.h"
 #include "pcl_bv/estimation/point_cloud_view.h"
@@ -89,6 +90,19 @@ template <typename PointT, int K>
 EstimationResult KdopEstimation<PointT, K>::fit(const PointView& points, Kdop& kdop,
                                                 const Execution& execution) const {
   return fit_kdop(points, set(), kdop, execution);
+}
+
+template <typename PointT>
+void BestEstimation<PointT>::setMethods(const std::vector<std::string>& names) {
+  std::vector<const Method*> among;
+  for (const std::string& name : names) {
+    among.push_back(find_method(name));
+    if (among.back() == nullptr || among.back()->name == "best") {
+      throw std::invalid_argument("BestEstimation::setMethods: '" + name + "' is no method to choose from");
+    }
+  }
+  if (among.empty()) throw std::invalid_argument("BestEstimation::setMethods: no names");
+  among_ = std::move(among);
 }
 
 }  // namespace pcl_bv

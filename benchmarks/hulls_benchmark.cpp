@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The hull against what it is made of and what PCL offers: Qhull on all points, and pcl::ConvexHull. Beside
+// it the shapes that are fitted to its vertices, with their volumes over the hull's (`over_hull`). Rows as in
+// rows.h.
+
+#ifdef PCL_BV_BENCH_SURFACE
+#include <pcl/surface/convex_hull.h>
+#endif
+
+#include "hull_triangles.h"
+#include "pcl_bv/kernels/float_environment.h"
+#include "rows.h"
+
+namespace pcl_bv::bench {
+namespace {
+
+void add_fit(const std::string& work, Isa isa, const CloudName& name) {
+  const Fit fit(work);
+  add(work, std::string(isa_name(isa)), name, [=](benchmark::State& state) {
+    Cloud& points = cloud(name);
+    const Execution execution{Serial{}, isa};
+    fit.check(points, execution);
+    static const Fit hull("hull");
+    state.counters["over_hull"] =
+        volume(fit.volume(points, execution)) / volume(hull.volume(points, execution));
+    time_passes(state, points, [&] { fit(points, execution); });
+  });
+}
+
+// As whoever calls Qhull does it: a copy in double of all points.
+void add_plain_qhull(const CloudName& name) {
+  add("qhull-of-all-points", "peer", name, [=](benchmark::State& state) {
+    const Cloud& points = cloud(name);
+    const FloatEnvironment environment;
+    std::size_t triangles = 0;
+    time_passes(state, points, [&] {
+      std::vector<Eigen::Vector3d> copy;
+      copy.reserve(points.view.count);
+      for (std::size_t i = 0; i < points.view.count; ++i) {
+        const Coordinates p = load_point(points.view, i);
+        copy.emplace_back(p.x, p.y, p.z);
+      }
+      triangles = hull_triangles(copy).size();
+    });
+    state.counters["triangles"] = static_cast<double>(triangles);
+  });
+}
+
+#ifdef PCL_BV_BENCH_SURFACE
+void add_pcl(const CloudName& name) {
+  add("pcl::ConvexHull", "peer", name, [=](benchmark::State& state) {
+    const Cloud& points = cloud(name);
+    pcl::ConvexHull<pcl::PointXYZ> estimation;
+    estimation.setInputCloud(points.pcl);
+    estimation.setDimension(3);
+    pcl::PointCloud<pcl::PointXYZ> vertices;
+    std::vector<pcl::Vertices> polygons;
+    time_passes(state, points, [&] { estimation.reconstruct(vertices, polygons); });
+    state.counters["triangles"] = static_cast<double>(polygons.size());
+  });
+}
+#else
+void add_pcl(const CloudName&) {}
+#endif
+
+void add_cloud(const CloudName& name) {
+  for (const Isa isa : usable_isas())
+    add_fit("hull", isa, name);
+  add_plain_qhull(name);
+  add_pcl(name);
+  for (const std::string work : {"cylinder", "capsule", "ellipsoid", "best"})
+    add_fit(work, usable_isas().back(), name);
+}
+
+}  // namespace
+}  // namespace pcl_bv::bench
+
+int main(int argc, char** argv) {
+  for (const std::string scene : {"gauss", "car", "cube", "ball"}) {
+    for (const std::size_t points : {300, 10'000, 100'722})
+      pcl_bv::bench::add_cloud({scene, points});
+  }
+  for (const std::size_t points : {300, 10'000})  // every point is a vertex
+    pcl_bv::bench::add_cloud({"surface", points});
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Capsule's arithmetic, compiled here so that the user's compiler flags cannot change it.
+#include "pcl_bv/volumes/capsule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "directed.h"
+#include "motion.h"
+#include "pcl_bv/volumes/cylinder.h"
+#include "pcl_bv/volumes/sphere.h"
+#include "ring_mesh.h"
+#include "triad.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double pi = 3.14159265358979323846;
+
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
+// Of a point q seen from the end a; the foot of the perpendicular is on the segment to the end e seen from
+// there. An error of the foot lengthens the distance, by less than itself.
+double distance_to_segment(const Eigen::Vector3d& q, const Eigen::Vector3d& e) {
+  const double length = e.stableNorm();
+  if (length == 0) return q.stableNorm();
+  const Eigen::Vector3d unit = e / length;
+  return (q - std::clamp(dot(q, unit), 0.0, length) * unit).stableNorm();
+}
+
+void unite(const std::optional<RayInterval>& part, std::optional<RayInterval>& all) {
+  if (!part) return;
+  all = all ? RayInterval{std::min(all->enter, part->enter), std::max(all->exit, part->exit)} : *part;
+}
+
+}  // namespace
+
+Capsule::Capsule() : a_(Eigen::Vector3d::Constant(nan)), b_(a_), radius_(-1) {}
+
+Capsule::Capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) : Capsule() {
+  if (radius < 0) return;
+  if (!a.allFinite() || !b.allFinite() || !std::isfinite(radius)) {
+    throw std::invalid_argument(
+        "Capsule: a, b and radius must be finite (or the radius negative, for an empty capsule)");
+  }
+  a_ = a.array() + 0.0;
+  b_ = b.array() + 0.0;
+  radius_ = radius + 0.0;
+}
+
+// Rounding moves q and e by U = 2^-53 of themselves, the foot by less than 12 U (|q| + |e|), the distance by
+// that and 6 U of itself. Where it matters, |q| is at most |e| + radius: 2^-47 of all three is more.
+bool Capsule::contains(const Eigen::Vector3d& point) const {
+  if (empty()) return false;
+  const Eigen::Vector3d q = point - a_, e = b_ - a_;
+  const double size = ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) +
+                      ((std::abs(e.x()) + std::abs(e.y())) + std::abs(e.z()));
+  return distance_to_segment(q, e) <= radius_ + (0x1p-48 * (size + radius_) + tiny);
+}
+
+double Capsule::volume() const {
+  return empty() ? 0 : pi * radius_ * radius_ * ((b_ - a_).stableNorm() + 4 * radius_ / 3);
+}
+
+double Capsule::surface_area() const {
+  return empty() ? 0 : 2 * pi * radius_ * ((b_ - a_).stableNorm() + 2 * radius_);
+}
+
+Eigen::Vector3d Capsule::center() const {
+  return a_ + (b_ - a_) / 2;
+}
+
+Eigen::Vector3d Capsule::support(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d d = direction.stableNormalized();
+  const double ahead = dot(d, b_ - a_);
+  return (ahead == 0 ? center() : ahead > 0 ? b_ : a_) + radius_ * d;
+}
+
+double Capsule::distance(const Eigen::Vector3d& point) const {
+  if (point.hasNaN()) return nan;
+  if (empty()) return infinity;
+  if (contains(point)) return 0;
+  return std::max(0.0, distance_to_segment(point - a_, b_ - a_) - radius_);
+}
+
+std::optional<RayInterval> Capsule::intersect(const Eigen::Vector3d& origin,
+                                              const Eigen::Vector3d& direction) const {
+  if (empty()) return std::nullopt;
+  // Grown by the rounding of the axis; contains() is as generous.
+  const double size = (b_ - a_).lpNorm<1>() + radius_;
+  const double grown = radius_ + 0x1p-46 * size + tiny;
+  std::optional<RayInterval> all;
+  unite(Sphere(a_, grown).intersect(origin, direction), all);
+  unite(Sphere(b_, grown).intersect(origin, direction), all);
+  if (a_ != b_) {
+    const double half = (b_ - a_).stableNorm() / 2;
+    unite(Cylinder(center(), b_ - a_, grown, half * (1 + 0x1p-48)).intersect(origin, direction), all);
+  }
+  if (contains(origin)) unite(RayInterval{0, all ? all->exit : 0}, all);
+  return all;
+}
+
+Aabb Capsule::aabb() const {
+  if (empty()) return {};
+  return Sphere(a_, radius_).aabb().merge(Sphere(b_, radius_).aabb());
+}
+
+Mesh Capsule::mesh() const {
+  if (empty()) return {};
+  constexpr int sides = 24, steps = 6;  // from the equator of a half sphere to near its pole
+  const bool is_sphere = a_ == b_;
+  const Triad triad(is_sphere ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
+                              : Eigen::Vector3d((b_ - a_).stableNormalized()));
+  std::vector<Ring> rings;
+  for (int i = 1 - steps; i < steps; ++i) {
+    const double angle = pi / 2 * std::abs(i) / steps;
+    const Eigen::Vector3d rise = (i < 0 ? -1 : 1) * std::sin(angle) * radius_ * triad.axis;
+    if (i <= 0) rings.push_back({a_ + rise, radius_ * std::cos(angle)});
+    if (i > 0 || (i == 0 && !is_sphere)) rings.push_back({b_ + rise, radius_ * std::cos(angle)});
+  }
+  return ring_mesh(rings, triad, sides);
+}
+
+Capsule Capsule::transformed(const Eigen::Isometry3d& transform) const {
+  if (empty()) return {};
+  const MovedPoint a = move_point(transform, a_), b = move_point(transform, b_);
+  const double radius =
+      add_up(multiply_up(radius_, stretch_up(transform.linear())), std::max(a.error, b.error));
+  return {a.point, b.point, radius};
+}
+
+bool operator==(const Capsule& a, const Capsule& b) {
+  if (a.empty() || b.empty()) return a.empty() && b.empty();
+  return a.a() == b.a() && a.b() == b.b() && a.radius() == b.radius();
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Cylinder's arithmetic, compiled here so that the user's compiler flags cannot change it.
+#include "pcl_bv/volumes/cylinder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "directed.h"
+#include "motion.h"
+#include "ray_clip.h"
+#include "ring_mesh.h"
+#include "triad.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double pi = 3.14159265358979323846;
+constexpr int mesh_sides = 48;
+
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
+// Of q seen from the centre: how far along the axis, and how far from it.
+struct Seen {
+  double along;
+  Eigen::Vector3d across;  // q x axis: as long as q is far from the axis
+};
+
+Seen see(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
+  return {dot(q, axis), q.cross(axis)};
+}
+
+}  // namespace
+
+Cylinder::Cylinder()
+    : center_(Eigen::Vector3d::Constant(nan)),
+      axis_(Eigen::Vector3d::UnitZ()),
+      radius_(-1),
+      half_height_(-1) {}
+
+Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, double radius,
+                   double half_height)
+    : Cylinder() {
+  if (radius < 0 || half_height < 0) return;
+  if (!center.allFinite() || !axis.allFinite() || axis.isZero(0) || !std::isfinite(radius) ||
+      !std::isfinite(half_height)) {
+    throw std::invalid_argument(
+        "Cylinder: center, axis, radius and half_height must be finite, the axis not zero "
+        "(or the radius or half_height negative, for an empty cylinder)");
+  }
+  center_ = center.array() + 0.0;
+  axis_ = unit_axis(axis);
+  radius_ = radius + 0.0;
+  half_height_ = half_height + 0.0;
+}
+
+// Each component of q is off by U = 2^-53 of itself, along by 5 U |q|_1, across by 6 U |q|_1 in each
+// component, 11 in length, the length's own rounding is 4 U of it and that of |axis| another 4: 32 U |q|_1 is
+// more than each.
+bool Cylinder::contains(const Eigen::Vector3d& point) const {
+  if (empty()) return false;
+  const Eigen::Vector3d q = point - center_;
+  const auto [along, across] = see(axis_, q);
+  const double doubt = 0x1p-48 * ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) + tiny;
+  return std::abs(along) <= half_height_ + doubt && across.stableNorm() <= radius_ + doubt;
+}
+
+double Cylinder::volume() const {
+  return empty() ? 0 : 2 * pi * radius_ * radius_ * half_height_;
+}
+
+double Cylinder::surface_area() const {
+  return empty() ? 0 : 2 * pi * radius_ * (radius_ + 2 * half_height_);
+}
+
+Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d d = direction.stableNormalized();
+  const Eigen::Vector3d across = d - dot(d, axis_) * axis_;
+  return center_ + (dot(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
+         radius_ * across.stableNormalized();
+}
+
+double Cylinder::distance(const Eigen::Vector3d& point) const {
+  if (point.hasNaN()) return nan;
+  if (empty()) return infinity;
+  if (contains(point)) return 0;
+  const auto [along, across] = see(axis_, point - center_);
+  return Eigen::Vector2d(std::max(0.0, std::abs(along) - half_height_),
+                         std::max(0.0, across.stableNorm() - radius_))
+      .stableNorm();
+}
+
+// Where the ray is between the ends, it is no farther from the origin than |q| + half_height and the radius
+// tell, and all of this is off by less than `doubt`: a cylinder that has grown by it holds the true one.
+// (Half of it covers the positions, half the roots.)
+std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
+                                               const Eigen::Vector3d& direction) const {
+  return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
+    const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
+    const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
+    const Eigen::Vector3d q = origin - center_;
+    const double doubt = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + tiny;
+    const bool held = contains(origin);
+    const auto [along, across] = see(axis_, q);
+    const auto [step, turn] = see(axis_, u);
+    const double height = std::max(half_height_, held ? std::abs(along) : 0) + doubt;
+    const double slope_doubt = 0x1p-48 * u.lpNorm<1>();
+    RayClip scaled;
+    scaled.keep(step - slope_doubt, height - along);
+    scaled.keep(-step - slope_doubt, height + along);
+    const double radius = std::max(radius_, held ? across.stableNorm() : 0) + doubt;
+    const double speed = turn.stableNorm();
+    if (speed > 0) {
+      const double nearest = -dot(across / speed, turn / speed);
+      const double h = (across + nearest * turn).stableNorm();
+      if (h > radius) return ray.keep(0, -1);
+      const double half = std::sqrt(radius - h) * std::sqrt(radius + h) / speed * (1 + 0x1p-49);
+      scaled.keep_between(nearest - half, nearest + half);
+    } else if (across.stableNorm() > radius) {
+      return ray.keep(0, -1);
+    }
+    const auto found = scaled.interval();
+    if (!found) return ray.keep(0, -1);
+    ray.keep_between(std::ldexp(found->enter, -exponent), std::ldexp(found->exit, -exponent));
+  });
+}
+
+// |axis| is 1 to 2^-50, so each half extent is off by no more than 2^-49 of the sum of sizes.
+Aabb Cylinder::aabb() const {
+  if (empty()) return {};
+  Eigen::Vector3d lower, upper;
+  for (int i = 0; i < 3; ++i) {
+    const double a = axis_[i], b = axis_[(i + 1) % 3], c = axis_[(i + 2) % 3];
+    const double half = half_height_ * std::abs(a) + radius_ * std::sqrt(b * b + c * c);
+    const double grown = half + 0x1p-47 * (half_height_ + radius_) + tiny;
+    lower[i] = -add_up(-center_[i], grown);
+    upper[i] = add_up(center_[i], grown);
+  }
+  return {lower, upper};
+}
+
+Mesh Cylinder::mesh() const {
+  if (empty()) return {};
+  const Triad triad(axis_);
+  return ring_mesh({{center_ - half_height_ * axis_, radius_}, {center_ + half_height_ * axis_, radius_}},
+                   triad, mesh_sides);
+}
+
+// A point center + s axis + v goes to the moved centre + s (length w + e) + M v, with w the new axis and e,
+// small, what the rounding of it leaves; M v reaches along w as far as v along M' w, which is the old axis
+// and, again, little else.
+Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
+  if (empty()) return {};
+  const Eigen::Matrix3d m = transform.linear();
+  const MovedPoint center = move_point(transform, center_);
+  const Eigen::Vector3d turned = m * axis_;
+  const Eigen::Vector3d axis = unit_axis(turned);
+  const double length = turned.stableNorm();
+  const double e = multiply_up(half_height_ * (1 + 0x1p-49), difference_up(m, axis_, length, axis));
+  const double back = multiply_up(radius_ * (1 + 0x1p-49), difference_up(m.transpose(), axis, length, axis_));
+  const double moved = add_up(center.error, e);
+  const double radius = add_up(multiply_up(radius_, stretch_up(m)), moved);
+  const double height = add_up(multiply_up(half_height_, length), add_up(moved, back));
+  return {center.point, axis, multiply_up(radius, 1 + 0x1p-48), multiply_up(height, 1 + 0x1p-48)};
+}
+
+bool operator==(const Cylinder& a, const Cylinder& b) {
+  if (a.empty() || b.empty()) return a.empty() && b.empty();
+  return a.center() == b.center() && a.axis() == b.axis() && a.radius() == b.radius() &&
+         a.half_height() == b.half_height();
+}
+
+}  // namespace pcl_bv

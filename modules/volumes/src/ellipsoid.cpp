@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Ellipsoid's arithmetic, compiled here so that the user's compiler flags cannot change it. What needs more
+// than its definition is in ellipsoid_geometry.cpp.
+#include "pcl_bv/volumes/ellipsoid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "directed.h"
+#include "motion.h"
+#include "ray_clip.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double pi = 3.14159265358979323846;
+
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
+double taxicab(const Eigen::Vector3d& q) {
+  return (std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z());
+}
+
+// How far the axes are from orthonormal: the greatest entry of axes' axes - 1.
+double skew(const Eigen::Matrix3d& axes) {
+  double worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j)
+      worst = std::max(worst, std::abs(dot(axes.col(i), axes.col(j)) - (i == j ? 1 : 0)));
+  }
+  return worst;
+}
+
+}  // namespace
+
+Ellipsoid::Ellipsoid()
+    : center_(Eigen::Vector3d::Constant(nan)),
+      axes_(Eigen::Matrix3d::Identity()),
+      radii_(Eigen::Vector3d::Constant(-1)) {}
+
+Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen::Vector3d& radii)
+    : Ellipsoid() {
+  if ((radii.array() < 0).any()) return;
+  if (!center.allFinite() || !radii.allFinite() || !axes.allFinite() || skew(axes) > 1e-12) {
+    throw std::invalid_argument(
+        "Ellipsoid: center and radii must be finite and the axes orthonormal to 1e-12 "
+        "(or any radius negative, for an empty ellipsoid)");
+  }
+  center_ = center.array() + 0.0;
+  axes_ = axes.array() + 0.0;
+  radii_ = radii.array() + 0.0;
+}
+
+// Each axis . q is off by at most 5 U |q|_1 (U = 2^-53), the quotients, squares and sums by 6 U more.
+bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d q = point - center_;
+  const double doubt = 0x1p-49 * taxicab(q) + tiny;
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double along = std::max(0.0, std::abs(dot(axes_.col(i), q)) - doubt);
+    if (!(along <= radii_[i] * (1 + 0x1p-48))) return false;  // also where all is NaN
+    const double ratio = along > 0 ? along / radii_[i] : 0;
+    sum += ratio * ratio;
+  }
+  return !point.hasNaN() && sum <= 1 + 0x1p-48;
+}
+
+double Ellipsoid::volume() const {
+  return empty() ? 0 : 4 * pi / 3 * radii_[0] * radii_[1] * radii_[2];
+}
+
+Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d d = direction.stableNormalized();
+  Eigen::Vector3d stretched;
+  for (int i = 0; i < 3; ++i)
+    stretched[i] = radii_[i] * dot(axes_.col(i), d);
+  const Eigen::Vector3d unit = stretched.stableNormalized();
+  return center_ + axes_ * radii_.cwiseProduct(unit);
+}
+
+// In coordinates in which the ellipsoid is the unit sphere, positions up to where the ray leaves are off by
+// less than `doubt` / least radius: the sphere grows by that.
+std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
+                                                const Eigen::Vector3d& direction) const {
+  return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
+    const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
+    const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
+    const Eigen::Vector3d q = origin - center_;
+    const double greatest = radii_.maxCoeff();
+    const double doubt = 0x1p-45 * (taxicab(q) + greatest) + tiny;
+    Eigen::Vector3d at, step;
+    for (int i = 0; i < 3; ++i) {
+      const double radius = std::max(radii_[i], doubt);  // a flat one gets room for the rounding
+      at[i] = dot(axes_.col(i), q) / radius;
+      step[i] = dot(axes_.col(i), u) / radius;
+    }
+    const double radius = 1 + doubt / std::max(radii_.minCoeff(), doubt) +
+                          (contains(origin) ? std::max(0.0, at.stableNorm() - 1) : 0.0);
+    const double speed = step.stableNorm();
+    const double nearest = -dot(at, step / speed) / speed;
+    const double h = (at + nearest * step).stableNorm();
+    if (h > radius) return ray.keep(0, -1);
+    const double half = std::sqrt(radius - h) * std::sqrt(radius + h) / speed * (1 + 0x1p-49);
+    ray.keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
+  });
+}
+
+// With N = axes' the body is the image of the unit ball under N^-1 diag(radii); N^-1 differs from the axes by
+// less than 4 skew in each row.
+Aabb Ellipsoid::aabb() const {
+  if (empty()) return {};
+  const double room = (4 * skew(axes_) + 0x1p-48) * radii_.maxCoeff() + tiny;
+  Eigen::Vector3d lower, upper;
+  for (int i = 0; i < 3; ++i) {
+    const double half = Eigen::Vector3d(axes_.row(i).transpose().cwiseProduct(radii_)).stableNorm() + room;
+    lower[i] = -add_up(-center_[i], half);
+    upper[i] = add_up(center_[i], half);
+  }
+  return {lower, upper};
+}
+
+// For a point center + q the new coordinates are a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, with d_i =
+// M' a'_i - a_i. The last two are at most `extra` together, and the radii grow by the length of these in
+// units of theirs.
+Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
+  if (empty()) return {};
+  const Eigen::Matrix3d m = transform.linear();
+  const MovedPoint center = move_point(transform, center_);
+  const double greatest = radii_.maxCoeff();
+  Eigen::Matrix3d axes;
+  axes.col(0) = (m * axes_.col(0)).stableNormalized();
+  axes.col(1) = m * axes_.col(1);
+  axes.col(1) = (axes.col(1) - dot(axes.col(0), axes.col(1)) * axes.col(0)).stableNormalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1)) * (m.determinant() * axes_.determinant() < 0 ? -1 : 1);
+  Eigen::Vector3d extra;
+  for (int i = 0; i < 3; ++i) {
+    const double turned = difference_up(m.transpose(), axes.col(i), 1, axes_.col(i));
+    extra[i] = (turned * greatest + center.error) * (1 + 0x1p-30);
+  }
+  const double least = std::max(0x1p-30 * greatest, extra.maxCoeff());
+  const Eigen::Vector3d radii = radii_.cwiseMax(least);
+  double growth = 1;
+  if (least > 0) growth = 1 + extra.cwiseQuotient(radii).stableNorm();
+  return {center.point, axes, radii * (growth * (1 + 0x1p-48))};
+}
+
+bool operator==(const Ellipsoid& a, const Ellipsoid& b) {
+  if (a.empty() || b.empty()) return a.empty() && b.empty();
+  return a.center() == b.center() && a.axes() == b.axes() && a.radii() == b.radii();
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Hull's arithmetic, compiled here so that the user's compiler flags cannot change it.
+#include "pcl_bv/volumes/hull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "directed.h"
+#include "polytope.h"
+#include "projection.h"
+#include "ray_clip.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("Hull: ") + what);
+}
+
+std::vector<Face> faces_of(const Hull& hull) {
+  std::vector<Face> faces;
+  for (const Hull::Triangle& t : hull.triangles())
+    faces.emplace_back(t.begin(), t.end());
+  if (hull.rank() == 1 || hull.rank() == 2) {
+    Face around;
+    for (std::size_t i = 0; i < hull.vertices().size(); ++i)
+      around.push_back(static_cast<std::int32_t>(i));
+    faces.push_back(around);
+    if (hull.rank() == 2) faces.emplace_back(around.rbegin(), around.rend());
+  }
+  return faces;
+}
+
+// Relative to the first vertex, in units in which the size is about 1: products of five lengths must not
+// overflow.
+struct Body {
+  Polytope polytope;
+  double unit = 1;  // a power of two
+};
+
+Body body_of(const Hull& hull) {
+  Body body;
+  Polytope& result = body.polytope;
+  result.origin = hull.vertices().front();
+  double size = 0;
+  for (const Eigen::Vector3d& v : hull.vertices()) {
+    result.vertices.push_back(v - result.origin);
+    size = std::max(size, result.vertices.back().cwiseAbs().maxCoeff());
+  }
+  if (size > 0) body.unit = std::ldexp(1.0, std::max(std::ilogb(size), -1000));
+  for (Eigen::Vector3d& v : result.vertices)
+    v /= body.unit;
+  result.faces = faces_of(hull);
+  return body;
+}
+
+// An upper bound of normal . (matrix p + shift) over the p of the hull, if `normal` is that of `plane` turned
+// by the matrix: with d = matrix' normal - plane.normal, which is tiny, it is plane.normal . p + d . p +
+// normal . shift, and d . p is d . middle and at most |d| . reach more.
+double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const Eigen::Isometry3d& transform,
+                    const Eigen::Vector3d& middle, const Eigen::Vector3d& reach) {
+  ExactSum sum;
+  sum.add(plane.offset);
+  double spread = 0;
+  for (int k = 0; k < 3; ++k) {
+    ExactSum tilt;
+    tilt.add(-plane.normal[k]);
+    for (int i = 0; i < 3; ++i)
+      tilt.add_product(transform(i, k), normal[i]);
+    const double low = tilt.down(), high = tilt.up();
+    spread = add_up(spread, multiply_up(std::max(-low, high), reach[k]));
+    sum.add_product(middle[k] > 0 ? high : low, middle[k]);
+    sum.add_product(normal[k], transform(k, 3));
+  }
+  return sum.add(spread).up();
+}
+
+}  // namespace
+
+Hull::Hull(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles,
+           std::vector<HullPlane> planes, int rank)
+    : vertices_(std::move(vertices)),
+      triangles_(std::move(triangles)),
+      planes_(std::move(planes)),
+      rank_(rank) {
+  require(rank >= 0 && rank <= 3, "rank must be 0 to 3");
+  require(vertices_.empty() == planes_.empty(), "there must be vertices and planes, or neither");
+  for (Eigen::Vector3d& v : vertices_) {
+    require(v.allFinite(), "vertices must be finite");
+    v = v.array() + 0.0;
+  }
+  for (HullPlane& p : planes_) {
+    require(p.normal.allFinite() && std::isfinite(p.offset), "planes must be finite");
+    p.normal = p.normal.array() + 0.0;
+    p.offset += 0.0;
+  }
+  for (const Triangle& t : triangles_) {
+    for (const std::int32_t corner : t)
+      require(corner >= 0 && static_cast<std::size_t>(corner) < vertices_.size(),
+              "a triangle names no vertex");
+  }
+}
+
+bool Hull::contains(const Eigen::Vector3d& point) const {
+  for (const HullPlane& plane : planes_) {
+    const auto [s, error] = project(plane.normal, point);
+    if (!(s - error <= plane.offset)) return false;
+  }
+  return !empty();
+}
+
+double Hull::volume() const {
+  if (rank_ < 3) return 0;
+  const auto [body, unit] = body_of(*this);
+  return measure(body.vertices, body.faces, 3).size * unit * unit * unit;
+}
+
+double Hull::surface_area() const {
+  if (empty()) return 0;
+  const auto [body, unit] = body_of(*this);
+  return volumes_internal::surface_area(body) * unit * unit;
+}
+
+Eigen::Vector3d Hull::center() const {
+  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const auto [body, unit] = body_of(*this);
+  if (rank_ >= 2) {
+    const Measure m = measure(body.vertices, body.faces, rank_);
+    if (m.size > 0) return body.origin + m.moment / m.size * unit;
+  }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& v : body.vertices)
+    sum += v;
+  return body.origin + sum / static_cast<double>(body.vertices.size()) * unit;
+}
+
+Eigen::Vector3d Hull::support(const Eigen::Vector3d& direction) const {
+  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const Eigen::Vector3d* best = &vertices_.front();
+  const Eigen::Vector3d unit = direction.stableNormalized();
+  double greatest = 0;  // of v - front, so that coordinates of UTM size do not eat up the digits
+  for (const Eigen::Vector3d& v : vertices_) {
+    const double reach = project(unit, v - vertices_.front()).value;
+    if (reach <= greatest) continue;
+    greatest = reach;
+    best = &v;
+  }
+  return *best;
+}
+
+double Hull::distance(const Eigen::Vector3d& point) const {
+  if (point.hasNaN()) return nan;
+  if (empty()) return infinity;
+  if (contains(point)) return 0;
+  const auto [body, unit] = body_of(*this);
+  return volumes_internal::distance(body, (point - body.origin) / unit) * unit;
+}
+
+std::optional<RayInterval> Hull::intersect(const Eigen::Vector3d& origin,
+                                           const Eigen::Vector3d& direction) const {
+  return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
+    for (const HullPlane& plane : planes_) {
+      const Enclosed start = enclose(plane.normal, origin), step = enclose(plane.normal, direction);
+      ray.keep(step.low, plane.offset - start.low);
+    }
+  });
+}
+
+Aabb Hull::aabb() const {
+  Aabb box;
+  for (const Eigen::Vector3d& v : vertices_)
+    box.extend(v);
+  return box;
+}
+
+Mesh Hull::mesh() const {
+  if (empty()) return {};
+  return {vertices_, faces_of(*this)};
+}
+
+Hull Hull::transformed(const Eigen::Isometry3d& transform) const {
+  Hull moved = *this;
+  if (empty()) return moved;
+  for (Eigen::Vector3d& v : moved.vertices_)
+    v = (transform * v).array() + 0.0;
+  const Aabb box = aabb();
+  // Also along axes on which the vertices agree: there the planes leave room of a rounding.
+  const double room = 2 * (box.max() - box.min()).maxCoeff() +
+                      0x1p-40 * box.max().cwiseAbs().cwiseMax(box.min().cwiseAbs()).maxCoeff();
+  const Eigen::Vector3d middle = box.center(), reach = Eigen::Vector3d::Constant(room);
+  for (HullPlane& plane : moved.planes_) {
+    const Eigen::Vector3d normal = (transform.linear() * plane.normal).array() + 0.0;
+    plane = {normal, moved_offset(plane, normal, transform, middle, reach) + 0.0};
+  }
+  return moved;
+}
+
+bool operator==(const Hull& a, const Hull& b) {
+  const auto same = [](const HullPlane& p, const HullPlane& q) {
+    return p.normal == q.normal && p.offset == q.offset;
+  };
+  return a.rank() == b.rank() && a.vertices() == b.vertices() && a.triangles() == b.triangles() &&
+         std::equal(a.planes().begin(), a.planes().end(), b.planes().begin(), b.planes().end(), same);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Ring after ring.
+#include "ring_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_bv::volumes_internal {
+
+Mesh ring_mesh(const std::vector<Ring>& rings, const Triad& triad, int sides) {
+  constexpr double pi = 3.14159265358979323846;
+  Mesh mesh;
+  for (const Ring& ring : rings) {
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * pi * i / sides;
+      mesh.vertices.push_back(ring.center +
+                              ring.radius * (std::cos(angle) * triad.u + std::sin(angle) * triad.v));
+    }
+  }
+  for (int ring = 0; ring + 1 < static_cast<int>(rings.size()); ++ring) {
+    for (int i = 0; i < sides; ++i) {
+      const int a = ring * sides + i, b = ring * sides + (i + 1) % sides;
+      mesh.faces.push_back({a, b, b + sides, a + sides});
+    }
+  }
+  std::vector<std::int32_t> bottom, top;
+  for (int i = 0; i < sides; ++i) {
+    bottom.push_back(sides - 1 - i);
+    top.push_back(static_cast<int>(mesh.vertices.size()) - sides + i);
+  }
+  mesh.faces.push_back(bottom);
+  mesh.faces.push_back(top);
+  return mesh;
+}
+
+}  // namespace pcl_bv::volumes_internal

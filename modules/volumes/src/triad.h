@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Unit vectors, and frames around them.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace pcl_bv::volumes_internal {
+
+/// The vector if it is of length 1 to 2^-50 already, else made so: what was normalised once stays as it is.
+inline Eigen::Vector3d unit_axis(const Eigen::Vector3d& v) {
+  const double squared = (v.x() * v.x() + v.y() * v.y()) + v.z() * v.z();
+  const Eigen::Vector3d unit = std::abs(squared - 1) <= 0x1p-50 ? v : v.stableNormalized();
+  return unit.array() + 0.0;
+}
+
+/// An axis and two unit vectors across it, right-handed.
+struct Triad {
+  explicit Triad(const Eigen::Vector3d& a) : axis(a) {
+    Eigen::Index least = 0;
+    a.cwiseAbs().minCoeff(&least);
+    u = Eigen::Vector3d::Unit(least).cross(a).stableNormalized();
+    v = a.cross(u);
+  }
+  Eigen::Vector3d axis, u, v;
+};
+
+}  // namespace pcl_bv::volumes_internal

@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Cylinders, capsules and ellipsoids: what they find. fit_test.cpp holds them to enclosure and to equal bits.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <functional>
+#include <limits>
+
+#include "clouds.h"
+#include "exact.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/verify.h"
+#include "smallest_ellipsoid.h"
+#include "symmetric_eigen.h"
+
+namespace pcl_bv {
+namespace {
+
+using test::TestCloud;
+
+constexpr double kPi = 3.14159265358979323846;
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double uniform() { return std::uniform_real_distribution<double>(-1, 1)(engine_); }
+  Eigen::Vector3d direction() {
+    std::normal_distribution<double> normal;
+    return Eigen::Vector3d(normal(engine_), normal(engine_), normal(engine_)).normalized();
+  }
+  Eigen::Matrix3d rotation() {
+    const Eigen::Vector3d a = direction(), b = a.cross(direction()).normalized();
+    Eigen::Matrix3d r;
+    r << a, b, a.cross(b);
+    return r;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// Points of a shape, turned at random and moved.
+template <typename T>
+TestCloud<T> turned(std::size_t n, std::uint64_t seed, double offset,
+                    const std::function<Eigen::Vector3d(Random&)>& point) {
+  TestCloud<T> cloud{"turned " + std::to_string(seed), {}};
+  Random random(seed);
+  const Eigen::Matrix3d rotation = random.rotation();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d p = rotation * point(random) + Eigen::Vector3d::Constant(offset);
+    for (int k = 0; k < 3; ++k)
+      cloud.xyz.push_back(static_cast<T>(p[k]));
+  }
+  return cloud;
+}
+
+Eigen::Vector3d of_cylinder(Random& random) {
+  const double angle = kPi * random.uniform();
+  return {std::cos(angle), std::sin(angle), 3 * random.uniform()};
+}
+
+Eigen::Vector3d of_capsule(Random& random) {
+  const Eigen::Vector3d p = random.direction();
+  return p + Eigen::Vector3d(0, 0, p.z() > 0 ? 2 : -2);
+}
+
+Eigen::Vector3d of_ellipsoid(Random& random) {
+  return Eigen::Vector3d(1, 2, 4).cwiseProduct(random.direction());
+}
+
+TEST(Cylinder, OfATurnedCylinderIsNoGreater) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    const TestCloud<double> cloud = turned<double>(400, seed, seed % 2 == 0 ? 5e6 : 0, of_cylinder);
+    Cylinder cylinder;
+    EXPECT_EQ(fit_cylinder(cloud.view(), cylinder).status, EstimationStatus::ok);
+    EXPECT_EQ(verify(cylinder, cloud.view()).outside, 0u);
+    EXPECT_LE(cylinder.volume(), 6 * kPi * 1.0001) << "seed " << seed;
+    EXPECT_GE(cylinder.volume(), 6 * kPi * 0.95) << "seed " << seed;
+    EXPECT_NEAR(cylinder.radius(), 1, 0.02);
+  }
+}
+
+TEST(Capsule, OfATurnedCapsuleIsNoGreater) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    const TestCloud<double> cloud = turned<double>(400, seed, seed % 2 == 0 ? 5e6 : 0, of_capsule);
+    Capsule capsule;
+    EXPECT_EQ(fit_capsule(cloud.view(), capsule).status, EstimationStatus::ok);
+    EXPECT_EQ(verify(capsule, cloud.view()).outside, 0u);
+    EXPECT_LE(capsule.volume(), (4 + 4.0 / 3) * kPi * 1.001) << "seed " << seed;
+    EXPECT_GE(capsule.volume(), (4 + 4.0 / 3) * kPi * 0.95) << "seed " << seed;
+  }
+}
+
+TEST(Capsule, IsNeverGreaterThanTheSmallestSphere) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const TestCloud<float> round =
+        turned<float>(300, seed, 0, [](Random& random) { return random.direction(); });
+    for (const TestCloud<float>& cloud : {test::gaussian<float>(500, seed), round}) {
+      Capsule capsule;
+      Sphere sphere;
+      fit_capsule(cloud.view(), capsule);
+      fit_sphere(cloud.view(), SphereMethod::exact, sphere);
+      EXPECT_LE(capsule.volume(), sphere.volume() * (1 + 1e-12)) << cloud.name;
+    }
+  }
+}
+
+TEST(Ellipsoid, OfATurnedEllipsoidIsNoGreater) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    const TestCloud<double> cloud = turned<double>(500, seed, seed % 2 == 0 ? 5e6 : 0, of_ellipsoid);
+    Ellipsoid ellipsoid;
+    EllipsoidCertificate certificate;
+    fit_ellipsoid(cloud.view(), ellipsoid, certificate);
+    EXPECT_EQ(verify(ellipsoid, cloud.view()).outside, 0u);
+    EXPECT_LE(ellipsoid.volume(), 32.0 / 3 * kPi * (1 + 1e-5)) << "seed " << seed;
+    EXPECT_GE(ellipsoid.volume(), 32.0 / 3 * kPi * 0.999) << "seed " << seed;
+    Eigen::Vector3d radii = ellipsoid.radii();
+    std::sort(radii.begin(), radii.end());
+    EXPECT_TRUE(radii.isApprox(Eigen::Vector3d(1, 2, 4), 1e-3)) << radii.transpose();
+  }
+}
+
+// 4 pi / 3 sqrt(27 det S) from the certificate's points and weights, in long double and about the first
+// point.
+long double bound_of(const PointView& points, const EllipsoidCertificate& certificate) {
+  const Coordinates o = load_point(points, certificate.support[0]);
+  long double sum = 0, mean[3] = {}, s[3][3] = {};
+  for (const double w : certificate.weights)
+    sum += w;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t i = 0; i < certificate.support.size(); ++i) {
+      const Coordinates p = load_point(points, certificate.support[i]);
+      const long double q[3] = {static_cast<long double>(p.x) - o.x, static_cast<long double>(p.y) - o.y,
+                                static_cast<long double>(p.z) - o.z};
+      const long double w = certificate.weights[i] / sum;
+      for (int a = 0; a < 3; ++a) {
+        if (pass == 0) mean[a] += w * q[a];
+        for (int b = 0; b < 3 && pass == 1; ++b)
+          s[a][b] += w * (q[a] - mean[a]) * (q[b] - mean[b]);
+      }
+    }
+  }
+  const long double determinant = s[0][0] * (s[1][1] * s[2][2] - s[1][2] * s[2][1]) -
+                                  s[0][1] * (s[1][0] * s[2][2] - s[1][2] * s[2][0]) +
+                                  s[0][2] * (s[1][0] * s[2][1] - s[1][1] * s[2][0]);
+  return 4 * 3.14159265358979323846L / 3 * std::sqrt(27 * determinant);
+}
+
+TEST(Ellipsoid, ItsCertificateProvesThatItIsNearlyTheSmallest) {
+  std::vector<TestCloud<float>> clouds;
+  for (const std::uint64_t seed : {1, 2, 3})
+    clouds.push_back(test::gaussian<float>(1000, seed, 3, seed == 3 ? 5e6 : 10));
+  clouds.push_back(turned<float>(500, 1, 0, of_cylinder));
+  clouds.push_back(turned<float>(500, 2, 0, of_capsule));
+  clouds.push_back(turned<float>(500, 3, 0, of_ellipsoid));
+  clouds.push_back(test::gaussian<float>(4, 9));
+  for (const TestCloud<float>& cloud : clouds) {
+    SCOPED_TRACE(cloud.name);
+    Ellipsoid ellipsoid;
+    EllipsoidCertificate certificate;
+    fit_ellipsoid(cloud.view(), ellipsoid, certificate);
+    for (const double w : certificate.weights)
+      EXPECT_GT(w, 0);
+    const auto bound = static_cast<double>(bound_of(cloud.view(), certificate));
+    EXPECT_NEAR(certificate.lower_bound, bound, 1e-9 * bound);
+    EXPECT_LE(certificate.lower_bound, bound);
+    EXPECT_LE(ellipsoid.volume(), bound * (1 + 1e-5));
+    EXPECT_NEAR(ellipsoid.volume() / bound - 1, certificate.excess, 1e-9);
+  }
+}
+
+TEST(Ellipsoid, OfACubeIsItsSphere) {
+  const TestCloud<float> cloud{
+      "cube", {1, 1, 1, -1, 1, 1, 1, -1, 1, -1, -1, 1, 1, 1, -1, -1, 1, -1, 1, -1, -1, -1, -1, -1}};
+  Ellipsoid ellipsoid;
+  fit_ellipsoid(cloud.view(), ellipsoid);
+  EXPECT_TRUE(ellipsoid.radii().isApprox(Eigen::Vector3d::Constant(std::sqrt(3.0)), 1e-6));
+  EXPECT_NEAR(ellipsoid.center().norm(), 0, 1e-6);
+}
+
+TEST(SmallestEllipsoid, OfASimplexWeighsItsCornersEqually) {
+  const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}, {0.3, 0.5, 0.2}};
+  for (const int dimensions : {3, 2}) {
+    const std::size_t used = dimensions == 3 ? 4 : 3;
+    std::vector<Eigen::Vector3d> points(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(used));
+    points.emplace_back(0.3, 0.5, 0.2);
+    const WeightedEllipsoid found = smallest_ellipsoid(points, dimensions, 1e-9, 1000);
+    for (std::size_t i = 0; i < used; ++i)
+      EXPECT_NEAR(found.weights[i], 1.0 / static_cast<double>(used), 1e-6);
+  }
+}
+
+TEST(SymmetricEigen, DecomposesAndSorts) {
+  Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Matrix3d r = random.rotation();
+    const Eigen::Vector3d values(random.uniform(), i % 3 == 0 ? 0 : 1e-9 * random.uniform(),
+                                 random.uniform());
+    const Eigen::Matrix3d m = r * values.asDiagonal() * r.transpose();
+    const SymmetricEigen found = symmetric_eigen((m + m.transpose()) / 2);
+    EXPECT_TRUE((found.vectors * found.values.asDiagonal() * found.vectors.transpose()).isApprox(m, 1e-14));
+    EXPECT_TRUE((found.vectors.transpose() * found.vectors).isIdentity(1e-15));
+    EXPECT_GE(found.values[0], found.values[1]);
+    EXPECT_GE(found.values[1], found.values[2]);
+  }
+}
+
+// All fits on degenerate input, and with bad points first.
+template <typename T>
+void expect_flat_results() {
+  const T nan = std::numeric_limits<T>::quiet_NaN();
+  const auto of_rank = [&](int rank, T x, T y) {
+    return rank == 0   ? std::array<T, 3>{T(0.5), T(-0.25), T(3)}
+           : rank == 1 ? std::array<T, 3>{x, 2 * x, -x}
+                       : std::array<T, 3>{x, y, x + 2 * y};
+  };
+  for (const int rank : {0, 1, 2}) {
+    TestCloud<T> cloud{"flat", {nan, 0, 0}};
+    for (int i = 0; i < 60; ++i) {
+      const std::array<T, 3> p = of_rank(rank, static_cast<T>(i % 8), static_cast<T>(i / 8));
+      cloud.xyz.insert(cloud.xyz.end(), p.begin(), p.end());
+    }
+    SCOPED_TRACE(rank);
+    Cylinder cylinder;
+    Capsule capsule;
+    Ellipsoid ellipsoid;
+    EllipsoidCertificate certificate;
+    for (const EstimationResult& result :
+         {fit_cylinder(cloud.view(), cylinder), fit_capsule(cloud.view(), capsule),
+          fit_ellipsoid(cloud.view(), ellipsoid, certificate)}) {
+      EXPECT_EQ(result.status, EstimationStatus::degenerate);
+      EXPECT_EQ(result.rank, rank);
+      EXPECT_EQ(result.dropped, 1u);
+      EXPECT_EQ(result.used, 60u);
+    }
+    EXPECT_NEAR(cylinder.volume(), 0, 1e-9);
+    EXPECT_NEAR(ellipsoid.volume(), 0, 1e-4);
+    EXPECT_LE(certificate.excess, 1e-5);
+    EXPECT_EQ(certificate.lower_bound, 0);
+    if (rank < 2) {
+      EXPECT_NEAR(capsule.volume(), 0, 1e-12);
+    }
+    if (rank == 0) {
+      EXPECT_EQ(cylinder.radius(), 0);
+      EXPECT_EQ(cylinder.half_height(), 0);
+      EXPECT_EQ(capsule.radius(), 0);
+      EXPECT_EQ(ellipsoid.radii(), Eigen::Vector3d::Zero());
+      EXPECT_EQ(ellipsoid.center(), Eigen::Vector3d(0.5, -0.25, 3));
+    }
+    if (rank == 1) {
+      EXPECT_NEAR((capsule.b() - capsule.a()).norm(), 7 * std::sqrt(6.0), 1e-12);
+      EXPECT_NEAR(ellipsoid.radii()[0], 3.5 * std::sqrt(6.0), 1e-6);
+    }
+  }
+}
+
+TEST(RoundFits, OfFlatFloatPointsAreFlat) {
+  expect_flat_results<float>();
+}
+TEST(RoundFits, OfFlatDoublePointsAreFlat) {
+  expect_flat_results<double>();
+}
+
+TEST(RoundFits, OfNothingAreEmpty) {
+  Cylinder cylinder({0, 0, 0}, {0, 0, 1}, 1, 1);
+  Capsule capsule({0, 0, 0}, {0, 0, 1}, 1);
+  Ellipsoid ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {1, 1, 1});
+  EXPECT_EQ(fit_cylinder(PointView(), cylinder).status, EstimationStatus::no_valid_points);
+  EXPECT_EQ(fit_capsule(PointView(), capsule).status, EstimationStatus::no_valid_points);
+  EXPECT_EQ(fit_ellipsoid(PointView(), ellipsoid).status, EstimationStatus::no_valid_points);
+  EXPECT_TRUE(cylinder.empty() && capsule.empty() && ellipsoid.empty());
+}
+
+}  // namespace
+}  // namespace pcl_bv

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Claims of Cylinder, Capsule, Ellipsoid and Hull, the same for all and at every scale: what contains, moves,
+// boxes and clips them errs only outward. Judged in rationals.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "round_volumes.h"
+
+namespace pcl_bv {
+namespace {
+
+using Eigen::Vector3d;
+using testing::exact;
+using testing::ExactPoint;
+using testing::Random;
+using testing::volumes;
+
+bool exactly_inside(const AnyVolume& volume, const ExactPoint& p) {
+  return std::visit(
+      [&](const auto& v) {
+        using Volume = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<Volume, Aabb> || std::is_same_v<Volume, Kdop> ||
+                      std::is_same_v<Volume, Sphere>) {
+          return testing::inside(v, p);
+        } else {
+          return testing::inside(v, p);
+        }
+      },
+      volume);
+}
+
+// Points near the surface, on either side of it, by rounding or clearly.
+std::vector<Vector3d> points_about(const AnyVolume& volume, Random& random) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 40; ++i) {
+    const Vector3d rim = support(volume, random.vector(1));
+    const double part = i % 4 == 0 ? 1 : i % 4 == 1 ? 1 - 1e-15 : random.uniform(0, 1.05);
+    points.push_back(center(volume) + part * (rim - center(volume)));
+  }
+  return points;
+}
+
+class RoundVolumesAtScales : public ::testing::TestWithParam<testing::Scale> {};
+
+TEST_P(RoundVolumesAtScales, ContainWhatIsExactlyInside) {
+  Random random(1);
+  int in = 0, out = 0;
+  for (int i = 0; i < 20; ++i) {
+    for (const AnyVolume& volume : volumes(random, GetParam())) {
+      for (const Vector3d& p : points_about(volume, random)) {
+        if (exactly_inside(volume, exact(p))) {
+          EXPECT_TRUE(contains(volume, p)) << shape_name(volume);
+          EXPECT_EQ(distance(volume, p), 0);
+          ++in;
+        } else if (!contains(volume, p)) {
+          ++out;
+        }
+      }
+    }
+  }
+  EXPECT_GT(in, 100);
+  if (GetParam().extent > 1e-9 * GetParam().offset) {
+    EXPECT_GT(out, 10);
+  }
+}
+
+TEST_P(RoundVolumesAtScales, MoveWithTheirPoints) {
+  Random random(2);
+  for (int i = 0; i < 10; ++i) {
+    const Eigen::Isometry3d motion = random.isometry(GetParam().extent);
+    for (const AnyVolume& volume : volumes(random, GetParam())) {
+      const AnyVolume moved = transformed(volume, motion);
+      EXPECT_EQ(shape_name(moved), shape_name(volume));
+      for (const Vector3d& p : points_about(volume, random)) {
+        if (!exactly_inside(volume, exact(p))) continue;
+        EXPECT_TRUE(exactly_inside(moved, testing::image(motion, exact(p)))) << shape_name(volume);
+      }
+      if (GetParam().offset == 0 && std::abs(std::log10(GetParam().extent)) < 90) {
+        EXPECT_NEAR(pcl_bv::volume(moved) / pcl_bv::volume(volume), 1, 1e-9) << shape_name(volume);
+      }
+    }
+  }
+}
+
+TEST_P(RoundVolumesAtScales, AreInTheirBoxes) {
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    for (const AnyVolume& volume : volumes(random, GetParam())) {
+      const Aabb box = aabb(volume);
+      for (const Vector3d& p : points_about(volume, random)) {
+        if (exactly_inside(volume, exact(p))) {
+          EXPECT_TRUE(box.contains(p)) << shape_name(volume);
+        }
+      }
+      for (int k = 0; k < 3; ++k) {  // and the boxes touch
+        const double reach = support(volume, Vector3d::Unit(k))[k];
+        EXPECT_NEAR(box.max()[k], reach, 1e-11 * GetParam().extent + 1e-15 * std::abs(reach))
+            << shape_name(volume);
+      }
+    }
+  }
+}
+
+TEST_P(RoundVolumesAtScales, AreHitByRaysThroughPointsInside) {
+  Random random(4);
+  for (int i = 0; i < 20; ++i) {
+    for (const AnyVolume& volume : volumes(random, GetParam())) {
+      for (const Vector3d& target : points_about(volume, random)) {
+        if (!exactly_inside(volume, exact(target))) continue;
+        // So near a power of two that origin + direction is the target, exactly.
+        const Vector3d origin = target + random.vector(4 * GetParam().extent), direction = target - origin;
+        if (Vector3d(origin + direction) != target ||
+            exact(origin)[0] + exact(direction)[0] != exact(target)[0])
+          continue;
+        const auto hit = intersect(volume, origin, direction);
+        ASSERT_TRUE(hit.has_value()) << shape_name(volume);
+        EXPECT_LE(hit->enter, 1 + 1e-12) << shape_name(volume);
+        EXPECT_GE(hit->exit, 1 - 1e-12) << shape_name(volume);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RoundVolumesAtScales, ::testing::ValuesIn(testing::scales()),
+                         [](const auto& scale) { return "n" + std::to_string(scale.index); });
+
+}  // namespace
+}  // namespace pcl_bv
