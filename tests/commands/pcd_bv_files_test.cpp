@@ -5,8 +5,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "command.h"
 #include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv::test {
 namespace {
@@ -17,7 +21,7 @@ namespace fs = std::filesystem;
 
 TEST_F(PcdBv, OutputFileHoldsWhatStandardOutputWould) {
   const std::string cloud = ascii("c.pcd", {"0 0 0", "1 2 3"});
-  for (const std::string format : {"text", "json", "jsonl"}) {
+  for (const std::string format : {"text", "json", "jsonl", "csv"}) {
     SCOPED_TRACE(format);
     const std::string expected = run({"--format", format, cloud, cloud}).out;
     const Result result = run({"--format", format, "--output", at("out"), cloud, cloud});
@@ -43,9 +47,10 @@ TEST_F(PcdBv, OutputThatCannotBeWrittenIsStatusOneAndOneLine) {
 TEST_F(PcdBv, FilesThatCannotBeWrittenLeaveTheReportAndTheOldFiles) {
   const std::string cloud = ascii("c.pcd", {"0 0 0"});
   const std::string blocked = file("blocked", "old");  // a file where a folder would have to be
-  for (const std::string option : {"--labels", "--image"}) {
+  for (const auto& [option, name] :
+       {std::pair{"--labels", "x.pcd"}, {"--mesh", "x.vtp"}, {"--image", "x.png"}}) {
     SCOPED_TRACE(option);
-    const std::string target = blocked + (option == "--labels" ? "/x.pcd" : "/x.png");
+    const std::string target = blocked + "/" + name;
     const Result result = run({option, target, cloud});
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(result.error_lines(), 1u) << result.err;
@@ -57,7 +62,9 @@ TEST_F(PcdBv, FilesThatCannotBeWrittenLeaveTheReportAndTheOldFiles) {
 
 TEST_F(PcdBv, FailedInputLeavesOldLabelsAndPicture) {
   const std::string labels = file("l.pcd", "old labels"), image = file("i.png", "old picture");
-  EXPECT_EQ(run({"--labels", labels, "--image", image, at("missing.pcd")}).status, 1);
+  const std::string mesh = file("m.ply", "old mesh");
+  EXPECT_EQ(run({"--labels", labels, "--image", image, "--mesh", mesh, at("missing.pcd")}).status, 1);
+  EXPECT_EQ(read_file(mesh), "old mesh");
   EXPECT_EQ(read_file(labels), "old labels");
   EXPECT_EQ(read_file(image), "old picture");
 }
@@ -65,13 +72,61 @@ TEST_F(PcdBv, FailedInputLeavesOldLabelsAndPicture) {
 TEST_F(PcdBv, SeveralInputsPutTheirFilesIntoANewFolder) {
   ascii("in/a.pcd", {"0 0 0", "1 2 3"});
   ascii("in/b.c.pcd", {"0 0 0", "1 2 3"});
-  const Result result =
-      run({"--labels", at("new/labels"), "--image", at("new/images"), at("in"), "synth:box:500:2"});
+  const Result result = run({"--labels", at("new/labels"), "--image", at("new/images"), "--mesh",
+                             at("new/meshes"), at("in"), "synth:box:500:2"});
   EXPECT_EQ(result.status, 0) << result.err;
   for (const std::string stem : {"a", "b.c", "box-500-2"}) {
     EXPECT_GT(read_pcd(at("new/labels/" + stem + ".pcd")).size(), 0u);
     EXPECT_THAT(read_file(at("new/images/" + stem + ".png")), StartsWith("\x89PNG"));
+    EXPECT_THAT(read_file(at("new/meshes/" + stem + ".ply")), StartsWith("ply\n"));
   }
+}
+
+TEST_F(PcdBv, MeshIsOfTheFormatThatItsNameSays) {
+  const std::string a = ascii("a.pcd", {"0 0 0", "1 2 3"}), b = ascii("b.pcd", {"0 0 0"});
+  EXPECT_EQ(run({"--mesh", at("m.VTP"), a}).status, 0);
+  EXPECT_THAT(read_file(at("m.VTP")), HasSubstr("<VTKFile type=\"PolyData\""));
+  EXPECT_EQ(run({"--mesh", at("m.ply"), a}).status, 0);
+  EXPECT_THAT(read_file(at("m.ply")), StartsWith("ply\n"));
+  EXPECT_EQ(run({"--mesh", at("frames.vtp"), a, b}).status, 0);  // a folder
+  EXPECT_THAT(read_file(at("frames.vtp/b.vtp")), HasSubstr("<VTKFile type=\"PolyData\""));
+}
+
+TEST_F(PcdBv, MeshHoldsAllVolumesOfAllClusters) {
+  const Result result = run({"--cluster", "1", "--min-size", "1", "--volume", "aabb,dop26", "--mesh",
+                             at("m.ply"), ascii("a.pcd", {"0 0 0", "0.5 0.5 0.5", "9 9 9", "9.5 9.5 9.5"})});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(read_file(at("m.ply")), HasSubstr("comment method 0 is aabb\ncomment method 1 is dop26\n"));
+  const RawCloud vertices = read_cloud(at("m.ply"));
+  EXPECT_EQ(vertices.size(), 2 * (8 + 2u));  // each k-DOP of two points on a diagonal is a line
+}
+
+TEST_F(PcdBv, MeshOverAnInputIsRefused) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
+  const std::string cloud = file("in/a.ply", header);
+  for (const std::string& target : {cloud, at("in")}) {
+    EXPECT_EQ(run({"--mesh", target, cloud}).status, 2) << target;
+    EXPECT_EQ(read_file(cloud), header);
+  }
+}
+
+TEST_F(PcdBv, CsvIsAHeadingAndALineForEachVolumeOfEachInput) {
+  const std::string a = ascii("a,1.pcd", {"0 0 0", "1 2 3"}), b = ascii("b.pcd", {"nan 0 0"});
+  const Result result = run({"--format", "csv", "--volume", "aabb,dop6", a, at("missing.pcd"), b});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out,
+              StartsWith("file,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume\n\"" + a +
+                         "\",0,2,aabb,0.5,1,1.5,1,2,3,,,,,,6\n"));
+  EXPECT_THAT(result.out, testing::EndsWith(b + ",0,0,aabb,,,,,,,,,,,,\n" + b + ",0,0,dop6,,,,,,,,,,,,\n"));
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 5);
+}
+
+TEST_F(PcdBv, CsvOfNothingThatCanBeReadIsOnlyTheHeading) {
+  const Result result = run({"--format", "csv", at("missing.pcd")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out, "file,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume\n");
 }
 
 TEST_F(PcdBv, FolderOfOneCloudPutsItsFilesIntoAFolderToo) {
@@ -88,6 +143,21 @@ TEST_F(PcdBv, TwoResultsForOneFileAreRefusedBeforeAnyWork) {
   EXPECT_EQ(result.error_lines(), 1u) << result.err;
   EXPECT_FALSE(fs::exists(at("labels")));
   EXPECT_EQ(run({"--output", at("same.pcd"), "--labels", at("same.pcd"), a}).status, 2);
+}
+
+TEST_F(PcdBv, PictureIsOfTheFormatAndFromTheSideAsked) {
+  const std::string box = "synth:box:500:2";
+  EXPECT_EQ(run({"--image", at("iso.png"), box}).status, 0);
+  for (const std::string view : {"top", "front", "side"}) {
+    EXPECT_EQ(run({"--image", at(view + ".png"), "--view", view, box}).status, 0);
+    EXPECT_NE(read_file(at(view + ".png")), read_file(at("iso.png")));
+  }
+  EXPECT_NE(read_file(at("top.png")), read_file(at("front.png")));
+  EXPECT_NE(read_file(at("side.png")), read_file(at("front.png")));
+  EXPECT_EQ(run({"--image", at("a.svg"), box}).status, 0);
+  EXPECT_THAT(read_file(at("a.svg")), HasSubstr("<svg"));
+  EXPECT_EQ(run({"--image", at("all.svg"), box, "synth:box:500:3"}).status, 0);  // a folder
+  EXPECT_THAT(read_file(at("all.svg/box-500-3.svg")), HasSubstr("<svg"));
 }
 
 TEST_F(PcdBv, PictureIsTheSameEachTime) {

@@ -41,7 +41,15 @@ TEST_F(PcdBv, EveryBrokenInputIsOneLineAndTheOthersAreDone) {
       file("integers.pcd", with(header3, "TYPE F F F", "TYPE I I I") + "1 2 3\n1 2 3\n1 2 3\n"),
       file("packed.pcd", header(3, "binary_compressed") + "junk"),
       file("mesh.ply", "ply\n"),
-      file("sweep.bin", std::string(32, '\0')),
+      file("cut.ply",
+           "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+           "property float z\nend_header\n" +
+               std::string(35, '\0')),
+      file("integers.ply",
+           "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\n"
+           "property int z\nend_header\n1 2 3\n"),
+      file("sweep.bin", std::string(31, '\0')),
+      file("empty.bin", ""),
       "synth:nonsense",
       "synth:street:0",
       "synth:sphere:10:x",
@@ -74,11 +82,55 @@ TEST_F(PcdBv, FolderIsReadInNaturalOrder) {
   for (const char* name : {"frames/scan10.pcd", "frames/scan9.pcd", "frames/scan100.pcd"})
     ascii(name, {"1 2 3"});
   file("frames/notes.txt", "no cloud");
+  file("frames/scan11.bin", std::string(16, '\0'));
   const Json reports = run({"--format", "json", at("frames")}).json();
-  ASSERT_EQ(reports.size(), 3u);
+  ASSERT_EQ(reports.size(), 4u);
   EXPECT_EQ(reports[0]["file"], at("frames/scan9.pcd"));
   EXPECT_EQ(reports[1]["file"], at("frames/scan10.pcd"));
-  EXPECT_EQ(reports[2]["file"], at("frames/scan100.pcd"));
+  EXPECT_EQ(reports[2]["file"], at("frames/scan11.bin"));
+  EXPECT_EQ(reports[3]["file"], at("frames/scan100.pcd"));
+}
+
+TEST_F(PcdBv, EveryFormatGivesTheSameVolumes) {
+  const float points[2][4] = {{1, 2, 3, 0.5f}, {4, -5, 6.25f, 1}};
+  const std::string pcd = ascii("c.pcd", {"1 2 3", "4 -5 6.25"});
+  const std::string bin = file("c.bin", {reinterpret_cast<const char*>(points), sizeof points});
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex 2\n",
+                    rows = "end_header\n1 2 3\n4 -5 6.25\n";
+  const std::string ply =
+      file("c.ply", header + "property float x\nproperty float y\nproperty float z\n" + rows);
+  const std::string doubles =
+      file("d.PLY", header + "property double x\nproperty double y\nproperty double z\n" + rows);
+  const Result result = run({"--format", "json", "--volume", "all", "--check", pcd, bin, ply, doubles});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const Json reports = result.json();
+  ASSERT_EQ(reports.size(), 4u);
+  for (const Json& report : reports)
+    EXPECT_EQ(report["clusters"], reports[0]["clusters"]) << report["file"];
+}
+
+TEST_F(PcdBv, DoublesAreTakenAtTheirWord) {
+  const std::string cloud =
+      file("d.ply",
+           "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
+           "property double z\nend_header\n5000000.123456789 0 1e-300\n5000001 1 1e60\n");
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--range", "0:inf"}}) {
+    std::vector<std::string> arguments = {"--format", "jsonl", "--volume", "all", "--check", cloud};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.json()["clusters"][0]["volumes"][0]["min"], Json::parse("[5000000.123456789,0,1e-300]"));
+  }
+}
+
+TEST_F(PcdBv, FieldsOfEveryFormatAreKeptWithTheLabels) {
+  const std::string cloud =
+      file("c.ply",
+           "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar red\nproperty double x\n"
+           "property double y\nproperty double z\nend_header\n200 1 2 3\n");
+  EXPECT_EQ(run({"--labels", at("l.pcd"), cloud}).status, 0);
+  EXPECT_THAT(read_file(at("l.pcd")), HasSubstr("FIELDS red x y z label\nSIZE 1 8 8 8 4\nTYPE U F F F U\n"));
+  EXPECT_EQ(run({at("l.pcd")}).status, 0);
 }
 
 TEST_F(PcdBv, SyntheticSceneIsTheSameEachTime) {

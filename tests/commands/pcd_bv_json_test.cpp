@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -170,6 +171,37 @@ TEST_F(PcdBv, UpTurnsUprightBoxesAndOrientedBoxesPassTheCheck) {
       along_y += axis == Json::parse("[0,1,0]") || axis == Json::parse("[0,-1,0]");
     EXPECT_EQ(along_y, 1) << volumes[upright];
   }
+}
+
+TEST_F(PcdBv, InfoSaysWhatTheCloudIsLike) {
+  std::string rows;
+  for (int i = 0; i < 40; ++i)
+    rows += std::to_string(i * 0.5) + " " + std::to_string(i % 2 * 0.25) + " -2\n";
+  std::string text = header(44);
+  text.replace(text.find("WIDTH 44\nHEIGHT 1"), 17, "WIDTH 22\nHEIGHT 2");
+  const std::string cloud = file("c.pcd", text + rows + "0 0 0\n-0 0 0\nnan 0 0\ninf 0 0\n");
+  const Json info = run({"--info", "--format", "jsonl", cloud}).json()["info"];
+  EXPECT_EQ(info["min"], Json::parse("[0,0,-2]"));
+  EXPECT_EQ(info["max"], Json::parse("[19.5,0.25,-2]"));
+  EXPECT_NEAR(info["spacing"], std::sqrt(0.3125), 1e-15);
+  EXPECT_EQ(info["organized"], true);
+  EXPECT_EQ(info["nonfinite"], 2);
+  EXPECT_EQ(info["zero"], 2);
+  ASSERT_EQ(info["fields"].size(), 3u);
+  EXPECT_EQ(info["fields"][2], Json::parse(R"({"name":"z","type":"F","size":4,"count":1})"));
+  const std::string table = run({"--info", cloud}).out;
+  EXPECT_THAT(table, testing::HasSubstr("\n  x 0 to 19.5, y 0 to 0.25, z -2 to -2, spacing 0.559, 22 x 2, "
+                                        "2 not finite, 2 at 0,0,0\n  fields x:F32 y:F32 z:F32\n"));
+}
+
+TEST_F(PcdBv, InfoOfFewOrNoPointsLeavesOutWhatThereIsNot) {
+  const Json none = run({"--info", "--format", "jsonl", ascii("none.pcd", {"nan 0 0"})}).json()["info"];
+  EXPECT_EQ(none.size(), 4u) << none;
+  EXPECT_EQ(none["organized"], false);
+  const Json one = run({"--info", "--format", "jsonl", ascii("one.pcd", {"1 2 3"})}).json()["info"];
+  EXPECT_FALSE(one.contains("spacing"));
+  EXPECT_EQ(one["max"], Json::parse("[1,2,3]"));
+  EXPECT_FALSE(run({"--format", "jsonl", at("one.pcd")}).json().contains("info"));
 }
 
 }  // namespace

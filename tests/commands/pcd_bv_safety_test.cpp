@@ -39,14 +39,16 @@ TEST_F(PcdBv, NoOutputEverOverwritesAnInput) {
   }
 }
 
-TEST_F(PcdBv, APictureIsAPngOrRefused) {
+TEST_F(PcdBv, APictureIsAPngOrAnSvgOrRefused) {
   const std::string cloud = ascii("good.pcd", {"1 2 3", "4 5 6"});
   const auto status = [&](const std::string& image) { return run({"--image", at(image), cloud}).status; };
   EXPECT_EQ(status("a.jpg"), 2);
-  EXPECT_EQ(status("a.SVG"), 2);
+  EXPECT_EQ(status("a.pdf"), 2);
   EXPECT_EQ(status("good.pcd"), 2);
   EXPECT_EQ(status("a.PNG"), 0);
+  EXPECT_EQ(status("a.SVG"), 0);
   EXPECT_TRUE(fs::exists(at("a.PNG")));
+  EXPECT_TRUE(fs::exists(at("a.SVG")));
 }
 
 TEST_F(PcdBv, AProblemIsOneLineWhateverTheNameHolds) {

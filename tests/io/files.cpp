@@ -11,7 +11,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {
 
@@ -40,14 +40,14 @@ FileTest::~FileTest() {
   fs::remove_all(folder_, ignored);
 }
 
-std::string FileTest::reason_for_content(std::string_view content) const {
-  write_text(file("content.pcd"), content);
-  return reason_for(file("content.pcd"));
+std::string FileTest::reason_for_content(std::string_view content, const std::string& extension) const {
+  write_text(file("content" + extension), content);
+  return reason_for(file("content" + extension));
 }
 
 std::string reason_for(const fs::path& path) {
   try {
-    read_pcd(path);
+    read_cloud(path);
   } catch (const IoError& error) {
     return error.what();
   }

@@ -24,14 +24,14 @@ class FileTest : public testing::Test {
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
 
-  /// Why read_pcd() refuses a file of this content; empty if it does not.
-  std::string reason_for_content(std::string_view content) const;
+  /// Why read_cloud() refuses a file of this content; empty if it does not.
+  std::string reason_for_content(std::string_view content, const std::string& extension = ".pcd") const;
 
  private:
   std::filesystem::path folder_;
 };
 
-/// Why read_pcd() refuses this path; empty if it does not.
+/// Why read_cloud() refuses this path; empty if it does not.
 std::string reason_for(const std::filesystem::path& path);
 
 /// Root may read and write everything: while this lives, the process is nobody, if it was root.

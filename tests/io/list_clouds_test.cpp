@@ -78,13 +78,15 @@ TEST(NaturalOrder, IsAStrictTotalOrder) {
 using ListClouds = FileTest;
 
 TEST_F(ListClouds, GivesCloudFilesInNaturalOrder) {
-  for (const char* name : {"frame10.pcd", "frame2.PCD", "frame1.pcd", "note.txt", "pcd", ".hidden.pcd",
-                           ".pcd", "frame3.pcd.bak", "frame01.Pcd"}) {
+  for (const char* name :
+       {"frame10.pcd", "frame2.PCD", "frame1.pcd", "note.txt", "pcd", ".hidden.pcd", ".pcd", "frame3.pcd.bak",
+        "frame01.Pcd", "frame3.ply", "frame4.BIN", "frame5.vtp"}) {
     write_text(file(name), "");
   }
   std::filesystem::create_directory(file("folder.pcd"));
   EXPECT_THAT(list_clouds(folder()),
-              ElementsAre(file("frame01.Pcd"), file("frame1.pcd"), file("frame2.PCD"), file("frame10.pcd")));
+              ElementsAre(file("frame01.Pcd"), file("frame1.pcd"), file("frame2.PCD"), file("frame3.ply"),
+                          file("frame4.BIN"), file("frame10.pcd")));
 }
 
 TEST_F(ListClouds, KeepsABrokenLinkSoThatReadingItGivesTheReason) {

@@ -8,40 +8,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <new>
 #include <random>
 #include <thread>
 
 #include "files.h"
+#include "largest_allocation.h"
 #include "pcl_bv/io/pcd.h"
 #include "sample_clouds.h"
-
-namespace {
-
-std::atomic<std::size_t> largest_allocation{0};
-
-void* watched_allocation(std::size_t bytes) {
-  std::size_t largest = largest_allocation;
-  while (bytes > largest && !largest_allocation.compare_exchange_weak(largest, bytes)) {
-  }
-  if (void* memory = std::malloc(bytes)) return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-// Every allocation of this test program passes here, so that a test can ask for the largest one.
-void* operator new(std::size_t bytes) {
-  return watched_allocation(bytes);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace pcl_bv {
 namespace {

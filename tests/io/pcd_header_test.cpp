@@ -145,13 +145,13 @@ TEST_F(PcdHeader, WithACoordinateTwiceIsRefused) {
   EXPECT_EQ(reason("1 2 3 4\n1 2 3 4\n"), "field x occurs twice");
 }
 
-TEST_F(PcdHeader, WithCoordinatesOfOtherTypesIsNotSupportedYet) {
-  EXPECT_EQ(set("SIZE", "SIZE 8 8 8").reason(),
-            "field x of TYPE F, SIZE 8, COUNT 1 is not supported yet (only F, 4, 1 is)");
-  EXPECT_THAT(set("SIZE", "SIZE 4 4 4").set("TYPE", "TYPE F I F").reason(),
-              HasSubstr("field y of TYPE I, SIZE 4, COUNT 1 is not supported yet"));
+TEST_F(PcdHeader, WithCoordinatesOfOtherTypesIsRefused) {
+  EXPECT_EQ(set("TYPE", "TYPE F I F").reason(),
+            "field y of TYPE I, SIZE 4, COUNT 1 is not supported, only F, 4, 1 and F, 8, 1");
   EXPECT_THAT(set("TYPE", "TYPE F F F").set("COUNT", "COUNT 1 1 2").reason(),
-              HasSubstr("field z of TYPE F, SIZE 4, COUNT 2 is not supported yet"));
+              HasSubstr("field z of TYPE F, SIZE 4, COUNT 2 is not supported"));
+  EXPECT_EQ(set("COUNT", "COUNT 1 1 1").set("SIZE", "SIZE 8 8 4").reason(),
+            "fields x, y and z differ in SIZE");
 }
 
 TEST_F(PcdHeader, WithAnImpossibleSizeIsRefused) {

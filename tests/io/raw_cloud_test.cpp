@@ -63,8 +63,30 @@ TEST_F(RawCloudFile, XyzViewsTheRecordWhereItCan) {
 TEST_F(RawCloudFile, XyzPacksWhereTheRecordDoesNotFit) {
   write_pcd(file("a.pcd"), sample_cloud({"", {{"y"}, {"x"}, {"z"}}}, 3, 1, 5));
   const RawCloud cloud = read_pcd(file("a.pcd"));
-  EXPECT_EQ(cloud.packed_xyz.size(), 9u);
+  EXPECT_EQ(cloud.packed_xyz.size(), 36u);
   EXPECT_EQ(cloud.xyz().stride, 12u);
+}
+
+TEST_F(RawCloudFile, DoublesAreViewedAsDoublesToTheBit) {
+  const Layout side_by_side{"", {{"t", 'U', 2}, {"x", 'F', 8}, {"y", 'F', 8}, {"z", 'F', 8}, {"i"}}};
+  const Layout apart{"", {{"z", 'F', 8}, {"i"}, {"x", 'F', 8}, {"y", 'F', 8}}};
+  for (const Layout& layout : {side_by_side, apart}) {
+    write_pcd(file("a.pcd"), sample_cloud(layout, 20, 2, 5));
+    const RawCloud cloud = read_pcd(file("a.pcd"));
+    EXPECT_EQ(cloud.packed_xyz.empty(), layout.fields[0].name == "t");
+    const PointView view = cloud.xyz();
+    ASSERT_EQ(view.scalar, ScalarType::float64);
+    ASSERT_EQ(view.count, 40u);
+    for (std::size_t i = 0; i < view.count; ++i) {
+      double xyz[3];
+      load_point(view, i, xyz);
+      const char* names[3] = {"x", "y", "z"};
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::byte* stored = &cloud.data[i * cloud.point_step + find_field(cloud, names[axis])->offset];
+        EXPECT_EQ(std::memcmp(&xyz[axis], stored, 8), 0);
+      }
+    }
+  }
 }
 
 TEST(RawCloud, XyzIsEmptyWithoutCoordinates) {

@@ -9,11 +9,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "clouds.h"
+#include "files.h"
 #include "pcl_bv/io/io_error.h"
 
 namespace pcl_bv {
@@ -173,6 +176,87 @@ TEST(Picture, AnyMagnitudeAndFlatVolumesAreDrawn) {
     EXPECT_EQ(decode(png).rgb.size(), static_cast<std::size_t>(width * height));
     if (box.empty() || box.min() == box.max()) continue;
     EXPECT_GT(difference(png, background()), 20u);
+  }
+}
+
+/// Where two pictures differ.
+struct Extent {
+  int left = width, right = -1, top = height, bottom = -1;
+
+  double aspect() const { return static_cast<double>(right - left) / (bottom - top); }
+};
+
+Extent extent_of_difference(const std::string& a, const std::string& b) {
+  const Pixels p = decode(a), q = decode(b);
+  Extent extent;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (p.rgb[y * width + x] == q.rgb[y * width + x]) continue;
+      extent.left = std::min(extent.left, x);
+      extent.right = std::max(extent.right, x);
+      extent.top = std::min(extent.top, y);
+      extent.bottom = std::max(extent.bottom, y);
+    }
+  }
+  return extent;
+}
+
+TEST(Picture, ViewsLookAlongTheAxes) {
+  Picture box = picture_of({});
+  box.volumes.push_back({Aabb({0, 0, 0}, {6, 3, 2}), 0});
+  for (const auto& [from, aspect] :
+       {std::pair{ViewFrom::top, 2.0}, {ViewFrom::front, 3.0}, {ViewFrom::side, 1.5}}) {
+    SCOPED_TRACE(static_cast<int>(from));
+    box.from = from;
+    EXPECT_NEAR(extent_of_difference(picture_png(box), background()).aspect(), aspect, 0.05 * aspect);
+    Picture marked = box;  // x, y and z grow to the right or up in each of these views
+    marked.volumes.push_back({Aabb({5, 2.6, 1.7}, {6, 3, 2}), 1});
+    const Extent mark = extent_of_difference(picture_png(marked), picture_png(box));
+    EXPECT_GT(mark.left, width / 2);
+    EXPECT_LT(mark.bottom, height / 2);
+  }
+}
+
+TEST(Picture, TopViewShowsTheUpperOfTwo) {
+  const std::vector<float> xyz = {1, 1, 0, 1, 1, 5, 2, 2, 0, 2, 2, 5};
+  const std::uint32_t upper[] = {1, 0, 1, 0}, lower[] = {0, 1, 0, 1}, only[] = {0, 0, 0, 0};
+  Picture picture = picture_of(PointView::of(xyz.data(), 12, 4));
+  picture.from = ViewFrom::top;
+  const auto labelled = [&](const std::uint32_t* labels) {
+    picture.labels = labels;
+    return picture_png(picture);
+  };
+  EXPECT_EQ(labelled(upper), labelled(only));
+  EXPECT_NE(labelled(lower), labelled(only));
+}
+
+TEST(Picture, SvgHasThePointsAsAnImageAndTheVolumesAsPaths) {
+  const auto cloud = test::gaussian<float>(3000, 6);
+  Picture picture = picture_of(cloud.view());
+  const std::string points = picture_svg(picture);
+  EXPECT_THAT(points, testing::StartsWith("<?xml"));
+  EXPECT_THAT(points, testing::EndsWith("</svg>\n"));
+  EXPECT_THAT(points, testing::HasSubstr("data:image/png;base64,"));
+  EXPECT_THAT(points, testing::HasSubstr("width=\"320px\" height=\"200px\""));
+  const auto paths = [](const std::string& svg) {
+    std::size_t n = 0;
+    for (std::size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1))
+      ++n;
+    return n;
+  };
+  picture.volumes.push_back({Aabb({-2, -2, -2}, {2, 2, 2}), 0});
+  picture.volumes.push_back({Sphere({0, 0, 0}, 2), 1});
+  EXPECT_GT(paths(picture_svg(picture)), paths(points) + 10);
+  picture.height = 15;
+  EXPECT_THROW(picture_svg(picture), std::invalid_argument);
+}
+
+using PictureFile = FileTest;
+
+TEST_F(PictureFile, IsOfTheFormatThatItsNameSays) {
+  for (const auto& [name, start] : {std::pair{"a.SVG", "<?xml"}, {"a.png", "\x89PNG"}, {"a", "\x89PNG"}}) {
+    write_picture(file(name), picture_of({}));
+    EXPECT_THAT(file_content(file(name)), testing::StartsWith(start));
   }
 }
 

@@ -14,10 +14,14 @@ namespace pcl_bv {
 /// Offsets of x, y, z in the record.
 struct CoordinateFields {
   std::array<std::size_t, 3> offset{};
-  bool readable = false;  ///< All three exist, as single float32.
+  ScalarType scalar = ScalarType::float32;
+  bool readable = false;  ///< All three exist, as single float32 or as single float64.
   bool adjacent = false;  ///< They lie side by side in that order, so that a PointView fits.
 };
 
 CoordinateFields coordinate_fields(const RawCloud& cloud);
+
+/// For readers: throws IoError unless x, y and z exist, each once, in a form that is readable.
+void check_coordinates(const RawCloud& cloud);
 
 }  // namespace pcl_bv

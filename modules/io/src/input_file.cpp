@@ -10,8 +10,6 @@
 
 #include <cerrno>
 
-#include "pcl_bv/io/io_error.h"
-
 namespace pcl_bv {
 
 // O_NONBLOCK: a pipe without a writer must be refused, not waited for. Regular files ignore it.
@@ -35,6 +33,10 @@ void InputFile::read(std::size_t offset, void* to, std::size_t bytes) const {
     offset += static_cast<std::size_t>(got);
     bytes -= static_cast<std::size_t>(got);
   }
+}
+
+IoError not_enough_memory(const InputFile& file) {
+  return IoError("not enough memory for its points, file of " + std::to_string(file.size()) + " bytes");
 }
 
 }  // namespace pcl_bv

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "file_descriptor.h"
+#include "pcl_bv/io/io_error.h"
 
 namespace pcl_bv {
 
@@ -27,5 +28,8 @@ class InputFile {
   FileDescriptor file_;
   std::size_t size_ = 0;
 };
+
+/// What a reader throws where its points do not fit in memory.
+IoError not_enough_memory(const InputFile& file);
 
 }  // namespace pcl_bv

@@ -11,6 +11,7 @@
 
 #include "file_descriptor.h"
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {
 namespace {
@@ -50,13 +51,6 @@ int compare_natural(std::string_view a, std::string_view b) {
   return static_cast<int>(!a.empty()) - static_cast<int>(!b.empty());
 }
 
-bool is_cloud_name(const fs::path& name) {
-  std::string extension = name.extension().string();
-  for (char& c : extension)
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension == ".pcd" && name.native().front() != '.';
-}
-
 }  // namespace
 
 bool natural_less(std::string_view a, std::string_view b) {
@@ -70,7 +64,8 @@ std::vector<fs::path> list_clouds(const fs::path& folder) {
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     std::error_code ignored;  // what cannot be looked at is listed, so that reading it gives the reason
-    if (is_cloud_name(entry->path().filename()) && !entry->is_directory(ignored)) {
+    const bool hidden = entry->path().filename().native().front() == '.';
+    if (!hidden && is_cloud_name(entry->path()) && !entry->is_directory(ignored)) {
       clouds.push_back(entry->path());
     }
   }

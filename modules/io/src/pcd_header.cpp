@@ -12,28 +12,16 @@
 #include <vector>
 
 #include "coordinate_fields.h"
+#include "header_words.h"
 #include "numbers.h"
 
 namespace pcl_bv {
 namespace {
 
-using Words = std::vector<std::string_view>;
 using Lines = std::map<std::string_view, Words>;  // keyword -> the words after it
 
 constexpr std::string_view keywords[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                          "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
-
-Words split(std::string_view line) {
-  constexpr std::string_view blanks = " \t\r\v\f";
-  Words words;
-  std::size_t begin = line.find_first_not_of(blanks);
-  while (begin != std::string_view::npos) {
-    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(blanks, end);
-  }
-  return words;
-}
 
 // Adds a line's words; returns its keyword, empty for a comment or an empty line.
 std::string_view add_line(std::string_view line, Lines& lines) {
@@ -124,25 +112,6 @@ void read_fields(const Lines& lines, RawCloud& cloud) {
   }
 }
 
-void check_coordinates(const RawCloud& cloud) {
-  std::string missing;
-  for (const char* name : {"x", "y", "z"}) {
-    const auto named = [&](const PointField& field) { return field.name == name; };
-    const auto count = std::count_if(cloud.fields.begin(), cloud.fields.end(), named);
-    if (count > 1) throw IoError(std::string("field ") + name + " occurs twice");
-    if (count == 0) missing += (missing.empty() ? "" : ", ") + std::string(name);
-  }
-  if (!missing.empty()) throw IoError("no field " + missing);
-  if (coordinate_fields(cloud).readable) return;
-  for (const char* name : {"x", "y", "z"}) {
-    const PointField& field = *find_field(cloud, name);
-    if (field.type == 'F' && field.size == 4 && field.count == 1) continue;
-    throw IoError(std::string("field ") + name + " of TYPE " + field.type + ", SIZE " +
-                  std::to_string(field.size) + ", COUNT " + std::to_string(field.count) +
-                  " is not supported yet (only F, 4, 1 is)");
-  }
-}
-
 void read_shape(const Lines& lines, RawCloud& cloud) {
   const auto value = [&](std::string_view keyword) {
     return number<std::size_t>(keyword, words_of(lines, keyword, 1)[0], "a number of points");
@@ -186,15 +155,6 @@ PcdEncoding read_encoding(const Lines& lines) {
 }
 
 }  // namespace
-
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  std::string result(text.substr(0, longest));
-  for (char& c : result) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return "'" + result + (text.size() > longest ? "...'" : "'");
-}
 
 PcdHeader parse_pcd_header(std::string_view start) {
   PcdHeader header;

@@ -29,7 +29,4 @@ PcdHeader parse_pcd_header(std::string_view start);
 /// The header of a file that holds the cloud. binary_compressed files have no padding fields.
 std::string format_pcd_header(const RawCloud& cloud, PcdEncoding encoding);
 
-/// Text of a file in an error message: shortened, in quotes, without control characters.
-std::string in_quotes(std::string_view text);
-
 }  // namespace pcl_bv

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Strokes the volumes over the points with Cairo and encodes the PNG.
+// Strokes the volumes over the points with Cairo and encodes PNG or SVG.
 
 #include "pcl_bv/io/picture.h"
 
+#include <cairo-svg.h>
 #include <cairo.h>
 
 #include <Eigen/Geometry>
@@ -16,6 +17,7 @@
 #include <utility>
 
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "picture_points.h"
 #include "picture_view.h"
 
@@ -158,8 +160,8 @@ void draw_volumes(cairo_t* cairo, const Picture& picture, const View& view) {
     draw_volume(cairo, *entry, view);
 }
 
-cairo_status_t append(void* png, const unsigned char* bytes, unsigned int n) {
-  static_cast<std::string*>(png)->append(reinterpret_cast<const char*>(bytes), n);
+cairo_status_t append(void* file, const unsigned char* bytes, unsigned int n) {
+  static_cast<std::string*>(file)->append(reinterpret_cast<const char*>(bytes), n);
   return CAIRO_STATUS_SUCCESS;
 }
 
@@ -168,31 +170,68 @@ void require(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(cairo_status_to_string(status));
 }
 
-}  // namespace
-
-std::string picture_png(const Picture& picture) {
+void check_size(const Picture& picture) {
   for (const int side : {picture.width, picture.height}) {
     if (side < 16 || side > 16384) {
       throw std::invalid_argument("picture side " + std::to_string(side) + " is not within 16..16384 pixels");
     }
   }
-  const View view = fit_view(picture);
-  std::vector<std::uint32_t> pixels = draw_points(picture, view);
-  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
+}
+
+using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
+using Context = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
+
+/// The pixels must outlive the surface.
+Surface surface_of(std::vector<std::uint32_t>& pixels, const Picture& picture) {
+  return {
       cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()), CAIRO_FORMAT_RGB24,
                                           picture.width, picture.height, picture.width * 4),
-      cairo_surface_destroy);
-  const std::unique_ptr<cairo_t, void (*)(cairo_t*)> cairo(cairo_create(surface.get()), cairo_destroy);
+      cairo_surface_destroy};
+}
+
+/// Draws the volumes, over the points if they are given apart.
+void draw(cairo_surface_t* surface, cairo_surface_t* points, const Picture& picture, const View& view) {
+  const Context cairo(cairo_create(surface), cairo_destroy);
+  if (points) {
+    cairo_set_source_surface(cairo.get(), points, 0, 0);
+    cairo_paint(cairo.get());
+  }
   draw_volumes(cairo.get(), picture, view);
   require(cairo_status(cairo.get()));
+}
+
+}  // namespace
+
+std::string picture_png(const Picture& picture) {
+  check_size(picture);
+  const View view = fit_view(picture);
+  std::vector<std::uint32_t> pixels = draw_points(picture, view);
+  const Surface surface = surface_of(pixels, picture);
+  draw(surface.get(), nullptr, picture, view);
   cairo_surface_flush(surface.get());
   std::string png;
   require(cairo_surface_write_to_png_stream(surface.get(), append, &png));
   return png;
 }
 
+std::string picture_svg(const Picture& picture) {
+  check_size(picture);
+  const View view = fit_view(picture);
+  std::vector<std::uint32_t> pixels = draw_points(picture, view);
+  const Surface points = surface_of(pixels, picture);
+  std::string svg;
+  const Surface surface(cairo_svg_surface_create_for_stream(append, &svg, picture.width, picture.height),
+                        cairo_surface_destroy);
+  cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
+  draw(surface.get(), points.get(), picture, view);
+  cairo_surface_finish(surface.get());
+  require(cairo_surface_status(surface.get()));
+  return svg;
+}
+
 void write_picture(const std::filesystem::path& path, const Picture& picture) {
-  write_file_atomically(path, picture_png(picture));
+  const bool svg = lower_case_extension(path) == ".svg";
+  write_file_atomically(path, svg ? picture_svg(picture) : picture_png(picture));
 }
 
 }  // namespace pcl_bv

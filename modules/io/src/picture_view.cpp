@@ -5,6 +5,7 @@
 
 #include "picture_view.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -90,13 +91,37 @@ Interval framed(const std::vector<Corners>& volumes, const Corners& points, cons
   return result;
 }
 
-View oriented(const Picture& picture) {
+void look_from_above_a_corner(View& view) {
   const double ce = std::cos(elevation), se = std::sin(elevation);
   const double ca = std::cos(azimuth), sa = std::sin(azimuth);
-  View view;
   view.toward = {ce * ca, ce * sa, se};
   view.right = {-sa, ca, 0};
   view.up = {-se * ca, -se * sa, ce};
+}
+
+void look_along_axes(View& view, const Eigen::Vector3d& right, const Eigen::Vector3d& up) {
+  view.right = right;
+  view.up = up;
+  view.toward = right.cross(up);
+}
+
+View oriented(const Picture& picture) {
+  const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  View view;
+  switch (picture.from) {
+    case ViewFrom::iso:
+      look_from_above_a_corner(view);
+      break;
+    case ViewFrom::top:
+      look_along_axes(view, x, y);
+      break;
+    case ViewFrom::front:
+      look_along_axes(view, x, z);
+      break;
+    case ViewFrom::side:
+      look_along_axes(view, y, z);
+      break;
+  }
   view.width = picture.width;
   view.height = picture.height;
   return view;

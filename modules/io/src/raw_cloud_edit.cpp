@@ -88,11 +88,11 @@ void update_packed_xyz(RawCloud& cloud) {
   cloud.packed_xyz.clear();
   const CoordinateFields fields = coordinate_fields(cloud);
   if (!fields.readable || fields.adjacent) return;
-  cloud.packed_xyz.resize(3 * cloud.size());
-  std::byte* packed = reinterpret_cast<std::byte*>(cloud.packed_xyz.data());
+  const std::size_t bytes = size_of(fields.scalar);
+  cloud.packed_xyz.resize(3 * bytes * cloud.size());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     copy_strided({cloud.data.data(), fields.offset[axis], cloud.point_step},
-                 {packed, axis * sizeof(float), 3 * sizeof(float)}, sizeof(float), cloud.size());
+                 {cloud.packed_xyz.data(), axis * bytes, 3 * bytes}, bytes, cloud.size());
   }
 }
 

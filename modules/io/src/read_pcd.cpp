@@ -56,7 +56,7 @@ RawCloud read_pcd(const std::filesystem::path& path) {
   try {
     return read_points(file);
   } catch (const std::bad_alloc&) {
-    throw IoError("not enough memory for its points, file of " + std::to_string(file.size()) + " bytes");
+    throw not_enough_memory(file);
   }
 }
 

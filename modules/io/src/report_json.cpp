@@ -4,24 +4,16 @@
 // Reports as JSON. The tree and the escaping are nlohmann's; the numbers are not, because its Grisu2 does not
 // always give the shortest digits, and only std::to_chars promises digits that read back exactly.
 
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "numbers.h"
 #include "pcl_bv/io/report.h"
 
 namespace pcl_bv {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string number(double value) {
-  if (!std::isfinite(value)) throw std::domain_error("a volume has a number that is not finite");
-  if (value == 0) return "0";  // never -0
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
 
 void write(const Json& value, std::string& out);
 
@@ -53,7 +45,7 @@ void write(const Json& value, std::string& out) {
   } else if (value.is_array()) {
     write_array(value, out);
   } else if (value.is_number_float()) {
-    out += number(value.get<double>());
+    out += shortest(value.get<double>());
   } else {
     out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
@@ -154,6 +146,24 @@ Json counts_json(const Counts& counts) {
           {"large", counts.large}};
 }
 
+/// What there is none of is left out.
+Json info_json(const CloudInfo& info) {
+  Json json;
+  if (!info.box.empty()) add_numbers(info.box, json);
+  if (info.spacing) json["spacing"] = *info.spacing;
+  json["organized"] = info.height > 1;
+  json["nonfinite"] = info.nonfinite;
+  json["zero"] = info.zero;
+  json["fields"] = Json::array();
+  for (const PointField& field : info.fields) {
+    json["fields"].push_back({{"name", field.name},
+                              {"type", std::string(1, field.type)},
+                              {"size", field.size},
+                              {"count", field.count}});
+  }
+  return json;
+}
+
 /// Microseconds are all that a clock reading is worth.
 double microseconds_exact(double seconds) {
   return std::round(seconds * 1e6) / 1e6;
@@ -168,6 +178,7 @@ std::string report_json(const Report& report) {
   } else {
     json["points"] = report.points;
     json["counts"] = counts_json(report.counts);
+    if (report.info) json["info"] = info_json(*report.info);
     json["clusters"] = Json::array();
     for (const ClusterEntry& cluster : report.clusters)
       json["clusters"].push_back(cluster_json(cluster));

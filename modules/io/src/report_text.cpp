@@ -142,11 +142,33 @@ std::string header(const Report& report) {
   return text + '\n';
 }
 
+std::string info_text(const CloudInfo& info) {
+  std::string text = "  ";
+  for (int axis = 0; axis < 3 && !info.box.empty(); ++axis) {
+    text += "xyz"[axis];
+    text += " " + format("%.*g", 6, info.box.min()[axis]) + " to " + format("%.*g", 6, info.box.max()[axis]) +
+            ", ";
+  }
+  if (info.spacing) text += "spacing " + format("%.*g", 3, *info.spacing) + ", ";
+  if (info.height > 1) text += std::to_string(info.width) + " x " + std::to_string(info.height) + ", ";
+  text +=
+      std::to_string(info.nonfinite) + " not finite, " + std::to_string(info.zero) + " at 0,0,0\n  fields";
+  for (const PointField& field : info.fields) {
+    std::string name = field.name;  // of a file's making: it must not steer a terminal
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
+    text += " " + name + ":" + field.type + std::to_string(8 * field.size);
+    if (field.count > 1) text += "x" + std::to_string(field.count);
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string report_text(const Report& report) {
   if (report.error) return {};
-  return header(report) + (report.clusters.empty() ? std::string() : aligned(table(report)));
+  return header(report) + (report.info ? info_text(*report.info) : std::string()) +
+         (report.clusters.empty() ? std::string() : aligned(table(report)));
 }
 
 }  // namespace pcl_bv

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A cloud is checked before it is written: what comes out can always be read back.
+#include <charconv>
 #include <stdexcept>
 
-#include "numbers.h"
+#include "header_words.h"
 #include "pcd_ascii.h"
 #include "pcd_compressed.h"
 #include "pcd_header.h"

@@ -10,7 +10,8 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
-#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/meshes.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/synth.h"
 
 namespace pcl_bv {
@@ -29,22 +30,16 @@ bool is_folder(const std::string& path) {
 }
 
 std::vector<Job> expand(const std::string& argument) {
-  if (!is_folder(argument)) return {{argument, {}, {}, {}}};
+  if (!is_folder(argument)) return {{argument, {}, {}, {}, {}}};
   try {
     std::vector<Job> jobs;
     for (const fs::path& path : list_clouds(argument))
-      jobs.push_back({path.string(), {}, {}, {}});
+      jobs.push_back({path.string(), {}, {}, {}, {}});
     if (!jobs.empty()) return jobs;
-    return {{argument, "no .pcd file in this folder", {}, {}}};
+    return {{argument, "no .pcd, .ply or .bin file in this folder", {}, {}, {}}};
   } catch (const IoError& error) {
-    return {{argument, error.what(), {}, {}}};
+    return {{argument, error.what(), {}, {}, {}}};
   }
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
 }
 
 std::string stem(const std::string& input) {
@@ -82,6 +77,11 @@ std::vector<Job> plan_jobs(const Options& options) {
   const auto target = [&](const fs::path& given, const Job& job, const char* extension) {
     return several || is_folder(given.string()) ? given / (stem(job.input) + extension) : given;
   };
+  // A folder gets what its name ends in.
+  const bool svg = options.image && lower_case_extension(*options.image) == ".svg";
+  const char* image_extension = svg ? ".svg" : ".png";
+  const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;
+  const char* mesh_extension = vtp ? ".vtp" : ".ply";
   std::set<fs::path> taken, inputs;
   for (const Job& job : jobs) {
     if (!is_synth(job.input)) inputs.insert(identity(job.input));
@@ -90,7 +90,8 @@ std::vector<Job> plan_jobs(const Options& options) {
   for (Job& job : jobs) {
     if (job.error) continue;
     if (options.labels) claim(taken, inputs, job.labels.emplace(target(*options.labels, job, ".pcd")));
-    if (options.image) claim(taken, inputs, job.image.emplace(target(*options.image, job, ".png")));
+    if (options.mesh) claim(taken, inputs, job.mesh.emplace(target(*options.mesh, job, mesh_extension)));
+    if (options.image) claim(taken, inputs, job.image.emplace(target(*options.image, job, image_extension)));
   }
   return jobs;
 }
@@ -101,11 +102,7 @@ RawCloud load_cloud(const Job& job) {
     const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
-  const std::string extension = lower_case(fs::path(job.input).extension().string());
-  if (extension == ".ply" || extension == ".bin") {
-    throw IoError("reading " + extension + " files is not available yet");
-  }
-  return read_pcd(job.input);
+  return read_cloud(job.input);
 }
 
 }  // namespace pcl_bv

@@ -18,7 +18,7 @@ namespace pcl_bv {
 struct Job {
   std::string input;                 ///< A file, or synth:NAME[:POINTS[:SEED]].
   std::optional<std::string> error;  ///< Why there is nothing to load, for a folder without clouds.
-  std::optional<std::filesystem::path> labels, image;
+  std::optional<std::filesystem::path> labels, mesh, image;
 };
 
 /// All clouds, folders expanded in natural order. Throws UsageError if two results would go to the same file.

@@ -27,7 +27,7 @@ Status run(const Options& options) {
       const Outcome outcome = process(job, options);
       status = worse(status, outcome.status);
       // Nobody reads any more; what else was asked for is done all the same.
-      if (!writer.add(outcome.report) && !options.labels && !options.image && !options.check) return status;
+      if (!writer.add(outcome.report) && !writes_files(options) && !options.check) return status;
     }
     writer.finish();
   } catch (const IoError& error) {

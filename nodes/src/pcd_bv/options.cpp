@@ -10,6 +10,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 
+#include "pcl_bv/io/read_cloud.h"
 #include "values.h"
 
 namespace pcl_bv {
@@ -20,6 +21,7 @@ constexpr const char* examples = R"(Examples:
   pcd_bv --volume dop26 --check --format json *.pcd      each proven to hold every point
   pcd_bv --ground zones --cluster 0.5 --image o.png s.pcd  around each object, and a picture
   pcd_bv --cluster 0.5 --format jsonl sweeps/ | jq .counts
+  pcd_bv --cluster 0.5 --format csv --mesh o.vtp s.bin   a line per volume, and ParaView's mesh
   pcd_bv --timings synth:street
 
 Exit status: 0 done; 1 some input could not be processed or an output not written (the
@@ -29,14 +31,14 @@ PCL_BV_ISA in the environment sets the default of --isa.)";
 
 /// Options of the documentation that this build refuses, so that a typing error and a missing feature read
 /// differently.
-constexpr const char* unavailable[] = {"--mesh", "--info", "--progress"};
+constexpr const char* unavailable[] = {"--progress"};
 
 /// The command line as texts, before the values are looked at.
 struct Texts {
   std::vector<std::string> inputs;
   std::string volume, range, cluster, min_size, max_size, ground, up, sensor_height, format, output, labels,
-      image, view, threads, isa, growth;
-  bool check = false, timings = false, version = false;
+      mesh, image, view, threads, isa, growth;
+  bool check = false, info = false, timings = false, version = false;
 };
 
 std::string default_names() {
@@ -52,7 +54,8 @@ void declare(CLI::App& app, Texts& texts) {
   };
   app.set_help_flag("-h,--help", "Show this text");
   app.add_flag("--version", texts.version, "Show the version and the usable instruction sets");
-  app.add_option("INPUT", texts.inputs, ".pcd files, folders of them, synth:NAME[:POINTS[:SEED]]")
+  app.add_option("INPUT", texts.inputs,
+                 ".pcd, .ply and KITTI .bin files, folders of them, synth:NAME[:POINTS[:SEED]]")
       ->type_name("");
   option("--volume", texts.volume, "LIST", "Methods separated by commas, or all (" + default_names() + ")");
   option("--range", texts.range, "MIN:MAX", "Drop points nearer or farther than this from the origin");
@@ -65,17 +68,21 @@ void declare(CLI::App& app, Texts& texts) {
   option("--up", texts.up, "AXIS",
          "Against gravity, for --ground, obb-yaw, obb-lshape: x, y, z, -x, -y or -z (z)");
   option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
-  option("--format", texts.format, "FORMAT", "text, json or jsonl (text)");
+  option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   option("--labels", texts.labels, "FILE.pcd",
          "Write the input with a field `label`; several inputs: a folder");
-  option("--image", texts.image, "FILE.png", "Draw cloud and volumes; several inputs: a folder");
-  option("--view", texts.view, "NAME", "From where the picture is taken: iso (iso)");
+  option("--mesh", texts.mesh, "FILE",
+         "Write the volumes as .ply or .vtp; several inputs: a folder, whose name may end so");
+  option("--image", texts.image, "FILE",
+         "Draw cloud and volumes as .png or .svg; several inputs: a folder, as --mesh");
+  option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
   option("--growth", texts.growth, "POLICY",
          "How Ritter's and EPOS spheres grow: sequential, stationary or deferred (deferred)");
   option("--threads", texts.threads, "N", "Threads, 0 for all processors (0)");
   option("--isa", texts.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   app.add_flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
+  app.add_flag("--info", texts.info, "Add what the cloud is like: extent, spacing, bad points, fields");
   app.add_flag("--timings", texts.timings, "Add the seconds of each stage");
   for (const char* name : unavailable)
     app.add_option(name)->expected(0, 1)->group("");  // not in the help
@@ -95,31 +102,26 @@ std::optional<std::filesystem::path> path_or_none(const CLI::App& app, const cha
   return text;
 }
 
-/// A picture is a .png; a name without an extension is a folder's.
-void refuse_other_pictures(const std::filesystem::path& image) {
-  std::string extension = image.extension().string();
-  for (char& c : extension)
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+/// A file's extension must be one of these; a name without one may be a folder's.
+void require_extension(const char* option, const std::string& name,
+                       std::initializer_list<std::string_view> known) {
+  const std::string extension = lower_case_extension(name);
   std::error_code unknown;
-  if (extension.empty() || extension == ".png" || std::filesystem::is_directory(image, unknown)) return;
-  if (extension == ".svg") throw not_available_yet("--image FILE.svg");
-  throw UsageError("--image: '" + image.string() + "' is no .png file");
+  if (extension.empty() || std::filesystem::is_directory(name, unknown)) return;
+  std::string list;
+  for (const std::string_view each : known) {
+    if (extension == each) return;
+    list += (list.empty() ? "" : " or ") + std::string(each);
+  }
+  throw UsageError(std::string(option) + ": '" + name + "' is no " + list + " file");
 }
 
-void refuse_unavailable(const CLI::App& app, const Texts& texts) {
+void refuse_unusable(const CLI::App& app, const Texts& texts) {
   for (const char* name : unavailable) {
     if (app.count(name) > 0) throw not_available_yet(name);
   }
-  const auto only = [&](const char* option, const std::string& text, std::string_view built,
-                        std::initializer_list<std::string_view> planned) {
-    if (app.count(option) == 0 || text == built) return;
-    for (const std::string_view name : planned) {
-      if (text == name) throw not_available_yet(option + (' ' + text));
-    }
-    throw UsageError(std::string(option) + ": unknown value '" + text + "'; known is " + std::string(built));
-  };
-  only("--view", texts.view, "iso", {"top", "front", "side"});
-  refuse_other_pictures(texts.image);
+  require_extension("--image", texts.image, {".png", ".svg"});
+  require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
 }
 
 /// For those who ask: the ground and upright boxes.
@@ -163,7 +165,9 @@ Options to_options(const CLI::App& app, const Texts& texts) {
   if (given("--format")) options.format = parse_format(texts.format);
   options.output = path_or_none(app, "--output", texts.output);
   options.labels = path_or_none(app, "--labels", texts.labels);
+  options.mesh = path_or_none(app, "--mesh", texts.mesh);
   options.image = path_or_none(app, "--image", texts.image);
+  if (given("--view")) options.view = parse_view(texts.view);
   OpenMP threads;
   if (given("--threads")) {
     threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
@@ -171,6 +175,7 @@ Options to_options(const CLI::App& app, const Texts& texts) {
   if (given("--growth")) options.method_options.growth = parse_sphere_growth(texts.growth);
   options.execution = {threads, parse_usable_isa(given("--isa") ? texts.isa : "auto")};
   options.check = texts.check;
+  options.info = texts.info;
   options.timings = texts.timings;
   return options;
 }
@@ -192,7 +197,7 @@ std::variant<Options, std::string> parse_options(int argc, const char* const* ar
     throw UsageError(error.what() + std::string("; pcd_bv --help lists the options"));
   }
   if (texts.version) return version_text();
-  refuse_unavailable(app, texts);
+  refuse_unusable(app, texts);
   if (texts.inputs.empty()) throw UsageError("no INPUT; pcd_bv --help lists the options");
   return to_options(app, texts);
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/io/picture.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 
 namespace pcl_bv {
@@ -33,7 +34,7 @@ struct GroundOptions {
   std::optional<double> sensor_height;  ///< Metres; learnt if not given.
 };
 
-enum class OutputFormat { text, json, jsonl };
+enum class OutputFormat { text, json, jsonl, csv };
 
 struct Options {
   std::vector<std::string> inputs;
@@ -44,12 +45,19 @@ struct Options {
   std::size_t min_size = 10;
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
   OutputFormat format = OutputFormat::text;
-  std::optional<std::filesystem::path> output, labels, image;
+  std::optional<std::filesystem::path> output, labels, mesh, image;
+  ViewFrom view = ViewFrom::iso;
   MethodOptions method_options;
   Execution execution;
   bool check = false;
+  bool info = false;
   bool timings = false;
 };
+
+/// Whether files are asked for beside the report.
+inline bool writes_files(const Options& options) {
+  return options.labels || options.mesh || options.image;
+}
 
 /// Wrong use: what() is the line for standard error.
 class UsageError : public std::runtime_error {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/csv.h"
 #include "pcl_bv/io/io_error.h"
 
 namespace pcl_bv {
@@ -40,6 +41,8 @@ bool ReportWriter::add(const Report& report) {
       return write((first ? "[\n" : ",\n") + report_json(report));
     case OutputFormat::jsonl:
       return write(report_json(report) + '\n');
+    case OutputFormat::csv:
+      return write((first ? report_csv_heading() : "") + report_csv(report));
     case OutputFormat::text:
       break;
   }

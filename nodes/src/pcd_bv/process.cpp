@@ -10,8 +10,10 @@
 #include <new>
 #include <utility>
 
+#include "info.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/meshes.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/picture.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
@@ -82,6 +84,7 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
 Picture make_picture(const Segmentation& segmentation, const std::vector<std::uint32_t>& labels,
                      const Options& options, const Report& report) {
   Picture picture;
+  picture.from = options.view;
   picture.points = options.tolerance ? segmentation.in_range : segmentation.points;
   if (options.tolerance) picture.labels = labels.data();
   for (const ClusterEntry& cluster : report.clusters) {
@@ -97,6 +100,12 @@ Picture make_picture(const Segmentation& segmentation, const std::vector<std::ui
 Status write_files(const Job& job, const Options& options, const Segmentation& segmentation,
                    const Report& report, RawCloud& cloud) {
   Status status = Status::done;
+  if (job.mesh) {
+    status = worse(status, write_file(*job.mesh, [&] {
+                     const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
+                     write_volumes(*job.mesh, report.clusters, format);
+                   }));
+  }
   if (!job.labels && !job.image) return status;
   const std::vector<std::uint32_t> label = labels(segmentation, cloud.size());
   if (job.image) {
@@ -124,6 +133,7 @@ Status process(const Job& job, const Options& options, Report& report) {
   report.counts = segmentation.counts;
   fit(segmentation, options, report);
   seconds.fit = watch.lap();
+  if (options.info) report.info = cloud_info(cloud);
   if (options.timings) report.seconds = seconds;
   const Status checked = options.check ? check(segmentation, options, report) : Status::done;
   return worse(checked, write_files(job, options, segmentation, report, cloud));

@@ -16,8 +16,9 @@ struct Outcome {
   Status status = Status::done;
 };
 
-/// Loads, segments, fits, verifies, and writes the labels and the picture. Never throws for what the input or
-/// a file does: problems go to standard error and into the status, a failed input into `report.error` too.
+/// Loads, segments, fits, verifies, and writes the labels, the mesh and the picture. Never throws for what
+/// the input or a file does: problems go to standard error and into the status, a failed input into
+/// `report.error` too.
 Outcome process(const Job& job, const Options& options);
 
 }  // namespace pcl_bv

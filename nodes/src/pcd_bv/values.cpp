@@ -111,8 +111,16 @@ OutputFormat parse_format(std::string_view text) {
   if (text == "text") return OutputFormat::text;
   if (text == "json") return OutputFormat::json;
   if (text == "jsonl") return OutputFormat::jsonl;
-  if (text == "csv") throw not_available_yet("--format csv");
-  throw UsageError("--format: unknown format " + quoted(text) + "; known are text, json, jsonl");
+  if (text == "csv") return OutputFormat::csv;
+  throw UsageError("--format: unknown format " + quoted(text) + "; known are text, json, jsonl, csv");
+}
+
+ViewFrom parse_view(std::string_view text) {
+  if (text == "iso") return ViewFrom::iso;
+  if (text == "top") return ViewFrom::top;
+  if (text == "front") return ViewFrom::front;
+  if (text == "side") return ViewFrom::side;
+  throw UsageError("--view: unknown view " + quoted(text) + "; known are iso, top, front, side");
 }
 
 Isa parse_usable_isa(const std::string& text) {

@@ -22,6 +22,7 @@ std::optional<GroundOptions> parse_ground(std::string_view kind);
 UpAxis parse_up(std::string_view text);
 double parse_sensor_height(std::string_view text);
 OutputFormat parse_format(std::string_view text);
+ViewFrom parse_view(std::string_view text);
 Isa parse_usable_isa(const std::string& text);
 SphereGrowth parse_sphere_growth(std::string_view text);
 

@@ -11,7 +11,8 @@
 
 namespace pcl_bv {
 
-/// Reads a .pcd file: ascii, binary or binary_compressed, with float32 fields x, y and z among any others.
+/// Reads a .pcd file: ascii, binary or binary_compressed, with fields x, y and z, all float32 or
+/// all float64, among any others.
 ///
 /// Sizes in the header are held against the size of the file before anything is allocated. A file of 0 points
 /// gives an empty cloud. Numbers in ascii are rounded to the nearest value of their field's type, to infinity

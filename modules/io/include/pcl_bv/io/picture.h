@@ -25,7 +25,15 @@ struct PictureVolume {
   std::uint32_t colour = 0;
 };
 
-/// What to draw. z is up; the view is parallel, from above one corner of the scene.
+/// From where a picture is taken. All views are parallel; z is up in all but `top`.
+enum class ViewFrom {
+  iso,    ///< From above one corner of the scene.
+  top,    ///< Down along z; x points right, y up.
+  front,  ///< Along y; x points right.
+  side    ///< Against x; y points right.
+};
+
+/// What to draw.
 struct Picture {
   PointView points;  ///< The points to draw; those not finite, and dead beams at exactly 0,0,0, are left out.
   const std::uint32_t* labels =
@@ -33,6 +41,7 @@ struct Picture {
   std::vector<PictureVolume> volumes;  ///< Empty ones are left out.
   int width = 1600;                    ///< Pixels.
   int height = 1000;
+  ViewFrom from = ViewFrom::iso;
 };
 
 /// The picture as a PNG file in memory. Points of a cluster have its colour, others are grey. Same input,
@@ -44,7 +53,12 @@ struct Picture {
 /// Throws std::invalid_argument for a side outside 16..16384.
 std::string picture_png(const Picture& picture);
 
-/// Writes picture_png() beside, then renames: after an IoError a file that was there before is untouched.
+/// The same picture as an SVG file in memory: the points as one embedded PNG, the volumes as lines and areas
+/// that stay sharp and can be edited.
+std::string picture_svg(const Picture& picture);
+
+/// Writes picture_svg() if the name ends in .svg, in any case, else picture_png(), as write_file_atomically()
+/// does: after an IoError a file that was there before is untouched.
 void write_picture(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace pcl_bv

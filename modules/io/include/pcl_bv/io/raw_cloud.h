@@ -36,13 +36,13 @@ struct RawCloud {
   std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz qw qx qy qz; kept, never applied.
   std::size_t point_step = 0;
   std::vector<std::byte> data;  ///< width * height * point_step bytes, little-endian.
-  std::vector<float>
-      packed_xyz;  ///< x y z of all points, only where the record does not hold them side by side.
+  /// x y z of all points, in their type, only where the record does not hold them side by side.
+  std::vector<std::byte> packed_xyz;
 
   std::size_t size() const { return width * height; }
 
   /// The coordinates of all points, in their order; views `data` (or `packed_xyz`), so it dies with the
-  /// cloud. Empty for an empty cloud, and for one without float32 x, y and z.
+  /// cloud. Empty for an empty cloud, and for one whose x, y and z are not all float32 or all float64.
   PointView xyz() const;
 };
 

@@ -24,8 +24,8 @@ RawCloud make_cloud(const std::vector<float>& xyz);
 /// "_" (padding) or is that of a coordinate (x, y, z).
 void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<std::uint32_t>& values);
 
-/// Brings `packed_xyz` in line with `data`, as every reader does last: filled if float32 fields x, y and z
-/// exist but do not lie side by side in that order, else empty.
+/// Brings `packed_xyz` in line with `data`, as every reader does last: filled if fields x, y and z that
+/// xyz() can view exist but do not lie side by side in that order, else empty.
 void update_packed_xyz(RawCloud& cloud);
 
 }  // namespace pcl_bv

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace pcl_bv {
@@ -42,12 +43,24 @@ struct Seconds {
   double fit = 0;
 };
 
+/// What the cloud of an input is like. Organised clouds have height > 1.
+struct CloudInfo {
+  Aabb box;  ///< Of the finite points that are not exactly at 0,0,0; empty if there is none.
+  std::optional<double> spacing;  ///< Typical distance from a point to the nearest other one.
+  std::size_t width = 0;
+  std::size_t height = 1;
+  std::size_t nonfinite = 0;  ///< Points with a coordinate that is not finite.
+  std::size_t zero = 0;       ///< Points exactly at 0,0,0: dead beams, most likely.
+  std::vector<PointField> fields;
+};
+
 /// One input. If `error` is set the input failed and only `file` and `error` mean anything.
 struct Report {
   std::string file;        ///< As the user named it; invalid UTF-8 is replaced where it is written.
   std::size_t points = 0;  ///< All points of the input, good or bad.
   Counts counts;
   std::vector<ClusterEntry> clusters;
+  std::optional<CloudInfo> info;
   std::optional<Seconds> seconds;
   std::optional<std::string> error;
 };

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clouds of every format that can be read, by one call.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
+
+namespace pcl_bv {
+
+/// The extension of a path in lower case, with the dot: ".ply". Empty if there is none.
+std::string lower_case_extension(const std::filesystem::path& path);
+
+/// Whether the name is that of a cloud: it ends in .pcd, .ply or .bin, in any case.
+bool is_cloud_name(const std::filesystem::path& path);
+
+/// Reads the cloud by the reader that the extension names: .ply by read_ply(), .bin by read_kitti_bin(), all
+/// others by read_pcd(). Throws IoError, naming the reason.
+RawCloud read_cloud(const std::filesystem::path& path);
+
+}  // namespace pcl_bv

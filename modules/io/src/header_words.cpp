@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Blanks are what C calls so, whatever the locale.
+#include "header_words.h"
+
+#include <algorithm>
+
+namespace pcl_bv {
+
+Words split(std::string_view line) {
+  constexpr std::string_view blanks = " \t\r\v\f";
+  Words words;
+  std::size_t begin = line.find_first_not_of(blanks);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string result(text.substr(0, longest));
+  for (char& c : result) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return "'" + result + (text.size() > longest ? "...'" : "'");
+}
+
+}  // namespace pcl_bv

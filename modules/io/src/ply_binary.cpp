@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Vertices without lists are read in one piece; elements with lists have to be walked through.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "header_words.h"
+#include "pcl_bv/io/io_error.h"
+#include "ply_vertices.h"
+
+namespace pcl_bv {
+namespace {
+
+/// The bytes of a file one after another, by way of a window.
+class ByteStream {
+ public:
+  ByteStream(const InputFile& file, std::size_t offset) : file_(file), at_(offset) {}
+
+  std::size_t left() const { return file_.size() - at_; }
+
+  /// The caller makes sure that so many are left().
+  void skip(std::size_t bytes) { at_ += bytes; }
+  void read_all(std::byte* to, std::size_t bytes) {
+    file_.read(at_, to, bytes);
+    at_ += bytes;
+  }
+  void read_few(std::byte* to, std::size_t bytes) {
+    if (at_ < window_begin_ || at_ + bytes > window_end_) fill();
+    std::memcpy(to, window_.data() + (at_ - window_begin_), bytes);
+    at_ += bytes;
+  }
+
+ private:
+  void fill() {
+    window_begin_ = at_;
+    window_end_ = at_ + std::min(left(), window_.size());
+    file_.read(at_, window_.data(), window_end_ - window_begin_);
+  }
+
+  const InputFile& file_;
+  std::size_t at_;
+  std::size_t window_begin_ = 0, window_end_ = 0;
+  std::array<std::byte, 65536> window_;
+};
+
+class Walk {
+ public:
+  Walk(const InputFile& file, const PlyHeader& header)
+      : stream_(file, header.data_offset), swap_(header.encoding == PlyEncoding::big_endian) {}
+
+  void skip(const PlyElement& element) {
+    check_room(element);
+    if (!element.has_lists()) return stream_.skip(element.count * element.fixed_bytes());
+    std::array<std::byte, 8> ignored;
+    for (std::size_t i = 0; i < element.count; ++i) {
+      for (const PlyProperty& property : element.properties)
+        take(element, i, property, ignored.data());
+    }
+  }
+
+  void read(const PlyElement& vertex, RawCloud& cloud) {
+    check_room(vertex);
+    cloud.data.resize(cloud.size() * cloud.point_step);
+    if (!vertex.has_lists()) {
+      stream_.read_all(cloud.data.data(), cloud.data.size());
+    } else {
+      std::byte* to = cloud.data.data();
+      for (std::size_t i = 0; i < vertex.count; ++i) {
+        for (const PlyProperty& property : vertex.properties) {
+          take(vertex, i, property, to);
+          if (!property.is_list) to += property.value.size;
+        }
+      }
+    }
+    if (swap_) swap_fields(cloud);
+  }
+
+ private:
+  void check_room(const PlyElement& element) const {
+    const std::size_t bytes = element.fixed_bytes();
+    if (bytes == 0 || element.count <= stream_.left() / bytes) return;
+    throw IoError("truncated: " + std::to_string(element.count) + " of element " + in_quotes(element.name) +
+                  " take at least " + std::to_string(bytes) + " bytes each, the file has " +
+                  std::to_string(stream_.left()));
+  }
+
+  // Copies a value as it is, or moves over a list.
+  void take(const PlyElement& element, std::size_t i, const PlyProperty& property, std::byte* to) {
+    const auto need = [&](std::uint64_t bytes) {
+      if (bytes <= stream_.left()) return;
+      throw IoError("truncated: " + in_quotes(element.name) + " " + std::to_string(i) + " of " +
+                    std::to_string(element.count) + " is not complete");
+    };
+    need(property.fixed_bytes());
+    if (!property.is_list) return stream_.read_few(to, property.value.size);
+    const std::int64_t n = list_size(property.count);
+    if (n < 0) {
+      throw IoError("corrupt: " + in_quotes(element.name) + " " + std::to_string(i) + " has a list of " +
+                    std::to_string(n) + " values");
+    }
+    const std::uint64_t bytes = static_cast<std::uint64_t>(n) * property.value.size;
+    need(bytes);
+    stream_.skip(bytes);
+  }
+
+  std::int64_t list_size(const PointField& count) {
+    std::array<std::byte, 8> bytes{};
+    stream_.read_few(bytes.data(), count.size);
+    if (swap_) std::reverse(bytes.begin(), bytes.begin() + count.size);
+    std::int64_t value = 0;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    const int unused = 64 - 8 * static_cast<int>(count.size);
+    return count.type == 'I'
+               ? static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << unused) >> unused
+               : value;
+  }
+
+  static void swap_fields(RawCloud& cloud) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      for (const PointField& field : cloud.fields) {
+        std::byte* at = &cloud.data[i * cloud.point_step + field.offset];
+        std::reverse(at, at + field.size);
+      }
+    }
+  }
+
+  ByteStream stream_;
+  bool swap_;
+};
+
+}  // namespace
+
+void read_ply_binary(const InputFile& file, PlyHeader& header) {
+  Walk walk(file, header);
+  for (const PlyElement& element : header.skipped)
+    walk.skip(element);
+  walk.read(header.vertex, header.cloud);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Lines are understood as they come: elements own the properties that follow them.
+#include "ply_header.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "coordinate_fields.h"
+#include "header_words.h"
+#include "numbers.h"
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+struct TypeName {
+  std::string_view name;
+  char type;
+  std::uint32_t size;
+};
+
+constexpr TypeName type_names[] = {
+    {"char", 'I', 1},  {"uchar", 'U', 1},  {"short", 'I', 2},   {"ushort", 'U', 2},
+    {"int", 'I', 4},   {"uint", 'U', 4},   {"float", 'F', 4},   {"double", 'F', 8},
+    {"int8", 'I', 1},  {"uint8", 'U', 1},  {"int16", 'I', 2},   {"uint16", 'U', 2},
+    {"int32", 'I', 4}, {"uint32", 'U', 4}, {"float32", 'F', 4}, {"float64", 'F', 8}};
+
+PointField field_of(std::string_view type, std::string_view name) {
+  for (const TypeName& known : type_names) {
+    if (known.name == type) return {std::string(name), known.type, known.size, 1, 0};
+  }
+  throw IoError("header: unknown property type " + in_quotes(type));
+}
+
+[[noreturn]] void refuse(std::string_view line) {
+  throw IoError("header: " + in_quotes(line) + " is not understood");
+}
+
+/// The lines of a header. They end as the first one does: in "\n", maybe after a "\r", or in "\r" alone.
+class Lines {
+ public:
+  explicit Lines(std::string_view start) : start_(start) {
+    const std::size_t end = start.find_first_of("\r\n");
+    if (end == std::string_view::npos || start[end] == '\n') return;
+    if (end + 1 < start.size() && start[end + 1] != '\n') newline_ = '\r';
+  }
+
+  std::string_view next() {
+    const std::size_t newline = start_.find(newline_, at_);
+    if (newline == std::string_view::npos) {
+      throw IoError("truncated header: no end_header in the first " + std::to_string(start_.size()) +
+                    " bytes");
+    }
+    const std::string_view line = start_.substr(at_, newline - at_);
+    at_ = newline + 1;
+    return line;
+  }
+
+  std::size_t offset() const { return at_; }
+
+ private:
+  std::string_view start_;
+  std::size_t at_ = 0;
+  char newline_ = '\n';
+};
+
+PlyEncoding read_format(const Words& words, std::string_view line) {
+  if (words.size() != 3) refuse(line);
+  if (words[2] != "1.0") throw IoError("header: format version " + in_quotes(words[2]) + " is not 1.0");
+  if (words[1] == "ascii") return PlyEncoding::ascii;
+  if (words[1] == "binary_little_endian") return PlyEncoding::little_endian;
+  if (words[1] == "binary_big_endian") return PlyEncoding::big_endian;
+  throw IoError("header: format " + in_quotes(words[1]) +
+                " is not one of ascii, binary_little_endian, binary_big_endian");
+}
+
+PlyElement read_element(const Words& words, std::string_view line) {
+  if (words.size() != 3) refuse(line);
+  PlyElement element{std::string(words[1]), 0, {}};
+  const char* end = words[2].data() + words[2].size();
+  if (parse_number(words[2].data(), end, element.count) == end) return element;
+  throw IoError("header: element " + in_quotes(words[1]) + ": " + in_quotes(words[2]) + " is not a number");
+}
+
+PlyProperty read_property(const Words& words, std::string_view line) {
+  if (words.size() == 3) return {field_of(words[1], words[2]), {}, false};
+  if (words.size() != 5 || words[1] != "list") refuse(line);
+  PlyProperty list{field_of(words[3], words[4]), field_of(words[2], words[4]), true};
+  if (list.count.type == 'F')
+    throw IoError("header: a list cannot have " + in_quotes(words[2]) + " elements");
+  return list;
+}
+
+struct Contents {
+  std::optional<PlyEncoding> encoding;
+  std::vector<PlyElement> elements;
+};
+
+void read_line(const Words& words, std::string_view line, Contents& contents) {
+  if (words[0] == "format") {
+    if (contents.encoding) throw IoError("header: format occurs twice");
+    contents.encoding = read_format(words, line);
+  } else if (words[0] == "element") {
+    contents.elements.push_back(read_element(words, line));
+  } else if (words[0] == "property") {
+    if (contents.elements.empty()) throw IoError("header: a property before any element");
+    contents.elements.back().properties.push_back(read_property(words, line));
+  } else {
+    refuse(line);
+  }
+}
+
+void make_fields(const PlyElement& vertex, RawCloud& cloud) {
+  for (const PlyProperty& property : vertex.properties) {
+    if (property.is_list) continue;
+    PointField& field = cloud.fields.emplace_back(property.value);
+    field.offset = cloud.point_step;
+    cloud.point_step += field.size;
+  }
+  check_coordinates(cloud);
+  cloud.width = vertex.count;
+  if (cloud.width > std::numeric_limits<std::size_t>::max() / cloud.point_step) {
+    throw IoError("header: " + std::to_string(cloud.width) + " vertices are more than a file can hold");
+  }
+}
+
+}  // namespace
+
+bool PlyElement::has_lists() const {
+  return std::any_of(properties.begin(), properties.end(), [](const auto& p) { return p.is_list; });
+}
+
+std::size_t PlyElement::fixed_bytes() const {
+  std::size_t bytes = 0;
+  for (const PlyProperty& property : properties)
+    bytes += property.fixed_bytes();
+  return bytes;
+}
+
+std::string_view ply_type_name(const PointField& value) {
+  return std::find_if(
+             std::begin(type_names), std::end(type_names),
+             [&](const TypeName& known) { return known.type == value.type && known.size == value.size; })
+      ->name;
+}
+
+PlyHeader parse_ply_header(std::string_view start) {
+  Lines lines(start);
+  if (!start.starts_with("ply") || split(lines.next()) != Words{"ply"}) {
+    throw IoError("not a .ply file: it does not start with a line 'ply'");
+  }
+  Contents contents;
+  for (;;) {
+    const std::string_view line = lines.next();
+    const Words words = split(line);
+    if (words == Words{"end_header"}) break;
+    if (!words.empty() && words[0] != "comment" && words[0] != "obj_info") read_line(words, line, contents);
+  }
+  if (!contents.encoding) throw IoError("header: no format line");
+  const auto vertex = std::find_if(contents.elements.begin(), contents.elements.end(),
+                                   [](const PlyElement& element) { return element.name == "vertex"; });
+  if (vertex == contents.elements.end()) throw IoError("header: no element vertex");
+  PlyHeader header;
+  header.encoding = *contents.encoding;
+  header.data_offset = lines.offset();
+  header.skipped.assign(contents.elements.begin(), vertex);
+  header.vertex = *vertex;
+  header.vertices_are_last = vertex + 1 == contents.elements.end();
+  make_fields(header.vertex, header.cloud);
+  return header;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The vertices of a .ply file, by way of the elements before them.
+#pragma once
+
+#include "input_file.h"
+#include "ply_header.h"
+
+namespace pcl_bv {
+
+/// Each reads the data of the vertices into header.cloud.data; lists are left out. Throws IoError.
+void read_ply_ascii(const InputFile& file, PlyHeader& header);
+void read_ply_binary(const InputFile& file, PlyHeader& header);
+
+}  // namespace pcl_bv

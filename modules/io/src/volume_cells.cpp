@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Meshes one after another; a volume that is only a point has no face, and gets a cell of its own.
+#include "volume_cells.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace pcl_bv {
+namespace {
+
+std::size_t method_number(const std::string& method, std::vector<std::string>& methods) {
+  const auto found = std::find(methods.begin(), methods.end(), method);
+  if (found != methods.end()) return static_cast<std::size_t>(found - methods.begin());
+  methods.push_back(method);
+  return methods.size() - 1;
+}
+
+void add_mesh(const Mesh& mesh, std::size_t owner, VolumeCells& cells) {
+  if (cells.vertices.size() + mesh.vertices.size() > std::numeric_limits<std::int32_t>::max()) {
+    throw std::length_error("more than 2147483647 vertices: too many for a mesh");
+  }
+  const auto first = static_cast<std::int32_t>(cells.vertices.size());
+  cells.vertices.insert(cells.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  cells.vertex_owners.resize(cells.vertices.size(), owner);
+  for (const std::vector<std::int32_t>& face : mesh.faces) {
+    Cell cell{face, owner};
+    for (std::int32_t& vertex : cell.vertices)
+      vertex += first;
+    auto& kind = face.size() > 2 ? cells.polygons : face.size() == 2 ? cells.lines : cells.points;
+    kind.push_back(std::move(cell));
+  }
+  if (!mesh.faces.empty()) return;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    cells.points.push_back({{first + static_cast<std::int32_t>(i)}, owner});
+}
+
+}  // namespace
+
+VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters) {
+  VolumeCells cells;
+  for (const ClusterEntry& cluster : clusters) {
+    for (const VolumeEntry& entry : cluster.volumes) {
+      const std::size_t method = method_number(entry.method, cells.methods);
+      if (empty(entry.volume)) continue;
+      cells.owners.push_back({cluster.id, method, cluster.points, volume(entry.volume)});
+      add_mesh(mesh(entry.volume), cells.owners.size() - 1, cells);
+    }
+  }
+  return cells;
+}
+
+}  // namespace pcl_bv
