@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs the built pcd_bv.
+// Runs the built commands.
 
 #include "command.h"
 
@@ -94,7 +94,8 @@ Result PcdBv::run(const std::vector<std::string>& arguments, const Surroundings&
   }
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0644);
-  std::vector<std::string> command{PCL_BV_BIN_DIR "/pcd_bv"};
+  const std::string& program = surroundings.program;
+  std::vector<std::string> command{program.front() == '/' ? program : PCL_BV_BIN_DIR "/" + program};
   command.insert(command.end(), arguments.begin(), arguments.end());
   Result result;
   result.status = spawn_and_wait(std::move(command), environment(surroundings.isa), actions);

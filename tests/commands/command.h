@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs the built pcd_bv as a user does, in a folder of the test's own.
+// Runs the built commands as a user does, in a folder of the test's own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,9 +26,10 @@ struct Result {
 };
 
 struct Surroundings {
-  std::string isa{};          ///< PCL_BV_ISA; empty: as this test has it.
-  std::string output{};       ///< File to be standard output; empty: captured.
-  bool nobody_reads = false;  ///< Standard output is a pipe whose reader has gone.
+  std::string program = "pcd_bv";  ///< In the folder of the built programs, or a path.
+  std::string isa{};               ///< PCL_BV_ISA; empty: as this test has it.
+  std::string output{};            ///< File to be standard output; empty: captured.
+  bool nobody_reads = false;       ///< Standard output is a pipe whose reader has gone.
 };
 
 std::string read_file(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
@@ -23,21 +24,29 @@ constexpr std::size_t kManyPoints = 200'000;
 
 void for_each_view(const std::vector<PointView>& views, const Execution& execution,
                    const std::function<void(std::size_t, const Execution&)>& fit) {
-  std::vector<std::size_t> order(views.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return views[a].count > views[b].count; });
-  const auto small =
-      std::find_if(order.begin(), order.end(), [&](std::size_t i) { return views[i].count < kManyPoints; });
-  std::for_each(order.begin(), small, [&](std::size_t i) { fit(i, execution); });
+  const auto larger = [&](std::size_t a, std::size_t b) {
+    return std::make_pair(views[b].count, a) < std::make_pair(views[a].count, b);
+  };
+  // Clusters come with the largest first: then there is no order to make, and nothing to allocate.
+  std::vector<std::size_t> order;
+  const auto by_count = [](const PointView& a, const PointView& b) { return a.count > b.count; };
+  if (!std::is_sorted(views.begin(), views.end(), by_count)) {
+    order.resize(views.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), larger);
+  }
+  const auto nth = [&](std::size_t n) { return order.empty() ? n : order[n]; };
 
-  const auto points = std::accumulate(small, order.end(), std::size_t{0},
-                                      [&](std::size_t sum, std::size_t i) { return sum + views[i].count; });
+  std::size_t small = 0;
+  for (; small < views.size() && views[nth(small)].count >= kManyPoints; ++small)
+    fit(nth(small), execution);
+  std::size_t points = 0;
+  for (std::size_t n = small; n < views.size(); ++n)
+    points += views[nth(n)].count;
   const Execution serial{Serial{}, execution.isa};
   const ParallelPolicy policy =
       worthwhile(execution.parallel, kSecondsPerPoint * static_cast<double>(points));
-  for_each_chunk(policy, static_cast<std::size_t>(order.end() - small),
-                 [&](std::size_t n) { fit(small[static_cast<std::ptrdiff_t>(n)], serial); });
+  for_each_chunk(policy, views.size() - small, [&](std::size_t n) { fit(nth(small + n), serial); });
 }
 
 }  // namespace pcl_bv

@@ -5,15 +5,13 @@
 // always give the shortest digits, and only std::to_chars promises digits that read back exactly.
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "numbers.h"
 #include "pcl_bv/io/report.h"
+#include "report_tree.h"
 
 namespace pcl_bv {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 void write(const Json& value, std::string& out);
 
@@ -131,21 +129,6 @@ Json volume_json(const VolumeEntry& entry) {
   return json;
 }
 
-Json cluster_json(const ClusterEntry& cluster) {
-  Json volumes = Json::array();
-  for (const VolumeEntry& entry : cluster.volumes)
-    volumes.push_back(volume_json(entry));
-  return {{"id", cluster.id}, {"points", cluster.points}, {"volumes", std::move(volumes)}};
-}
-
-Json counts_json(const Counts& counts) {
-  return {{"nonfinite", counts.nonfinite},
-          {"range", counts.range},
-          {"ground", counts.ground},
-          {"small", counts.small},
-          {"large", counts.large}};
-}
-
 /// What there is none of is left out.
 Json info_json(const CloudInfo& info) {
   Json json;
@@ -171,6 +154,27 @@ double microseconds_exact(double seconds) {
 
 }  // namespace
 
+Json volumes_json(const ClusterEntry& cluster) {
+  Json volumes = Json::array();
+  for (const VolumeEntry& entry : cluster.volumes)
+    volumes.push_back(volume_json(entry));
+  return volumes;
+}
+
+Json counts_json(const Counts& counts) {
+  return {{"nonfinite", counts.nonfinite},
+          {"range", counts.range},
+          {"ground", counts.ground},
+          {"small", counts.small},
+          {"large", counts.large}};
+}
+
+std::string to_text(const Json& json) {
+  std::string text;
+  write(json, text);
+  return text;
+}
+
 std::string report_json(const Report& report) {
   Json json{{"schema", 1}, {"file", report.file}};
   if (report.error) {
@@ -180,17 +184,17 @@ std::string report_json(const Report& report) {
     json["counts"] = counts_json(report.counts);
     if (report.info) json["info"] = info_json(*report.info);
     json["clusters"] = Json::array();
-    for (const ClusterEntry& cluster : report.clusters)
-      json["clusters"].push_back(cluster_json(cluster));
+    for (const ClusterEntry& cluster : report.clusters) {
+      json["clusters"].push_back(
+          {{"id", cluster.id}, {"points", cluster.points}, {"volumes", volumes_json(cluster)}});
+    }
     if (report.seconds) {
       json["seconds"] = {{"read", microseconds_exact(report.seconds->read)},
                          {"segment", microseconds_exact(report.seconds->segment)},
                          {"fit", microseconds_exact(report.seconds->fit)}};
     }
   }
-  std::string text;
-  write(json, text);
-  return text;
+  return to_text(json);
 }
 
 }  // namespace pcl_bv

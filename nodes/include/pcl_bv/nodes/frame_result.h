@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What was found in one frame.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/io/report.h"
+#include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/ground_plane.h"
+
+namespace pcl_bv {
+
+/// Wall-clock milliseconds of each stage; `total` is from the cloud in memory to the volumes, without decode.
+struct StageTimes {
+  double decode = 0, filter = 0, ground = 0, cluster = 0, fit = 0, track = 0, total = 0;
+};
+
+/// Reuse keeps the capacity. Indices are those of the frame's cloud.
+struct FrameResult {
+  FrameHeader header;
+  std::size_t points = 0;  ///< All points of the cloud, good or bad.
+  Counts counts;           ///< Points that are in no cluster, by reason.
+  GroundSplit ground;      ///< The ground's points; not found if no ground was asked for.
+  Clusters clusters;       ///< Largest first; if none were asked for, all points left are one.
+
+  /// For each cluster its track, none until the track is born; empty without tracking.
+  std::vector<std::optional<std::uint32_t>> tracks;
+
+  std::vector<const Method*> methods;  ///< Of the volumes of each cluster, in the order asked for.
+  std::vector<AnyVolume> volumes;      ///< Cluster by cluster, in each as `methods` says.
+  StageTimes ms;
+
+  const AnyVolume& volume(std::size_t cluster, std::size_t method) const {
+    return volumes[cluster * methods.size() + method];
+  }
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// PCL's clouds as frames.
+#pragma once
+
+#include <pcl/point_cloud.h>
+
+#include <utility>
+
+#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/nodes/frame.h"
+
+namespace pcl_bv {
+
+/// The cloud as a frame that shares it: nothing is copied. PCL's stamps are microseconds. A null pointer
+/// gives a frame without points.
+template <typename PointT>
+Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {
+  Frame frame;
+  if (cloud == nullptr) return frame;
+  frame.header = {cloud->header.seq, static_cast<std::int64_t>(cloud->header.stamp) * 1000,
+                  cloud->header.frame_id};
+  frame.points = point_view(*cloud);
+  frame.owner = std::move(cloud);
+  return frame;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The options of bv_stream and their help. Flags override the file.
+
+#include "options.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "pcl_bv/kernels/isa.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  bv_stream --source sweeps/ --rate max > objects.jsonl     a recording, as fast as it goes
+  bv_stream --source sweeps/ --rate 10 --track --sink vtp:paraview/ --stats stats.json
+  bv_stream --print-config > robot.yaml; bv_stream --config robot.yaml --source sweeps/
+  bv_stream --source synth:street-sequence:100 --volume aabb,dop26 | jq -c .counts
+
+Exit status: 0 done, also after SIGINT or SIGTERM, which let the frames in the queue be done
+first (a second one ends at once, with 130); 1 no readable source or an output not written;
+2 wrong use or a bad configuration.
+PCL_BV_ISA in the environment sets the default of --isa.)";
+
+struct Texts {
+  std::string source, rate, stamps, config, volume, range, ground, up, sensor_height, cluster, min_size,
+      max_size, threads, isa, loop, queue, policy, stats;
+  std::vector<std::string> sinks;
+  bool print_config = false, track = false, version = false;
+};
+
+void declare(CLI::App& app, Texts& t) {
+  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
+    app.add_option(name, text, help)->type_name(type);
+  };
+  app.set_help_flag("-h,--help", "Show this text");
+  app.add_flag("--version", t.version, "Show the version and the usable instruction sets");
+  option("--source", t.source, "PATH",
+         "A folder of clouds, one file, or synth:street-sequence[:FRAMES[:SEED]]");
+  option("--rate", t.rate, "HZ", "Frames a second, or max (10)");
+  option("--loop", t.loop, "N", "Repeat the source N times (1)");
+  option("--stamps", t.stamps, "RULE", "Times of the frames: by rate, or by the number in the name (rate)");
+  option("--config", t.config, "FILE.yaml", "Settings; the options below override them");
+  app.add_flag("--print-config", t.print_config, "Print the settings that would be used, as such a file");
+  option("--volume", t.volume, "LIST", "Methods separated by commas (aabb,sphere,obb-yaw)");
+  option("--range", t.range, "MIN:MAX", "Drop points nearer or farther than this from the origin (0.5:inf)");
+  option("--ground", t.ground, "KIND", "Take the ground away first: none, plane or zones (zones)");
+  option("--up", t.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
+  option("--sensor-height", t.sensor_height, "M", "Of the origin above the ground (learnt)");
+  option("--cluster", t.cluster, "TOL", "Points nearer than TOL to each other are one object (0.5)");
+  option("--min-size", t.min_size, "N", "Drop clusters of fewer points (10)");
+  option("--max-size", t.max_size, "N", "Drop clusters of more points (no limit)");
+  app.add_flag("--track", t.track, "Give objects ids that last from frame to frame");
+  option("--queue", t.queue, "N", "Frames that may wait (1)");
+  option("--policy", t.policy, "NAME",
+         "When they do: drop_oldest, drop_newest or block (block with --rate max)");
+  option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (1)");
+  option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
+  app.add_option("--sink", t.sinks,
+                 "jsonl:FILE, csv:FILE or vtp:FOLDER; several times (jsonl on standard output)")
+      ->type_name("KIND:PLACE");
+  option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
+}
+
+std::string version_text() {
+  std::string text = "bv_stream " PCL_BV_VERSION "\ninstruction sets:";
+  for (const Isa isa : usable_isas())
+    text += ' ' + std::string(isa_name(isa));
+  return text + '\n';
+}
+
+template <typename T>
+T number(const char* option, std::string_view text, const char* wanted) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  throw UsageError(std::string(option) + ": '" + std::string(text) + "' is not " + wanted);
+}
+
+std::size_t whole(const char* option, const std::string& text) {
+  return number<std::size_t>(option, text, "a whole number");
+}
+
+template <typename Parse>
+auto parsed(const char* option, const std::string& text, Parse parse) {
+  try {
+    return parse(text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', begin), list.size());
+    parts.push_back(list.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  return parts;
+}
+
+void override_range(const std::string& text, FilterConfig& filter) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) throw UsageError("--range: '" + text + "' is not MIN:MAX");
+  filter.range_min = number<double>("--range", std::string_view(text).substr(0, colon), "MIN:MAX");
+  filter.range_max = number<double>("--range", std::string_view(text).substr(colon + 1), "MIN:MAX");
+}
+
+StreamConfig read_config(const CLI::App& app, const Texts& t) {
+  StreamConfig config;
+  const auto given = [&](const char* option) { return app.count(option) > 0; };
+  if (given("--config")) config = read_stream_config(t.config);
+  if (!given("--config") && t.rate == "max") config.runner.policy = QueuePolicy::block;
+  PipelineConfig& pipeline = config.pipeline;
+  if (given("--volume")) pipeline.volumes = split(t.volume);
+  if (given("--range")) override_range(t.range, pipeline.filter);
+  if (given("--ground")) pipeline.ground.method = parsed("--ground", t.ground, parse_ground_method);
+  if (given("--up")) pipeline.ground.up = parsed("--up", t.up, parse_up_axis);
+  if (given("--sensor-height"))
+    pipeline.ground.sensor_height = number<double>("--sensor-height", t.sensor_height, "a height");
+  if (given("--cluster")) pipeline.cluster.tolerance = number<double>("--cluster", t.cluster, "a distance");
+  if (given("--min-size")) pipeline.cluster.min_size = whole("--min-size", t.min_size);
+  if (given("--max-size")) pipeline.cluster.max_size = whole("--max-size", t.max_size);
+  if (given("--track")) pipeline.track.enabled = true;
+  if (given("--threads")) pipeline.threads = whole("--threads", t.threads);
+  if (given("--isa")) pipeline.isa = t.isa;
+  if (given("--queue")) config.runner.queue = whole("--queue", t.queue);
+  if (given("--policy")) config.runner.policy = parsed("--policy", t.policy, parse_queue_policy);
+  const std::vector<std::string> problems = config.validate();
+  if (!problems.empty()) throw UsageError(problems.front());
+  return config;
+}
+
+StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig config) {
+  StreamOptions options;
+  options.config = std::move(config);
+  const auto given = [&](const char* option) { return app.count(option) > 0; };
+  if (!given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
+  options.source = t.source;
+  options.paced = t.rate != "max";
+  if (given("--rate") && options.paced)
+    options.stamps.rate_hz = number<double>("--rate", t.rate, "a rate or max");
+  if (!(options.stamps.rate_hz > 0) || !std::isfinite(options.stamps.rate_hz))
+    throw UsageError("--rate: '" + t.rate + "' is not a finite rate above 0, or max");
+  if (given("--loop")) options.loops = whole("--loop", t.loop);
+  if (options.loops == 0) throw UsageError("--loop: 0 is not at least 1");
+  if (given("--stamps") && t.stamps != "rate" && t.stamps != "name")
+    throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
+  options.stamps.from_name = t.stamps == "name";
+  if (given("--sink")) options.sinks = t.sinks;
+  if (given("--stats")) options.stats = t.stats;
+  return options;
+}
+
+}  // namespace
+
+std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv) {
+  CLI::App app("Objects in a stream of point clouds, as volumes that hold every point.", "bv_stream");
+  app.footer(examples);
+  app.get_formatter()->column_width(26);
+  Texts texts;
+  declare(app, texts);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return app.help();
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what() + std::string("; bv_stream --help lists the options"));
+  }
+  if (texts.version) return version_text();
+  StreamConfig config = read_config(app, texts);
+  if (texts.print_config) return to_yaml(config);
+  return to_options(app, texts, std::move(config));
+}
+
+}  // namespace pcl_bv

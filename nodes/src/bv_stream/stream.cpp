@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// One thread reads and waits for each frame's time, the runner's one works and writes.
+
+#include "stream.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+
+#include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/nodes/cluster_pipeline.h"
+#include "pcl_bv/nodes/frame_sink.h"
+#include "pcl_bv/nodes/stream_runner.h"
+
+namespace pcl_bv {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// All sinks; a sink that fails is given up, and the rest goes on.
+class Sinks {
+ public:
+  explicit Sinks(const std::vector<std::string>& descriptions) {
+    for (const std::string& description : descriptions)
+      sinks_.push_back(make_sink(description));
+  }
+
+  template <typename Do>
+  void each(Do&& what) {
+    const std::lock_guard lock(mutex_);  // unreadable frames come from the reading thread
+    for (std::unique_ptr<FrameSink>& sink : sinks_) {
+      if (sink == nullptr) continue;
+      try {
+        what(*sink);
+      } catch (const ClosedPipe&) {
+        sink = nullptr;
+      } catch (const std::exception& error) {
+        sink = nullptr;
+        if (!failed_.exchange(true)) std::fprintf(stderr, "bv_stream: %s\n", error.what());
+      }
+    }
+    alive_ = std::any_of(sinks_.begin(), sinks_.end(), [](const auto& sink) { return sink != nullptr; });
+  }
+
+  bool failed() const { return failed_; }
+  bool alive() const { return alive_; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<FrameSink>> sinks_;
+  std::atomic<bool> failed_{false}, alive_{true};
+};
+
+class Progress {
+ public:
+  void show(std::uint64_t frames, std::size_t objects, double milliseconds) {
+    if (!terminal_) return;
+    std::fprintf(stderr, "\rframe %llu: %zu objects, %.1f ms ", static_cast<unsigned long long>(frames),
+                 objects, milliseconds);
+  }
+  void finish() const {
+    if (terminal_) std::fputc('\n', stderr);
+  }
+
+ private:
+  // Where results go to the terminal, too, they would be mixed.
+  const bool terminal_ = isatty(STDERR_FILENO) != 0 && isatty(STDOUT_FILENO) == 0;
+};
+
+// Sleeps in short pieces, so that a signal is heeded.
+void wait_until(Clock::time_point time, const std::atomic<bool>& interrupted) {
+  while (!interrupted && Clock::now() < time)
+    std::this_thread::sleep_until(std::min(time, Clock::now() + std::chrono::milliseconds(50)));
+}
+
+void read_frames(const StreamOptions& options, FrameSource& source, StreamRunner& runner, const Sinks& sinks,
+                 const std::atomic<bool>& interrupted) {
+  const auto begin = Clock::now();
+  std::uint64_t n = 0;
+  for (bool more = true; more && !interrupted && sinks.alive(); ++n) {
+    Frame frame;
+    try {
+      more = source.next(frame);
+    } catch (const FrameError& error) {
+      runner.report_unreadable(error.header, error.what());
+      continue;
+    }
+    if (!more) break;
+    const std::chrono::duration<double> due(static_cast<double>(n) / options.stamps.rate_hz);
+    if (options.paced) wait_until(begin + std::chrono::duration_cast<Clock::duration>(due), interrupted);
+    if (!interrupted) runner.push(std::move(frame));
+  }
+}
+
+void write_stats(const StreamOptions& options, const RunnerStats& stats, Sinks& sinks) {
+  if (!options.stats) return;
+  try {
+    write_file_atomically(*options.stats, stats_json(stats) + '\n');
+  } catch (const IoError& error) {
+    sinks.each([&](FrameSink&) { throw IoError(options.stats->string() + ": " + error.what()); });
+  }
+}
+
+}  // namespace
+
+int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
+  const std::unique_ptr<FrameSource> source = open_source(options.source, options.stamps, options.loops);
+  Sinks sinks(options.sinks);
+  FramePipeline pipeline(options.config.pipeline);
+  Progress progress;
+  StreamRunner::Callbacks callbacks;
+  callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
+  callbacks.on_result = [&](const FrameResult& result) {
+    sinks.each([&](FrameSink& sink) { sink.write(result); });
+    progress.show(result.header.seq, result.clusters.size(), result.ms.total);
+  };
+  callbacks.on_error = [&](const FrameHeader& header, const std::string& reason) {
+    std::fprintf(stderr, "bv_stream: frame %llu: %s\n", static_cast<unsigned long long>(header.seq),
+                 reason.c_str());
+    sinks.each([&](FrameSink& sink) { sink.write_error(header, reason); });
+  };
+  callbacks.on_silence = [](double seconds) {
+    std::fprintf(stderr, "bv_stream: no frame for %.1f s\n", seconds);
+  };
+  StreamRunner runner(callbacks, options.config.runner);
+  read_frames(options, *source, runner, sinks, interrupted);
+  runner.stop(StreamRunner::End::drain);
+  progress.finish();
+  sinks.each([](FrameSink& sink) { sink.close(); });
+  const RunnerStats stats = runner.stats();
+  write_stats(options, stats, sinks);
+  const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
+  return sinks.failed() || nothing_read ? 1 : 0;
+}
+
+}  // namespace pcl_bv

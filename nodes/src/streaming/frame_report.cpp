@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A copy, since what is written may outlive the frame.
+
+#include "frame_report.h"
+
+namespace pcl_bv {
+
+FrameReport to_report(const FrameHeader& header, const std::string& error) {
+  FrameReport report;
+  report.seq = header.seq;
+  report.stamp_ns = header.stamp_ns;
+  report.frame_id = header.frame_id;
+  report.error = error;
+  return report;
+}
+
+FrameReport to_report(const FrameResult& result) {
+  FrameReport report = to_report(result.header, "");
+  report.error.reset();
+  report.points = result.points;
+  report.counts = result.counts;
+  for (std::size_t i = 0; i < result.clusters.size(); ++i) {
+    TrackedEntry& entry = report.clusters.emplace_back();
+    entry.cluster.id = i;
+    entry.cluster.points = result.clusters.cluster_size(i);
+    if (!result.tracks.empty()) entry.track = result.tracks[i];
+    for (std::size_t m = 0; m < result.methods.size(); ++m)
+      entry.cluster.volumes.push_back(
+          {std::string(result.methods[m]->name), result.volume(i, m), std::nullopt});
+  }
+  const StageTimes& ms = result.ms;
+  report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},
+               {"fit", ms.fit},       {"track", ms.track},   {"total", ms.total}};
+  return report;
+}
+
+}  // namespace pcl_bv

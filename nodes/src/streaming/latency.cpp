@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Classes by logarithm.
+
+#include "pcl_bv/nodes/latency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kLeast = 1e-3;  // milliseconds
+constexpr double kGrowth = 1.01;
+
+}  // namespace
+
+void LatencyHistogram::add(double milliseconds) {
+  const double steps = std::log(std::max(milliseconds, kLeast) / kLeast) / std::log(kGrowth);
+  ++classes_[std::min(static_cast<std::size_t>(std::ceil(steps)), kClasses - 1)];
+  ++count_;
+  max_ = std::max(max_, milliseconds);
+}
+
+double LatencyHistogram::percentile(double part) const {
+  const auto rank = static_cast<std::uint64_t>(std::ceil(part * static_cast<double>(count_)));
+  std::uint64_t below = 0;
+  for (std::size_t i = 0; i < kClasses && count_ > 0; ++i) {
+    below += classes_[i];
+    if (below >= std::max<std::uint64_t>(rank, 1)) {
+      return std::min(max_, kLeast * std::pow(kGrowth, static_cast<double>(i)));
+    }
+  }
+  return max_;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Tracks of a frame's clusters, and boxes that do not flip from one frame to the next.
+#pragma once
+
+#include <vector>
+
+#include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/nodes/tracker.h"
+
+namespace pcl_bv {
+
+class TrackedVolumes {
+ public:
+  /// Fills result.tracks, and names the axes of each oriented box as those of the same object's last one.
+  void update(const TrackConfig& config, FrameResult& result);
+
+ private:
+  // Of a slot of the tracker, by method.
+  struct Last {
+    std::vector<const Method*> methods;
+    std::vector<Obb> boxes;  ///< Empty ones where the method gives another shape.
+  };
+
+  void keep_axes(const Tracker::Assignment& assignment, std::size_t cluster, FrameResult& result);
+
+  Tracker tracker_;
+  std::vector<Aabb> boxes_;
+  std::vector<Tracker::Assignment> assignments_;
+  std::vector<Last> last_;
+};
+
+}  // namespace pcl_bv

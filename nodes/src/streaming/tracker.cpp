@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Greedy nearest-neighbour association with constant velocity.
+
+#include "pcl_bv/nodes/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace pcl_bv {
+namespace {
+
+// How much of what a sighting contradicts is believed: centres of partial views jump by decimetres.
+constexpr double kPositionGain = 0.8;
+constexpr double kVelocityGain = 0.5;
+
+}  // namespace
+
+void Tracker::find_pairs(double seconds, const std::vector<Aabb>& boxes, double gate) {
+  pairs_.clear();
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const Track& track = tracks_[t];
+    if (!track.alive) continue;
+    const Eigen::Vector3d expected = track.center + seconds * track.velocity;
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+      const Eigen::Vector3d size = boxes[b].max() - boxes[b].min();
+      const double distance = (boxes[b].center() - expected).norm();
+      const double difference = (size - track.size).norm() / 2;
+      if (distance <= gate + difference) pairs_.push_back({distance + difference, t, b});
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+    return std::tie(a.cost, a.track, a.box) < std::tie(b.cost, b.track, b.box);
+  });
+}
+
+void Tracker::join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
+  track_taken_.assign(tracks_.size(), 0);
+  box_taken_.assign(boxes.size(), 0);
+  for (const Pair& pair : pairs_) {
+    if (track_taken_[pair.track] != 0 || box_taken_[pair.box] != 0) continue;
+    track_taken_[pair.track] = box_taken_[pair.box] = 1;
+    Track& track = tracks_[pair.track];
+    const Aabb& box = boxes[pair.box];
+    const Eigen::Vector3d expected = track.center + seconds * track.velocity;
+    const Eigen::Vector3d surprise = box.center() - expected;
+    if (seconds > 0) {
+      // The second sighting is the first that says anything about the velocity.
+      const double gain = track.seen == 1 ? 1.0 : kVelocityGain;
+      track.velocity += gain / seconds * surprise;
+    }
+    track.center = expected + (track.seen == 1 ? 1.0 : kPositionGain) * surprise;
+    track.size = box.max() - box.min();
+    ++track.seen;
+    track.missed = 0;
+    assignments[pair.box] = {pair.track, false, std::nullopt};
+  }
+  for (std::size_t t = 0; t < track_taken_.size(); ++t) {
+    Track& track = tracks_[t];
+    if (!track.alive || track_taken_[t] != 0) continue;
+    ++track.missed;
+    track.center += seconds * track.velocity;
+  }
+}
+
+std::size_t Tracker::free_slot() {
+  const auto slot = std::find_if(tracks_.begin(), tracks_.end(), [](const Track& t) { return !t.alive; });
+  if (slot != tracks_.end()) return static_cast<std::size_t>(slot - tracks_.begin());
+  tracks_.emplace_back();
+  return tracks_.size() - 1;
+}
+
+void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
+                     std::vector<Assignment>& assignments) {
+  const double passed = 1e-9 * static_cast<double>(stamp_ns - last_stamp_ns_);
+  const double seconds = started_ && passed > 0 && passed <= 1 ? passed : 0;
+  started_ = true;
+  last_stamp_ns_ = stamp_ns;
+  assignments.assign(boxes.size(), Assignment());
+  find_pairs(seconds, boxes, config.gate);
+  join(seconds, boxes, assignments);
+  for (Track& track : tracks_)
+    track.alive = track.alive && track.missed < config.death;
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    if (box_taken_[b] == 0) {
+      const std::size_t slot = free_slot();
+      tracks_[slot] = {
+          boxes[b].center(), boxes[b].max() - boxes[b].min(), Eigen::Vector3d::Zero(), 1, 0, true,
+          std::nullopt};
+      assignments[b] = {slot, true, std::nullopt};
+    }
+    Track& track = tracks_[assignments[b].slot];
+    if (!track.id && track.seen >= config.birth) track.id = next_id_++;
+    assignments[b].id = track.id;
+  }
+}
+
+void Tracker::reset() {
+  for (Track& track : tracks_)
+    track.alive = false;
+  started_ = false;
+}
+
+}  // namespace pcl_bv

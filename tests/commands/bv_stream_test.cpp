@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command bv_stream as its users run it.
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "command.h"
+
+namespace pcl_bv::test {
+namespace {
+
+using testing::HasSubstr;
+
+class BvStream : public PcdBv {
+ protected:
+  Result stream(std::vector<std::string> arguments, Surroundings surroundings = {}) const {
+    surroundings.program = "bv_stream";
+    return run(std::move(arguments), surroundings);
+  }
+
+  // Through a program that takes the command as its own arguments.
+  Result stream_under(std::vector<std::string> wrapper, std::vector<std::string> arguments) const {
+    Surroundings surroundings;
+    surroundings.program = wrapper.front();
+    wrapper.erase(wrapper.begin());
+    wrapper.push_back(PCL_BV_BIN_DIR "/bv_stream");
+    wrapper.insert(wrapper.end(), arguments.begin(), arguments.end());
+    return run(wrapper, surroundings);
+  }
+
+  std::string synth(const std::string& name) const {
+    Surroundings surroundings;
+    surroundings.program = "synth";
+    EXPECT_EQ(run({name, at("clouds")}, surroundings).status, 0);
+    return at("clouds");
+  }
+};
+
+std::vector<Json> lines(const std::string& text) {
+  std::vector<Json> all;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    all.push_back(Json::parse(line));
+  return all;
+}
+
+// All but the times, which differ from run to run.
+std::vector<Json> results(const std::string& text) {
+  std::vector<Json> all = lines(text);
+  for (Json& line : all)
+    line.erase("ms");
+  return all;
+}
+
+TEST_F(BvStream, WritesALinePerFrameWithTheDocumentedKeys) {
+  const Result result =
+      stream({"--source", "synth:street-sequence:3", "--rate", "max", "--track", "--volume", "aabb,dop14"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const std::vector<Json> frames = lines(result.out);
+  ASSERT_EQ(frames.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : frames[i].items())
+      keys.push_back(key);
+    EXPECT_EQ(keys, (std::vector<std::string>{"schema", "seq", "stamp_ns", "frame_id", "points", "counts",
+                                              "clusters", "ms"}));
+    EXPECT_EQ(frames[i]["seq"], i);
+    EXPECT_EQ(frames[i]["stamp_ns"], 100'000'000 * i);
+    EXPECT_EQ(frames[i]["points"], 128'000);
+    const Json& first = frames[i]["clusters"][0];
+    EXPECT_EQ(first["id"], 0);
+    EXPECT_EQ(first["track"].is_null(), i < 2);
+    EXPECT_EQ(first["volumes"][1]["method"], "dop14");
+    for (const char* stage : {"decode", "filter", "ground", "cluster", "fit", "track", "total"})
+      EXPECT_TRUE(frames[i]["ms"][stage].is_number()) << stage;
+  }
+}
+
+TEST_F(BvStream, GivesTheSameForEveryNumberOfThreadsOnOneProcessorAndAgain) {
+  const std::vector<std::string> common = {"--source", "synth:street-sequence:2", "--rate", "max", "--track"};
+  const auto with = [&](const char* threads) {
+    std::vector<std::string> arguments = common;
+    arguments.insert(arguments.end(), {"--threads", threads});
+    return arguments;
+  };
+  const std::vector<Json> expected = results(stream(common).out);
+  ASSERT_EQ(expected.size(), 2U);
+  EXPECT_EQ(results(stream(common).out), expected);
+  for (const char* threads : {"0", "2", "3"})
+    EXPECT_EQ(results(stream(with(threads)).out), expected) << threads;
+  EXPECT_EQ(results(stream_under({"/usr/bin/taskset", "-c", "0"}, with("2")).out), expected);
+}
+
+TEST_F(BvStream, AFrameThatCannotBeReadIsALineAndTheStreamGoesOn) {
+  ascii("sweeps/1.pcd", {"1 2 3"});
+  const std::string bad = file("sweeps/2.pcd", "no cloud at all");
+  ascii("sweeps/3.pcd", {"1 2 3"});
+  const std::string stats = at("stats.json");
+  const Result result = stream({"--source", at("sweeps"), "--rate", "max", "--stats", stats});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.error_lines(), 1U);
+  EXPECT_THAT(result.err, HasSubstr(bad));
+  const std::vector<Json> frames = lines(result.out);
+  ASSERT_EQ(frames.size(), 3U);
+  std::size_t errors = 0;
+  for (const Json& frame : frames) {
+    if (!frame.contains("error")) continue;
+    ++errors;
+    EXPECT_EQ(frame["seq"], 1);
+    EXPECT_THAT(frame["error"].get<std::string>(), HasSubstr("2.pcd"));
+  }
+  EXPECT_EQ(errors, 1U);
+  const Json totals = Json::parse(read_file(stats))["frames"];
+  EXPECT_EQ(totals["in"], 3);
+  EXPECT_EQ(totals["processed"], 2);
+  EXPECT_EQ(totals["dropped"]["error"], 1);
+}
+
+TEST_F(BvStream, WithoutAReadableSourceFails) {
+  EXPECT_EQ(stream({"--source", at("missing")}).status, 1);
+  file("empty/readme.txt", "");
+  EXPECT_EQ(stream({"--source", at("empty")}).status, 1);
+  file("bad/1.pcd", "no cloud");
+  const Result result = stream({"--source", at("bad"), "--rate", "max"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.error_lines(), 1U);
+}
+
+TEST_F(BvStream, ABadConfigurationNamesItsLine) {
+  const std::string config = file("robot.yaml", "cluster:\n  tolerance: -1\n");
+  const Result result = stream({"--config", config, "--source", "synth:street-sequence:1"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err,
+            "bv_stream: " + config + ": line 2: cluster.tolerance: -1 is not at least 0 and at most 1e+06\n");
+}
+
+TEST_F(BvStream, OptionsOverrideTheFileAndThePrintedOneReadsBack) {
+  const std::string config =
+      file("robot.yaml", "cluster: {tolerance: 0.3, min_size: 5}\nrunner: {queue: 4}\n");
+  const Result printed = stream({"--config", config, "--cluster", "0.7", "--print-config"});
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  EXPECT_THAT(printed.out, HasSubstr("tolerance: 0.7"));
+  EXPECT_THAT(printed.out, HasSubstr("min_size: 5"));
+  EXPECT_THAT(printed.out, HasSubstr("queue: 4"));
+  const std::string again = file("again.yaml", printed.out);
+  EXPECT_EQ(stream({"--config", again, "--print-config"}).out, printed.out);
+}
+
+TEST_F(BvStream, WrongUseIsOneLineAndStatusTwo) {
+  const std::string source = "synth:street-sequence:1";
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--source"},
+                                             {"--source", source, "--frobnicate"},
+                                             {"--source", source, "--rate", "0"},
+                                             {"--source", source, "--rate", "fast"},
+                                             {"--source", source, "--loop", "0"},
+                                             {"--source", source, "--stamps", "clock"},
+                                             {"--source", source, "--volume", "boxes"},
+                                             {"--source", source, "--range", "5"},
+                                             {"--source", source, "--range", "5:1"},
+                                             {"--source", source, "--ground", "mud"},
+                                             {"--source", source, "--up", "w"},
+                                             {"--source", source, "--sensor-height", "-1"},
+                                             {"--source", source, "--cluster", "nan"},
+                                             {"--source", source, "--min-size", "9", "--max-size", "3"},
+                                             {"--source", source, "--policy", "panic"},
+                                             {"--source", source, "--queue", "0"},
+                                             {"--source", source, "--isa", "mmx"},
+                                             {"--source", source, "--sink", "xml:a"},
+                                             {"--source", source, "--sink", "csv:"},
+                                             {"--source", "synth:nothing"},
+                                             {"--source", source, "--config", at("missing.yaml")}}) {
+    const Result result = stream(arguments);
+    EXPECT_EQ(result.status, 2) << testing::PrintToString(arguments);
+    EXPECT_EQ(result.error_lines(), 1U) << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+TEST_F(BvStream, WritesCsvAndMeshesThatParaViewPlays) {
+  const std::string csv = at("objects.csv"), folder = at("meshes");
+  const Result result = stream({"--source", "synth:street-sequence:2", "--rate", "max", "--volume", "aabb",
+                                "--sink", "csv:" + csv, "--sink", "vtp:" + folder});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  const std::string text = read_file(csv);
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "seq,stamp_ns,track,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume");
+  EXPECT_THAT(text, HasSubstr("\n0,0,,0,"));
+  EXPECT_THAT(text, HasSubstr("\n1,100000000,,0,"));
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_THAT(read_file(folder + "/frame000001.vtp"), HasSubstr("PolyData"));
+  EXPECT_THAT(read_file(folder + "/frames.pvd"), HasSubstr("frame000001.vtp"));
+}
+
+TEST_F(BvStream, ASignalLetsTheQueueBeDoneAndWritesTheStatistics) {
+  for (const char* signal : {"INT", "TERM"}) {
+    const std::string stats = at(std::string(signal) + ".json");
+    const Result result = stream_under({"/usr/bin/timeout", "--preserve-status", "-s", signal, "1"},
+                                       {"--source", "synth:street-sequence:5", "--loop", "1000", "--rate",
+                                        "20", "--volume", "aabb", "--stats", stats});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const Json totals = Json::parse(read_file(stats))["frames"];
+    const int dropped = totals["dropped"]["queue"].get<int>() + totals["dropped"]["age"].get<int>() +
+                        totals["dropped"]["error"].get<int>();
+    EXPECT_EQ(totals["in"].get<int>(), totals["processed"].get<int>() + dropped);
+    EXPECT_EQ(lines(result.out).size(), totals["processed"].get<std::size_t>());
+  }
+}
+
+TEST_F(BvStream, AReaderThatGoesAwayEndsItQuietly) {
+  Surroundings surroundings;
+  surroundings.nobody_reads = true;
+  const Result result =
+      stream({"--source", "synth:street-sequence:3", "--loop", "1000", "--rate", "max"}, surroundings);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(BvStream, AnOutputThatCannotBeWrittenFails) {
+  const std::vector<std::string> source = {"--source", "synth:street-sequence:1", "--rate", "max"};
+  for (const std::vector<std::string>& output :
+       std::vector<std::vector<std::string>>{{"--sink", "jsonl:/nonexistent/a"},
+                                             {"--sink", "vtp:/proc/a"},
+                                             {"--stats", "/nonexistent/a"},
+                                             {"--sink", "jsonl:/dev/full"}}) {
+    std::vector<std::string> arguments = source;
+    arguments.insert(arguments.end(), output.begin(), output.end());
+    const Result result = stream(arguments);
+    EXPECT_EQ(result.status, 1) << output[1];
+    EXPECT_EQ(result.error_lines(), 1U) << result.err;
+  }
+}
+
+TEST_F(BvStream, ReadsRecordedFramesAndTheirStamps) {
+  const std::string folder = synth("street-sequence:2");
+  const Result recorded = stream({"--source", folder, "--rate", "max", "--volume", "aabb"});
+  const Result made = stream({"--source", "synth:street-sequence:2", "--rate", "max", "--volume", "aabb"});
+  ASSERT_EQ(recorded.status, 0) << recorded.err;
+  std::vector<Json> a = results(recorded.out), b = results(made.out);
+  ASSERT_EQ(a.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(a[i]["clusters"], b[i]["clusters"]);
+}
+
+}  // namespace
+}  // namespace pcl_bv::test

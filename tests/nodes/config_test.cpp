@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pcl_bv/nodes/stream_config.h"
+
+namespace pcl_bv {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(const std::string& yaml) {
+  try {
+    parse_stream_config(yaml, "robot.yaml");
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(StreamConfig, WithoutKeysIsTheDefault) {
+  for (const char* text : {"", "{}", "# nothing\n", "filter:\n"})
+    EXPECT_EQ(to_yaml(parse_stream_config(text, "")), to_yaml(StreamConfig())) << text;
+  EXPECT_TRUE(StreamConfig().validate().empty());
+}
+
+TEST(StreamConfig, ReadsBackAsItIsPrinted) {
+  StreamConfig config;
+  config.pipeline.filter = {0.1, 123.456789012345, Eigen::Vector3d(-1, -2, -0.1), Eigen::Vector3d(1.5, 2, 3)};
+  config.pipeline.ground = {GroundMethod::plane, UpAxis::minus_y, 1.0 / 3, 0.07, 12};
+  config.pipeline.cluster = {0.3, 0, 5000};
+  config.pipeline.volumes = {"dop26", "sphere-exact"};
+  config.pipeline.track = {true, 1.25, 2, 9};
+  config.pipeline.threads = 0;
+  config.pipeline.isa = "scalar";
+  config.runner = {7, QueuePolicy::block, 12.5, 3};
+  const std::string printed = to_yaml(config);
+  const StreamConfig read = parse_stream_config(printed, "");
+  EXPECT_EQ(to_yaml(read), printed);
+  EXPECT_EQ(read.pipeline.filter.range_max, 123.456789012345);
+  EXPECT_EQ(read.pipeline.filter.own_box_max, Eigen::Vector3d(1.5, 2, 3));
+  EXPECT_EQ(read.pipeline.ground.method, GroundMethod::plane);
+  EXPECT_EQ(read.pipeline.ground.up, UpAxis::minus_y);
+  EXPECT_EQ(read.pipeline.ground.sensor_height, 1.0 / 3);
+  EXPECT_EQ(read.pipeline.cluster.max_size, 5000U);
+  EXPECT_EQ(read.pipeline.volumes, config.pipeline.volumes);
+  EXPECT_TRUE(read.pipeline.track.enabled);
+  EXPECT_EQ(read.runner.policy, QueuePolicy::block);
+  EXPECT_EQ(read.runner.max_age_ms, 12.5);
+}
+
+TEST(StreamConfig, OtherKeysKeepTheirDefaults) {
+  const StreamConfig config = parse_stream_config("filter: {range_min: 2}\nrunner:\n  queue: 4\n", "");
+  EXPECT_EQ(config.pipeline.filter.range_min, 2);
+  EXPECT_EQ(config.runner.queue, 4U);
+  EXPECT_EQ(config.pipeline.cluster.tolerance, ClusterConfig().tolerance);
+}
+
+TEST(StreamConfig, AnUnknownKeyIsNamedWithItsLine) {
+  EXPECT_EQ(error_of("threads: 2\nfilter:\n  range_min: 1\n  rangemax: 3\n"),
+            "robot.yaml: line 4: unknown key 'filter.rangemax'");
+  EXPECT_EQ(error_of("\ncolour: red\n"), "robot.yaml: line 2: unknown key 'colour'");
+  EXPECT_EQ(error_of("extra:\n  nested: 1\n"), "robot.yaml: line 2: unknown key 'extra.nested'");
+}
+
+TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"filter: {range_min: -1}", "line 1: filter.range_min: -1 is not at least 0"},
+      {"filter: {range_min: .nan}", "filter.range_min: nan is not at least 0"},
+      {"filter: {range_min: .inf}", "filter.range_min: inf is not at least 0 and finite"},
+      {"filter: {range_min: 5, range_max: 4}", "filter.range_max: 4 is below filter.range_min, 5"},
+      {"filter: {own_box_min: [0, 0, 0]}", "filter.own_box_min: comes without the other corner"},
+      {"filter: {own_box_min: [0, 0, 2], own_box_max: [1, 1, 1]}", "filter.own_box_max: is below"},
+      {"filter: {own_box_min: [0, 0]}", "filter.own_box_min: has not three numbers"},
+      {"filter: {range_min: far}", "filter.range_min: 'far' is not a number (m)"},
+      {"ground:\n  method: zone", "line 2: ground.method: 'zone' is not one of none, plane, zones"},
+      {"ground: {up: w}", "ground.up: "},
+      {"ground: {max_slope_degrees: 90}", "is not at least 0 and at most 89"},
+      {"ground: {distance: 0}", "ground.distance: 0 is not above 0"},
+      {"cluster: {tolerance: -0.5}", "cluster.tolerance: -0.5 is not at least 0"},
+      {"cluster: {min_size: -3}", "cluster.min_size: '-3' is not a whole number (points)"},
+      {"cluster: {min_size: 20, max_size: 10}", "cluster.max_size: 10 is below cluster.min_size, 20"},
+      {"volumes: []", "volumes: is empty"},
+      {"volumes: [aabb, boxes]", "volumes: 'boxes' is no method; known are aabb"},
+      {"volumes: [aabb, aabb]", "volumes: 'aabb' is named twice"},
+      {"volumes: aabb", "volumes: 'aabb' is not a list of methods"},
+      {"track: {enabled: maybe}", "track.enabled: 'maybe' is not true or false"},
+      {"track: {birth: 0}", "track.birth: 0 is not a whole number of at least 1"},
+      {"threads: 2000", "threads: 2000 is not a whole number of at least 0 and at most 1024"},
+      {"isa: mmx", "isa: "},
+      {"runner: {queue: 0}", "runner.queue: 0 is not a whole number of at least 1"},
+      {"runner: {policy: lossy}", "runner.policy: 'lossy' is not one of drop_oldest, drop_newest, block"},
+      {"runner: {max_age_ms: -2}", "runner.max_age_ms: -2 is not at least 0"},
+      {"threads: 1\nthreads: 2", "line 2: threads: is there twice"},
+  };
+  for (const auto& [yaml, expected] : cases) {
+    EXPECT_THAT(error_of(yaml), HasSubstr(expected)) << yaml;
+    EXPECT_THAT(error_of(yaml), HasSubstr("robot.yaml: line ")) << yaml;
+  }
+}
+
+TEST(StreamConfig, TextThatIsNoYamlIsAnErrorWithItsLine) {
+  EXPECT_THAT(error_of("filter:\n  - ]\n"), HasSubstr("robot.yaml: line 2: "));
+  EXPECT_THAT(error_of("a: b: c"), HasSubstr("robot.yaml: line 1: "));
+  EXPECT_THAT(error_of("[1, 2]"), HasSubstr("robot.yaml: line 1: "));
+  EXPECT_THAT(error_of("filter: 3"), HasSubstr("robot.yaml: line 1: "));
+}
+
+TEST(StreamConfig, AFileThatCannotBeReadIsAnError) {
+  EXPECT_THROW(read_stream_config("/nonexistent/robot.yaml"), ConfigError);
+  EXPECT_THROW(read_stream_config("/tmp"), ConfigError);
+}
+
+}  // namespace
+}  // namespace pcl_bv

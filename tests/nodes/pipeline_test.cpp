@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/cluster_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <pcl/point_types.h>
+#include <limits>
+
+#include "allocations.h"
+#include "clouds.h"
+#include "executions.h"
+#include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/nodes/frame_source.h"
+#include "pcl_bv/synth/street.h"
+
+namespace pcl_bv {
+namespace {
+
+std::vector<std::vector<float>> street(std::size_t frames) {
+  std::vector<std::vector<float>> all;
+  StreetOptions options;
+  options.points = 32'000;
+  for (std::size_t i = 0; i < frames; ++i)
+    all.push_back(make_street_frame(options, i).cloud.xyz);
+  return all;
+}
+
+Frame frame_of(const std::vector<float>& xyz, std::size_t number) {
+  Frame frame;
+  frame.header = {number, static_cast<std::int64_t>(number) * 100'000'000, "lidar"};
+  frame.points = PointView::of(xyz.data(), 12, xyz.size() / 3);
+  return frame;
+}
+
+PipelineConfig all_shapes() {
+  PipelineConfig config;
+  config.volumes = {"aabb", "dop26", "sphere-exact", "sphere-epos26", "obb-dito14", "obb-yaw"};
+  config.track.enabled = true;
+  return config;
+}
+
+void expect_equal(const FrameResult& a, const FrameResult& b) {
+  EXPECT_EQ(a.clusters.indices, b.clusters.indices);
+  EXPECT_EQ(a.clusters.offsets, b.clusters.offsets);
+  EXPECT_EQ(a.ground.ground, b.ground.ground);
+  EXPECT_EQ(a.tracks, b.tracks);
+  ASSERT_EQ(a.volumes.size(), b.volumes.size());
+  for (std::size_t i = 0; i < a.volumes.size(); ++i)
+    EXPECT_TRUE(a.volumes[i] == b.volumes[i]) << i;
+}
+
+TEST(Pipeline, EachPointOfAClusterIsInsideItsVolumes) {
+  FramePipeline pipeline(all_shapes());
+  FrameResult result;
+  const auto frames = street(2);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Frame frame = frame_of(frames[f], f);
+    pipeline.process(frame, result);
+    ASSERT_GT(result.clusters.size(), 5U);
+    for (std::size_t c = 0; c < result.clusters.size(); ++c) {
+      PointView cluster = frame.points;
+      cluster.indices = result.clusters.cluster(c);
+      cluster.count = result.clusters.cluster_size(c);
+      for (std::size_t m = 0; m < result.methods.size(); ++m)
+        EXPECT_EQ(verify(result.volume(c, m), cluster).outside, 0U) << result.methods[m]->name;
+    }
+  }
+}
+
+TEST(Pipeline, CountsEachPointOnce) {
+  FramePipeline pipeline;
+  FrameResult result;
+  std::vector<float> xyz = street(1)[0];
+  xyz[0] = std::numeric_limits<float>::quiet_NaN();
+  xyz[7] = std::numeric_limits<float>::infinity();
+  pipeline.process(frame_of(xyz, 0), result);
+  const Counts& c = result.counts;
+  EXPECT_EQ(c.nonfinite, 2U);
+  EXPECT_GT(c.range, 100U);
+  EXPECT_GT(c.ground, 1000U);
+  EXPECT_EQ(c.nonfinite + c.range + c.ground + c.small + c.large + result.clusters.indices.size(),
+            result.points);
+}
+
+TEST(Pipeline, WithoutAPointGivesAnEmptyResultWithTheHeader) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const std::vector<float>& xyz :
+       {std::vector<float>{}, {nan, 0, 0, 0, nan, 0}, {0, 0, 0, 0, 0, 0}, {3, 4, 0}}) {
+    FramePipeline pipeline(all_shapes());
+    FrameResult result;
+    pipeline.process(frame_of(street(1)[0], 0), result);
+    pipeline.process(frame_of(xyz, 5), result);
+    EXPECT_EQ(result.header.seq, 5U);
+    EXPECT_EQ(result.header.frame_id, "lidar");
+    EXPECT_EQ(result.clusters.size(), 0U);
+    EXPECT_TRUE(result.volumes.empty());
+    EXPECT_EQ(result.points, xyz.size() / 3);
+  }
+}
+
+TEST(Pipeline, GivesTheSameForEveryExecutionAndASecondTime) {
+  const auto frames = street(4);
+  std::vector<FrameResult> expected;
+  for (const Isa isa : usable_isas()) {
+    for (const std::size_t threads : {1, 2, 3}) {
+      SCOPED_TRACE(std::string(isa_name(isa)) + ", threads " + std::to_string(threads));
+      PipelineConfig config = all_shapes();
+      config.isa = isa_name(isa);
+      config.threads = threads;
+      FramePipeline pipeline(config);
+      for (std::size_t f = 0; f < frames.size(); ++f) {
+        FrameResult result;
+        pipeline.process(frame_of(frames[f], f), result);
+        if (expected.size() <= f) expected.push_back(result);
+        expect_equal(result, expected[f]);
+      }
+    }
+  }
+}
+
+TEST(Pipeline, AllocatesNothingOnTheSecondPass) {
+  const auto frames = street(6);
+  std::vector<Frame> sequence;
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    sequence.push_back(frame_of(frames[f], f));
+  FramePipeline pipeline(all_shapes());
+  FrameResult result;
+  for (const Frame& frame : sequence)
+    pipeline.process(frame, result);
+  for (std::size_t pass = 1; pass < 3; ++pass) {
+    for (Frame& frame : sequence) {
+      frame.header.stamp_ns += 600'000'000;
+      const std::size_t before = allocations();
+      pipeline.process(frame, result);
+      if (pass == 2) {
+        EXPECT_EQ(allocations(), before) << "frame " << frame.header.seq;
+      }
+    }
+  }
+}
+
+TEST(Pipeline, DropsTheOwnVehicle) {
+  PipelineConfig config;
+  config.ground.method = GroundMethod::none;
+  config.cluster = {0, 1};
+  config.filter = {0, 10, Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1)};
+  FramePipeline pipeline(config);
+  FrameResult result;
+  const std::vector<float> xyz = {0, 0, 0, 1, 1, 1, 1.5F, 0, 0, 0, 9, 0, 0, 11, 0};
+  pipeline.process(frame_of(xyz, 0), result);
+  EXPECT_EQ(result.counts.range, 3U);
+  EXPECT_EQ(result.clusters.indices, (std::vector<std::int32_t>{2, 3}));
+}
+
+TEST(Pipeline, ANewConfigurationCountsFromTheNextFrame) {
+  FramePipeline pipeline;
+  FrameResult result;
+  const auto frames = street(1);
+  PipelineConfig config = pipeline.config();
+  config.volumes = {"dop14"};
+  pipeline.set_config(config);
+  pipeline.process(frame_of(frames[0], 0), result);
+  ASSERT_EQ(result.methods.size(), 1U);
+  EXPECT_EQ(result.methods[0]->name, "dop14");
+  config.cluster.tolerance = -1;
+  config.volumes = {"nothing"};
+  try {
+    pipeline.set_config(config);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("cluster.tolerance: -1"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("'nothing' is no method"), std::string::npos);
+  }
+  EXPECT_EQ(pipeline.config().volumes, (std::vector<std::string>{"dop14"}));
+}
+
+TEST(Pipeline, TakesPclCloudsAsTheyAre) {
+  const auto frames = street(1);
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZI>>();
+  for (std::size_t i = 0; i < frames[0].size(); i += 3) {
+    pcl::PointXYZI p;
+    p.x = frames[0][i], p.y = frames[0][i + 1], p.z = frames[0][i + 2];
+    cloud->push_back(p);
+  }
+  cloud->header.stamp = 1'234'567;
+  cloud->header.seq = 3;
+  cloud->header.frame_id = "velodyne";
+  ClusterPipeline<pcl::PointXYZI> pipeline;
+  FrameResult result, expected;
+  pipeline.process(cloud, result);
+  FramePipeline().process(frame_of(frames[0], 0), expected);
+  expect_equal(result, expected);
+  EXPECT_EQ(result.header.stamp_ns, 1'234'567'000);
+  EXPECT_EQ(result.header.frame_id, "velodyne");
+  pipeline.process(nullptr, result);
+  EXPECT_EQ(result.clusters.size(), 0U);
+}
+
+// The axes of a box keep their names and directions from frame to frame.
+TEST(Pipeline, BoxesOfATrackDoNotFlip) {
+  PipelineConfig config;
+  config.volumes = {"obb-yaw"};
+  config.ground.method = GroundMethod::none;
+  config.track.enabled = true;
+  config.filter.range_min = 0;
+  FramePipeline pipeline(config);
+  FrameResult result;
+  Eigen::Matrix3d before;
+  for (int f = 0; f < 40; ++f) {
+    std::vector<float> xyz;  // a nearly square block that turns by 6 degrees a frame
+    for (int i = 0; i < 400; ++i) {
+      const double u = (i % 20) / 9.5 - 1, v = (i / 20) / 9.5 - 1 + 0.01 * ((f * 7 + i) % 3), a = 0.105 * f;
+      xyz.insert(xyz.end(),
+                 {static_cast<float>(5 + std::cos(a) * u - std::sin(a) * v),
+                  static_cast<float>(std::sin(a) * u + std::cos(a) * v), 0.1F * static_cast<float>(i % 5)});
+    }
+    pipeline.process(frame_of(xyz, static_cast<std::size_t>(f)), result);
+    ASSERT_EQ(result.clusters.size(), 1U);
+    const Eigen::Matrix3d axes = std::get<Obb>(result.volume(0, 0)).axes();
+    if (f > 0) {
+      const double turned = Eigen::AngleAxisd(Eigen::Matrix3d(before.transpose() * axes)).angle();
+      EXPECT_LT(turned, 0.25) << "frame " << f;
+    }
+    before = axes;
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv

@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/stream_runner.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+namespace pcl_bv {
+namespace {
+
+using End = StreamRunner::End;
+using std::chrono::milliseconds;
+
+// A work that waits for permission: makes what is in the queue at any moment known.
+class Gate {
+ public:
+  void pass() {
+    std::unique_lock lock(mutex_);
+    ++waiting_;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return open_ || permits_ > 0; });
+    if (!open_) --permits_;
+  }
+  void let_pass(int n) {
+    const std::lock_guard lock(mutex_);
+    permits_ += n;
+    changed_.notify_all();
+  }
+  void open() {
+    const std::lock_guard lock(mutex_);
+    open_ = true;
+    changed_.notify_all();
+  }
+  void await_arrivals(int n) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return waiting_ >= n; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int waiting_ = 0, permits_ = 0;
+  bool open_ = false;
+};
+
+struct Recorder {
+  std::mutex mutex;
+  std::vector<std::uint64_t> results, errors;
+  std::vector<std::string> reasons;
+};
+
+Frame frame(std::uint64_t seq) {
+  Frame f;
+  f.header.seq = seq;
+  return f;
+}
+
+StreamRunner::Callbacks recording(Recorder& out, Gate* gate = nullptr) {
+  StreamRunner::Callbacks callbacks;
+  callbacks.process = [gate](const Frame& f, FrameResult& result) {
+    if (gate != nullptr) gate->pass();
+    result = FrameResult();
+    result.header = f.header;
+    result.ms.total = 1;
+  };
+  callbacks.on_result = [&out](const FrameResult& result) {
+    const std::lock_guard lock(out.mutex);
+    out.results.push_back(result.header.seq);
+  };
+  callbacks.on_error = [&out](const FrameHeader& header, const std::string& reason) {
+    const std::lock_guard lock(out.mutex);
+    out.errors.push_back(header.seq);
+    out.reasons.push_back(reason);
+  };
+  return callbacks;
+}
+
+RunnerConfig with(std::size_t queue, QueuePolicy policy) {
+  RunnerConfig config;
+  config.queue = queue;
+  config.policy = policy;
+  return config;
+}
+
+void expect_balance(const FrameTotals& f) {
+  EXPECT_EQ(f.in, f.processed + f.dropped_queue + f.dropped_age + f.dropped_error);
+}
+
+TEST(StreamRunner, DropOldestKeepsTheNewestAndCountsTheRest) {
+  Gate gate;
+  Recorder out;
+  StreamRunner runner(recording(out, &gate), with(2, QueuePolicy::drop_oldest));
+  EXPECT_TRUE(runner.push(frame(0)));
+  gate.await_arrivals(1);  // 0 is in work, the queue is empty
+  for (std::uint64_t i = 1; i <= 10; ++i)
+    EXPECT_TRUE(runner.push(frame(i)));
+  gate.open();
+  runner.stop(End::drain);
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 9, 10}));
+  const FrameTotals totals = runner.stats().frames;
+  EXPECT_EQ(totals.in, 11U);
+  EXPECT_EQ(totals.processed, 3U);
+  EXPECT_EQ(totals.dropped_queue, 8U);
+  expect_balance(totals);
+}
+
+TEST(StreamRunner, DropNewestKeepsWhatWaitsAndSaysSo) {
+  Gate gate;
+  Recorder out;
+  StreamRunner runner(recording(out, &gate), with(2, QueuePolicy::drop_newest));
+  runner.push(frame(0));
+  gate.await_arrivals(1);
+  EXPECT_TRUE(runner.push(frame(1)));
+  EXPECT_TRUE(runner.push(frame(2)));
+  EXPECT_FALSE(runner.push(frame(3)));
+  EXPECT_FALSE(runner.push(frame(4)));
+  gate.open();
+  runner.stop(End::drain);
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 1, 2}));
+  EXPECT_EQ(runner.stats().frames.dropped_queue, 2U);
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, BlockLosesNothingUnderASlowWork) {
+  Recorder out;
+  StreamRunner::Callbacks callbacks = recording(out);
+  callbacks.process = [](const Frame& f, FrameResult& result) {
+    std::this_thread::sleep_for(milliseconds(1));
+    result.header = f.header;
+  };
+  StreamRunner runner(callbacks, with(1, QueuePolicy::block));
+  for (std::uint64_t i = 0; i < 50; ++i)
+    EXPECT_TRUE(runner.push(frame(i)));
+  runner.stop(End::drain);
+  ASSERT_EQ(out.results.size(), 50U);
+  for (std::uint64_t i = 0; i < 50; ++i)
+    EXPECT_EQ(out.results[i], i);
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, AStopFreesASenderThatWaitsForRoom) {
+  Gate gate;
+  Recorder out;
+  StreamRunner runner(recording(out, &gate), with(1, QueuePolicy::block));
+  runner.push(frame(0));
+  gate.await_arrivals(1);
+  runner.push(frame(1));
+  std::atomic<bool> accepted{true};
+  std::thread sender([&] { accepted = runner.push(frame(2)); });  // no room
+  std::this_thread::sleep_for(milliseconds(20));
+  std::thread stopper([&] { runner.stop(End::discard); });
+  sender.join();
+  EXPECT_FALSE(accepted);
+  gate.open();
+  stopper.join();
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0}));
+  EXPECT_EQ(runner.stats().frames.dropped_queue, 2U);
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, FramesOlderThanTheMaximumAgeAreDroppedAndCounted) {
+  Gate gate;
+  Recorder out;
+  RunnerConfig config = with(5, QueuePolicy::block);
+  config.max_age_ms = 30;
+  StreamRunner runner(recording(out, &gate), config);
+  runner.push(frame(0));
+  gate.await_arrivals(1);
+  runner.push(frame(1));
+  runner.push(frame(2));
+  std::this_thread::sleep_for(milliseconds(60));
+  runner.push(frame(3));
+  gate.open();
+  runner.stop(End::drain);
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 3}));
+  EXPECT_EQ(runner.stats().frames.dropped_age, 2U);
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, AnExceptionCostsItsFrameOnly) {
+  Recorder out;
+  StreamRunner::Callbacks callbacks = recording(out);
+  callbacks.process = [](const Frame& f, FrameResult& result) {
+    if (f.header.seq == 1) throw std::runtime_error("one is bad");
+    if (f.header.seq == 2) throw 2;
+    result.header = f.header;
+  };
+  auto record = callbacks.on_result;
+  callbacks.on_result = [record](const FrameResult& result) {
+    if (result.header.seq == 3) throw std::runtime_error("nobody listens");
+    record(result);
+  };
+  StreamRunner runner(callbacks, with(8, QueuePolicy::block));
+  for (std::uint64_t i = 0; i < 5; ++i)
+    runner.push(frame(i));
+  runner.stop(End::drain);
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 4}));
+  EXPECT_EQ(out.errors, (std::vector<std::uint64_t>{1, 2, 3}));
+  EXPECT_EQ(out.reasons[0], "one is bad");
+  EXPECT_EQ(out.reasons[2], "nobody listens");
+  EXPECT_EQ(runner.stats().frames.dropped_error, 3U);
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, AFrameThatItsSourceCouldNotReadIsCountedAndNamed) {
+  Recorder out;
+  StreamRunner runner(recording(out), with(1, QueuePolicy::block));
+  FrameHeader header;
+  header.seq = 7;
+  runner.report_unreadable(header, "a.pcd: truncated");
+  runner.stop(End::drain);
+  EXPECT_EQ(out.errors, (std::vector<std::uint64_t>{7}));
+  EXPECT_EQ(out.reasons[0], "a.pcd: truncated");
+  EXPECT_EQ(runner.stats().frames.in, 1U);
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, DiscardDropsWhatWaitsAndFinishesWhatIsInWork) {
+  Gate gate;
+  Recorder out;
+  StreamRunner runner(recording(out, &gate), with(9, QueuePolicy::block));
+  for (std::uint64_t i = 0; i < 5; ++i)
+    runner.push(frame(i));
+  gate.await_arrivals(1);
+  std::thread stopper([&] { runner.stop(End::discard); });
+  std::this_thread::sleep_for(milliseconds(20));
+  gate.open();
+  stopper.join();
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0}));
+  EXPECT_EQ(runner.stats().frames.dropped_queue, 4U);
+  EXPECT_FALSE(runner.push(frame(9)));
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, StopsTwiceFromManyThreadsAndFromItsCallback) {
+  Recorder out;
+  StreamRunner* self = nullptr;
+  std::mutex ready;
+  StreamRunner::Callbacks callbacks = recording(out);
+  auto record = callbacks.on_result;
+  callbacks.on_result = [&](const FrameResult& result) {
+    record(result);
+    const std::lock_guard lock(ready);
+    if (result.header.seq == 2) self->stop(End::discard);
+  };
+  StreamRunner runner(callbacks, with(100, QueuePolicy::block));
+  {
+    const std::lock_guard lock(ready);
+    self = &runner;
+  }
+  for (std::uint64_t i = 0; i < 20; ++i)
+    runner.push(frame(i));
+  std::vector<std::thread> stoppers;
+  for (int i = 0; i < 4; ++i)
+    stoppers.emplace_back([&] { runner.stop(End::drain); });
+  for (std::thread& t : stoppers)
+    t.join();
+  runner.stop(End::discard);
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 1, 2}));
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, ManySendersUnderLoadLoseNoCount) {
+  for (const QueuePolicy policy : {QueuePolicy::drop_oldest, QueuePolicy::drop_newest, QueuePolicy::block}) {
+    Recorder out;
+    StreamRunner runner(recording(out), with(3, policy));
+    std::vector<std::thread> senders;
+    for (std::uint64_t s = 0; s < 4; ++s) {
+      senders.emplace_back([&runner, s] {
+        for (std::uint64_t i = 0; i < 500; ++i)
+          runner.push(frame(1000 * s + i));
+      });
+    }
+    std::this_thread::sleep_for(milliseconds(2));
+    for (std::thread& t : senders)
+      t.join();
+    runner.stop(End::drain);
+    const FrameTotals totals = runner.stats().frames;
+    EXPECT_EQ(totals.in, 2000U);
+    EXPECT_EQ(totals.processed, out.results.size());
+    if (policy == QueuePolicy::block) {
+      EXPECT_EQ(totals.processed, 2000U);
+    }
+    expect_balance(totals);
+  }
+}
+
+TEST(StreamRunner, ASilentSourceIsReportedOncePerSilence) {
+  Recorder out;
+  std::atomic<int> silences{0};
+  StreamRunner::Callbacks callbacks = recording(out);
+  callbacks.on_silence = [&](double seconds) {
+    EXPECT_GE(seconds, 0.02);
+    ++silences;
+  };
+  RunnerConfig config = with(1, QueuePolicy::block);
+  config.watchdog_s = 0.02;
+  StreamRunner runner(callbacks, config);
+  const auto await = [&](int n) {
+    for (int i = 0; i < 500 && silences < n; ++i)
+      std::this_thread::sleep_for(milliseconds(10));
+  };
+  await(1);
+  std::this_thread::sleep_for(milliseconds(80));
+  EXPECT_EQ(silences, 1);
+  runner.push(frame(0));
+  await(2);
+  EXPECT_EQ(silences, 2);
+  runner.stop(End::drain);
+}
+
+TEST(StreamRunner, LetsGoOfACloudWhenItsFrameIsDone) {
+  Recorder out;
+  StreamRunner runner(recording(out), with(1, QueuePolicy::block));
+  const auto cloud = std::make_shared<int>(3);
+  Frame f = frame(0);
+  f.owner = cloud;
+  runner.push(std::move(f));
+  for (int i = 0; i < 500 && cloud.use_count() > 1; ++i)
+    std::this_thread::sleep_for(milliseconds(10));
+  EXPECT_EQ(cloud.use_count(), 1);
+}
+
+TEST(StreamRunner, RefusesWhatCannotWork) {
+  Recorder out;
+  EXPECT_THROW(StreamRunner(recording(out), with(0, QueuePolicy::block)), std::invalid_argument);
+  RunnerConfig config;
+  config.max_age_ms = -1;
+  EXPECT_THROW(StreamRunner(recording(out), config), std::invalid_argument);
+  EXPECT_THROW(StreamRunner({}, RunnerConfig()), std::invalid_argument);
+}
+
+TEST(StatsJson, NamesWhatBecameOfTheFrames) {
+  RunnerStats stats;
+  stats.frames = {10, 6, 1, 2, 1};
+  stats.ms.total.add(5);
+  const auto json = nlohmann::json::parse(stats_json(stats));
+  EXPECT_EQ(json["frames"]["in"], 10);
+  EXPECT_EQ(json["frames"]["processed"], 6);
+  EXPECT_EQ(json["frames"]["dropped"]["queue"], 1);
+  EXPECT_EQ(json["frames"]["dropped"]["age"], 2);
+  EXPECT_EQ(json["frames"]["dropped"]["error"], 1);
+  EXPECT_EQ(json["ms"]["total"]["max"], 5);
+  EXPECT_EQ(json["ms"]["fit"]["p99"], 0);
+}
+
+}  // namespace
+}  // namespace pcl_bv

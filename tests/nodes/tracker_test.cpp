@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "pcl_bv/nodes/cluster_pipeline.h"
+#include "pcl_bv/synth/street.h"
+
+namespace pcl_bv {
+namespace {
+
+Aabb box(double x, double y, double size = 1) {
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(size / 2), center(x, y, 0);
+  return {center - half, center + half};
+}
+
+std::vector<Tracker::Assignment> update(Tracker& tracker, int frame, const std::vector<Aabb>& boxes,
+                                        const TrackConfig& config = {}) {
+  std::vector<Tracker::Assignment> assignments;
+  tracker.update(frame * 100'000'000LL, boxes, config, assignments);
+  return assignments;
+}
+
+TEST(Tracker, AnObjectGetsItsIdWithItsBirth) {
+  Tracker tracker;
+  EXPECT_FALSE(update(tracker, 0, {box(0, 0)})[0].id);
+  EXPECT_FALSE(update(tracker, 1, {box(0.1, 0)})[0].id);
+  EXPECT_EQ(update(tracker, 2, {box(0.2, 0)})[0].id, 0U);
+  EXPECT_EQ(update(tracker, 3, {box(0.3, 0)})[0].id, 0U);
+}
+
+TEST(Tracker, KeepsIdsWhereObjectsCross) {
+  Tracker tracker;
+  for (int i = 0; i < 20; ++i) {
+    const double x = -5 + 0.5 * i;
+    const auto found = update(tracker, i, {box(x, 0.6), box(-x, -0.6)});
+    if (i < 2) continue;
+    EXPECT_EQ(found[0].id, 0U) << i;
+    EXPECT_EQ(found[1].id, 1U) << i;
+  }
+}
+
+TEST(Tracker, BridgesGapsShorterThanDeathAndNeverReusesIds) {
+  TrackConfig config;
+  config.death = 3;
+  Tracker tracker;
+  for (int i = 0; i < 4; ++i)
+    update(tracker, i, {box(0.5 * i, 0)}, config);
+  update(tracker, 4, {}, config);
+  update(tracker, 5, {}, config);
+  EXPECT_EQ(update(tracker, 6, {box(3, 0)}, config)[0].id, 0U);
+  for (int i = 7; i < 10; ++i)
+    update(tracker, i, {}, config);
+  for (int i = 10; i < 12; ++i)
+    EXPECT_FALSE(update(tracker, i, {box(3, 0)}, config)[0].id);
+  EXPECT_EQ(update(tracker, 12, {box(3, 0)}, config)[0].id, 1U);
+  tracker.reset();
+  for (int i = 0; i < 2; ++i)
+    update(tracker, i, {box(3, 0)}, config);
+  EXPECT_EQ(update(tracker, 2, {box(3, 0)}, config)[0].id, 2U);
+}
+
+TEST(Tracker, AnObjectBeyondTheGateIsAnother) {
+  Tracker tracker;
+  for (int i = 0; i < 4; ++i)
+    update(tracker, i, {box(0, 0)});
+  EXPECT_TRUE(update(tracker, 4, {box(2.5, 0)})[0].fresh);
+}
+
+TEST(Tracker, ASplitObjectKeepsItsIdOnTheGreaterPart) {
+  Tracker tracker;
+  for (int i = 0; i < 4; ++i)
+    update(tracker, i, {box(0, 0, 4)});
+  const auto found = update(tracker, 4, {box(0.5, 0, 3), box(-1.5, 0, 0.5)});
+  EXPECT_EQ(found[0].id, 0U);
+  EXPECT_TRUE(found[1].fresh);
+}
+
+// The true object of most of a cluster's points.
+std::uint32_t object_of(const FrameResult& result, std::size_t cluster, const SynthCloud& cloud) {
+  std::map<std::uint32_t, std::size_t> votes;
+  for (std::size_t i = 0; i < result.clusters.cluster_size(cluster); ++i)
+    ++votes[cloud.object[static_cast<std::size_t>(result.clusters.cluster(cluster)[i])]];
+  const auto most = std::max_element(votes.begin(), votes.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return 2 * most->second > result.clusters.cluster_size(cluster) ? most->first : 0;
+}
+
+// One object, one id, over the frames in which it is seen; cars, pedestrians and poles, as they are one
+// cluster each.
+TEST(Tracking, OfTheStreetKeepsOneIdPerObject) {
+  PipelineConfig config;
+  config.volumes = {"aabb"};
+  config.track.enabled = true;
+  for (const std::uint64_t seed : {1, 2}) {
+    FramePipeline pipeline(config);
+    FrameResult result;
+    std::map<std::uint32_t, std::map<std::uint32_t, std::size_t>> ids;  // object, id, frames
+    for (std::size_t i = 0; i < 22; ++i) {
+      StreetOptions options;
+      options.seed = seed;
+      const StreetFrame street = make_street_frame(options, i);
+      std::map<std::uint32_t, StreetObjectKind> kinds;
+      for (const StreetObject& object : street.objects)
+        kinds[object.id] = object.kind;
+      Frame frame;
+      frame.header.stamp_ns = static_cast<std::int64_t>(i) * 100'000'000;
+      frame.points = PointView::of(street.cloud.xyz.data(), 12, street.cloud.size());
+      pipeline.process(frame, result);
+      std::set<std::uint32_t> seen;
+      for (std::size_t c = 0; c < result.clusters.size(); ++c) {
+        const std::uint32_t object = object_of(result, c, street.cloud);
+        const auto kind = kinds.find(object);
+        if (kind == kinds.end() || kind->second > StreetObjectKind::pole) continue;
+        if (!result.tracks[c] || !seen.insert(object).second) continue;  // its largest part counts
+        ++ids[object][*result.tracks[c]];
+      }
+    }
+    std::size_t frames = 0, stable = 0;
+    for (const auto& [object, counts] : ids) {
+      std::size_t most = 0;
+      for (const auto& [id, n] : counts) {
+        frames += n;
+        most = std::max(most, n);
+      }
+      stable += most;
+    }
+    const double part = static_cast<double>(stable) / static_cast<double>(frames);
+    RecordProperty("stable", std::to_string(part));
+    std::printf("seed %d: %zu objects, %zu sightings, %.1f %% by one id\n", static_cast<int>(seed),
+                ids.size(), frames, 100 * part);
+    EXPECT_GE(ids.size(), 20U);
+    EXPECT_GE(part, 0.95) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
