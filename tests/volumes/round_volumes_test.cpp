@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "obbs.h"
 #include "round_volumes.h"
 
 namespace pcl_bv {
@@ -21,17 +22,7 @@ using testing::Random;
 using testing::volumes;
 
 bool exactly_inside(const AnyVolume& volume, const ExactPoint& p) {
-  return std::visit(
-      [&](const auto& v) {
-        using Volume = std::decay_t<decltype(v)>;
-        if constexpr (std::is_same_v<Volume, Aabb> || std::is_same_v<Volume, Kdop> ||
-                      std::is_same_v<Volume, Sphere>) {
-          return testing::inside(v, p);
-        } else {
-          return testing::inside(v, p);
-        }
-      },
-      volume);
+  return std::visit([&](const auto& v) { return testing::inside(v, p); }, volume);
 }
 
 // Points near the surface, on either side of it, by rounding or clearly.

@@ -180,28 +180,6 @@ std::optional<RayInterval> Obb::intersect(const Eigen::Vector3d& origin,
   });
 }
 
-bool Obb::overlaps(const Obb& other) const {
-  if (empty() || other.empty()) return false;
-  const Eigen::Vector3d between = other.center_ - center_;
-  const double size =
-      (sum_of_magnitudes(between) + half_extents_.sum() + other.half_extents_.sum()) + smallest_normal;
-  const auto apart = [&](const Eigen::Vector3d& direction) {
-    double reach = 4 * orthonormal_to * size;
-    for (int i = 0; i < 3; ++i) {
-      reach += half_extents_[i] * std::abs(dot(axes_.col(i), direction));
-      reach += other.half_extents_[i] * std::abs(dot(other.axes_.col(i), direction));
-    }
-    return std::abs(dot(between, direction)) > reach;
-  };
-  for (int i = 0; i < 3; ++i) {
-    if (apart(axes_.col(i)) || apart(other.axes_.col(i))) return false;
-    for (int j = 0; j < 3; ++j) {
-      if (apart(axes_.col(i).cross(other.axes_.col(j)))) return false;
-    }
-  }
-  return true;
-}
-
 std::array<Eigen::Vector3d, 8> Obb::corners() const {
   std::array<Eigen::Vector3d, 8> result;
   for (unsigned i = 0; i < 8; ++i) {

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A box around two boxes: there is no smallest one to be had cheaply, so the best of three frames.
+// What takes two boxes: whether they overlap, and a box around both. There is no smallest one to be had
+// cheaply, so it is the best of three frames.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "directed.h"
 #include "pcl_bv/volumes/obb.h"
@@ -38,7 +41,33 @@ double along_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, const Ei
   return sum.up();
 }
 
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
 }  // namespace
+
+bool Obb::overlaps(const Obb& other) const {
+  if (empty() || other.empty()) return false;
+  const Eigen::Vector3d between = other.center_ - center_;
+  const double size = (between.lpNorm<1>() + half_extents_.sum() + other.half_extents_.sum()) +
+                      std::numeric_limits<double>::min();
+  const auto apart = [&](const Eigen::Vector3d& direction) {
+    double reach = 4e-12 * size;
+    for (int i = 0; i < 3; ++i) {
+      reach += half_extents_[i] * std::abs(dot(axes_.col(i), direction));
+      reach += other.half_extents_[i] * std::abs(dot(other.axes_.col(i), direction));
+    }
+    return std::abs(dot(between, direction)) > reach;
+  };
+  for (int i = 0; i < 3; ++i) {
+    if (apart(axes_.col(i)) || apart(other.axes_.col(i))) return false;
+    for (int j = 0; j < 3; ++j) {
+      if (apart(axes_.col(i).cross(other.axes_.col(j)))) return false;
+    }
+  }
+  return true;
+}
 
 bool Obb::surely_holds(const Obb& other) const {
   for (int i = 0; i < 3; ++i) {
