@@ -75,13 +75,13 @@ TEST(ReportJson, ShapesHaveTheirOwnNumbers) {
 }
 
 TEST(ReportJson, RoundShapesHaveTheirOwnNumbers) {
-  EXPECT_THAT(report_json(report_of({{"cylinder", Cylinder({1, 2, 3}, {0, 0, 1}, 0.5, 2)}})),
+  EXPECT_THAT(report_json(report_of({{"cylinder", Cylinder({1, 2, 3}, {0, 0, 1}, 0.5, 2), {}}})),
               HasSubstr(R"("center":[1,2,3],"axis":[0,0,1],"radius":0.5,"half_height":2)"));
-  EXPECT_THAT(report_json(report_of({{"capsule", Capsule({1, 2, 3}, {4, 5, 6}, 0.5)}})),
+  EXPECT_THAT(report_json(report_of({{"capsule", Capsule({1, 2, 3}, {4, 5, 6}, 0.5), {}}})),
               HasSubstr(R"("a":[1,2,3],"b":[4,5,6],"radius":0.5)"));
   Eigen::Matrix3d axes;
   axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  EXPECT_THAT(report_json(report_of({{"ellipsoid", Ellipsoid({1, 2, 3}, axes, {3, 2, 1})}})),
+  EXPECT_THAT(report_json(report_of({{"ellipsoid", Ellipsoid({1, 2, 3}, axes, {3, 2, 1}), {}}})),
               HasSubstr(R"("center":[1,2,3],"axes":[[0,1,0],[0,0,1],[1,0,0]],"radii":[3,2,1])"));
 }
 
@@ -89,13 +89,13 @@ TEST(ReportJson, AHullHasItsRankOnlyWhereItIsFlat) {
   const std::vector<HullPlane> planes = {{{-1, 0, 0}, 0}, {{0, -1, 0}, 0}, {{0, 0, -1}, 0}, {{1, 1, 1}, 1}};
   const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Hull solid(corners, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, planes, 3);
-  const std::string text = report_json(report_of({{"hull", solid}}));
+  const std::string text = report_json(report_of({{"hull", solid, {}}}));
   EXPECT_THAT(text, HasSubstr(R"("vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]],)"
                               R"("faces":[[0,2,1],[0,1,3],[0,3,2],[1,2,3]],)"
                               R"("planes":[[-1,0,0,0],[0,-1,0,0],[0,0,-1,0],[1,1,1,1]]})"));
   const Hull flat({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, planes, 2);
-  EXPECT_THAT(report_json(report_of({{"hull", flat}})), HasSubstr(R"("faces":[],)"));
-  EXPECT_THAT(report_json(report_of({{"hull", flat}})), HasSubstr(R"("rank":2)"));
+  EXPECT_THAT(report_json(report_of({{"hull", flat, {}}})), HasSubstr(R"("faces":[],)"));
+  EXPECT_THAT(report_json(report_of({{"hull", flat, {}}})), HasSubstr(R"("rank":2)"));
 }
 
 TEST(ReportJson, FailedInputHasOnlyItsError) {
