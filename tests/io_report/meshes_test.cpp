@@ -13,6 +13,7 @@
 
 #include "files.h"
 #include "pcl_bv/io/ply.h"
+#include "volume_cells.h"
 
 namespace pcl_bv {
 namespace {
@@ -104,6 +105,28 @@ TEST_F(Meshes, PlyIsColouredByClusterOrByMethodIfThereIsOnlyOne) {
   const RawCloud methods = vertices_of(one_cluster({{"aabb", box, {}}, {"dop6", box, {}}}));
   EXPECT_NE(colour_at(methods, 0), colour_at(methods, 8));
   EXPECT_EQ(colour_at(methods, 0), colour_at(clusters, 0));
+}
+
+TEST_F(Meshes, PlyHoldsFacesOfManyCorners) {
+  for (const std::size_t corners : {255u, 256u, 300u}) {
+    VolumeCells cells;
+    cells.methods = {"hull"};
+    cells.owners = {{7, 0, 300, 1}};
+    cells.polygons = {{{}, 0}, {{0, 1, 2}, 0}};
+    for (std::size_t i = 0; i < corners; ++i) {
+      cells.vertices.emplace_back(static_cast<double>(i), 0, 0);
+      cells.vertex_owners.push_back(0);
+      cells.polygons[0].vertices.push_back(static_cast<std::int32_t>(i));
+    }
+    const std::string ply = cells_ply(cells, true);
+    const std::size_t count_bytes = corners > 255 ? 4 : 1;
+    EXPECT_THAT(ply, HasSubstr(count_bytes == 1 ? "list uchar int" : "list int int"));
+    std::int32_t count = 0;
+    const std::size_t body = ply.find("end_header\n") + 11 + corners * 27;
+    std::memcpy(&count, ply.data() + body, count_bytes);
+    EXPECT_EQ(count, static_cast<std::int32_t>(corners));
+    EXPECT_EQ(ply.size(), body + 2 * (count_bytes + 8) + 4 * (corners + 3));
+  }
 }
 
 TEST_F(Meshes, OfNothingAreFilesWithoutVertices) {

@@ -38,4 +38,7 @@ struct VolumeCells {
 /// Throws std::length_error if there are more vertices than an int32 counts.
 VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters);
 
+/// The .ply file of volumes_ply().
+std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster);
+
 }  // namespace pcl_bv

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Binary, because text would round or be three times as long.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -23,6 +24,12 @@ void append(T value, std::string& bytes) {
   bytes.append(raw, sizeof value);
 }
 
+/// The count of a face's corners is a byte, as everywhere, unless a flat hull has more of them.
+bool counts_fit_a_byte(const VolumeCells& cells) {
+  return std::all_of(cells.polygons.begin(), cells.polygons.end(),
+                     [](const Cell& face) { return face.vertices.size() <= 255; });
+}
+
 std::string header(const VolumeCells& cells) {
   std::string text = "ply\nformat binary_little_endian 1.0\ncomment bounding volumes by pcl_bv\n";
   for (std::size_t i = 0; i < cells.methods.size(); ++i)
@@ -31,8 +38,9 @@ std::string header(const VolumeCells& cells) {
           "\nproperty double x\nproperty double y\nproperty double z\n"
           "property uchar red\nproperty uchar green\nproperty uchar blue\n"
           "element face " +
-          std::to_string(cells.polygons.size()) +
-          "\nproperty list uchar int vertex_indices\nproperty int cluster\nproperty int method\n";
+          std::to_string(cells.polygons.size()) + "\nproperty list " +
+          (counts_fit_a_byte(cells) ? "uchar" : "int") +
+          " int vertex_indices\nproperty int cluster\nproperty int method\n";
   if (!cells.lines.empty()) {
     text += "element edge " + std::to_string(cells.lines.size()) +
             "\nproperty int vertex1\nproperty int vertex2\n";
@@ -48,10 +56,13 @@ void append_vertex(const Eigen::Vector3d& vertex, const Colour& colour, std::str
     append(static_cast<std::uint8_t>(std::lround(channel * 255)), bytes);
 }
 
-void append_face(const Cell& face, const CellOwner& owner, std::string& bytes) {
-  // A k-DOP has at most 98 sides, so no more corners at one of them; round shapes are drawn with fewer.
-  if (face.vertices.size() > 255) throw std::length_error("a face of more than 255 corners");
-  append(static_cast<std::uint8_t>(face.vertices.size()), bytes);
+void append_face(const Cell& face, bool count_is_a_byte, const CellOwner& owner, std::string& bytes) {
+  const auto count = static_cast<std::int32_t>(face.vertices.size());
+  if (count_is_a_byte) {
+    append(static_cast<std::uint8_t>(count), bytes);
+  } else {
+    append(count, bytes);
+  }
   for (const std::int32_t vertex : face.vertices)
     append(vertex, bytes);
   append(static_cast<std::int32_t>(owner.cluster), bytes);
@@ -61,15 +72,19 @@ void append_face(const Cell& face, const CellOwner& owner, std::string& bytes) {
 }  // namespace
 
 std::string volumes_ply(const std::vector<ClusterEntry>& clusters) {
-  const VolumeCells cells = volume_cells(clusters);
+  return cells_ply(volume_cells(clusters), clusters.size() > 1);
+}
+
+std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster) {
   std::string bytes = header(cells);
   for (std::size_t i = 0; i < cells.vertices.size(); ++i) {
     const CellOwner& owner = cells.owners[cells.vertex_owners[i]];
-    const std::size_t colour = clusters.size() > 1 ? owner.cluster : owner.method;
+    const std::size_t colour = colour_by_cluster ? owner.cluster : owner.method;
     append_vertex(cells.vertices[i], palette(static_cast<std::uint32_t>(colour)), bytes);
   }
+  const bool count_is_a_byte = counts_fit_a_byte(cells);
   for (const Cell& face : cells.polygons)
-    append_face(face, cells.owners[face.owner], bytes);
+    append_face(face, count_is_a_byte, cells.owners[face.owner], bytes);
   for (const Cell& edge : cells.lines) {
     for (const std::int32_t vertex : edge.vertices)
       append(vertex, bytes);
