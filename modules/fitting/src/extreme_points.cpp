@@ -12,6 +12,7 @@
 
 #include "map_chunks.h"
 #include "pcl_bv/kernels/float_environment.h"
+#include "projection_search.h"
 #include "schedule.h"
 #include "shared_reach.h"
 
@@ -27,13 +28,14 @@ double serial_seconds(Isa isa, std::size_t directions, std::size_t points) {
   return projection * static_cast<double>(directions) * static_cast<double>(points);
 }
 
-ProjectionSet checked(const std::vector<std::array<double, 3>>& directions) {
-  if (directions.empty() || directions.size() > kMaxProjections) {
-    throw std::invalid_argument("find_extreme_points: " + std::to_string(directions.size()) +
+ProjectionSet checked(const Direction* directions, std::size_t count) {
+  if (count == 0 || count > kMaxProjections) {
+    throw std::invalid_argument("find_extreme_points: " + std::to_string(count) +
                                 " directions, must be 1 to " + std::to_string(kMaxProjections));
   }
   ProjectionSet set;
-  for (const Direction& d : directions) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Direction& d = directions[k];
     const double largest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
     const bool finite = std::isfinite(d[0]) && std::isfinite(d[1]) && std::isfinite(d[2]);
     if (!finite || largest < 1e-30 || largest > 1e30) {
@@ -52,15 +54,18 @@ DirectionExtremes extremes_along(const Direction& n, const FarthestPoint& low, c
 
 }  // namespace
 
-ExtremePoints find_extreme_points(const PointView& points,
-                                  const std::vector<std::array<double, 3>>& directions,
-                                  const Execution& execution) {
+DirectionExtremes ProjectionSearch::along(std::size_t k) const {
+  return extremes_along(set.exact[k], farthest.ends[2 * k], farthest.ends[2 * k + 1]);
+}
+
+ProjectionSearch search_projections(const PointView& points, const Direction* directions, std::size_t count,
+                                    const Execution& execution) {
   const FloatEnvironment environment;
   const Isa isa = resolve_isa(execution.isa);
-  const ProjectionSet set = checked(directions);
+  ProjectionSearch search{checked(directions, count), {}};
+  const ProjectionSet& set = search.set;
   SharedReach<kMaxProjectionEnds> reach;
   const bool shared = chunk_count(points.count) > 1;
-  ChunkFarthest all;
   const auto find = [&](const PointView& chunk) {
     ChunkFarthest farthest;
     chunk_farthest(isa, chunk, set, reach.snapshot(), farthest);
@@ -71,16 +76,24 @@ ExtremePoints find_extreme_points(const PointView& points,
     return farthest;
   };
   const auto merge = [&](const ChunkFarthest& part) {
-    all.dropped += part.dropped;
+    search.farthest.dropped += part.dropped;
     for (std::size_t end = 0; end < 2 * set.count; ++end)
-      keep_farthest(set.end_direction(end), part.ends[end], all.ends[end]);
+      keep_farthest(set.end_direction(end), part.ends[end], search.farthest.ends[end]);
   };
   const double seconds = serial_seconds(isa, set.count, points.count);
   map_chunks<ChunkFarthest>(points, worthwhile(execution.parallel, seconds), find, merge);
+  return search;
+}
 
-  ExtremePoints result{points.count - all.dropped, all.dropped, {}};
-  for (std::size_t k = 0; k < set.count && result.used > 0; ++k)
-    result.along.push_back(extremes_along(set.exact[k], all.ends[2 * k], all.ends[2 * k + 1]));
+ExtremePoints find_extreme_points(const PointView& points,
+                                  const std::vector<std::array<double, 3>>& directions,
+                                  const Execution& execution) {
+  const FloatEnvironment environment;
+  const ProjectionSearch search = search_projections(points, directions.data(), directions.size(), execution);
+  const std::size_t dropped = search.farthest.dropped;
+  ExtremePoints result{points.count - dropped, dropped, {}};
+  for (std::size_t k = 0; k < directions.size() && result.used > 0; ++k)
+    result.along.push_back(search.along(k));
   return result;
 }
 

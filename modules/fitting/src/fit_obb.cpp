@@ -11,10 +11,10 @@
 #include <stdexcept>
 
 #include "obb_axes.h"
-#include "pcl_bv/fitting/extreme_points.h"
 #include "pcl_bv/kernels/exact_sum.h"
 #include "pcl_bv/kernels/float_environment.h"
 #include "pcl_bv/kernels/slab_extents.h"
+#include "projection_search.h"
 #include "summarize_bounds.h"
 
 namespace pcl_bv {
@@ -102,12 +102,13 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Aabb
 
 // Many points: floats reject nearly all of them, and the extremes are exact.
 Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Execution& execution) {
-  const ExtremePoints found = find_extreme_points(
-      points, {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))}, execution);
+  const Direction directions[] = {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))};
+  const ProjectionSearch found = search_projections(points, directions, 3, execution);
   Eigen::Vector3d low, high;
   for (int i = 0; i < 3; ++i) {
-    low[i] = found.along[static_cast<std::size_t>(i)].low;
-    high[i] = found.along[static_cast<std::size_t>(i)].high;
+    const DirectionExtremes along = found.along(static_cast<std::size_t>(i));
+    low[i] = along.low;
+    high[i] = along.high;
   }
   return Obb::from_slabs(axes, low, high);
 }
