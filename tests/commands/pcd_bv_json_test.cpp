@@ -28,6 +28,59 @@ std::array<double, 3> triple(const Json& array) {
 }
 
 /// The documented predicate of the shape, in rationals, on the numbers as read.
+using ExactVector = std::array<Rational, 3>;
+
+ExactVector between(const std::array<double, 3>& from, const std::array<double, 3>& to) {
+  ExactVector result;
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = Rational(to[i]) - Rational(from[i]);
+  return result;
+}
+
+Rational dot(const ExactVector& a, const ExactVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Rational square(const Json& number) {
+  return Rational(number.get<double>()) * Rational(number.get<double>());
+}
+
+// The documented predicates of the round shapes, with the numbers as printed.
+bool cylinder_holds(const Json& volume, const std::array<double, 3>& p) {
+  const ExactVector q = between(triple(volume["center"]), p), a = between({0, 0, 0}, triple(volume["axis"]));
+  const Rational along = dot(q, a), aa = dot(a, a);
+  return dot(q, q) * aa - along * along <= square(volume["radius"]) * aa &&
+         along * along <= square(volume["half_height"]) * aa;
+}
+
+bool capsule_holds(const Json& volume, const std::array<double, 3>& p) {
+  const auto a = triple(volume["a"]), b = triple(volume["b"]);
+  const ExactVector q = between(a, p), e = between(a, b), to_b = between(b, p);
+  const Rational along = dot(q, e), ee = dot(e, e), rr = square(volume["radius"]);
+  if (along <= 0) return dot(q, q) <= rr;
+  if (along >= ee) return dot(to_b, to_b) <= rr;
+  return dot(q, q) * ee - along * along <= rr * ee;
+}
+
+bool ellipsoid_holds(const Json& volume, const std::array<double, 3>& p) {
+  const ExactVector q = between(triple(volume["center"]), p);
+  Rational sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational along = dot(q, between({0, 0, 0}, triple(volume["axes"][i]))),
+                   rr = square(volume["radii"][i]);
+    if (rr == 0 && along != 0) return false;
+    if (rr != 0) sum += along * along / rr;
+  }
+  return sum <= 1;
+}
+
+bool hull_holds(const Json& volume, const Coordinates& p) {
+  for (const Json& plane : volume["planes"]) {
+    if (exact_dot(triple(plane), p) > Rational(plane[3].get<double>())) return false;
+  }
+  return true;
+}
+
 bool holds(const Json& volume, const Coordinates& p) {
   const std::string shape = volume["shape"];
   if (shape == "sphere") {
@@ -43,6 +96,10 @@ bool holds(const Json& volume, const Coordinates& p) {
     }
     return true;
   }
+  if (shape == "cylinder") return cylinder_holds(volume, {p.x, p.y, p.z});
+  if (shape == "capsule") return capsule_holds(volume, {p.x, p.y, p.z});
+  if (shape == "ellipsoid") return ellipsoid_holds(volume, {p.x, p.y, p.z});
+  if (shape == "hull") return hull_holds(volume, p);
   const Json axes = shape == "kdop" ? volume["directions"] : Json::parse("[[1,0,0],[0,1,0],[0,0,1]]");
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const Rational at = exact_dot(triple(axes[i]), p);
@@ -108,7 +165,7 @@ TEST_F(PcdBv, VolumesReadBackFromJsonHoldEveryPointExactly) {
 TEST_F(PcdBv, ExtremeMagnitudesReadBackExactly) {
   const std::string cloud =
       ascii("c.pcd", {"1e-41 -1e-20 1e38", "-0.0 3e-39 -1e38", "0.1 -0 5000000.5", "-0.0 1e20 0.3333333"});
-  const Result result = run({"--format", "jsonl", "--volume", "all", "--check", cloud});
+  const Result result = run({"--format", "jsonl", "--volume", "all,hull", "--check", cloud});
   EXPECT_EQ(result.status, 0) << result.err;
   const RawCloud points = read_pcd(cloud);
   const Json report = result.json();
