@@ -20,21 +20,21 @@ Aabb box_of(const FrameResult& result, std::size_t cluster) {
 
 void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, std::size_t cluster,
                                FrameResult& result) {
-  if (last_.size() <= assignment.slot) last_.resize(assignment.slot + 1);
-  Last& last = last_[assignment.slot];
-  if (assignment.fresh || last.methods != result.methods) {
-    last.methods = result.methods;
-    last.boxes.assign(result.methods.size(), Obb());
-  }
-  for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    Obb* const box = std::get_if<Obb>(&result.volumes[cluster * result.methods.size() + m]);
-    if (box == nullptr) continue;
-    *box = box->oriented_as(last.boxes[m]);
-    last.boxes[m] = *box;
+  const std::size_t methods = methods_.size(), first = assignment.slot * methods;
+  if (last_.size() < first + methods) last_.resize(first + methods);
+  for (std::size_t m = 0; m < methods; ++m) {
+    Obb& last = last_[first + m];
+    if (assignment.fresh) last = Obb();
+    Obb* const box = std::get_if<Obb>(&result.volumes[cluster * methods + m]);
+    if (box != nullptr) last = *box = box->oriented_as(last);
   }
 }
 
 void TrackedVolumes::update(const TrackConfig& config, FrameResult& result) {
+  if (methods_ != result.methods) {
+    methods_ = result.methods;
+    last_.clear();
+  }
   boxes_.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
     boxes_.push_back(box_of(result, i));

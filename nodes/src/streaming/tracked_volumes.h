@@ -17,18 +17,13 @@ class TrackedVolumes {
   void update(const TrackConfig& config, FrameResult& result);
 
  private:
-  // Of a slot of the tracker, by method.
-  struct Last {
-    std::vector<const Method*> methods;
-    std::vector<Obb> boxes;  ///< Empty ones where the method gives another shape.
-  };
-
   void keep_axes(const Tracker::Assignment& assignment, std::size_t cluster, FrameResult& result);
 
   Tracker tracker_;
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
-  std::vector<Last> last_;
+  std::vector<const Method*> methods_;  // of last_
+  std::vector<Obb> last_;               // slot by slot, by method; empty where it gives another shape
 };
 
 }  // namespace pcl_bv
