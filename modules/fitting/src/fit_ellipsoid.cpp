@@ -88,8 +88,9 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
     if (hull.rank == 0) {
       certificate.support = {hull.vertices[0].index};
       certificate.weights = {1};
-      ellipsoid =
-          Ellipsoid(vector(hull.vertices[0].point), Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+      // Below 1e-300 even spread points count as one: a ball of twice their extent holds them.
+      const Eigen::Vector3d radii = Eigen::Vector3d::Constant(2 * frame.extent());
+      ellipsoid = Ellipsoid(vector(hull.vertices[0].point), Eigen::Matrix3d::Identity(), radii);
       return;
     }
     const std::vector<Eigen::Vector3d> local = along_axes(hull);

@@ -23,6 +23,16 @@ void extend_chain(const std::vector<Eigen::Vector2d>& points, std::size_t next, 
   chain.push_back(next);
 }
 
+int compare(double a, double b) {
+  return a < b ? -1 : a > b ? 1 : 0;
+}
+
+// Whether b - a is a double.
+bool exact_difference(double b, double a, double difference) {
+  const double back = difference - b;
+  return b - (difference - back) == 0 && -a - back == 0;
+}
+
 }  // namespace
 
 int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
@@ -31,6 +41,19 @@ int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector
   // Three roundings of each product and one of the difference: 8 2^-53 is more than that.
   const double doubt = 0x1p-50 * (std::abs(left) + std::abs(right)) + std::numeric_limits<double>::min();
   if (std::abs(left - right) > doubt) return left > right ? 1 : -1;
+  // Lattices have many points in a row, and differences that are doubles: then each product is one and its rounding
+  // error, and the rounded ones decide unless they are equal.
+  const double bx = b.x() - a.x(), by = b.y() - a.y(), cx = c.x() - a.x(), cy = c.y() - a.y();
+  const bool doubles = exact_difference(b.x(), a.x(), bx) && exact_difference(b.y(), a.y(), by) &&
+                       exact_difference(c.x(), a.x(), cx) && exact_difference(c.y(), a.y(), cy);
+  constexpr double tiny = 0x1p-900;  // below, errors of products are no doubles
+  const auto fine = [](double u, double v, double product) {
+    return u == 0 || v == 0 || (std::abs(product) > tiny && std::isfinite(product));
+  };
+  if (doubles && fine(bx, cy, left) && fine(by, cx, right)) {
+    if (left != right) return compare(left, right);
+    return compare(std::fma(bx, cy, -left), std::fma(by, cx, -right));
+  }
   using Rational = boost::multiprecision::cpp_rational;
   const Rational exact = (Rational(b.x()) - Rational(a.x())) * (Rational(c.y()) - Rational(a.y())) -
                          (Rational(b.y()) - Rational(a.y())) * (Rational(c.x()) - Rational(a.x()));
