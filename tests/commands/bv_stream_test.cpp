@@ -13,6 +13,7 @@ namespace pcl_bv::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class BvStream : public PcdBv {
  protected:
@@ -106,14 +107,11 @@ TEST_F(BvStream, AFrameThatCannotBeReadIsALineAndTheStreamGoesOn) {
   EXPECT_THAT(result.err, HasSubstr(bad));
   const std::vector<Json> frames = lines(result.out);
   ASSERT_EQ(frames.size(), 3U);
-  std::size_t errors = 0;
-  for (const Json& frame : frames) {
-    if (!frame.contains("error")) continue;
-    ++errors;
-    EXPECT_EQ(frame["seq"], 1);
-    EXPECT_THAT(frame["error"].get<std::string>(), HasSubstr("2.pcd"));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(frames[i]["seq"], i);
+    EXPECT_EQ(frames[i].contains("error"), i == 1);
   }
-  EXPECT_EQ(errors, 1U);
+  EXPECT_THAT(frames[1]["error"].get<std::string>(), HasSubstr("2.pcd"));
   const Json totals = Json::parse(read_file(stats))["frames"];
   EXPECT_EQ(totals["in"], 3);
   EXPECT_EQ(totals["processed"], 2);
@@ -152,29 +150,34 @@ TEST_F(BvStream, OptionsOverrideTheFileAndThePrintedOneReadsBack) {
 
 TEST_F(BvStream, WrongUseIsOneLineAndStatusTwo) {
   const std::string source = "synth:street-sequence:1";
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{},
-                                             {"--source"},
-                                             {"--source", source, "--frobnicate"},
-                                             {"--source", source, "--rate", "0"},
-                                             {"--source", source, "--rate", "fast"},
-                                             {"--source", source, "--loop", "0"},
-                                             {"--source", source, "--stamps", "clock"},
-                                             {"--source", source, "--volume", "boxes"},
-                                             {"--source", source, "--range", "5"},
-                                             {"--source", source, "--range", "5:1"},
-                                             {"--source", source, "--ground", "mud"},
-                                             {"--source", source, "--up", "w"},
-                                             {"--source", source, "--sensor-height", "-1"},
-                                             {"--source", source, "--cluster", "nan"},
-                                             {"--source", source, "--min-size", "9", "--max-size", "3"},
-                                             {"--source", source, "--policy", "panic"},
-                                             {"--source", source, "--queue", "0"},
-                                             {"--source", source, "--isa", "mmx"},
-                                             {"--source", source, "--sink", "xml:a"},
-                                             {"--source", source, "--sink", "csv:"},
-                                             {"--source", "synth:nothing"},
-                                             {"--source", source, "--config", at("missing.yaml")}}) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {},
+           {"--source"},
+           {"--source", source, "--frobnicate"},
+           {"--source", source, "--rate", "0"},
+           {"--source", source, "--rate", "fast"},
+           {"--source", source, "--rate", "1e-300"},
+           {"--source", source, "--stamps", "name"},
+           {"--source", source, "--sink", "jsonl:" + at("same"), "--sink", "csv:" + at("same")},
+           {"--source", source, "--sink", "jsonl:-", "--sink", "csv:-"},
+           {"--source", source, "--sink", "jsonl:" + at("same"), "--stats", at("same")},
+           {"--source", source, "--loop", "0"},
+           {"--source", source, "--stamps", "clock"},
+           {"--source", source, "--volume", "boxes"},
+           {"--source", source, "--range", "5"},
+           {"--source", source, "--range", "5:1"},
+           {"--source", source, "--ground", "mud"},
+           {"--source", source, "--up", "w"},
+           {"--source", source, "--sensor-height", "-1"},
+           {"--source", source, "--cluster", "nan"},
+           {"--source", source, "--min-size", "9", "--max-size", "3"},
+           {"--source", source, "--policy", "panic"},
+           {"--source", source, "--queue", "0"},
+           {"--source", source, "--isa", "mmx"},
+           {"--source", source, "--sink", "xml:a"},
+           {"--source", source, "--sink", "csv:"},
+           {"--source", "synth:nothing"},
+           {"--source", source, "--config", at("missing.yaml")}}) {
     const Result result = stream(arguments);
     EXPECT_EQ(result.status, 2) << testing::PrintToString(arguments);
     EXPECT_EQ(result.error_lines(), 1U) << result.err;
@@ -216,10 +219,54 @@ TEST_F(BvStream, ASignalLetsTheQueueBeDoneAndWritesTheStatistics) {
 TEST_F(BvStream, AReaderThatGoesAwayEndsItQuietly) {
   Surroundings surroundings;
   surroundings.nobody_reads = true;
+  for (const char* sink : {"jsonl:-", "csv:-"}) {
+    const Result result =
+        stream({"--source", "synth:street-sequence:3", "--loop", "1000", "--rate", "max", "--sink", sink},
+               surroundings);
+    EXPECT_EQ(result.status, 0) << sink;
+    EXPECT_EQ(result.err, "") << sink;
+  }
+  const Result stats = stream({"--source", "synth:street-sequence:1", "--loop", "1000", "--rate", "max",
+                               "--stats", "/nonexistent/s.json"},
+                              surroundings);
+  EXPECT_EQ(stats.status, 1);
+  EXPECT_EQ(stats.error_lines(), 1U);
+}
+
+TEST_F(BvStream, NeverWritesOverWhatItReads) {
+  const std::string first = ascii("sweeps/1.pcd", {"1 2 3"}), config = file("c.yaml", "threads: 1\n");
+  const std::string before = read_file(first);
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"--source", first, "--sink", "csv:" + first},
+           {"--source", at("sweeps"), "--stats", first},
+           {"--source", at("sweeps"), "--sink", "jsonl:" + at("sweeps/../sweeps/1.pcd")},
+           {"--source", at("sweeps"), "--config", config, "--stats", config}}) {
+    EXPECT_EQ(stream(arguments).status, 2) << testing::PrintToString(arguments);
+    EXPECT_EQ(read_file(first), before);
+  }
+  const std::string kept = file("kept", "precious");
+  EXPECT_EQ(stream({"--source", first, "--sink", "jsonl:" + kept, "--sink", "foo:bar"}).status, 2);
+  EXPECT_EQ(read_file(kept), "precious");
+}
+
+TEST_F(BvStream, AsFastAsPossibleLosesNothingAlsoWithAConfiguration) {
+  const std::string config = file("c.yaml", "cluster: {tolerance: 0.4}\n"), stats = at("stats.json");
+  ascii("sweeps/1.pcd", {"1 2 3"});
+  ASSERT_EQ(stream({"--source", at("sweeps"), "--loop", "200", "--rate", "max", "--config", config, "--stats",
+                    stats})
+                .status,
+            0);
+  EXPECT_EQ(Json::parse(read_file(stats))["frames"]["processed"], 200);
+}
+
+TEST_F(BvStream, AllMeansEveryMethodButTheHull) {
+  const std::string cloud = ascii("1.pcd", {"1 2 3", "1.1 2 3", "1 2.1 3", "1 2 3.1", "1.1 2.1 3.2"});
   const Result result =
-      stream({"--source", "synth:street-sequence:3", "--loop", "1000", "--rate", "max"}, surroundings);
-  EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.err, "");
+      stream({"--source", cloud, "--rate", "max", "--ground", "none", "--min-size", "1", "--volume", "all"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("obb-lshape"));
+  EXPECT_THAT(result.out, HasSubstr("ellipsoid"));
+  EXPECT_THAT(result.out, Not(HasSubstr("\"hull\"")));
 }
 
 TEST_F(BvStream, AnOutputThatCannotBeWrittenFails) {

@@ -58,11 +58,20 @@ TEST(StreamConfig, OtherKeysKeepTheirDefaults) {
   EXPECT_EQ(config.pipeline.cluster.tolerance, ClusterConfig().tolerance);
 }
 
+TEST(StreamConfig, KeysThatAreNotThereHaveTheGivenDefaults) {
+  StreamConfig defaults;
+  defaults.runner.policy = QueuePolicy::block;
+  defaults.pipeline.threads = 0;
+  EXPECT_EQ(parse_stream_config("cluster: {tolerance: 0.4}", "", defaults).runner.policy, QueuePolicy::block);
+  EXPECT_EQ(parse_stream_config("threads: 3", "", defaults).pipeline.threads, 3U);
+}
+
 TEST(StreamConfig, AnUnknownKeyIsNamedWithItsLine) {
   EXPECT_EQ(error_of("threads: 2\nfilter:\n  range_min: 1\n  rangemax: 3\n"),
             "robot.yaml: line 4: unknown key 'filter.rangemax'");
   EXPECT_EQ(error_of("\ncolour: red\n"), "robot.yaml: line 2: unknown key 'colour'");
-  EXPECT_EQ(error_of("extra:\n  nested: 1\n"), "robot.yaml: line 2: unknown key 'extra.nested'");
+  EXPECT_EQ(error_of("extra:\n  nested: 1\n"),
+            "robot.yaml: line 1: unknown key 'extra', or one that holds no others");
 }
 
 TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
@@ -94,6 +103,13 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"runner: {policy: lossy}", "runner.policy: 'lossy' is not one of drop_oldest, drop_newest, block"},
       {"runner: {max_age_ms: -2}", "runner.max_age_ms: -2 is not at least 0"},
       {"threads: 1\nthreads: 2", "line 2: threads: is there twice"},
+      {"cluster: {min_size: 2}\ncluster: {max_size: 9}", "line 2: cluster: is there twice"},
+      {"cluster.tolerance: 0.3", "line 1: unknown key 'cluster.tolerance'"},
+      {"threads: {}", "line 1: unknown key 'threads'"},
+      {"threads: 1\n---\nbogus: 1", "line 3: a second document"},
+      {"volumes: [obb, obb-min]", "volumes: 'obb-min' is named twice"},
+      {"cluster: {tolerance: 1e-50}", "cluster.tolerance: 1e-50 is 0 as a float"},
+      {"track: {gate: 101}", "track.gate: 101 is not above 0 and at most 100"},
   };
   for (const auto& [yaml, expected] : cases) {
     EXPECT_THAT(error_of(yaml), HasSubstr(expected)) << yaml;

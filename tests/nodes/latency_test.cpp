@@ -35,7 +35,7 @@ TEST(LatencyHistogram, PercentilesAreTheNearestRankToOnePercent) {
 TEST(LatencyHistogram, HoldsAnyDuration) {
   LatencyHistogram histogram;
   EXPECT_EQ(histogram.percentile(0.5), 0);
-  for (const double ms : {0.0, 1e-9, 1e12})
+  for (const double ms : {0.0, 1e-9, 1e12, -1.0, std::nan("")})
     histogram.add(ms);
   EXPECT_EQ(histogram.max(), 1e12);
   EXPECT_LE(histogram.percentile(0.5), 1e-3);

@@ -176,6 +176,46 @@ TEST(Pipeline, ANewConfigurationCountsFromTheNextFrame) {
   EXPECT_EQ(pipeline.config().volumes, (std::vector<std::string>{"dop14"}));
 }
 
+TEST(Pipeline, UprightBoxesStandOnTheConfiguredAxis) {
+  std::vector<float> xyz;
+  for (int i = 0; i < 300; ++i)
+    xyz.insert(xyz.end(), {5 + 0.01F * static_cast<float>(i), 0.3F * static_cast<float>(i % 5),
+                           0.02F * static_cast<float>(i % 60)});
+  PipelineConfig config;
+  config.ground = {GroundMethod::none, UpAxis::y, {}, {}, {}};
+  config.cluster.tolerance = 0;
+  config.volumes = {"obb-yaw", "obb-lshape"};
+  FramePipeline pipeline(config);
+  FrameResult result;
+  const Frame frame = frame_of(xyz, 0);
+  pipeline.process(frame, result);
+  ASSERT_EQ(result.clusters.size(), 1U);
+  MethodOptions options;
+  options.up = Eigen::Vector3d::UnitY();
+  for (std::size_t m = 0; m < 2; ++m) {
+    AnyVolume expected;
+    result.methods[m]->fit(frame.points, expected, {}, options);
+    EXPECT_TRUE(result.volume(0, m) == expected) << result.methods[m]->name;
+  }
+}
+
+TEST(Pipeline, TracksDoNotDependOnTheVolumesAskedFor) {
+  const auto frames = street(4);
+  std::vector<std::vector<std::optional<std::uint32_t>>> expected;
+  for (const char* volume : {"aabb", "sphere-exact"}) {
+    PipelineConfig config;
+    config.volumes = {volume};
+    config.track.enabled = true;
+    FramePipeline pipeline(config);
+    FrameResult result;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      pipeline.process(frame_of(frames[f], f), result);
+      if (expected.size() <= f) expected.push_back(result.tracks);
+      EXPECT_EQ(result.tracks, expected[f]);
+    }
+  }
+}
+
 TEST(Pipeline, TakesPclCloudsAsTheyAre) {
   const auto frames = street(1);
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZI>>();

@@ -223,6 +223,69 @@ TEST(StreamRunner, AFrameThatItsSourceCouldNotReadIsCountedAndNamed) {
   expect_balance(runner.stats().frames);
 }
 
+TEST(StreamRunner, UnreadableFramesComeInTheirOrder) {
+  Gate gate;
+  Recorder out;
+  std::vector<std::uint64_t> order;
+  StreamRunner::Callbacks callbacks = recording(out, &gate);
+  callbacks.on_result = [&](const FrameResult& result) { order.push_back(result.header.seq); };
+  callbacks.on_error = [&](const FrameHeader& header, const std::string&) { order.push_back(header.seq); };
+  StreamRunner runner(callbacks, with(5, QueuePolicy::drop_oldest));
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    if (i % 2 == 0) {
+      runner.push(frame(i));
+    } else {
+      FrameHeader header;
+      header.seq = i;
+      runner.report_unreadable(header, "bad");
+    }
+  }
+  gate.open();
+  runner.stop(End::drain);
+  EXPECT_EQ(order, (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 5}));
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, ACallbackThatPushesIntoAFullQueueDoesNotWaitForItself) {
+  Gate gate;
+  Recorder out;
+  StreamRunner* self = nullptr;
+  std::atomic<bool> accepted{true};
+  StreamRunner::Callbacks callbacks = recording(out, &gate);
+  callbacks.on_result = [&](const FrameResult& result) {
+    if (result.header.seq == 0) accepted = self->push(frame(9));
+  };
+  StreamRunner runner(callbacks, with(1, QueuePolicy::block));
+  self = &runner;
+  runner.push(frame(0));
+  gate.await_arrivals(1);
+  runner.push(frame(1));
+  gate.open();
+  runner.stop(End::drain);
+  EXPECT_FALSE(accepted);
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, TheTimeThatASenderIsBlockedIsNotTheFramesAge) {
+  Gate gate;
+  Recorder out;
+  RunnerConfig config = with(1, QueuePolicy::block);
+  config.max_age_ms = 40;
+  StreamRunner runner(recording(out, &gate), config);
+  runner.push(frame(0));
+  gate.await_arrivals(1);
+  std::thread sender([&] {
+    runner.push(frame(1));  // waits in the queue, too long
+    runner.push(frame(2));  // waits for room
+  });
+  std::this_thread::sleep_for(milliseconds(80));
+  gate.open();
+  sender.join();
+  runner.stop(End::drain);
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 2}));
+  EXPECT_EQ(runner.stats().frames.dropped_age, 1U);
+}
+
 TEST(StreamRunner, DiscardDropsWhatWaitsAndFinishesWhatIsInWork) {
   Gate gate;
   Recorder out;

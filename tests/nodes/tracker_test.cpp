@@ -72,6 +72,36 @@ TEST(Tracker, AnObjectBeyondTheGateIsAnother) {
   EXPECT_TRUE(update(tracker, 4, {box(2.5, 0)})[0].fresh);
 }
 
+TEST(Tracker, AWallIsNoPedestrian) {
+  Tracker tracker;
+  for (int i = 0; i < 4; ++i)
+    update(tracker, i, {box(0, 0, 0.5)});
+  EXPECT_TRUE(update(tracker, 4, {Aabb({20, -1, -1}, {60, 1, 1})})[0].fresh);
+}
+
+TEST(Tracker, AGapBeforeTheSecondSightingDoesNotDoubleTheVelocity) {
+  TrackConfig config;
+  config.gate = 3;
+  Tracker tracker;
+  update(tracker, 0, {box(0, 0)}, config);
+  update(tracker, 1, {}, config);
+  update(tracker, 2, {box(2, 0)}, config);  // 10 m/s, not 20
+  config.gate = 0.5;
+  EXPECT_EQ(update(tracker, 3, {box(3, 0)}, config)[0].id, 0U);
+}
+
+TEST(Tracker, ManyObjectsCostNoSquare) {
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 20'000; ++i)
+    boxes.push_back(box(5.0 * i, 0));
+  Tracker tracker;
+  for (int i = 0; i < 3; ++i)
+    update(tracker, i, boxes);
+  const auto found = update(tracker, 3, boxes);
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    ASSERT_EQ(found[i].id, i);
+}
+
 TEST(Tracker, ASplitObjectKeepsItsIdOnTheGreaterPart) {
   Tracker tracker;
   for (int i = 0; i < 4; ++i)

@@ -3,9 +3,11 @@
 
 // The command bv_stream: objects in a stream of clouds.
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -34,6 +36,14 @@ void catch_signals() {
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), seen where it happens
 }
 
+// Files must not get the numbers of standard streams that somebody has closed.
+void keep_standard_streams() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+    if (fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
+    if (open("/dev/null", O_RDWR) != descriptor) _exit(1);
+  }
+}
+
 int fail(int status, const char* problem) {
   std::fprintf(stderr, "bv_stream: %s\n", problem);
   return status;
@@ -42,6 +52,7 @@ int fail(int status, const char* problem) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_streams();
   try {
     const auto asked = parse_stream_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&asked)) {

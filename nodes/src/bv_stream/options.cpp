@@ -9,9 +9,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <charconv>
-#include <cmath>
-#include <limits>
+#include <set>
 
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/kernels/isa.h"
 
 namespace pcl_bv {
@@ -60,7 +62,7 @@ void declare(CLI::App& app, Texts& t) {
   option("--queue", t.queue, "N", "Frames that may wait (1)");
   option("--policy", t.policy, "NAME",
          "When they do: drop_oldest, drop_newest or block (block with --rate max)");
-  option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (1)");
+  option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (0)");
   option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   app.add_option("--sink", t.sinks,
                  "jsonl:FILE, csv:FILE or vtp:FOLDER; several times (jsonl on standard output)")
@@ -96,11 +98,18 @@ auto parsed(const char* option, const std::string& text, Parse parse) {
   }
 }
 
+// Names of methods; `all` stands for all but the hull and `best`, as in pcd_bv.
 std::vector<std::string> split(const std::string& list) {
   std::vector<std::string> parts;
+  const auto add = [&](const std::string& name) {
+    if (name != "all") return parts.push_back(name);
+    for (const Method& method : methods()) {
+      if (method.shape != "hull" && method.name != "best") parts.emplace_back(method.name);
+    }
+  };
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t comma = std::min(list.find(',', begin), list.size());
-    parts.push_back(list.substr(begin, comma - begin));
+    add(list.substr(begin, comma - begin));
     begin = comma + 1;
   }
   return parts;
@@ -115,9 +124,10 @@ void override_range(const std::string& text, FilterConfig& filter) {
 
 StreamConfig read_config(const CLI::App& app, const Texts& t) {
   StreamConfig config;
+  config.pipeline.threads = 0;
+  if (t.rate == "max") config.runner.policy = QueuePolicy::block;
   const auto given = [&](const char* option) { return app.count(option) > 0; };
-  if (given("--config")) config = read_stream_config(t.config);
-  if (!given("--config") && t.rate == "max") config.runner.policy = QueuePolicy::block;
+  if (given("--config")) config = read_stream_config(t.config, config);
   PipelineConfig& pipeline = config.pipeline;
   if (given("--volume")) pipeline.volumes = split(t.volume);
   if (given("--range")) override_range(t.range, pipeline.filter);
@@ -138,6 +148,35 @@ StreamConfig read_config(const CLI::App& app, const Texts& t) {
   return config;
 }
 
+// What files are, whatever their names.
+std::filesystem::path identity(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, unknown);
+  return unknown ? std::filesystem::absolute(path).lexically_normal() : canonical;
+}
+
+// Refuses to write over what is read, and two outputs into one file.
+void claim_outputs(const StreamOptions& options, const std::string& config) {
+  std::set<std::filesystem::path> inputs{identity(options.source)}, taken;
+  if (!config.empty()) inputs.insert(identity(config));
+  std::error_code unknown;
+  if (std::filesystem::is_directory(options.source, unknown)) {
+    for (const std::filesystem::path& cloud : list_clouds(options.source))
+      inputs.insert(identity(cloud));
+  }
+  const auto claim = [&](const std::filesystem::path& output) {
+    const std::filesystem::path file = output == "-" ? output : identity(output);
+    if (inputs.count(file) > 0) throw UsageError(output.string() + ": is an input and would be overwritten");
+    const bool ordinary =
+        !std::filesystem::exists(file, unknown) || std::filesystem::is_regular_file(file, unknown);
+    if (ordinary && !taken.insert(file).second)
+      throw UsageError(output.string() + ": more than one result would be written to this file");
+  };
+  for (const SinkDescription& sink : options.sinks)
+    claim(sink.kind == SinkKind::vtp ? sink.place / "frames.pvd" : sink.place);
+  if (options.stats) claim(*options.stats);
+}
+
 StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig config) {
   StreamOptions options;
   options.config = std::move(config);
@@ -147,15 +186,20 @@ StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig confi
   options.paced = t.rate != "max";
   if (given("--rate") && options.paced)
     options.stamps.rate_hz = number<double>("--rate", t.rate, "a rate or max");
-  if (!(options.stamps.rate_hz > 0) || !std::isfinite(options.stamps.rate_hz))
-    throw UsageError("--rate: '" + t.rate + "' is not a finite rate above 0, or max");
+  if (!(options.stamps.rate_hz >= kLeastRate && options.stamps.rate_hz <= kGreatestRate))
+    throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, or max");
   if (given("--loop")) options.loops = whole("--loop", t.loop);
   if (options.loops == 0) throw UsageError("--loop: 0 is not at least 1");
   if (given("--stamps") && t.stamps != "rate" && t.stamps != "name")
     throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
   options.stamps.from_name = t.stamps == "name";
-  if (given("--sink")) options.sinks = t.sinks;
+  if (options.stamps.from_name && t.source.rfind("synth:", 0) == 0)
+    throw UsageError("--stamps name: synth: has no names");
+  if (given("--sink")) options.sinks.clear();
+  for (const std::string& sink : t.sinks)
+    options.sinks.push_back(parsed("--sink", sink, parse_sink));
   if (given("--stats")) options.stats = t.stats;
+  claim_outputs(options, t.config);
   return options;
 }
 

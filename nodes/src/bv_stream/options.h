@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "pcl_bv/nodes/frame_sink.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/nodes/stream_config.h"
 
@@ -23,7 +24,7 @@ struct StreamOptions {
   StampRule stamps;
   bool paced = true;  ///< Wait for each frame's time; otherwise as fast as possible.
   std::size_t loops = 1;
-  std::vector<std::string> sinks{"jsonl:-"};
+  std::vector<SinkDescription> sinks{{SinkKind::jsonl, "-"}};
   std::optional<std::filesystem::path> stats;
 };
 

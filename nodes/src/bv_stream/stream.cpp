@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <mutex>
+#include <string>
 #include <thread>
 
 #include "pcl_bv/io/atomic_file.h"
@@ -24,37 +24,53 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// All sinks; a sink that fails is given up, and the rest goes on.
+// All sinks; one that cannot be written to any more is given up, and the rest goes on.
 class Sinks {
  public:
-  explicit Sinks(const std::vector<std::string>& descriptions) {
-    for (const std::string& description : descriptions)
+  explicit Sinks(const std::vector<SinkDescription>& descriptions) {
+    for (const SinkDescription& description : descriptions)
       sinks_.push_back(make_sink(description));
   }
 
   template <typename Do>
   void each(Do&& what) {
-    const std::lock_guard lock(mutex_);  // unreadable frames come from the reading thread
     for (std::unique_ptr<FrameSink>& sink : sinks_) {
-      if (sink == nullptr) continue;
-      try {
-        what(*sink);
-      } catch (const ClosedPipe&) {
+      if (sink != nullptr && !attempt([&] { what(*sink); })) {
+        attempt([&] { sink->close(); });  // what is written so far is made whole
         sink = nullptr;
-      } catch (const std::exception& error) {
-        sink = nullptr;
-        if (!failed_.exchange(true)) std::fprintf(stderr, "bv_stream: %s\n", error.what());
       }
     }
     alive_ = std::any_of(sinks_.begin(), sinks_.end(), [](const auto& sink) { return sink != nullptr; });
+  }
+
+  // False if nothing more can be written. A reader who goes away is no failure, and needs no word.
+  template <typename Do>
+  bool attempt(Do&& what) {
+    try {
+      what();
+    } catch (const ClosedPipe&) {
+      return false;
+    } catch (const IoError& error) {
+      complain(error.what());
+      return false;
+    } catch (const std::exception& error) {
+      complain(error.what());  // this frame cannot be written: others may be
+    }
+    return true;
   }
 
   bool failed() const { return failed_; }
   bool alive() const { return alive_; }
 
  private:
-  std::mutex mutex_;
+  void complain(const char* problem) {
+    if (problem != last_problem_) std::fprintf(stderr, "bv_stream: %s\n", problem);
+    last_problem_ = problem;
+    failed_ = true;
+  }
+
   std::vector<std::unique_ptr<FrameSink>> sinks_;
+  std::string last_problem_;  // said once: closing fails as writing did
   std::atomic<bool> failed_{false}, alive_{true};
 };
 
@@ -80,6 +96,12 @@ void wait_until(Clock::time_point time, const std::atomic<bool>& interrupted) {
     std::this_thread::sleep_until(std::min(time, Clock::now() + std::chrono::milliseconds(50)));
 }
 
+// As long as a clock can count, at most.
+Clock::duration due_after(std::uint64_t frames, double rate_hz) {
+  const double seconds = std::min(static_cast<double>(frames) / rate_hz, 1e9);
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 void read_frames(const StreamOptions& options, FrameSource& source, StreamRunner& runner, const Sinks& sinks,
                  const std::atomic<bool>& interrupted) {
   const auto begin = Clock::now();
@@ -93,18 +115,16 @@ void read_frames(const StreamOptions& options, FrameSource& source, StreamRunner
       continue;
     }
     if (!more) break;
-    const std::chrono::duration<double> due(static_cast<double>(n) / options.stamps.rate_hz);
-    if (options.paced) wait_until(begin + std::chrono::duration_cast<Clock::duration>(due), interrupted);
+    if (options.paced) wait_until(begin + due_after(n, options.stamps.rate_hz), interrupted);
     if (!interrupted) runner.push(std::move(frame));
   }
 }
 
-void write_stats(const StreamOptions& options, const RunnerStats& stats, Sinks& sinks) {
-  if (!options.stats) return;
+void write_stats(const std::filesystem::path& file, const RunnerStats& stats) {
   try {
-    write_file_atomically(*options.stats, stats_json(stats) + '\n');
+    write_file_atomically(file, stats_json(stats) + '\n');
   } catch (const IoError& error) {
-    sinks.each([&](FrameSink&) { throw IoError(options.stats->string() + ": " + error.what()); });
+    throw IoError(file.string() + ": " + error.what());
   }
 }
 
@@ -135,7 +155,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   progress.finish();
   sinks.each([](FrameSink& sink) { sink.close(); });
   const RunnerStats stats = runner.stats();
-  write_stats(options, stats, sinks);
+  if (options.stats) sinks.attempt([&] { write_stats(*options.stats, stats); });
   const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
   return sinks.failed() || nothing_read ? 1 : 0;
 }

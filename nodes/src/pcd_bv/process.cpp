@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "info.h"
+#include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/meshes.h"
@@ -34,20 +35,22 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Fits all methods around all entries.
+/// Fits all methods around all entries, several entries at a time.
 void fit(const Segmentation& segmentation, const Options& options, Report& report) {
-  for (const PointView& points : segmentation.entries) {
-    ClusterEntry& cluster = report.clusters.emplace_back();
-    cluster.id = report.clusters.size() - 1;
+  report.clusters.resize(segmentation.entries.size());
+  for_each_view(segmentation.entries, options.execution, [&](std::size_t id, const Execution& execution) {
+    ClusterEntry& cluster = report.clusters[id];
+    cluster.id = id;
     for (const Method* method : options.methods) {
       VolumeEntry& entry = cluster.volumes.emplace_back();
       entry.method = method->name;
       const EstimationResult result =
-          method->fit(points, entry.volume, options.execution, options.method_options);
+          method->fit(segmentation.entries[id], entry.volume, execution, options.method_options);
       cluster.points = result.used;
+      // Then there is one entry: the cloud.
       if (!looks_at_points(options)) report.counts.nonfinite = result.dropped;
     }
-  }
+  });
 }
 
 /// Verifies all volumes of all entries; outside if a point is.

@@ -35,6 +35,7 @@ class Watch {
 struct Prepared {
   PipelineConfig config;
   std::vector<const Method*> methods;
+  MethodOptions options;
   Execution execution;
 };
 
@@ -46,10 +47,21 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   auto prepared = std::make_shared<Prepared>();
   for (const std::string& name : config.volumes)
     prepared->methods.push_back(find_method(name));
+  prepared->options.up = up_direction(config.ground.up);
   prepared->execution.isa = resolve_isa(parse_isa(config.isa));
   if (config.threads != 1) prepared->execution.parallel = OpenMP{static_cast<unsigned>(config.threads)};
   prepared->config = std::move(config);
   return prepared;
+}
+
+template <typename Settings>
+Settings settings_of(const GroundConfig& config) {
+  Settings settings;
+  settings.up = config.up;
+  settings.sensor_height = config.sensor_height;
+  settings.distance = config.distance.value_or(settings.distance);
+  settings.max_slope_degrees = config.max_slope_degrees.value_or(settings.max_slope_degrees);
+  return settings;
 }
 
 PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
@@ -92,19 +104,9 @@ PointView FramePipeline::State::remove_ground(const GroundConfig& config, const 
   split.rest.clear();
   if (config.method == GroundMethod::none) return points;
   if (config.method == GroundMethod::plane) {
-    GroundPlaneSettings settings;
-    settings.up = config.up;
-    settings.distance = config.distance;
-    settings.max_slope_degrees = config.max_slope_degrees;
-    settings.sensor_height = config.sensor_height;
-    split_ground(points, settings, split);
+    split_ground(points, settings_of<GroundPlaneSettings>(config), split);
   } else {
-    GroundZonesSettings settings;
-    settings.up = config.up;
-    settings.distance = config.distance;
-    settings.max_slope_degrees = config.max_slope_degrees;
-    settings.sensor_height = config.sensor_height;
-    zones.split(points, settings, split);
+    zones.split(points, settings_of<GroundZonesSettings>(config), split);
   }
   result.counts.ground = split.ground.size();
   return subset(points, split.rest);
@@ -135,7 +137,7 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   result.volumes.resize(views.size() * methods);
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
     for (std::size_t m = 0; m < methods; ++m)
-      now.methods[m]->fit(views[cluster], result.volumes[cluster * methods + m], execution);
+      now.methods[m]->fit(views[cluster], result.volumes[cluster * methods + m], execution, now.options);
   };
   for_each_view(views, now.execution, std::cref(fit_cluster));
 }
@@ -176,7 +178,11 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   state_->fit(*now, frame.points, result);
   result.ms.fit = watch.lap();
   result.tracks.clear();
-  if (now->config.track.enabled) state_->tracks.update(now->config.track, result);
+  if (now->config.track.enabled) {
+    state_->tracks.update(now->config.track, state_->views, result);
+  } else {
+    state_->tracks.reset();
+  }
   result.ms.track = watch.lap();
   result.ms.total = whole.lap();
 }

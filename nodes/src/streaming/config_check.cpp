@@ -53,7 +53,9 @@ class Checker {
     for (auto name = names.begin(); name != names.end(); ++name) {
       if (find_method(*name) == nullptr)
         add(key, "'" + *name + "' is no method; known are " + known_methods());
-      if (std::find(names.begin(), name, *name) != name) add(key, "'" + *name + "' is named twice");
+      const auto same = [&](const std::string& other) { return find_method(other) == find_method(*name); };
+      if (find_method(*name) != nullptr && std::any_of(names.begin(), name, same))
+        add(key, "'" + *name + "' is named twice");
     }
   }
   void instruction_set(const char* key, const std::string& name) {
@@ -88,6 +90,9 @@ void check_together(const PipelineConfig& c, Checker& check) {
               "comes without the other corner: both or none");
   } else if (filter.own_box_min && !(filter.own_box_min->array() <= filter.own_box_max->array()).all()) {
     check.add("filter.own_box_max", "is below filter.own_box_min");
+  }
+  if (c.cluster.tolerance > 0 && static_cast<float>(c.cluster.tolerance) == 0) {
+    check.add("cluster.tolerance", digits_of(c.cluster.tolerance) + " is 0 as a float, which points are");
   }
   if (c.cluster.min_size > c.cluster.max_size) {
     check.add("cluster.max_size", std::to_string(c.cluster.max_size) + " is below cluster.min_size, " +

@@ -30,14 +30,16 @@ void visit_pipeline(Pipeline& c, Visitor&& visit) {
   visit.choice("ground.method", c.ground.method, "none, plane, zones");
   visit.choice("ground.up", c.ground.up, "x, y, z, -x, -y, -z");
   visit.optional_number("ground.sensor_height", c.ground.sensor_height, NumberRange{}, "m");
-  visit.number("ground.distance", c.ground.distance, NumberRange{0, false}, "m");
-  visit.number("ground.max_slope_degrees", c.ground.max_slope_degrees, NumberRange{0, true, 89}, "degrees");
+  visit.optional_number("ground.distance", c.ground.distance, NumberRange{0, false},
+                        "m; null: 0.2 of a plane, 0.15 of zones");
+  visit.optional_number("ground.max_slope_degrees", c.ground.max_slope_degrees, NumberRange{0, true, 89},
+                        "degrees; null: 15 of a plane, 20 of zones");
   visit.number("cluster.tolerance", c.cluster.tolerance, NumberRange{0, true, 1e6}, "m; 0: one cluster");
   visit.whole("cluster.min_size", c.cluster.min_size, 0, kUnlimited, "points");
   visit.whole("cluster.max_size", c.cluster.max_size, 1, kUnlimited, "points");
   visit.methods("volumes", c.volumes);
   visit.flag("track.enabled", c.track.enabled);
-  visit.number("track.gate", c.track.gate, NumberRange{0, false, 1e6}, "m");
+  visit.number("track.gate", c.track.gate, NumberRange{0, false, 100}, "m");
   visit.whole("track.birth", c.track.birth, 1, 1000, "frames");
   visit.whole("track.death", c.track.death, 1, 1000, "frames");
   visit.whole("threads", c.threads, 0, 1024, "0: all processors");

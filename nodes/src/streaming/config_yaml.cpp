@@ -72,6 +72,10 @@ class Reader {
 
   // After all fields: what is left is unknown.
   void finish() const {
+    for (const auto& [key, line_number] : maps_) {
+      if (sections_.count(key) == 0)
+        fail(name_, line_number, "unknown key '" + key + "', or one that holds no others");
+    }
     for (const auto& [key, node] : nodes_) {
       if (node.IsNull() && sections_.count(key) > 0) continue;  // a stage of which nothing is said
       if (lines_.count(key) == 0) fail(name_, line(node), "unknown key '" + key + "'");
@@ -92,9 +96,12 @@ class Reader {
     if (node.IsNull()) return;
     if (!node.IsMap()) fail(name_, line(node), "'" + prefix + "' holds no keys");
     for (const auto& item : node) {
-      const std::string key = (prefix.empty() ? "" : prefix + ".") + item.first.as<std::string>();
-      const bool section = key.find('.') == std::string::npos && item.second.IsMap();
-      if (section) {
+      const std::string name = item.first.as<std::string>();
+      const std::string key = (prefix.empty() ? "" : prefix + ".") + name;
+      if (name.find('.') != std::string::npos) fail(name_, line(item.first), "unknown key '" + key + "'");
+      if (prefix.empty() && item.second.IsMap()) {
+        if (!maps_.emplace(key, line(item.first)).second)
+          fail(name_, line(item.first), key + ": is there twice");
         collect(item.second, key);
       } else if (!nodes_.emplace(key, item.second).second) {
         fail(name_, line(item.first), key + ": is there twice");
@@ -147,6 +154,7 @@ class Reader {
   std::map<std::string, YAML::Node> nodes_;
   Lines lines_;
   std::set<std::string> sections_;
+  Lines maps_;
 };
 
 class Writer {
@@ -193,10 +201,13 @@ class Writer {
 
 }  // namespace
 
-StreamConfig parse_stream_config(const std::string& text, const std::string& name) {
-  StreamConfig config;
+StreamConfig parse_stream_config(const std::string& text, const std::string& name,
+                                 const StreamConfig& defaults) {
+  StreamConfig config = defaults;
   try {
-    Reader reader(YAML::Load(text), name);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) fail(name, documents[1].Mark().line + 1, "a second document");
+    Reader reader(documents.empty() ? YAML::Node() : documents.front(), name);
     visit_stream(config, reader);
     reader.finish();
     reader.refuse(problems_of(config));
@@ -206,12 +217,12 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
   return config;
 }
 
-StreamConfig read_stream_config(const std::filesystem::path& file) {
+StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file)) fail(file.string(), 0, "cannot be read");
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (stream.bad()) fail(file.string(), 0, "cannot be read");
-  return parse_stream_config(text, file.string());
+  return parse_stream_config(text, file.string(), defaults);
 }
 
 std::string to_yaml(const StreamConfig& config) {

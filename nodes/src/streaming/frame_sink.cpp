@@ -34,12 +34,11 @@ class JsonlSink : public FrameSink {
 
 class CsvSink : public FrameSink {
  public:
-  explicit CsvSink(const std::filesystem::path& file) : file_(file) {
-    file_.write("seq,stamp_ns,track," + std::string(csv_columns));
-  }
+  explicit CsvSink(const std::filesystem::path& file) : file_(file) {}
   void write(const FrameResult& result) override {
     const FrameReport report = to_report(result);
     const std::string frame = std::to_string(report.seq) + ',' + std::to_string(report.stamp_ns) + ',';
+    write_heading();
     std::string lines;
     for (const auto& [cluster, track] : report.clusters)
       append_csv(frame + (track ? std::to_string(*track) : ""), cluster, lines);
@@ -48,10 +47,19 @@ class CsvSink : public FrameSink {
     file_.write(std::move(lines));
   }
   void write_error(const FrameHeader&, const std::string&) override {}
-  void close() override { file_.close(); }
+  void close() override {
+    write_heading();
+    file_.close();
+  }
 
  private:
+  void write_heading() {
+    if (!headed_) file_.write("seq,stamp_ns,track," + std::string(csv_columns));
+    headed_ = true;
+  }
+
   LineFile file_;
+  bool headed_ = false;
 };
 
 class VtpSink : public FrameSink {
@@ -64,10 +72,8 @@ class VtpSink : public FrameSink {
   }
   void write(const FrameResult& result) override {
     std::vector<ClusterEntry> clusters;
-    for (TrackedEntry& entry : to_report(result).clusters) {
-      if (entry.track) entry.cluster.id = *entry.track;  // colours that last
+    for (TrackedEntry& entry : to_report(result).clusters)
       clusters.push_back(std::move(entry.cluster));
-    }
     std::string number = std::to_string(result.header.seq);
     number.insert(0, 6 - std::min<std::size_t>(number.size(), 6), '0');
     const std::string name = "frame" + number + ".vtp";
@@ -113,14 +119,26 @@ std::unique_ptr<FrameSink> make_sink(std::function<void(const FrameResult&)> on_
   return std::make_unique<FunctionSink>(std::move(on_result));
 }
 
-std::unique_ptr<FrameSink> make_sink(const std::string& description) {
+SinkDescription parse_sink(const std::string& description) {
   const std::size_t colon = description.find(':');
   const std::string kind = description.substr(0, colon);
   const std::string place = colon == std::string::npos ? "" : description.substr(colon + 1);
-  if (!place.empty() && kind == "jsonl") return make_jsonl_sink(place);
-  if (!place.empty() && kind == "csv") return make_csv_sink(place);
-  if (!place.empty() && kind == "vtp") return make_vtp_sink(place);
+  if (!place.empty() && kind == "jsonl") return {SinkKind::jsonl, place};
+  if (!place.empty() && kind == "csv") return {SinkKind::csv, place};
+  if (!place.empty() && kind == "vtp") return {SinkKind::vtp, place};
   throw std::invalid_argument("'" + description + "' is not jsonl:FILE, csv:FILE or vtp:FOLDER");
+}
+
+std::unique_ptr<FrameSink> make_sink(const SinkDescription& description) {
+  switch (description.kind) {
+    case SinkKind::jsonl:
+      return make_jsonl_sink(description.place);
+    case SinkKind::csv:
+      return make_csv_sink(description.place);
+    case SinkKind::vtp:
+      break;
+  }
+  return make_vtp_sink(description.place);
 }
 
 }  // namespace pcl_bv

@@ -21,8 +21,8 @@ namespace pcl_bv {
 namespace {
 
 void require_rate(const StampRule& stamps) {
-  if (!(stamps.rate_hz > 0) || !std::isfinite(stamps.rate_hz))
-    throw std::invalid_argument("rate: is not a finite number above 0");
+  if (!(stamps.rate_hz >= kLeastRate && stamps.rate_hz <= kGreatestRate))
+    throw std::invalid_argument("rate: is not a number from 0.001 to 1000000");
 }
 
 std::int64_t stamp_at(std::uint64_t seq, const StampRule& stamps) {
@@ -33,7 +33,8 @@ std::int64_t stamp_at(std::uint64_t seq, const StampRule& stamps) {
 class Loop {
  public:
   Loop(std::size_t length, std::size_t loops)
-      : length_(length), end_(length * std::max<std::size_t>(loops, 1)) {}
+      : length_(length),
+        end_(loops < SIZE_MAX / length ? length * std::max<std::size_t>(loops, 1) : SIZE_MAX) {}
   bool ended() const { return seq_ == end_; }
   std::uint64_t seq() const { return seq_; }
   std::size_t place() const { return seq_ % length_; }
@@ -59,7 +60,8 @@ class FolderSource : public FrameSource {
     FrameHeader header{loop_.seq(), stamp_at(loop_.seq(), stamps_), ""};
     loop_.advance();
     if (stamps_.from_name) header.stamp_ns = stamp_in_name(file.stem().string());
-    if (header.stamp_ns < 0) throw FrameError(header, file.string() + ": no time stamp in its name");
+    if (stamps_.from_name && header.stamp_ns < 0)
+      throw FrameError(header, file.string() + ": no time stamp in its name");
     const auto begin = std::chrono::steady_clock::now();
     try {
       const auto cloud = std::make_shared<RawCloud>(read_cloud(file));

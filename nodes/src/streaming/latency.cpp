@@ -17,6 +17,8 @@ constexpr double kGrowth = 1.01;
 }  // namespace
 
 void LatencyHistogram::add(double milliseconds) {
+  if (!(milliseconds >= 0)) milliseconds = 0;  // NaN, too
+  milliseconds = std::min(milliseconds, 1e15);
   const double steps = std::log(std::max(milliseconds, kLeast) / kLeast) / std::log(kGrowth);
   ++classes_[std::min(static_cast<std::size_t>(std::ceil(steps)), kClasses - 1)];
   ++count_;

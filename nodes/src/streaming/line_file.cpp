@@ -6,6 +6,7 @@
 #include "line_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -30,6 +31,11 @@ void LineFile::write(std::string line) {
   for (std::string_view rest = line; !rest.empty();) {
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+      pollfd writable{descriptor_, POLLOUT, 0};
+      ::poll(&writable, 1, -1);
+      continue;
+    }
     if (written < 0 && errno == EPIPE) throw ClosedPipe(name_ + ": " + std::strerror(errno));
     if (written < 0) throw IoError(name_ + ": " + std::strerror(errno));
     rest.remove_prefix(static_cast<std::size_t>(written));

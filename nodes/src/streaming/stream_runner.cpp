@@ -5,11 +5,13 @@
 
 #include "pcl_bv/nodes/stream_runner.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -33,7 +35,11 @@ struct StreamRunner::State {
   struct Waiting {
     Frame frame;
     Clock::time_point since;
+    std::optional<std::string> unreadable;  // then there is no frame but its header
   };
+
+  bool full() const { return frames_waiting >= config.queue; }
+  bool in_worker() const { return std::this_thread::get_id() == worker_id; }
 
   State(Callbacks c, const RunnerConfig& r) : callbacks(std::move(c)), config(r) {}
 
@@ -41,6 +47,7 @@ struct StreamRunner::State {
   bool take(Waiting& taken);
   void work_on(const Waiting& waiting);
   void lost(const FrameHeader& header, const std::string& reason);
+  void came();
   void watch(std::unique_lock<std::mutex>& lock);
 
   const Callbacks callbacks;
@@ -49,12 +56,14 @@ struct StreamRunner::State {
   mutable std::mutex mutex;
   std::condition_variable arrived, room;
   std::deque<Waiting> queue;
+  std::size_t frames_waiting = 0;  // of the queue; the others could not be read
   bool ending = false, discarding = false, silence_told = false;
   Clock::time_point last_arrival = Clock::now();
   RunnerStats stats;
 
   FrameResult result;  // of the worker only
   std::thread worker;
+  std::thread::id worker_id;
   std::mutex join_mutex;
 };
 
@@ -85,7 +94,9 @@ bool StreamRunner::State::take(Waiting& taken) {
     if (discarding || queue.empty()) return false;
     taken = std::move(queue.front());
     queue.pop_front();
-    room.notify_one();
+    room.notify_all();
+    if (taken.unreadable) return true;
+    --frames_waiting;
     const double age = milliseconds(Clock::now() - taken.since);
     if (config.max_age_ms > 0 && age > config.max_age_ms) {
       ++stats.frames.dropped_age;
@@ -126,11 +137,25 @@ void StreamRunner::State::work_on(const Waiting& waiting) {
 }
 
 void StreamRunner::State::run() {
+  {
+    const std::lock_guard lock(mutex);
+    worker_id = std::this_thread::get_id();
+  }
   Waiting waiting;
   while (take(waiting)) {
-    work_on(waiting);
-    waiting.frame = Frame();  // its cloud is not kept until the next one comes
+    if (waiting.unreadable) {
+      lost(waiting.frame.header, *waiting.unreadable);
+    } else {
+      work_on(waiting);
+    }
+    waiting = Waiting();  // its cloud is not kept until the next one comes
   }
+}
+
+void StreamRunner::State::came() {
+  ++stats.frames.in;
+  last_arrival = Clock::now();
+  silence_told = false;
 }
 
 StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config) {
@@ -149,49 +174,65 @@ StreamRunner::~StreamRunner() {
 bool StreamRunner::push(Frame frame) {
   State& s = *state_;
   std::unique_lock lock(s.mutex);
-  ++s.stats.frames.in;
-  s.last_arrival = Clock::now();
-  s.silence_told = false;
-  const auto full = [&s] { return s.queue.size() >= s.config.queue; };
-  if (s.config.policy == QueuePolicy::block) s.room.wait(lock, [&] { return s.ending || !full(); });
-  if (s.ending || (full() && s.config.policy == QueuePolicy::drop_newest)) {
+  s.came();
+  const bool block = s.config.policy == QueuePolicy::block;
+  if (block && !s.in_worker()) s.room.wait(lock, [&s] { return s.ending || !s.full(); });
+  if (s.ending || (s.full() && s.config.policy != QueuePolicy::drop_oldest)) {
     ++s.stats.frames.dropped_queue;
     return false;
   }
   Frame dropped;  // freed without the lock
-  if (full()) {
-    dropped = std::move(s.queue.front().frame);
-    s.queue.pop_front();
+  if (s.full()) {
+    const auto oldest =
+        std::find_if(s.queue.begin(), s.queue.end(), [](const auto& waiting) { return !waiting.unreadable; });
+    dropped = std::move(oldest->frame);
+    s.queue.erase(oldest);
+    --s.frames_waiting;
     ++s.stats.frames.dropped_queue;
   }
-  s.queue.push_back({std::move(frame), s.last_arrival});
+  s.queue.push_back({std::move(frame), Clock::now(), std::nullopt});
+  ++s.frames_waiting;
   s.arrived.notify_one();
   lock.unlock();
   return true;
 }
 
 void StreamRunner::report_unreadable(const FrameHeader& header, const std::string& reason) {
-  {
-    const std::lock_guard lock(state_->mutex);
-    ++state_->stats.frames.in;
+  constexpr std::size_t many = 1000;
+  State& s = *state_;
+  std::unique_lock lock(s.mutex);
+  s.came();
+  if (!s.in_worker()) {
+    s.room.wait(lock, [&s] { return s.ending || s.queue.size() < s.config.queue + many; });
   }
-  state_->lost(header, reason);
+  if (s.ending) {
+    lock.unlock();
+    return s.lost(header, reason);
+  }
+  Frame frame;
+  frame.header = header;
+  s.queue.push_back({std::move(frame), Clock::now(), reason});
+  s.arrived.notify_one();
 }
 
 void StreamRunner::stop(End end) {
   State& s = *state_;
+  bool from_callback = false;
   {
     const std::lock_guard lock(s.mutex);
+    from_callback = s.in_worker();
     s.ending = true;
     if (end == End::discard) {
       s.discarding = true;
-      s.stats.frames.dropped_queue += s.queue.size();
+      s.stats.frames.dropped_queue += s.frames_waiting;
+      s.stats.frames.dropped_error += s.queue.size() - s.frames_waiting;
+      s.frames_waiting = 0;
       s.queue.clear();
     }
   }
   s.arrived.notify_all();
   s.room.notify_all();
-  if (std::this_thread::get_id() == s.worker.get_id()) return;  // it ends after the callback
+  if (from_callback) return;  // it ends after the callback
   const std::lock_guard joining(s.join_mutex);
   if (s.worker.joinable()) s.worker.join();
 }

@@ -5,15 +5,19 @@
 
 #include "tracked_volumes.h"
 
+#include "pcl_bv/fitting/fit.h"
+
 namespace pcl_bv {
 namespace {
 
-// Where an object is: all its volumes hold the same points.
-Aabb box_of(const FrameResult& result, std::size_t cluster) {
+// Tracks do not depend on what volumes are asked for.
+Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     if (const Aabb* box = std::get_if<Aabb>(&result.volume(cluster, m))) return *box;
   }
-  return aabb(result.volume(cluster, 0));
+  Aabb box;
+  fit_aabb(points, box);
+  return box;
 }
 
 }  // namespace
@@ -30,14 +34,15 @@ void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, std::size_
   }
 }
 
-void TrackedVolumes::update(const TrackConfig& config, FrameResult& result) {
+void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointView>& clusters,
+                            FrameResult& result) {
   if (methods_ != result.methods) {
     methods_ = result.methods;
     last_.clear();
   }
   boxes_.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
-    boxes_.push_back(box_of(result, i));
+    boxes_.push_back(box_of(result, i, clusters[i]));
   tracker_.update(result.header.stamp_ns, boxes_, config, assignments_);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     result.tracks.push_back(assignments_[i].id);

@@ -14,7 +14,11 @@ namespace pcl_bv {
 class TrackedVolumes {
  public:
   /// Fills result.tracks, and names the axes of each oriented box as those of the same object's last one.
-  void update(const TrackConfig& config, FrameResult& result);
+  /// `clusters`: the points of each.
+  void update(const TrackConfig& config, const std::vector<PointView>& clusters, FrameResult& result);
+
+  /// Forgets all tracks, but not which ids were given.
+  void reset() { tracker_.reset(); }
 
  private:
   void keep_axes(const Tracker::Assignment& assignment, std::size_t cluster, FrameResult& result);

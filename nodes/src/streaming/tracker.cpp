@@ -6,7 +6,7 @@
 #include "pcl_bv/nodes/tracker.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 #include <tuple>
 
 namespace pcl_bv {
@@ -20,20 +20,40 @@ constexpr double kVelocityGain = 0.5;
 
 void Tracker::find_pairs(double seconds, const std::vector<Aabb>& boxes, double gate) {
   pairs_.clear();
+  by_x_.resize(boxes.size());
+  std::iota(by_x_.begin(), by_x_.end(), std::size_t{0});
+  const auto x_of = [&](std::size_t b) { return boxes[b].center().x(); };
+  std::sort(by_x_.begin(), by_x_.end(), [&](std::size_t a, std::size_t b) { return x_of(a) < x_of(b); });
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
     if (!track.alive) continue;
     const Eigen::Vector3d expected = track.center + seconds * track.velocity;
-    for (std::size_t b = 0; b < boxes.size(); ++b) {
-      const Eigen::Vector3d size = boxes[b].max() - boxes[b].min();
-      const double distance = (boxes[b].center() - expected).norm();
+    const auto first = std::lower_bound(by_x_.begin(), by_x_.end(), expected.x() - 2 * gate,
+                                        [&](std::size_t b, double x) { return x_of(b) < x; });
+    for (auto b = first; b != by_x_.end() && x_of(*b) <= expected.x() + 2 * gate; ++b) {
+      const Eigen::Vector3d size = boxes[*b].max() - boxes[*b].min();
+      const double distance = (boxes[*b].center() - expected).norm();
       const double difference = (size - track.size).norm() / 2;
-      if (distance <= gate + difference) pairs_.push_back({distance + difference, t, b});
+      if (distance <= gate + std::min(difference, gate)) pairs_.push_back({distance + difference, t, *b});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
     return std::tie(a.cost, a.track, a.box) < std::tie(b.cost, b.track, b.box);
   });
+}
+
+// The second sighting is the first that says anything about the velocity, and is believed.
+void Tracker::correct(Track& track, const Aabb& box, double seconds) const {
+  const bool second = track.seen == 1;
+  const double passed = track.unseen + seconds;
+  const Eigen::Vector3d expected = track.center + seconds * track.velocity;
+  const Eigen::Vector3d surprise = box.center() - expected;
+  if (passed > 0) track.velocity += (second ? 1.0 : kVelocityGain) / passed * surprise;
+  track.center = expected + (second ? 1.0 : kPositionGain) * surprise;
+  track.size = box.max() - box.min();
+  track.unseen = 0;
+  track.missed = 0;
+  ++track.seen;
 }
 
 void Tracker::join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
@@ -42,53 +62,50 @@ void Tracker::join(double seconds, const std::vector<Aabb>& boxes, std::vector<A
   for (const Pair& pair : pairs_) {
     if (track_taken_[pair.track] != 0 || box_taken_[pair.box] != 0) continue;
     track_taken_[pair.track] = box_taken_[pair.box] = 1;
-    Track& track = tracks_[pair.track];
-    const Aabb& box = boxes[pair.box];
-    const Eigen::Vector3d expected = track.center + seconds * track.velocity;
-    const Eigen::Vector3d surprise = box.center() - expected;
-    if (seconds > 0) {
-      // The second sighting is the first that says anything about the velocity.
-      const double gain = track.seen == 1 ? 1.0 : kVelocityGain;
-      track.velocity += gain / seconds * surprise;
-    }
-    track.center = expected + (track.seen == 1 ? 1.0 : kPositionGain) * surprise;
-    track.size = box.max() - box.min();
-    ++track.seen;
-    track.missed = 0;
+    correct(tracks_[pair.track], boxes[pair.box], seconds);
     assignments[pair.box] = {pair.track, false, std::nullopt};
   }
   for (std::size_t t = 0; t < track_taken_.size(); ++t) {
     Track& track = tracks_[t];
     if (!track.alive || track_taken_[t] != 0) continue;
     ++track.missed;
+    track.unseen += seconds;
     track.center += seconds * track.velocity;
   }
 }
 
 std::size_t Tracker::free_slot() {
-  const auto slot = std::find_if(tracks_.begin(), tracks_.end(), [](const Track& t) { return !t.alive; });
-  if (slot != tracks_.end()) return static_cast<std::size_t>(slot - tracks_.begin());
-  tracks_.emplace_back();
-  return tracks_.size() - 1;
+  if (free_.empty()) {
+    tracks_.emplace_back();
+    return tracks_.size() - 1;
+  }
+  const std::size_t slot = free_.back();
+  free_.pop_back();
+  return slot;
 }
 
 void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
                      std::vector<Assignment>& assignments) {
-  const double passed = 1e-9 * static_cast<double>(stamp_ns - last_stamp_ns_);
+  const double passed = 1e-9 * (static_cast<double>(stamp_ns) - static_cast<double>(last_stamp_ns_));
   const double seconds = started_ && passed > 0 && passed <= 1 ? passed : 0;
   started_ = true;
   last_stamp_ns_ = stamp_ns;
   assignments.assign(boxes.size(), Assignment());
   find_pairs(seconds, boxes, config.gate);
   join(seconds, boxes, assignments);
-  for (Track& track : tracks_)
-    track.alive = track.alive && track.missed < config.death;
+  free_.clear();
+  for (std::size_t t = tracks_.size(); t-- > 0;) {
+    tracks_[t].alive = tracks_[t].alive && tracks_[t].missed < config.death;
+    if (!tracks_[t].alive) free_.push_back(t);
+  }
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     if (box_taken_[b] == 0) {
       const std::size_t slot = free_slot();
-      tracks_[slot] = {
-          boxes[b].center(), boxes[b].max() - boxes[b].min(), Eigen::Vector3d::Zero(), 1, 0, true,
-          std::nullopt};
+      Track& fresh = tracks_[slot] = Track();
+      fresh.center = boxes[b].center();
+      fresh.size = boxes[b].max() - boxes[b].min();
+      fresh.seen = 1;
+      fresh.alive = true;
       assignments[b] = {slot, true, std::nullopt};
     }
     Track& track = tracks_[assignments[b].slot];

@@ -16,7 +16,7 @@ namespace pcl_bv {
 ///
 /// All stages work on lists of indices into the frame's cloud. Same configuration and frames, same bits, on
 /// every instruction set and number of threads. Memory is kept: a second pass over the same sequence
-/// allocates nothing (for volumes without a mesh).
+/// allocates nothing (for aabb, dop*, sphere-*, obb-pca, obb-dito14 and obb-yaw).
 class FramePipeline {
  public:
   /// Throws std::invalid_argument with the lines of PipelineConfig::validate(), if there are any.

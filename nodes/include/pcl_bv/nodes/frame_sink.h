@@ -4,6 +4,7 @@
 // Where results go.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -46,9 +47,19 @@ std::unique_ptr<FrameSink> make_csv_sink(const std::filesystem::path& file);
 /// which are the stamps less the first one. The folder is made if it is not there.
 std::unique_ptr<FrameSink> make_vtp_sink(const std::filesystem::path& folder);
 
-/// "jsonl:FILE", "csv:FILE" or "vtp:FOLDER". Throws std::invalid_argument for anything else, IoError as
-/// those.
-std::unique_ptr<FrameSink> make_sink(const std::string& description);
+enum class SinkKind : std::uint8_t { jsonl, csv, vtp };
+
+struct SinkDescription {
+  SinkKind kind = SinkKind::jsonl;
+  std::filesystem::path place;
+};
+
+/// Reads "jsonl:FILE", "csv:FILE" or "vtp:FOLDER"; opens nothing. Throws std::invalid_argument for anything
+/// else.
+SinkDescription parse_sink(const std::string& description);
+
+/// One of those above.
+std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
 /// Calls the function with each result.
 std::unique_ptr<FrameSink> make_sink(std::function<void(const FrameResult&)> on_result);

@@ -34,16 +34,18 @@ class FrameSource {
   virtual bool next(Frame& frame) = 0;
 };
 
+inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
+
 /// What stamps recorded frames get.
 struct StampRule {
-  double rate_hz = 10;  ///< Frames a second, > 0: frame n is n / rate_hz after the first.
+  double rate_hz = 10;  ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
   /// From the last number in the file's name instead: whole ones are nanoseconds, with a point seconds. A
   /// name without a number is a FrameError.
   bool from_name = false;
 };
 
 /// The clouds of a folder in natural order, or one file, `loops` times over (at least once). Throws IoError
-/// if there is no cloud, std::invalid_argument for a rate that is not finite and > 0.
+/// if there is no cloud, std::invalid_argument for a rate out of range.
 std::unique_ptr<FrameSource> open_folder(const std::filesystem::path& path, const StampRule& stamps = {},
                                          std::size_t loops = 1);
 

@@ -6,6 +6,7 @@
 
 #include <pcl/point_cloud.h>
 
+#include <cstdint>
 #include <utility>
 
 #include "pcl_bv/estimation/point_cloud_view.h"
@@ -19,8 +20,9 @@ template <typename PointT>
 Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {
   Frame frame;
   if (cloud == nullptr) return frame;
-  frame.header = {cloud->header.seq, static_cast<std::int64_t>(cloud->header.stamp) * 1000,
-                  cloud->header.frame_id};
+  constexpr std::uint64_t most = INT64_MAX / 1000;
+  const std::uint64_t microseconds = cloud->header.stamp < most ? cloud->header.stamp : most;
+  frame.header = {cloud->header.seq, static_cast<std::int64_t>(microseconds) * 1000, cloud->header.frame_id};
   frame.points = point_view(*cloud);
   frame.owner = std::move(cloud);
   return frame;

@@ -41,8 +41,11 @@ struct GroundConfig {
   GroundMethod method = GroundMethod::zones;
   UpAxis up = UpAxis::z;                ///< Against gravity.
   std::optional<double> sensor_height;  ///< Of the origin above the ground, metres; learnt if not given.
-  double distance = 0.2;                ///< Points at most this far above the ground belong to it, metres.
-  double max_slope_degrees = 20;        ///< Greatest angle between the ground and the horizontal.
+  /// Points at most this far above the ground belong to it, metres; if not given, what the method's settings
+  /// say.
+  std::optional<double> distance;
+  /// Greatest angle between the ground and the horizontal; if not given, what the method's settings say.
+  std::optional<double> max_slope_degrees;
 };
 
 struct ClusterConfig {
@@ -53,7 +56,7 @@ struct ClusterConfig {
 
 struct TrackConfig {
   bool enabled = false;
-  double gate = 2.0;      ///< How far an object may be from where it was expected, metres.
+  double gate = 2.0;      ///< How far an object may be from where it was expected, metres, at most 100.
   std::size_t birth = 3;  ///< Frames in which an object must have been seen to get its id.
   std::size_t death = 5;  ///< Frames without it after which it is gone.
 };

@@ -50,12 +50,13 @@ class ConfigError : public std::runtime_error {
 };
 
 /// Reads YAML with the names of the fields above as keys, nested by stage: `filter: {range_min: 0.5}`. Keys
-/// that are not there keep their default; null is "not given" where a value may be missing. Throws
+/// that are not there have the values of `defaults`; null is "not given" where a value may be missing. Throws
 /// ConfigError for a file that cannot be read, is no YAML, has an unknown key or a value that is not allowed.
-StreamConfig read_stream_config(const std::filesystem::path& file);
+StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults = {});
 
 /// The same from a text; `name` stands for the file in errors.
-StreamConfig parse_stream_config(const std::string& text, const std::string& name);
+StreamConfig parse_stream_config(const std::string& text, const std::string& name,
+                                 const StreamConfig& defaults = {});
 
 /// The whole configuration as such a file, with its units; reads back as the same values.
 std::string to_yaml(const StreamConfig& config);

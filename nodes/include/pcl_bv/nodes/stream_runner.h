@@ -25,7 +25,8 @@ struct FrameTotals {
   std::uint64_t dropped_error = 0;  ///< Because an exception was thrown, or the source could not read them.
 };
 
-/// Milliseconds by stage, over all processed frames. `wait` is the time in the queue.
+/// Milliseconds by stage, over all processed frames. `wait` is the time in the queue, also of frames whose
+/// work threw.
 struct StageLatencies {
   LatencyHistogram decode, wait, filter, ground, cluster, fit, track, total;
 };
@@ -41,7 +42,8 @@ std::string stats_json(const RunnerStats& stats);
 
 /// Frames in from any thread, results out in the runner's thread, in order.
 ///
-/// Memory is bounded by the queue. An exception of the process or the result callback drops that frame,
+/// Memory is bounded by the queue. The runner must not be destroyed from a callback, nor while another thread
+/// may still push(). An exception of the process or the result callback drops that frame,
 /// counts it and goes to on_error; the stream goes on.
 class StreamRunner {
  public:
@@ -67,10 +69,12 @@ class StreamRunner {
   StreamRunner& operator=(const StreamRunner&) = delete;
 
   /// Hands over a frame; false if it is dropped at once, which a stopped runner always does. Waits only with
-  /// QueuePolicy::block, until there is room or the runner is stopped.
+  /// QueuePolicy::block, until there is room or the runner is stopped; from a callback, which would wait for
+  /// itself, it does not wait either and drops the frame.
   bool push(Frame frame);
 
-  /// Counts a frame that never was: its source could not read it. Goes to on_error, in the caller's thread.
+  /// Counts a frame that its source could not read. Goes to on_error, after the results of the frames before
+  /// it; takes no room in the queue, but waits where a thousand such frames do.
   void report_unreadable(const FrameHeader& header, const std::string& reason);
 
   enum class End {

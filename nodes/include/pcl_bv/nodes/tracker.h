@@ -19,8 +19,9 @@ namespace pcl_bv {
 ///
 /// Each track expects its box where constant velocity takes it. Box and track may be the same object if their
 /// centres are nearer than the gate; where their sizes differ, because an object came into view or was split,
-/// half of that difference more. Of all such pairs the nearest are joined first. A track is born with its
-/// birth-th sighting and dies after `death` frames without one; a gap does not cost it its id.
+/// half of that difference more, but no more than another gate. Of all such pairs the nearest are joined
+/// first. A track is born with its birth-th sighting and dies after `death` frames without one; a gap does
+/// not cost it its id.
 class Tracker {
  public:
   /// A box's place in the tracker: stays while the track lives, and is used again afterwards.
@@ -31,8 +32,8 @@ class Tracker {
   };
 
   /// Replaces `assignments` by one for each box. `stamp_ns` is the time of the boxes; where it does not
-  /// advance (or by more than a second), tracks are expected where they were. O(boxes x tracks) and the sort
-  /// of the pairs within the gate.
+  /// advance (or by more than a second), tracks are expected where they were. O(n log n), and the pairs
+  /// within the gate.
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
               std::vector<Assignment>& assignments);
 
@@ -41,7 +42,9 @@ class Tracker {
 
  private:
   struct Track {
-    Eigen::Vector3d center, size, velocity;
+    Eigen::Vector3d center = Eigen::Vector3d::Zero(), size = Eigen::Vector3d::Zero(),
+                    velocity = Eigen::Vector3d::Zero();
+    double unseen = 0;  // seconds since the last sighting
     std::size_t seen = 0, missed = 0;
     bool alive = false;
     std::optional<std::uint32_t> id;
@@ -53,10 +56,12 @@ class Tracker {
 
   void find_pairs(double seconds, const std::vector<Aabb>& boxes, double gate);
   void join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void correct(Track& track, const Aabb& box, double seconds) const;
   std::size_t free_slot();
 
   std::vector<Track> tracks_;
   std::vector<Pair> pairs_;
+  std::vector<std::size_t> by_x_, free_;
   std::vector<char> track_taken_, box_taken_;
   std::int64_t last_stamp_ns_ = 0;
   bool started_ = false;
