@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Prints a file of benchmarks/results as Markdown: the paper's Tables 2 to 5, what was aimed at and what is
-reached, memory, layouts, bad points, peers.
+reached, memory, layouts, bad points, peers, clusters, oriented boxes, batches, the pipeline.
 
 usage: benchmarks/tables.py RESULTS.json
 """
@@ -84,7 +84,7 @@ def thread_targets(results):
     """The least ratio over all sizes, and over those in L3 that take one thread at least 200 us."""
     found = {}
     for name, row in results.rows.items():
-        if not name.startswith("two-threads/") or "/gauss/" not in name:
+        if not name.startswith("two-threads/") or "/gauss/" not in name or "/wait:" not in name:
             continue
         _, work, s, *_ = name.split("/")
         points, wait = int(name.split("n:")[1].split("/")[0]), name.split("/wait:")[1]
@@ -104,8 +104,8 @@ def threads(results):
     """Two threads against one, by size; waiting as OpenMP does by default and passively."""
     works = [("AABB", "aabb", results.sets()[-1])] + [("26-DOP", "dop26", s) for s in results.sets()[1:]]
     points = sorted({int(n.split("n:")[1].split("/")[0]) for n in results.rows
-                     if n.startswith("two-threads/") and "/gauss/" in n})
-    waits = sorted({n.split("/wait:")[1] for n in results.rows if n.startswith("two-threads/")})
+                     if n.startswith("two-threads/") and "/gauss/" in n and "/wait:" in n})
+    waits = sorted({n.split("/wait:")[1] for n in results.rows if n.startswith("two-threads/") and "/wait:" in n})
     head = ["points"] + [f"{label} {s}, {wait}" for label, _, s in works for wait in waits]
     lines = [[n] + [figure(results, f"two-threads/{work}/{s}/gauss/xyz/no-nan/n:{n}/wait:{wait}", "{:.2f}".format)
                     for _, work, s in works for wait in waits] for n in points]
@@ -194,6 +194,35 @@ def bandwidth(results):
     return table(["GB/s"] + [f"{level} ({n})" for n, level in LEVELS.items()], lines)
 
 
+def in_turns(results, prefix, sides):
+    """Comparisons in turns whose names begin so: both times in ms, and their ratio."""
+    lines = []
+    for name, row in sorted(results.rows.items()):
+        run = row.get("median", {})
+        if name.startswith(prefix) and "ratio" in run:
+            lines.append([name[len(prefix):], f"{run['first_us'] / 1e3:.4g}", f"{run['second_us'] / 1e3:.4g}",
+                          f"{run['ratio']:.2f} ({run['ratio_of_minima']:.2f})"])
+    return table(["", *sides, "median of pairs (ratio of minima)"], lines)
+
+
+def pipeline(results):
+    stages = ("filter", "ground", "cluster", "fit", "track", "total")
+    lines = []
+    for name, row in results.rows.items():
+        run = row.get("median", {})
+        if name.startswith("pipeline/"):
+            lines.append([name[9:], f"{run['clusters']:.0f}"]
+                         + [f"{run[s + '_p50']:.2f} / {run[s + '_p99']:.2f}" if s + "_p50" in run else None for s in stages]
+                         + [f"{run['max']:.1f}", f"{run['first_max']:.1f}" if "first_max" in run else None])
+    return table(["ms, 50th / 99th percentile", "clusters", *stages, "greatest", "of the first five"], lines)
+
+
+def milliseconds_of(results, prefixes):
+    lines = [[n, f"{results.milliseconds(n):.4g}"] for n in sorted(results.rows)
+             if n.startswith(prefixes) and results.row(n) and "cpu_time" in results.row(n)]
+    return table(["", "ms"], lines)
+
+
 def sections(results):
     sets = results.sets()
     both = [("aabb", sets), ("dop26", sets)]
@@ -212,6 +241,17 @@ def sections(results):
     yield "Ways to grow a sphere", growth(results)
     yield "Table 5 of the paper: 26-DOP on one and two cores, ms, minima", table_5(results)
     yield "Bytes that pass, gauss", bandwidth(results)
+    yield "Clusters: pcl::EuclideanClusterExtraction over ours", in_turns(results, "over-pcl/", ("PCL, ms", "ours, ms"))
+    yield "Clusters: nanoflann and a breadth-first search over ours", in_turns(
+        results, "over-nanoflann/", ("nanoflann, ms", "ours, ms"))
+    yield "Clusters on two threads", in_turns(results, "two-threads/st", ("one thread, ms", "two, ms"))
+    yield "Ground", milliseconds_of(results, ("ground/",))
+    yield "Oriented boxes, in turns", in_turns(results, "turns/", ("first, ms", "ours, ms"))
+    yield "100 clusters of 300 points", milliseconds_of(results, ("100 clusters",))
+    yield "Batches: one by one over all at once", in_turns(results, "batch/", ("one by one, ms", "at once, ms"))
+    yield "Hulls and what is fitted to them", milliseconds_of(
+        results, ("hull/", "cylinder/", "capsule/", "ellipsoid/", "qhull", "pcl::ConvexHull"))
+    yield "The pipeline, from a cloud in memory to volumes and tracks", pipeline(results)
     yield "Levels of memory, gauss", speeds(
         results, works, [(v, f"gauss/xyz/no-nan/n:{n}") for n, v in LEVELS.items()])
     yield "Peers, gauss", speeds(
