@@ -59,11 +59,12 @@ std::string_view isa_name(Isa isa) {
 }
 
 Isa parse_isa(std::string_view name) {
-  std::string known;
   for (const Entry& entry : kEntries) {
     if (entry.name == name) return entry.isa;
-    known.append(known.empty() ? "" : ", ").append(entry.name);
   }
+  std::string known;
+  for (const Entry& entry : kEntries)
+    known.append(known.empty() ? "" : ", ").append(entry.name);
   throw std::invalid_argument("unknown instruction set '" + std::string(name) + "' (known: " + known + ")");
 }
 
