@@ -44,31 +44,12 @@ template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& spread,
                 std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
-  const auto center_x = hn::Set(d, center[0]);
-  const auto center_y = hn::Set(d, center[1]);
-  const auto center_z = hn::Set(d, center[2]);
   auto spread_x = no_high_reach(d), spread_y = no_high_reach(d), spread_z = no_high_reach(d);
   [[maybe_unused]] auto total = hn::Zero(d);
   std::size_t valid_count = 0;
   for (std::size_t i = 0; i < block.count; i += n, points += 3 * n) {
     V<D> x, y, z;
-    if (HWY_LIKELY(i + n <= block.count)) {
-      load_packet<layout>(d, block, i, x, y, z);
-    } else if (masked || block.count < n) {
-      load_few(d, block, i, block.count - i, center, x, y, z);
-    } else {
-      load_packet_anywhere<layout>(d, block, block.count - n, x, y, z);  // some points twice do no harm
-    }
-    if constexpr (masked) {
-      const auto valid = valid_lanes(d, x, y, z);
-      valid_count += hn::CountTrue(d, valid);
-      x = hn::IfThenElse(valid, x, center_x);
-      y = hn::IfThenElse(valid, y, center_y);
-      z = hn::IfThenElse(valid, z, center_z);
-    }
-    x = hn::Sub(x, center_x);
-    y = hn::Sub(y, center_y);
-    z = hn::Sub(z, center_z);
+    load_relative<layout, masked>(d, block, i, center, x, y, z, valid_count);
     hn::Store(x, d, points);
     hn::Store(y, d, points + n);
     hn::Store(z, d, points + 2 * n);

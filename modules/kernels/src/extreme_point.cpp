@@ -10,14 +10,10 @@
 namespace pcl_bv {
 namespace {
 
-bool same(const Coordinates& a, const Coordinates& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 void consider(const CubeDirection& direction, const Coordinates& point, std::size_t index,
               ExtremePoint& best) {
   // Many equal points (a cloud of one value, dead beams) need no arithmetic.
-  if (best.found && same(point, best.point)) {
+  if (best.found && point == best.point) {
     if (index < best.index) best.index = index;
     return;
   }

@@ -75,32 +75,13 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
 bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
-  const auto center_x = hn::Set(d, center[0]);
-  const auto center_y = hn::Set(d, center[1]);
-  const auto center_z = hn::Set(d, center[2]);
   PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
   [[maybe_unused]] auto total = hn::Zero(d);
   std::size_t valid_count = 0;
   for (std::size_t i = 0; i < block.count; i += n) {
     V<D> x, y, z;
     prefetch_ahead<layout>(d, block, i);
-    if (HWY_LIKELY(i + n <= block.count)) {
-      load_packet<layout>(d, block, i, x, y, z);
-    } else if (masked || block.count < n) {
-      load_few(d, block, i, block.count - i, center, x, y, z);
-    } else {
-      load_packet_anywhere<layout>(d, block, block.count - n, x, y, z);  // some points twice do no harm
-    }
-    if constexpr (masked) {
-      const auto valid = valid_lanes(d, x, y, z);
-      valid_count += hn::CountTrue(d, valid);
-      x = hn::IfThenElse(valid, x, center_x);
-      y = hn::IfThenElse(valid, y, center_y);
-      z = hn::IfThenElse(valid, z, center_z);
-    }
-    x = hn::Sub(x, center_x);
-    y = hn::Sub(y, center_y);
-    z = hn::Sub(z, center_z);
+    load_relative<layout, masked>(d, block, i, center, x, y, z, valid_count);
     const auto sum = hn::Add(x, y);
     [[maybe_unused]] const auto difference = hn::Sub(x, y);
     if constexpr (!masked && sizeof(T) == 8) total = hn::Add(total, hn::Add(sum, z));
@@ -157,7 +138,12 @@ void extremes_of_chunk(const PointView& chunk, const ReachedEnds& reached, Chunk
   for (std::size_t end = 0; end < ends; ++end) {
     const EndSearch what = plan.of(end, reached[end]);
     const CubeDirection direction = end_direction(set, end);
-    if (what.kind == EndSearch::Kind::every) keep_any_point(chunk, direction, out.ends[end]);
+    if (what.kind == EndSearch::Kind::every) {
+      ExtremePoint any;
+      any.found = first_valid_point(chunk, any.point, any.index);
+      any.projection = exact_projection(direction, any.point);
+      keep_extreme(any, out.ends[end]);
+    }
     if (what.kind != EndSearch::Kind::some) continue;
     const RoundedFilter filter{center, what.threshold};
     const auto look = [&](std::size_t first, std::size_t step, std::size_t last) {

@@ -42,12 +42,11 @@ class SampleMean {
   Coordinates sum_{0, 0, 0};
 };
 
-// A float that is not above the value, nor far below.
+}  // namespace
+
 double not_above_in_float(double value) {
   return static_cast<float>(value - std::abs(value) * 0x1p-23 - 0x1p-149);
 }
-
-}  // namespace
 
 bool chunk_center(const PointView& chunk, Coordinates& center) {
   constexpr std::size_t samples = 16;
@@ -92,12 +91,17 @@ EndSearch SearchPlan::of(std::size_t end, double reached) const {
   return {EndSearch::Kind::some, is_float_ ? not_above_in_float(threshold) : threshold};
 }
 
-void keep_any_point(const PointView& chunk, const CubeDirection& direction, ExtremePoint& best) {
-  constexpr RoundedFilter everything{{0, 0, 0}, -kInfinity};
-  if (chunk.indices != nullptr)
-    return find_extreme_point(chunk, 0, 1, chunk.count, direction, everything, best);
-  for (std::size_t i = 0; i < chunk.count && !best.found; ++i)
-    find_extreme_point(chunk, i, 1, i + 1, direction, everything, best);
+bool first_valid_point(const PointView& points, Coordinates& point, std::size_t& index) {
+  bool found = false;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p) || (found && index < points.index(i))) continue;
+    point = p;
+    index = points.index(i);
+    found = true;
+    if (points.indices == nullptr) break;
+  }
+  return found;
 }
 
 }  // namespace pcl_bv

@@ -46,7 +46,11 @@ class SearchPlan {
   double offset_error_;
 };
 
-/// Lets the chunk's first valid point, by index, compete for an end at which all are equal.
-void keep_any_point(const PointView& chunk, const CubeDirection& direction, ExtremePoint& best);
+/// A threshold for float sums: a float that is not above the value, nor far below.
+double not_above_in_float(double value);
+
+/// The valid point with the smallest index: what competes for an end at which all are equal. False without
+/// one.
+bool first_valid_point(const PointView& points, Coordinates& point, std::size_t& index);
 
 }  // namespace pcl_bv

@@ -23,6 +23,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
 
+/// Numbers of a group, as double.
+template <class D>
+HWY_INLINE V<D> load_as_double(D d, const float* p) {
+  return hn::PromoteTo(d, hn::Load(hn::Rebind<float, D>(), p));
+}
+template <class D>
+HWY_INLINE V<D> load_as_double(D d, const double* p) {
+  return hn::Load(d, p);
+}
+
 /// Writes the points as groups; what is left of the last group, and with `masked` each invalid point, becomes
 /// the valid point at `pad`. Returns the number of valid points if `masked`, else 0.
 template <Layout layout, bool masked, typename T>

@@ -34,7 +34,7 @@ using V = hn::Vec<D>;
 /// What is_valid() (point_view.h) allows.
 template <typename T>
 constexpr T coordinate_limit() {
-  return sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max()) : static_cast<T>(1e100);
+  return sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max()) : static_cast<T>(kMaxCoordinate);
 }
 
 /// The lanes of valid points.
@@ -209,14 +209,44 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 #endif
 }
 
+/// Part of a block relative to its centre: the packet from `first` on. Behind a block's end it holds, if
+/// `masked`, the centre, otherwise some points twice, which does no harm to extremes. If `masked`, invalid
+/// points are replaced by the centre, too, and the valid ones are counted.
+template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
+HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, const T* center, V<D>& x,
+                              V<D>& y, V<D>& z, [[maybe_unused]] std::size_t& valid_count) {
+  const std::size_t n = hn::Lanes(d);
+  const auto center_x = hn::Set(d, center[0]);
+  const auto center_y = hn::Set(d, center[1]);
+  const auto center_z = hn::Set(d, center[2]);
+  if (HWY_LIKELY(first + n <= block.count)) {
+    load_packet<layout>(d, block, first, x, y, z);
+  } else if (masked || block.count < n) {
+    load_few(d, block, first, block.count - first, center, x, y, z);
+  } else {
+    load_packet_anywhere<layout>(d, block, block.count - n, x, y, z);
+  }
+  if constexpr (masked) {
+    const auto valid = valid_lanes(d, x, y, z);
+    valid_count += hn::CountTrue(d, valid);
+    x = hn::IfThenElse(valid, x, center_x);
+    y = hn::IfThenElse(valid, y, center_y);
+    z = hn::IfThenElse(valid, z, center_z);
+  }
+  x = hn::Sub(x, center_x);
+  y = hn::Sub(y, center_y);
+  z = hn::Sub(z, center_z);
+}
+
 /// Asks for what a packet some hundred points on will load. A loop with much arithmetic per packet fills the
-/// core's window before its loads reach far enough: 26-DOP on AVX-512, 1 M points, 0.9 Gpt/s without, 2.9 with
-/// 8 KiB. Not for other layouts: pcl::PointXYZI in L2 fell from 1.8 Gpt/s to 0.9 for 15 % from memory.
+/// core's window before its loads reach far enough: 26-DOP on AVX-512, 1 M points, 0.9 Gpt/s without, 2.9
+/// with 8 KiB. Not for other layouts: pcl::PointXYZI in L2 fell from 1.8 Gpt/s to 0.9 for 15 % from memory.
 template <Layout layout, class D>
 HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) {
   if constexpr (layout == Layout::groups || layout == Layout::packed12 || layout == Layout::packed16) {
     const std::size_t bytes = hn::Lanes(d) * (layout == Layout::packed16 ? 16 : 3 * sizeof(hn::TFromD<D>));
-    const auto ahead = reinterpret_cast<std::uintptr_t>(points.address(first)) + 8192;  // maybe past the array
+    const auto ahead =
+        reinterpret_cast<std::uintptr_t>(points.address(first)) + 8192;  // maybe past the array
     for (std::size_t line = 0; line < bytes; line += 64)
       __builtin_prefetch(reinterpret_cast<const void*>(ahead + line));
   }

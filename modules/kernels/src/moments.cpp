@@ -32,20 +32,12 @@ void chunk_moments(const PointView& chunk, const Coordinates& origin, Moments& o
 
 constexpr std::size_t kLanes = 8;
 
-template <class D>
-HWY_INLINE V<D> load_as_double(D d, const float* p) {
-  return hn::PromoteTo(d, hn::Load(hn::Rebind<float, D>(), p));
-}
-template <class D>
-HWY_INLINE V<D> load_as_double(D d, const double* p) {
-  return hn::Load(d, p);
-}
-
-#define PCL_BV_EACH_TERM(DO)                                                                   \
-  DO(0, x)                                                                                     \
-  DO(1, y)                                                                                     \
-  DO(2, z) DO(3, hn::Mul(x, x)) DO(4, hn::Mul(x, y)) DO(5, hn::Mul(x, z)) DO(6, hn::Mul(y, y)) \
-      DO(7, hn::Mul(y, z)) DO(8, hn::Mul(z, z))
+#define PCL_BV_EACH_TERM(DO)                                                                               \
+  DO(0, x)                                                                                                 \
+  DO(1, y)                                                                                                 \
+  DO(2, z)                                                                                                 \
+  DO(3, hn::Mul(x, x)) DO(4, hn::Mul(x, y)) DO(5, hn::Mul(x, z)) DO(6, hn::Mul(y, y)) DO(7, hn::Mul(y, z)) \
+      DO(8, hn::Mul(z, z))
 #define PCL_BV_DECLARE(k, term) auto sum##k = hn::Zero(d);
 #define PCL_BV_STEP(k, term) sum##k = hn::Add(sum##k, term);
 #define PCL_BV_KEEP(k, term) \

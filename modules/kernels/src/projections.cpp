@@ -137,7 +137,11 @@ template <Layout layout, typename T>
 void search_end(const PointView& part, const ProjectionSet& set, std::size_t end, const LaneReach<T>& reach,
                 const EndSearch& what, const RoundedFilter& filter, FarthestPoint& best) {
   const Direction direction = set.end_direction(end);
-  if (what.kind == EndSearch::Kind::every) return keep_any_point(part, direction, best);
+  if (what.kind == EndSearch::Kind::every) {
+    FarthestPoint any;
+    any.found = first_valid_point(part, any.point, any.index);
+    return keep_farthest(direction, any, best);
+  }
   const Direction scaled = set.scaled_end_direction(end);
   const auto look = [&](std::size_t first, std::size_t step, std::size_t last) {
     find_farthest(part, first, step, last, direction, scaled, filter, best);

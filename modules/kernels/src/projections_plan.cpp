@@ -28,21 +28,12 @@ Direction opposite_if(bool negative, const Direction& d) {
   return negative ? Direction{-d[0], -d[1], -d[2]} : d;
 }
 
-bool same(const Coordinates& a, const Coordinates& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 // How far the double dot product of a scaled direction and a point may be off: its own rounding, that of the
 // direction's tiny components, underflow.
 double double_doubt(const Direction& scaled, const Direction& point) {
   const Direction p = magnitudes(point);
   return (0x1p-50 * dot(magnitudes(scaled), p) + 0x1p-1074 * (p[0] + p[1] + p[2])) +
          std::numeric_limits<double>::min();
-}
-
-// A float that is not above the value, nor far below.
-double not_above_in_float(double value) {
-  return static_cast<float>(value - std::abs(value) * 0x1p-23 - 0x1p-149);
 }
 
 }  // namespace
@@ -67,9 +58,9 @@ Direction ProjectionSet::scaled_end_direction(std::size_t end) const {
 void keep_farthest(const Direction& direction, const FarthestPoint& other, FarthestPoint& best) {
   if (!other.found) return;
   // Many equal points (a cloud of one value, dead beams) need no arithmetic.
-  const int order = !best.found                     ? 1
-                    : same(other.point, best.point) ? 0
-                                                    : compare_along(direction, other.point, best.point);
+  const int order = !best.found                 ? 1
+                    : other.point == best.point ? 0
+                                                : compare_along(direction, other.point, best.point);
   if (order > 0 || (order == 0 && other.index < best.index)) best = other;
 }
 
@@ -140,17 +131,6 @@ void find_farthest(const PointView& points, std::size_t first, std::size_t step,
   } else {
     for_each_passing<double>(points, first, step, end, scaled, filter, look);
   }
-}
-
-void keep_any_point(const PointView& points, const Direction& direction, FarthestPoint& best) {
-  FarthestPoint any;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (!is_valid(p) || (any.found && any.index < points.index(i))) continue;
-    any = {true, p, points.index(i)};
-    if (points.indices == nullptr) break;
-  }
-  keep_farthest(direction, any, best);
 }
 
 }  // namespace pcl_bv

@@ -48,7 +48,4 @@ void find_farthest(const PointView& points, std::size_t first, std::size_t step,
                    const Direction& direction, const Direction& scaled, const RoundedFilter& filter,
                    FarthestPoint& best);
 
-/// Lets the first valid point, by index, compete for an end at which all are equal.
-void keep_any_point(const PointView& points, const Direction& direction, FarthestPoint& best);
-
 }  // namespace pcl_bv

@@ -30,15 +30,6 @@ SlabExtents slab_extents(const PointView& points, const Coordinates& origin,
 
 #else
 
-template <class D>
-HWY_INLINE V<D> widened(D d, const float* p) {
-  return hn::PromoteTo(d, hn::Load(hn::Rebind<float, D>(), p));
-}
-template <class D>
-HWY_INLINE V<D> widened(D d, const double* p) {
-  return hn::Load(d, p);
-}
-
 #define PCL_BV_EACH_AXIS(DO) DO(0) DO(1) DO(2)
 #define PCL_BV_DECLARE(k)                   \
   const auto x##k = hn::Set(d, axes[k][0]); \
@@ -63,9 +54,9 @@ void grow_over_groups(const T* groups, std::size_t points, const Coordinates& or
   const T* group = groups;
   for (std::size_t begin = 0; begin < points; begin += per_group, group += 3 * per_group) {
     for (std::size_t first = 0; first < per_group; first += hn::Lanes(d)) {
-      const auto qx = hn::Sub(widened(d, group + first), ox);
-      const auto qy = hn::Sub(widened(d, group + per_group + first), oy);
-      const auto qz = hn::Sub(widened(d, group + 2 * per_group + first), oz);
+      const auto qx = hn::Sub(load_as_double(d, group + first), ox);
+      const auto qy = hn::Sub(load_as_double(d, group + per_group + first), oy);
+      const auto qz = hn::Sub(load_as_double(d, group + 2 * per_group + first), oz);
       PCL_BV_EACH_AXIS(PCL_BV_STEP)
     }
   }
