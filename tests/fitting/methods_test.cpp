@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -68,6 +69,47 @@ TEST(Methods, TheSmallestOfAListSaysWhichItIs) {
   EXPECT_EQ(winner, nullptr);
   EXPECT_TRUE(empty(volume));
   EXPECT_THROW(fit_smallest(cloud.view(), {}, volume), std::invalid_argument);
+}
+
+// The least that one chunk of sharing can get wrong is one direction of one set.
+TEST(Methods, SharedExtremesChangeNoBit) {
+  for (const std::size_t points : {0UL, 1UL, 20UL, 3000UL, 40'000UL}) {
+    test::TestCloud<float> cloud = test::gaussian<float>(points, 11);
+    if (points > 10) cloud.xyz[30] = std::numeric_limits<float>::quiet_NaN();
+    const PointView view = cloud.view();
+    for (const Method& method : methods()) {
+      AnyVolume alone;
+      const EstimationResult expected = method.fit(view, alone, {});
+      for (const char* other : {"aabb", "dop14", "dop18", "dop26", "obb-dito14"}) {
+        Extremes extremes;
+        const Execution shared = share_extremes(view, {&method, find_method(other)}, {}, extremes);
+        AnyVolume together;
+        const EstimationResult result = method.fit(view, together, shared);
+        EXPECT_TRUE(together == alone) << method.name << " with " << other << ", " << points;
+        EXPECT_EQ(result.rank, expected.rank) << method.name << " with " << other << ", " << points;
+        EXPECT_EQ(result.used, expected.used);
+        EXPECT_EQ(result.dropped, expected.dropped);
+        EXPECT_EQ(result.status, expected.status);
+      }
+    }
+  }
+}
+
+TEST(Methods, ExtremesAreSharedOnlyWhereTwoWantThem) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(100, 12);
+  Extremes extremes;
+  const auto shares = [&](std::vector<const Method*> among) {
+    return share_extremes(cloud.view(), among, {}, extremes).extremes == &extremes;
+  };
+  const auto named = find_method;
+  EXPECT_FALSE(shares({}));
+  EXPECT_FALSE(shares({named("dop26")}));
+  EXPECT_FALSE(shares({named("dop26"), named("obb-pca")}));
+  EXPECT_FALSE(shares({named("aabb"), named("sphere-ritter")}));  // six directions are cheap
+  EXPECT_TRUE(shares({named("aabb"), named("dop14")}));
+  EXPECT_EQ(extremes.set, DirectionSet::dop14);
+  EXPECT_TRUE(shares({named("dop14"), named("dop18")}));
+  EXPECT_EQ(extremes.set, DirectionSet::dop26);
 }
 
 TEST(Methods, TheKernelsDirectionsAreTheVolumes) {

@@ -69,9 +69,9 @@ bool DistanceScan::serial() const {
   return thread_count(policy(blocks_)) == 1;
 }
 
-PointView DistanceScan::blocks(std::size_t first, std::size_t count) const {
+LoadedPoints DistanceScan::blocks(std::size_t first, std::size_t count) const {
   const std::size_t begin = first * kBlockPoints;
-  return points_.slice(begin, std::min(count * kBlockPoints, points_.count - begin));
+  return {points_, begin, std::min(count * kBlockPoints, points_.count - begin)};
 }
 
 ParallelPolicy DistanceScan::policy(std::size_t expected) const {
@@ -93,7 +93,7 @@ void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const 
 void DistanceScan::bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const {
   bounds.resize(blocks_);
   visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
-    block_distances(isa_, blocks(first, count), center, limit, filter_, bounds.data() + first);
+    block_distances(isa_, blocks(first, count).view(), center, limit, filter_, bounds.data() + first);
   });
 }
 
@@ -104,26 +104,21 @@ double DistanceScan::greatest(const DistanceCenter& center, double at_least) con
   return std::max(at_least, *std::max_element(found.begin(), found.end()));
 }
 
-void DistanceScan::list_block(std::size_t block, const DistanceCenter& center, double limit,
-                              Positions& positions) const {
-  const PointView part = blocks(block, 1);
-  std::array<std::uint32_t, kBlockPoints> listed;
-  const std::size_t count = list_distant(isa_, part, center, limit, filter_, listed.data());
-  for (std::size_t i = 0; i < count; ++i)
-    positions.push_back(block * kBlockPoints + listed[i]);
-}
-
 void DistanceScan::list(const DistanceCenter& center, double limit, Positions& positions) const {
+  const auto list_block = [&](std::size_t block, Positions& found) {
+    visit_block(block, center, limit,
+                [&](std::size_t i, const Coordinates&) { found.push_back(block * kBlockPoints + i); });
+  };
   if (blocks_ <= kBlocksPerChunk) {
     for (std::size_t block = 0; block < blocks_; ++block)
-      list_block(block, center, limit, positions);
+      list_block(block, positions);
     return;
   }
   std::vector<std::vector<std::size_t>> lists((blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk);
   visit_chunks(blocks_, [&](std::size_t chunk, std::size_t first, std::size_t count) {
     Positions found;
     for (std::size_t block = first; block < first + count; ++block)
-      list_block(block, center, limit, found);
+      list_block(block, found);
     lists[chunk].assign(found.begin(), found.end());
   });
   for (const auto& part : lists) {
@@ -172,10 +167,11 @@ struct DistanceScan::ChunkOctants {
 void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center,
                               double limit, SharedOctants& best, ChunkOctants& result) {
   OctantScan scan{center, limit, filter_};
+  const LoadedPoints points = blocks(first, count);
   for (std::size_t b = 0; b < count; ++b) {
     scan.bounds = bounds_ == nullptr ? nullptr : &bounds_[(first + b) * kBlockBounds];
     scan.limit = std::max(limit, best.least());
-    scan_octants(isa_, blocks(first + b, 1), scan);
+    scan_octants(isa_, block_of(points.view(), b), scan);
     result.blocks[b] = scan.greatest;
     best.raise(scan.greatest);
   }
@@ -183,8 +179,9 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
 }
 
 void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
-  // Written whole by the kernel: no need to clear it.
-  if (!scanned_ && filter_ == FloatFilter::reject) bounds_.reset(new float[blocks_ * kBlockBounds]);
+  // Written whole by the kernel: no need to clear it. Points of a source come past in each scan anyway.
+  if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr)
+    bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;
   first_center_ = center;
   SharedOctants best;
@@ -195,7 +192,7 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
   for (std::size_t o = 0; o < 8; ++o) {
     for (std::size_t block = 0; block < blocks_ && best[o] >= 0; ++block) {
       if (chunks[block / kBlocksPerChunk].blocks[block % kBlocksPerChunk][o] != best[o]) continue;
-      find_in_block(isa_, blocks(block, 1), center, o, best[o], filter_, found[o]);
+      find_in_block(isa_, blocks(block, 1).view(), center, o, best[o], filter_, found[o]);
     }
   }
   const auto filtered =
@@ -222,7 +219,8 @@ bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
   std::array<std::uint32_t, kBlockPoints> positions;
   for (std::size_t block = 0; block < blocks_; ++block) {
     kept.bounds = &bounds_[block * kBlockBounds];
-    const std::size_t count = list_reaching(isa_, blocks(block, 1), kept, center, limit, positions.data());
+    const std::size_t count =
+        list_reaching(isa_, blocks(block, 1).view(), kept, center, limit, positions.data());
     for (std::size_t i = 0; i < count; ++i)
       shell_.push_back(block * kBlockPoints + positions[i]);
     if (shell_.size() > 64 + points_.count / 16) return false;

@@ -12,6 +12,7 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/distances.h"
+#include "pcl_bv/kernels/point_source.h"
 #include "small_vector.h"
 
 namespace pcl_bv {
@@ -49,11 +50,19 @@ class DistanceScan {
   /// The greatest squared distance of a valid point, or `at_least` if that is greater.
   double greatest(const DistanceCenter& center, double at_least) const;
 
-  /// Appends the positions of the valid points with a squared distance of at least `limit`, ascending.
+  /// Appends the positions of the valid points with a squared distance of at least `limit`, ascending. Not
+  /// for points of a source.
   void list(const DistanceCenter& center, double limit, Positions& positions) const;
 
-  /// The same for one block only.
-  void list_block(std::size_t block, const DistanceCenter& center, double limit, Positions& positions) const;
+  /// Calls visit(p) for those of one block, in order.
+  template <typename Visit>
+  void visit_block(std::size_t block, const DistanceCenter& center, double limit, const Visit& visit) const {
+    const LoadedPoints part = blocks(block, 1);
+    std::array<std::uint32_t, kBlockPoints> listed;
+    const std::size_t count = list_distant(isa_, part.view(), center, limit, filter_, listed.data());
+    for (std::size_t i = 0; i < count; ++i)
+      visit(listed[i], load_point(part.view(), listed[i]));
+  }
 
   /// Of the valid points with a squared distance of at least `limit` the farthest in each octant, of equally
   /// far ones that with the smallest index. Whether there is any.
@@ -69,7 +78,7 @@ class DistanceScan {
   ParallelPolicy policy(std::size_t expected_blocks) const;
   template <typename Visit>
   void visit_chunks(std::size_t expected_blocks, const Visit& visit) const;
-  PointView blocks(std::size_t first, std::size_t count) const;
+  LoadedPoints blocks(std::size_t first, std::size_t count) const;
   void scan_all(const DistanceCenter& center, double limit, OctantPoints& found);
   void scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center, double limit,
                   SharedOctants& best, ChunkOctants& result);

@@ -78,6 +78,31 @@ const std::shared_ptr<const KdopSet>& kdop_set(DirectionSet set) {
   return KdopSet::dop26();
 }
 
+// Whether all directions of a set are among those that were searched, with what is asked of them.
+bool holds(const Extremes& known, DirectionSet set, ExtremeDetail detail) {
+  const bool directions = known.set == set || known.set == DirectionSet::dop26 || set == DirectionSet::dop6;
+  return directions && (known.detail == ExtremeDetail::points || detail == ExtremeDetail::bounds);
+}
+
+// The same with fewer directions.
+Extremes part_of(const Extremes& known, DirectionSet set) {
+  Extremes part;
+  part.set = set;
+  part.detail = known.detail;
+  part.used = known.used;
+  part.dropped = known.dropped;
+  const bool of_all = known.set == DirectionSet::dop26;
+  for (std::size_t k = 0; k < direction_count(set); ++k) {
+    const std::size_t from = of_all ? cube_direction(set, k) : k;
+    part.low[k] = known.low[from];
+    part.high[k] = known.high[from];
+    part.constant[k] = known.constant[from];
+    part.low_point[k] = known.low_point[from];
+    part.high_point[k] = known.high_point[from];
+  }
+  return part;
+}
+
 }  // namespace
 
 double search_seconds(Isa isa, DirectionSet set, std::size_t points) {
@@ -120,8 +145,11 @@ Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail 
                        const Execution& execution) {
   const FloatEnvironment environment;
   const Isa isa = resolve_isa(execution.isa);
+  if (execution.extremes != nullptr && holds(*execution.extremes, set, detail))
+    return part_of(*execution.extremes, set);
   Extremes extremes;
   extremes.set = set;
+  extremes.detail = detail;
   if (set == DirectionSet::dop6 && detail == ExtremeDetail::bounds) {
     find_bounds(points, execution, isa, extremes);
     extremes.used = points.count - extremes.dropped;

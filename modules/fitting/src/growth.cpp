@@ -50,10 +50,8 @@ class GrowingSphere {
 };
 
 void grow_over_block(const DistanceScan& scan, std::size_t block, GrowingSphere& sphere) {
-  Positions outside;
-  scan.list_block(block, sphere.center(), sphere.squared_radius(), outside);
-  for (const std::size_t i : outside)
-    sphere.grow(load_point(scan.points(), i));
+  scan.visit_block(block, sphere.center(), sphere.squared_radius(),
+                   [&](std::size_t, const Coordinates& p) { sphere.grow(p); });
 }
 
 void grow_in_order(const DistanceScan& scan, GrowingSphere& sphere) {

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {
@@ -19,13 +19,13 @@ template <typename Partial, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);
   if (chunks <= 1) {
-    if (chunks == 1) merge(map(points));
+    if (chunks == 1) merge(map(load_chunk(points, 0).view()));
     return;
   }
   std::vector<Partial> partials(chunks);
   for_each_chunk(policy, chunks, [&](std::size_t chunk) {
     const FloatEnvironment environment;
-    partials[chunk] = map(chunk_of(points, chunk));
+    partials[chunk] = map(load_chunk(points, chunk).view());
   });
   for (const Partial& partial : partials)
     merge(partial);

@@ -61,31 +61,37 @@ EstimationResult best(const PointView& points, const MethodOptions& options, Any
   return fit_smallest(points, best_candidates(), volume, execution, options);
 }
 
+// The least set with the directions of both.
+DirectionSet union_of(DirectionSet a, DirectionSet b) {
+  if (a == b || b == DirectionSet::dop6) return a;
+  return a == DirectionSet::dop6 ? b : DirectionSet::dop26;
+}
+
 }  // namespace
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> table = {
-      {"aabb", {}, "aabb", aabb},
-      {"dop6", {}, "kdop", kdop<KdopSet::dop6>},
-      {"dop14", {}, "kdop", kdop<KdopSet::dop14>},
-      {"dop18", {}, "kdop", kdop<KdopSet::dop18>},
-      {"dop26", {}, "kdop", kdop<KdopSet::dop26>},
-      {"sphere-ritter", {}, "sphere", sphere<SphereMethod::ritter>},
-      {"sphere-epos6", {}, "sphere", sphere<SphereMethod::epos6>},
-      {"sphere-epos14", {}, "sphere", sphere<SphereMethod::epos14>},
-      {"sphere-epos26", {}, "sphere", sphere<SphereMethod::epos26>},
-      {"sphere-epos98", {}, "sphere", sphere<SphereMethod::epos98>},
-      {"sphere-exact", {"sphere"}, "sphere", sphere<SphereMethod::exact>},
-      {"obb-pca", {}, "obb", obb<ObbMethod::pca>},
-      {"obb-dito14", {}, "obb", obb<ObbMethod::dito14>},
-      {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>},
-      {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>, true},
-      {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>, true},
-      {"cylinder", {}, "cylinder", cylinder},
-      {"capsule", {}, "capsule", capsule},
-      {"ellipsoid", {}, "ellipsoid", ellipsoid},
-      {"hull", {}, "hull", hull},
-      {"best", {}, "", best},
+      {"aabb", {}, "aabb", aabb, DirectionSet::dop6},
+      {"dop6", {}, "kdop", kdop<KdopSet::dop6>, DirectionSet::dop6},
+      {"dop14", {}, "kdop", kdop<KdopSet::dop14>, DirectionSet::dop14},
+      {"dop18", {}, "kdop", kdop<KdopSet::dop18>, DirectionSet::dop18},
+      {"dop26", {}, "kdop", kdop<KdopSet::dop26>, DirectionSet::dop26},
+      {"sphere-ritter", {}, "sphere", sphere<SphereMethod::ritter>, DirectionSet::dop6},
+      {"sphere-epos6", {}, "sphere", sphere<SphereMethod::epos6>, DirectionSet::dop6},
+      {"sphere-epos14", {}, "sphere", sphere<SphereMethod::epos14>, DirectionSet::dop14},
+      {"sphere-epos26", {}, "sphere", sphere<SphereMethod::epos26>, DirectionSet::dop26},
+      {"sphere-epos98", {}, "sphere", sphere<SphereMethod::epos98>, DirectionSet::dop26},
+      {"sphere-exact", {"sphere"}, "sphere", sphere<SphereMethod::exact>, DirectionSet::dop26},
+      {"obb-pca", {}, "obb", obb<ObbMethod::pca>, {}},
+      {"obb-dito14", {}, "obb", obb<ObbMethod::dito14>, DirectionSet::dop14},
+      {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>, {}},
+      {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>, DirectionSet::dop26, true},
+      {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>, DirectionSet::dop26, true},
+      {"cylinder", {}, "cylinder", cylinder, DirectionSet::dop26},
+      {"capsule", {}, "capsule", capsule, DirectionSet::dop26},
+      {"ellipsoid", {}, "ellipsoid", ellipsoid, DirectionSet::dop26},
+      {"hull", {}, "hull", hull, DirectionSet::dop26},
+      {"best", {}, "", best, DirectionSet::dop26},
   };
   return table;
 }
@@ -99,16 +105,34 @@ const Method* find_method(std::string_view name) {
   return nullptr;
 }
 
+Execution share_extremes(const PointView& points, const std::vector<const Method*>& among,
+                         const Execution& execution, Extremes& extremes) {
+  std::size_t askers = 0;
+  std::optional<DirectionSet> widest;
+  for (const Method* method : among) {
+    if (!method->begins_with) continue;
+    ++askers;
+    widest = !widest ? *method->begins_with : union_of(*widest, *method->begins_with);
+  }
+  Execution shared = execution;
+  if (askers < 2 || *widest == DirectionSet::dop6) return shared;
+  extremes = find_extremes(points, *widest, ExtremeDetail::points, execution);
+  shared.extremes = &extremes;
+  return shared;
+}
+
 EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
                               AnyVolume& volume, const Execution& execution, const MethodOptions& options,
                               const Method** winner) {
   if (among.empty()) throw std::invalid_argument("fit_smallest: among must name at least one method");
   EstimationResult result;
   const Method* found = nullptr;
+  Extremes extremes;
+  const Execution shared = share_extremes(points, among, execution, extremes);
   const auto size = [](const AnyVolume& v) { return std::pair(pcl_bv::volume(v), surface_area(v)); };
   for (const Method* method : among) {
     AnyVolume candidate;
-    const EstimationResult said = method->fit(points, candidate, execution, options);
+    const EstimationResult said = method->fit(points, candidate, shared, options);
     if (found != nullptr && !(size(candidate) < size(volume))) continue;
     volume = std::move(candidate);
     result = said;

@@ -13,6 +13,7 @@
 #include "flat_box.h"
 #include "obb_axes.h"
 #include "outline.h"
+#include "pcl_bv/kernels/point_source.h"
 
 namespace pcl_bv {
 namespace {
@@ -38,7 +39,7 @@ struct Sample {
          const Eigen::Vector2d& origin, std::size_t size) {
     const std::size_t step = std::max<std::size_t>(1, (points.count + size - 1) / size);
     for (std::size_t i = 0; i < points.count; i += step) {
-      const Coordinates p = load_point(points, i);
+      const Coordinates p = load_point(LoadedPoints(points, i, 1).view(), 0);
       if (!is_valid(p)) continue;
       const Eigen::Vector2d at = ground.flat(frame.local(p)) - origin;
       x.push_back(static_cast<float>(at.x()));

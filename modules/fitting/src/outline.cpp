@@ -54,8 +54,8 @@ Outline chunk_outline(Isa isa, const PointView& chunk, const HalfSpaces& inside,
                       const Ground& ground) {
   std::array<std::uint32_t, kBlockPoints> positions;
   Outline outline;
-  for (std::size_t begin = 0; begin < chunk.count; begin += kBlockPoints) {
-    const PointView block = chunk.slice(begin, std::min(kBlockPoints, chunk.count - begin));
+  for (std::size_t k = 0; k * kBlockPoints < chunk.count; ++k) {
+    const PointView block = block_of(chunk, k);
     const std::size_t count = list_outside(isa, block, inside, positions.data());
     for (std::size_t i = 0; i < count; ++i) {
       const Coordinates p = load_point(block, positions[i]);

@@ -15,6 +15,7 @@
 #include "map_chunks.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/moments.h"
+#include "pcl_bv/kernels/point_source.h"
 #include "schedule.h"
 #include "summarize_bounds.h"
 
@@ -60,7 +61,8 @@ Moments scaled_moments(const PointView& points, const Coordinates& origin, doubl
   Moments all;
   std::vector<double> xyz;
   for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
-    const PointView part = chunk_of(points, chunk);
+    const LoadedPoints loaded = load_chunk(points, chunk);
+    const PointView& part = loaded.view();
     xyz.clear();
     for (std::size_t i = 0; i < part.count; ++i) {
       const Coordinates p = load_point(part, i);
@@ -123,9 +125,12 @@ void finish(const PointView& points, const Execution& execution, const Coordinat
 }  // namespace
 
 std::optional<Coordinates> first_valid(const PointView& points) {
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (is_valid(p)) return p;
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(points, chunk);
+    for (std::size_t i = 0; i < loaded.view().count; ++i) {
+      const Coordinates p = load_point(loaded.view(), i);
+      if (is_valid(p)) return p;
+    }
   }
   return std::nullopt;
 }

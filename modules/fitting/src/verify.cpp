@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 
@@ -211,8 +212,8 @@ Verification verify(const AnyVolume& volume, const PointView& points, const Exec
   const double serial_seconds = 50e-9 * static_cast<double>(points.count);
   const auto check = [&](std::size_t chunk) {
     const std::size_t begin = chunk * chunk_points;
-    const PointView part = points.slice(begin, std::min(chunk_points, points.count - begin));
-    return std::visit([&part](const auto& shape) { return verify_chunk(shape, part); }, volume);
+    const LoadedPoints part(points, begin, std::min(chunk_points, points.count - begin));
+    return std::visit([&part](const auto& shape) { return verify_chunk(shape, part.view()); }, volume);
   };
   return reduce_chunks(worthwhile(execution.parallel, serial_seconds),
                        (points.count + chunk_points - 1) / chunk_points, Verification{}, check, merge);

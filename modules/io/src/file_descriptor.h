@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 namespace pcl_bv {
 
@@ -18,8 +19,8 @@ class FileDescriptor {
   /// Opens as open(2) does, close-on-exec. Throws IoError: `context` and the system's reason.
   FileDescriptor(const std::filesystem::path& path, int flags, unsigned mode, const std::string& context);
   ~FileDescriptor();
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  FileDescriptor(FileDescriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&&) = delete;
 
   int get() const { return fd_; }
 

@@ -24,6 +24,9 @@ class InputFile {
   /// Fills `to` with `bytes` bytes from `offset` on. Throws IoError if they are not there (any more).
   void read(std::size_t offset, void* to, std::size_t bytes) const;
 
+  /// Tells the system that these bytes will be read soon.
+  void expect(std::size_t offset, std::size_t bytes) const;
+
  private:
   FileDescriptor file_;
   std::size_t size_ = 0;

@@ -168,4 +168,10 @@ PcdHeader parse_pcd_header(std::string_view start) {
   return header;
 }
 
+PcdHeader read_pcd_header(const InputFile& file) {
+  std::string start(std::min(file.size(), max_pcd_header_size), '\0');
+  file.read(0, start.data(), start.size());
+  return parse_pcd_header(start);
+}
+
 }  // namespace pcl_bv

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "input_file.h"
 #include "pcl_bv/io/pcd.h"
 
 namespace pcl_bv {
@@ -25,6 +26,9 @@ struct PcdHeader {
 /// Reads the header at the front of `start`, the file's first bytes (at most max_pcd_header_size, fewer only
 /// if the file ends there). Throws IoError.
 PcdHeader parse_pcd_header(std::string_view start);
+
+/// The same of an open file.
+PcdHeader read_pcd_header(const InputFile& file);
 
 /// The header of a file that holds the cloud. binary_compressed files have no padding fields.
 std::string format_pcd_header(const RawCloud& cloud, PcdEncoding encoding);

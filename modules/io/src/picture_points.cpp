@@ -11,6 +11,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pcl_bv/kernels/point_source.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -129,8 +131,8 @@ std::vector<std::uint32_t> shade(const Raster& raster) {
 /// Central heights of the scene, for the colours by height.
 std::array<double, 2> height_range(const PointView& points) {
   std::vector<double> z;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
+  for (std::size_t i = 0; i < points.count; i += sample_step(points)) {
+    const Coordinates p = load_point(LoadedPoints(points, i, 1).view(), 0);
     if (is_drawn(p)) z.push_back(p.z);
   }
   if (z.empty()) return {0, 1};
@@ -152,21 +154,21 @@ std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view)
   const Offsets plain = disc(std::clamp(0.17 * spacing, 0.5, 6.0));
   const Offsets clustered = disc(std::clamp(0.26 * spacing, 1.0, 6.0));
   const auto [low, high] = picture.labels ? std::array{0.0, 1.0} : height_range(picture.points);
-  for (std::size_t i = 0; i < picture.points.count; ++i) {
-    const Coordinates p = load_point(picture.points, i);
-    if (!is_drawn(p)) continue;
+  const auto draw = [&, low = low, high = high](const Coordinates& p, std::size_t index) {
     const Eigen::Vector3d at = view.project({p.x, p.y, p.z});
     const Eigen::Vector3d sample(at.x() * samples, at.y() * samples, at.z() * samples);
-    if (!picture.labels) {
-      splat(raster, sample, clustered, height_colour(static_cast<float>((p.z - low) / (high - low))));
-      continue;
-    }
-    const std::uint32_t label = picture.labels[picture.points.index(i)];
-    if (label >= label_ground) {
-      const double near = 0.5 - at.z() / picture.height;
-      splat(raster, sample, plain, mix(grey_far, grey_near, static_cast<float>(std::clamp(near, 0.0, 1.0))));
-    } else {
-      splat(raster, sample, clustered, palette(label));
+    if (!picture.labels)
+      return splat(raster, sample, clustered, height_colour(static_cast<float>((p.z - low) / (high - low))));
+    const std::uint32_t label = picture.labels[index];
+    if (label < label_ground) return splat(raster, sample, clustered, palette(label));
+    const double near = 0.5 - at.z() / picture.height;
+    splat(raster, sample, plain, mix(grey_far, grey_near, static_cast<float>(std::clamp(near, 0.0, 1.0))));
+  };
+  for (std::size_t chunk = 0; chunk < chunk_count(picture.points.count); ++chunk) {
+    const LoadedPoints part = load_chunk(picture.points, chunk);
+    for (std::size_t i = 0; i < part.view().count; ++i) {
+      const Coordinates p = load_point(part.view(), i);
+      if (is_drawn(p)) draw(p, part.view().index(i));
     }
   }
   return shade(raster);

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <vector>
 
+#include "pcl_bv/kernels/point_source.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -48,13 +50,13 @@ std::vector<Corners> volume_corners(const Picture& picture) {
   return corners;
 }
 
-/// The points that matter for the frame: those of clusters if there are labels, else all. A hundred thousand
-/// of them, evenly taken, stand for any number.
+/// The points that matter for the frame: those of clusters if there are labels, else all: a sample of
+/// them.
 Corners framed_points(const Picture& picture) {
   Corners points;
-  const std::size_t step = picture.points.count / 100000 + 1;
+  const std::size_t step = sample_step(picture.points);
   for (std::size_t i = 0; i < picture.points.count; i += step) {
-    const Coordinates p = load_point(picture.points, i);
+    const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
     const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
     if (counts && is_drawn(p)) points.emplace_back(p.x, p.y, p.z);
   }

@@ -31,6 +31,11 @@ inline bool is_drawn(const Coordinates& p) {
   return is_valid(p) && (p.x != 0 || p.y != 0 || p.z != 0);
 }
 
+/// A hundred thousand points, every so many of them, stand for any number.
+inline std::size_t sample_step(const PointView& points) {
+  return points.count / 100000 + 1;
+}
+
 /// The view that frames what picture_png() promises.
 View fit_view(const Picture& picture);
 

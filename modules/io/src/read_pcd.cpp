@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Nothing is allocated for points before the header's sizes have been held against the size of the file.
-#include <algorithm>
-#include <bit>
 #include <new>
+#include <utility>
 
+#include "binary_points.h"
 #include "input_file.h"
 #include "pcd_ascii.h"
 #include "pcd_compressed.h"
@@ -16,31 +16,15 @@
 namespace pcl_bv {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "records are used as they are in the file");
-
-void read_binary_points(const InputFile& file, std::size_t offset, RawCloud& cloud) {
-  const std::size_t needed = cloud.size() * cloud.point_step;
-  const std::size_t available = file.size() - offset;
-  if (needed > available) {
-    throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
-                  std::to_string(cloud.point_step) + " bytes need " + std::to_string(needed) +
-                  " bytes, the file has " + std::to_string(available));
-  }
-  cloud.data.resize(needed);
-  file.read(offset, cloud.data.data(), needed);
-}
-
 RawCloud read_points(const InputFile& file) {
-  std::string start(std::min(file.size(), max_pcd_header_size), '\0');
-  file.read(0, start.data(), start.size());
-  PcdHeader header = parse_pcd_header(start);
+  PcdHeader header = read_pcd_header(file);
   switch (header.encoding) {
     case PcdEncoding::ascii:
       read_ascii_points(file, header.data_offset, header.cloud);
       break;
     case PcdEncoding::binary:
-      read_binary_points(file, header.data_offset, header.cloud);
-      break;
+      require_points(file, header.data_offset, header.cloud);
+      return read_points(file, {std::move(header.cloud), header.data_offset});
     case PcdEncoding::binary_compressed:
       read_compressed_points(file, header.data_offset, header.cloud);
       break;

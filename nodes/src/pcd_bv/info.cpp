@@ -1,74 +1,179 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Neighbours are looked for along the longest side of the cloud, where its points are sorted: a search ends
-// where that coordinate alone is farther away than the nearest point so far.
+// Only the median matters. Each sample's distance to its nearest neighbour is bounded by what was seen of it
+// so far, and the median of these bounds is not below that of the distances. So all points are looked at, but
+// only for samples within that median: what is farther away changes no distance that is below it.
 
 #include "info.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <utility>
+
+#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {
 namespace {
 
-std::vector<Eigen::Vector3d> collect_points(const PointView& view, CloudInfo& info) {
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(view.count);
-  for (std::size_t i = 0; i < view.count; ++i) {
-    const Coordinates p = load_point(view, i);
-    if (!is_valid(p)) {
-      ++info.nonfinite;
-    } else if (p.x == 0 && p.y == 0 && p.z == 0) {
-      ++info.zero;
-    } else {
-      points.emplace_back(p.x, p.y, p.z);
-      info.box.extend(points.back());
-    }
-  }
-  return points;
+constexpr std::size_t kMostSamples = 1000;
+
+// Points before and after a sample that give its bound.
+constexpr std::size_t kListedNear = 64;
+
+bool is_dead(const Coordinates& p) {
+  return p.x == 0 && p.y == 0 && p.z == 0;
 }
 
-/// Distance from point i of the sorted ones to the nearest other.
-double nearest(const std::vector<Eigen::Vector3d>& sorted, std::size_t i, Eigen::Index axis) {
+bool counts(const Coordinates& p) {
+  return is_valid(p) && !is_dead(p);
+}
+
+double distance(const Coordinates& a, const Coordinates& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+struct Sample {
+  Coordinates point;
+  std::size_t index;
+  double nearest;  // distance, so far
+};
+
+struct ChunkCounts {
+  std::size_t used = 0, nonfinite = 0, zero = 0;
+  Aabb box;
+};
+
+ChunkCounts look_at(const PointView& points) {
+  ChunkCounts found;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) {
+      ++found.nonfinite;
+    } else if (is_dead(p)) {
+      ++found.zero;
+    } else {
+      ++found.used;
+      found.box.extend({p.x, p.y, p.z});
+    }
+  }
+  return found;
+}
+
+double nearest_listed(const PointView& points, std::size_t i, const Coordinates& p) {
   double best = std::numeric_limits<double>::infinity();
-  const auto visit = [&](std::size_t j) {
-    if (std::abs(sorted[j][axis] - sorted[i][axis]) >= best) return false;
-    best = std::min(best, (sorted[j] - sorted[i]).stableNorm());
-    return true;
-  };
-  for (std::size_t j = i + 1; j < sorted.size() && visit(j);)
-    ++j;
-  for (std::size_t j = i; j > 0 && visit(j - 1);)
-    --j;
+  const std::size_t end = std::min(points.count, i + kListedNear + 1);
+  for (std::size_t j = i - std::min(i, kListedNear); j < end; ++j) {
+    const Coordinates q = load_point(points, j);
+    if (j != i && counts(q)) best = std::min(best, distance(p, q));
+  }
   return best;
 }
 
-std::optional<double> spacing(std::vector<Eigen::Vector3d> points, const Aabb& box) {
-  constexpr std::size_t most_samples = 1000;
-  if (points.size() < 2) return std::nullopt;
+// Of `used` points every so many, as the chunk's points come: `before` of them are in the chunks before it.
+std::vector<Sample> take_samples(const PointView& points, std::size_t before, std::size_t used) {
+  const std::size_t samples = std::min(used, kMostSamples);
+  std::vector<Sample> taken;
+  std::size_t k = (before * samples + used - 1) / used;  // the next one is number k * used / samples
+  for (std::size_t i = 0, rank = before; i < points.count && k < samples; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!counts(p)) continue;
+    if (rank++ != k * used / samples) continue;
+    taken.push_back({p, points.index(i), nearest_listed(points, i, p)});
+    ++k;
+  }
+  return taken;
+}
+
+double median(const std::vector<Sample>& samples) {
+  std::vector<double> distances;
+  for (const Sample& sample : samples)
+    distances.push_back(sample.nearest);
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+// Lets the points come nearer to the samples, which are sorted along `axis`. The reach shrinks as they do.
+void come_nearer(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
+  constexpr std::size_t points_per_reach = 4096;
+  const auto before = [&](const Sample& sample, double at) { return sample.point.*axis < at; };
+  double reach = 0;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    if (i % points_per_reach == 0) reach = median(samples);
+    const Coordinates p = load_point(points, i);
+    if (!counts(p)) continue;
+    auto sample = std::lower_bound(samples.begin(), samples.end(), p.*axis - reach, before);
+    for (; sample != samples.end() && sample->point.*axis <= p.*axis + reach; ++sample) {
+      const Coordinates& q = sample->point;
+      const bool near =
+          std::abs(p.x - q.x) <= reach && std::abs(p.y - q.y) <= reach && std::abs(p.z - q.z) <= reach;
+      if (near && sample->index != points.index(i))
+        sample->nearest = std::min(sample->nearest, distance(p, q));
+    }
+  }
+}
+
+double Coordinates::*longest_axis(const Aabb& box) {
   Eigen::Index axis = 0;
   (box.max() - box.min()).maxCoeff(&axis);
-  std::sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
-  const std::size_t samples = std::min(points.size(), most_samples);
-  std::vector<double> distances;
-  for (std::size_t k = 0; k < samples; ++k)
-    distances.push_back(nearest(points, k * points.size() / samples, axis));
-  std::nth_element(distances.begin(), distances.begin() + samples / 2, distances.end());
-  return distances[samples / 2];
+  return axis == 0 ? &Coordinates::x : axis == 1 ? &Coordinates::y : &Coordinates::z;
+}
+
+std::vector<Sample> sample(const PointView& points, const std::vector<ChunkCounts>& chunks,
+                           std::size_t used) {
+  std::vector<Sample> samples;
+  std::size_t before = 0;
+  for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
+    const LoadedPoints part = load_chunk(points, chunk);
+    for (const Sample& taken : take_samples(part.view(), before, used))
+      samples.push_back(taken);
+    before += chunks[chunk].used;
+  }
+  return samples;
+}
+
+double spacing(const PointView& points, std::vector<Sample> samples, const Aabb& box,
+               const ParallelPolicy& policy) {
+  double Coordinates::*const axis = longest_axis(box);
+  std::sort(samples.begin(), samples.end(),
+            [&](const Sample& a, const Sample& b) { return a.point.*axis < b.point.*axis; });
+  std::mutex merging;  // in any order: the least of some numbers
+  for_each_chunk(policy, chunk_count(points.count), [&](std::size_t chunk) {
+    std::vector<Sample> mine;
+    {
+      const std::lock_guard lock(merging);
+      mine = samples;
+    }
+    come_nearer(load_chunk(points, chunk).view(), axis, mine);
+    const std::lock_guard lock(merging);
+    for (std::size_t k = 0; k < mine.size(); ++k)
+      samples[k].nearest = std::min(samples[k].nearest, mine[k].nearest);
+  });
+  return median(samples);
 }
 
 }  // namespace
 
-CloudInfo cloud_info(const RawCloud& cloud) {
+CloudInfo cloud_info(const RawCloud& header, const PointView& points, const ParallelPolicy& policy) {
   CloudInfo info;
-  info.width = cloud.width;
-  info.height = cloud.height;
-  info.fields = cloud.fields;
-  std::vector<Eigen::Vector3d> points = collect_points(cloud.xyz(), info);
-  info.spacing = spacing(std::move(points), info.box);
+  info.width = header.width;
+  info.height = header.height;
+  info.fields = header.fields;
+  std::vector<ChunkCounts> chunks(chunk_count(points.count));
+  for_each_chunk(policy, chunks.size(),
+                 [&](std::size_t chunk) { chunks[chunk] = look_at(load_chunk(points, chunk).view()); });
+  std::size_t used = 0;
+  for (const ChunkCounts& chunk : chunks) {
+    used += chunk.used;
+    info.nonfinite += chunk.nonfinite;
+    info.zero += chunk.zero;
+    info.box.merge(chunk.box);
+  }
+  if (used >= 2) info.spacing = spacing(points, sample(points, chunks, used), info.box, policy);
   return info;
 }
 

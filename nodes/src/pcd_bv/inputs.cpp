@@ -20,9 +20,13 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view synth_prefix = "synth:";
 
+}  // namespace
+
 bool is_synth(const std::string& input) {
   return input.starts_with(synth_prefix);
 }
+
+namespace {
 
 bool is_folder(const std::string& path) {
   std::error_code unknown;

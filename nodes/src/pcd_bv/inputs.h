@@ -21,6 +21,9 @@ struct Job {
   std::optional<std::filesystem::path> labels, mesh, image;
 };
 
+/// Whether an input is a generated cloud, not a file.
+bool is_synth(const std::string& input);
+
 /// All clouds, folders expanded in natural order. Throws UsageError if two results would go to the same file.
 std::vector<Job> plan_jobs(const Options& options);
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "info.h"
+#include "loaded_cloud.h"
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
@@ -41,11 +42,13 @@ void fit(const Segmentation& segmentation, const Options& options, Report& repor
   for_each_view(segmentation.entries, options.execution, [&](std::size_t id, const Execution& execution) {
     ClusterEntry& cluster = report.clusters[id];
     cluster.id = id;
+    Extremes extremes;
+    const Execution shared = share_extremes(segmentation.entries[id], options.methods, execution, extremes);
     for (const Method* method : options.methods) {
       VolumeEntry& entry = cluster.volumes.emplace_back();
       entry.method = method->name;
       const EstimationResult result =
-          method->fit(segmentation.entries[id], entry.volume, execution, options.method_options);
+          method->fit(segmentation.entries[id], entry.volume, shared, options.method_options);
       cluster.points = result.used;
       // Then there is one entry: the cloud.
       if (!looks_at_points(options)) report.counts.nonfinite = result.dropped;
@@ -99,9 +102,9 @@ Picture make_picture(const Segmentation& segmentation, const std::vector<std::ui
   return picture;
 }
 
-/// The files that were asked for beside the report. Changes the cloud's records, so it comes last.
+/// The files that were asked for beside the report. The labels are written into the cloud's own records.
 Status write_files(const Job& job, const Options& options, const Segmentation& segmentation,
-                   const Report& report, RawCloud& cloud) {
+                   const Report& report, RawCloud cloud) {
   Status status = Status::done;
   if (job.mesh) {
     status = worse(status, write_file(*job.mesh, [&] {
@@ -110,7 +113,8 @@ Status write_files(const Job& job, const Options& options, const Segmentation& s
                    }));
   }
   if (!job.labels && !job.image) return status;
-  const std::vector<std::uint32_t> label = labels(segmentation, cloud.size());
+  std::vector<std::uint32_t> label;
+  if (job.labels || options.tolerance) label = labels(segmentation, report.points);
   if (job.image) {
     status = worse(status, write_file(*job.image, [&] {
                      write_picture(*job.image, make_picture(segmentation, label, options, report));
@@ -128,18 +132,18 @@ Status write_files(const Job& job, const Options& options, const Segmentation& s
 Status process(const Job& job, const Options& options, Report& report) {
   Stopwatch watch;
   Seconds seconds;
-  RawCloud cloud = load_cloud(job);
+  LoadedCloud loaded(job, tells_points_apart(options) || job.labels);
   seconds.read = watch.lap();
-  const Segmentation segmentation = segment(cloud.xyz(), options);
+  const Segmentation segmentation = segment(loaded.xyz(), options);
   seconds.segment = watch.lap();
-  report.points = cloud.size();
+  report.points = loaded.cloud().size();
   report.counts = segmentation.counts;
   fit(segmentation, options, report);
   seconds.fit = watch.lap();
-  if (options.info) report.info = cloud_info(cloud);
+  if (options.info) report.info = cloud_info(loaded.cloud(), loaded.xyz(), options.execution.parallel);
   if (options.timings) report.seconds = seconds;
   const Status checked = options.check ? check(segmentation, options, report) : Status::done;
-  return worse(checked, write_files(job, options, segmentation, report, cloud));
+  return worse(checked, write_files(job, options, segmentation, report, loaded.take()));
 }
 
 }  // namespace

@@ -7,9 +7,10 @@
 
 #include <utility>
 
-#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/picture.h"
-#include "pcl_bv/segmentation/ground_zones.h"
+#include "stages/filter.h"
+#include "stages/filtered_points.h"
+#include "stages/ground.h"
 
 namespace pcl_bv {
 namespace {
@@ -20,43 +21,37 @@ PointView subset(PointView cloud, const std::vector<std::int32_t>& numbers) {
   return cloud;
 }
 
-/// Fills in_range and counts. A float's square is exact in double and the sum of three is rounded twice,
-/// so a point is judged by its true distance to within 2e-16 of it.
-void filter(const PointView& cloud, const RangeFilter& range, Segmentation& result) {
-  if (cloud.count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw IoError("more than 2147483647 points: too many to select from");
+FilterConfig filter_of(const Options& options) {
+  FilterConfig filter;
+  filter.range_min = options.range ? options.range->min : 0;
+  if (options.range) filter.range_max = options.range->max;
+  return filter;
+}
+
+// Fills in_range and counts. A big cloud that is only filtered goes the same way, to the same bits, whether
+// it is in memory or in a file: it is filtered as it comes past.
+void filter(const PointView& cloud, const Options& options, Segmentation& result) {
+  const FilterConfig config = filter_of(options);
+  if (!tells_points_apart(options) && cloud.count > kChunkPoints) {
+    auto filtered = std::make_unique<FilteredPoints>(cloud, config);
+    result.counts = filtered->count(options.execution.parallel);
+    if (result.counts.range > 0) result.in_range = filtered->view();
+    result.filtered = std::move(filtered);
+    return;
   }
-  const double min2 = range.min * range.min, max2 = range.max * range.max;
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    const Coordinates p = load_point(cloud, i);
-    if (!is_valid(p)) {
-      ++result.counts.nonfinite;
-      continue;
-    }
-    const double distance2 = p.x * p.x + p.y * p.y + p.z * p.z;
-    if (distance2 >= min2 && distance2 <= max2) {
-      result.in_range_numbers.push_back(static_cast<std::int32_t>(i));
-    } else {
-      ++result.counts.range;
-    }
-  }
+  filter_points(cloud, config, result.in_range_numbers, result.counts);
   if (result.counts.range > 0) result.in_range = subset(cloud, result.in_range_numbers);
 }
 
-/// Fills ground, points and the count.
+// Fills ground, points and the count.
 void remove_ground(const PointView& cloud, const GroundOptions& options, Segmentation& result) {
+  GroundConfig config;
+  config.method = options.kind == GroundKind::plane ? GroundMethod::plane : GroundMethod::zones;
+  config.up = options.up;
+  config.sensor_height = options.sensor_height;
+  GroundZones zones;
   GroundSplit split;
-  if (options.kind == GroundKind::plane) {
-    GroundPlaneSettings settings;
-    settings.up = options.up;
-    settings.sensor_height = options.sensor_height;
-    split_ground(result.in_range, settings, split);
-  } else {
-    GroundZonesSettings settings;
-    settings.up = options.up;
-    settings.sensor_height = options.sensor_height;
-    GroundZones().split(result.in_range, settings, split);
-  }
+  split_ground(result.in_range, config, zones, split);
   result.counts.ground = split.ground.size();
   result.ground = std::move(split.ground);
   result.above_ground = std::move(split.rest);
@@ -65,10 +60,14 @@ void remove_ground(const PointView& cloud, const GroundOptions& options, Segment
 
 }  // namespace
 
+bool tells_points_apart(const Options& options) {
+  return options.ground || options.tolerance;
+}
+
 Segmentation segment(const PointView& cloud, const Options& options) {
   Segmentation result;
   result.in_range = cloud;
-  if (looks_at_points(options)) filter(cloud, options.range.value_or(RangeFilter{}), result);
+  if (looks_at_points(options)) filter(cloud, options, result);
   result.points = result.in_range;
   if (options.ground) remove_ground(cloud, *options.ground, result);
   if (!options.tolerance) {
@@ -88,7 +87,7 @@ Segmentation segment(const PointView& cloud, const Options& options) {
 }
 
 bool looks_at_points(const Options& options) {
-  return options.range || options.ground || options.tolerance;
+  return options.range || tells_points_apart(options);
 }
 
 std::vector<std::uint32_t> labels(const Segmentation& segmentation, std::size_t cloud_size) {
@@ -97,8 +96,12 @@ std::vector<std::uint32_t> labels(const Segmentation& segmentation, std::size_t 
     label[static_cast<std::size_t>(i)] = label_ground;
   for (std::size_t id = 0; id < segmentation.entries.size(); ++id) {
     const PointView& entry = segmentation.entries[id];
-    for (std::size_t i = 0; i < entry.count; ++i) {
-      if (is_valid(load_point(entry, i))) label[entry.index(i)] = static_cast<std::uint32_t>(id);
+    for (std::size_t chunk = 0; chunk < chunk_count(entry.count); ++chunk) {
+      const LoadedPoints loaded = load_chunk(entry, chunk);
+      const PointView& part = loaded.view();
+      for (std::size_t i = 0; i < part.count; ++i) {
+        if (is_valid(load_point(part, i))) label[part.index(i)] = static_cast<std::uint32_t>(id);
+      }
     }
   }
   return label;

@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "filter.h"
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
-#include "pcl_bv/segmentation/ground_zones.h"
+#include "stages/filter.h"
+#include "stages/ground.h"
 #include "tracked_volumes.h"
 
 namespace pcl_bv {
@@ -54,16 +54,6 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   return prepared;
 }
 
-template <typename Settings>
-Settings settings_of(const GroundConfig& config) {
-  Settings settings;
-  settings.up = config.up;
-  settings.sensor_height = config.sensor_height;
-  settings.distance = config.distance.value_or(settings.distance);
-  settings.max_slope_degrees = config.max_slope_degrees.value_or(settings.max_slope_degrees);
-  return settings;
-}
-
 PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
   cloud.indices = numbers;
   cloud.count = count;
@@ -98,18 +88,10 @@ struct FramePipeline::State {
 
 PointView FramePipeline::State::remove_ground(const GroundConfig& config, const PointView& points,
                                               FrameResult& result) {
-  GroundSplit& split = result.ground;
-  split.found = false;
-  split.ground.clear();
-  split.rest.clear();
+  split_ground(points, config, zones, result.ground);
   if (config.method == GroundMethod::none) return points;
-  if (config.method == GroundMethod::plane) {
-    split_ground(points, settings_of<GroundPlaneSettings>(config), split);
-  } else {
-    zones.split(points, settings_of<GroundZonesSettings>(config), split);
-  }
-  result.counts.ground = split.ground.size();
-  return subset(points, split.rest);
+  result.counts.ground = result.ground.ground.size();
+  return subset(points, result.ground.rest);
 }
 
 void FramePipeline::State::find_clusters(const Prepared& now, const PointView& points, FrameResult& result) {
@@ -136,8 +118,10 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   result.methods.assign(now.methods.begin(), now.methods.end());
   result.volumes.resize(views.size() * methods);
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
+    Extremes extremes;
+    const Execution shared = share_extremes(views[cluster], now.methods, execution, extremes);
     for (std::size_t m = 0; m < methods; ++m)
-      now.methods[m]->fit(views[cluster], result.volumes[cluster * methods + m], execution, now.options);
+      now.methods[m]->fit(views[cluster], result.volumes[cluster * methods + m], shared, now.options);
   };
   for_each_view(views, now.execution, std::cref(fit_cluster));
 }

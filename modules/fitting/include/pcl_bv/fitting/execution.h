@@ -9,10 +9,16 @@
 
 namespace pcl_bv {
 
+struct Extremes;
+
 /// Where and how a fit runs. No choice here changes a single bit of the result.
 struct Execution {
   ParallelPolicy parallel = Serial{};
   Isa isa = Isa::automatic;
+
+  /// If not null, what find_extremes() gave for these very points, which most fits begin with: they then need
+  /// a pass less where it holds what they ask for. share_extremes() (methods.h) decides for several methods.
+  const Extremes* extremes = nullptr;
 };
 
 }  // namespace pcl_bv

@@ -26,6 +26,7 @@ enum class ExtremeDetail {
 /// The first direction_count(set) entries count; they follow kCubeDirections as cube_direction() says.
 struct Extremes {
   DirectionSet set = DirectionSet::dop6;
+  ExtremeDetail detail = ExtremeDetail::bounds;  ///< What was asked for; there may be more.
   std::size_t used = 0;
   std::size_t dropped = 0;
   std::array<double, kMaxDirections> low{};  ///< Exact least projection, rounded down to a double; never -0.
@@ -38,7 +39,8 @@ struct Extremes {
 
 /// Finds the extremes of all valid points; `used` is 0 and nothing else but `dropped` is set if there is
 /// none. The same bits for every execution. One SIMD pass over the points in chunks, which also looks exactly
-/// at the few points of each chunk that can be extreme (docs/numerics.md).
+/// at the few points of each chunk that can be extreme (docs/numerics.md). None if Execution::extremes has
+/// them.
 ///
 /// Throws std::invalid_argument for an unusable instruction set.
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,

@@ -4,9 +4,11 @@
 // The one table of methods: names, aliases, shapes and fits. Commands, files and `all` read it.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/volumes/any_volume.h"
@@ -24,7 +26,8 @@ struct Method {
   std::vector<std::string_view> aliases;  ///< Other names that mean it.
   std::string_view shape;  ///< As shape_name() says; empty for `best`, which depends on the points.
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
-  bool upright = false;  ///< Whether it asks for MethodOptions::up.
+  std::optional<DirectionSet> begins_with;  ///< The extremes that it looks for first, if it does.
+  bool upright = false;                     ///< Whether it asks for MethodOptions::up.
 
   EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,
                        const MethodOptions& options = {}) const {
@@ -37,6 +40,11 @@ const std::vector<Method>& methods();
 
 /// The method with this name or alias, or null.
 const Method* find_method(std::string_view name);
+
+/// For fitting several methods to the same points: if two or more begin with extremes, and not only with
+/// those along the axes, finds them once, in `extremes`, which must outlive the execution that is returned.
+Execution share_extremes(const PointView& points, const std::vector<const Method*>& among,
+                         const Execution& execution, Extremes& extremes);
 
 /// Fits each of the methods (at least one, or std::invalid_argument) and keeps the volume that is smallest,
 /// of equally small (flat) ones that with the smallest surface, of equal ones the first. `winner`, if not

@@ -28,4 +28,9 @@ inline PointView chunk_of(const PointView& points, std::size_t chunk) {
   return points.slice(begin, std::min(kChunkPoints, points.count - begin));
 }
 
+inline PointView block_of(const PointView& points, std::size_t block) {
+  const std::size_t begin = block * kBlockPoints;
+  return points.slice(begin, std::min(kBlockPoints, points.count - begin));
+}
+
 }  // namespace pcl_bv

@@ -25,7 +25,10 @@ enum class PointOrder : std::uint8_t {
 /// Bytes of each coordinate in a group: 16 floats or 8 doubles, a cache line and the widest vector of x86.
 inline constexpr std::size_t kGroupBytes = 64;
 
-/// A read-only view of points in memory, whole or by an index list. Does not own; the memory must outlive it.
+class PointSource;
+
+/// A read-only view of points, whole or by an index list. Does not own; the memory must outlive it. Kernels
+/// and segmenters take points that are in memory; fits and verify() also those of a PointSource.
 ///
 /// Coordinates x, y, z (metres by convention, any unit works) of type `scalar`; in records they need no
 /// alignment. They may be NaN or infinite: such points are dropped by whoever reads them.
@@ -38,6 +41,10 @@ struct PointView {
   std::size_t first = 0;                  ///< Without indices: number of the first visited point.
   ScalarType scalar = ScalarType::float32;
   PointOrder order = PointOrder::records;
+
+  /// If set, the points are not in memory but come from there part by part (point_source.h): there are no
+  /// data and no indices, and address() may not be asked.
+  const PointSource* source = nullptr;
 
   /// Points whose x is at `xyz`, `stride` bytes apart, with all of `stride` readable (x comes first in the
   /// record).
@@ -52,7 +59,8 @@ struct PointView {
             indices,
             0,
             sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64,
-            PointOrder::records};
+            PointOrder::records,
+            nullptr};
   }
 
   bool empty() const { return count == 0; }
@@ -82,7 +90,7 @@ struct PointView {
     if (indices) {
       part.indices = indices + begin;
     } else {
-      if (order == PointOrder::records) part.data = data + stride * begin;
+      if (data != nullptr && order == PointOrder::records) part.data = data + stride * begin;
       part.first = first + begin;
     }
     return part;

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clouds that stay in their file: however big they are, a fit holds a few parts of them in memory.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/kernels/point_source.h"
+
+namespace pcl_bv {
+
+/// An open binary .pcd or KITTI .bin. Points are read where and when they are asked for, by position, so that
+/// several threads read and fit side by side; the system is told what comes next, 8 MiB ahead.
+class CloudFile final : public PointSource {
+ public:
+  /// Opens the file and reads its header only; null if its points can only be read from first to last (ascii,
+  /// binary_compressed, .ply), or are so few (kChunkPoints or less) that read_cloud() is the better way.
+  /// Throws IoError as read_cloud() does.
+  static std::unique_ptr<CloudFile> open(const std::filesystem::path& path);
+  ~CloudFile() override;
+
+  /// Fields, size and viewpoint; no points.
+  const RawCloud& header() const;
+
+  /// All points, as a view that lives as long as this object.
+  PointView xyz() const;
+
+  /// Throws IoError, for a file that was cut, too.
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
+
+ private:
+  struct Opened;
+  explicit CloudFile(std::unique_ptr<Opened> file);
+
+  std::unique_ptr<const Opened> file_;
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Parts of files into the buffers of those who fit them.
+
+#include "pcl_bv/io/cloud_file.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "binary_points.h"
+#include "coordinate_fields.h"
+#include "copy_strided.h"
+
+namespace pcl_bv {
+
+struct CloudFile::Opened {
+  InputFile file;
+  BinaryPoints points;
+  CoordinateFields fields;
+};
+
+namespace {
+
+// The next part of the file is asked for when the reading comes into a new one.
+constexpr std::size_t kAhead = std::size_t{8} << 20;
+
+// Records up to here are used as they are.
+constexpr std::size_t kShortRecord = 64;
+
+// Of longer ones this much is read at a time.
+constexpr std::size_t kPiece = std::size_t{256} << 10;
+
+void expect_more(const InputFile& file, std::size_t from, std::size_t to) {
+  if (from / kAhead != to / kAhead) file.expect((to / kAhead + 1) * kAhead, kAhead);
+}
+
+// Never shrinks: what a vector grows by it clears first.
+void grow(std::vector<std::byte>& buffer, std::size_t bytes) {
+  if (buffer.size() < bytes) buffer.resize(bytes);
+}
+
+// The coordinates of the records from `offset` on to the front of the buffer, by way of a piece behind them.
+void pack(const InputFile& file, std::size_t offset, std::size_t step, const CoordinateFields& fields,
+          std::size_t count, std::vector<std::byte>& buffer) {
+  const std::size_t size = size_of(fields.scalar), packed = 3 * size;
+  const std::size_t at_a_time = std::clamp<std::size_t>(kPiece / step, 1, count);
+  grow(buffer, count * packed + at_a_time * step);
+  std::byte* const piece = buffer.data() + count * packed;
+  for (std::size_t done = 0; done < count; done += at_a_time) {
+    const std::size_t n = std::min(at_a_time, count - done);
+    file.read(offset + done * step, piece, n * step);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      copy_strided({piece, fields.offset[axis], step}, {buffer.data() + done * packed, axis * size, packed},
+                   size, n);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<CloudFile> CloudFile::open(const std::filesystem::path& path) {
+  InputFile file(path);
+  std::optional<BinaryPoints> points = find_binary_points(file, path);
+  if (!points || points->header.size() <= kChunkPoints) return nullptr;
+  const CoordinateFields fields = coordinate_fields(points->header);
+  file.expect(points->offset, 2 * kAhead);
+  return std::unique_ptr<CloudFile>(
+      new CloudFile(std::make_unique<Opened>(Opened{std::move(file), std::move(*points), fields})));
+}
+
+CloudFile::CloudFile(std::unique_ptr<Opened> file) : file_(std::move(file)) {}
+CloudFile::~CloudFile() = default;
+
+const RawCloud& CloudFile::header() const {
+  return file_->points.header;
+}
+
+PointView CloudFile::xyz() const {
+  return view_of(*this, header().size(), file_->fields.scalar);
+}
+
+PointView CloudFile::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
+  const CoordinateFields& fields = file_->fields;
+  const std::size_t step = header().point_step, from = file_->points.offset + first * step;
+  expect_more(file_->file, from, from + count * step);
+  PointView view;
+  view.first = first;
+  view.count = count;
+  view.scalar = fields.scalar;
+  if (fields.adjacent && step <= kShortRecord) {
+    grow(buffer, count * step);
+    file_->file.read(from, buffer.data(), count * step);
+    view.data = buffer.data() + fields.offset[0];
+    view.stride = step;
+    view.readable = step - fields.offset[0];
+  } else {
+    pack(file_->file, from, step, fields, count, buffer);
+    view.data = buffer.data();
+    view.stride = view.readable = 3 * size_of(fields.scalar);
+  }
+  return view;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The cloud of a job: in memory, or left in its file where nothing needs all points at a time.
+#pragma once
+
+#include <memory>
+
+#include "inputs.h"
+#include "pcl_bv/io/cloud_file.h"
+
+namespace pcl_bv {
+
+class LoadedCloud {
+ public:
+  /// `hold`: whether it has to be in memory. Throws what load_cloud() throws.
+  LoadedCloud(const Job& job, bool hold);
+
+  /// Fields, size and viewpoint; the points only if it is held.
+  const RawCloud& cloud() const { return file_ ? file_->header() : held_; }
+
+  PointView xyz() const { return file_ ? file_->xyz() : held_.xyz(); }
+
+  /// To be changed by its last user.
+  RawCloud take() { return std::move(held_); }
+
+ private:
+  std::unique_ptr<CloudFile> file_;
+  RawCloud held_;
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A filter for clouds that are not held: it drops points as they come past.
+#pragma once
+
+#include "pcl_bv/io/report.h"
+#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/parallel/policy.h"
+
+namespace pcl_bv {
+
+/// The points of a view; those that filter_points() would drop are not valid (NaN).
+class FilteredPoints final : public PointSource {
+ public:
+  /// Keeps the view, whose points are not of an index list.
+  FilteredPoints(const PointView& points, const FilterConfig& config) : points_(points), config_(config) {}
+
+  PointView view() const { return view_of(*this, points_.count, points_.scalar); }
+
+  /// What is dropped, by reason: a pass over all points.
+  Counts count(const ParallelPolicy& policy) const;
+
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
+
+ private:
+  PointView points_;
+  FilterConfig config_;
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a configuration leaves open is what the method's own settings say.
+
+#include "ground.h"
+
+namespace pcl_bv {
+namespace {
+
+template <typename Settings>
+Settings settings_of(const GroundConfig& config) {
+  Settings settings;
+  settings.up = config.up;
+  settings.sensor_height = config.sensor_height;
+  settings.distance = config.distance.value_or(settings.distance);
+  settings.max_slope_degrees = config.max_slope_degrees.value_or(settings.max_slope_degrees);
+  return settings;
+}
+
+}  // namespace
+
+void split_ground(const PointView& points, const GroundConfig& config, GroundZones& zones,
+                  GroundSplit& split) {
+  split.found = false;
+  split.ground.clear();
+  split.rest.clear();
+  if (config.method == GroundMethod::plane) {
+    split_ground(points, settings_of<GroundPlaneSettings>(config), split);
+  } else if (config.method == GroundMethod::zones) {
+    zones.split(points, settings_of<GroundZonesSettings>(config), split);
+  }
+}
+
+}  // namespace pcl_bv

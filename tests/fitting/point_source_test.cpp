@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Points that come part by part give what points in memory give.
+
+#include "pcl_bv/kernels/point_source.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "clouds.h"
+#include "executions.h"
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/fitting/summary.h"
+#include "pcl_bv/fitting/verify.h"
+
+namespace pcl_bv {
+namespace {
+
+// Two chunks and a piece of a third.
+constexpr std::size_t kCount = 2 * kChunkPoints + 777;
+
+// Copies what is asked for into the buffer, and spoils whatever else is in there.
+template <typename T>
+class CopyingSource : public PointSource {
+ public:
+  explicit CopyingSource(const test::TestCloud<T>& cloud) : cloud_(cloud) {}
+
+  PointView view() const {
+    return view_of(*this, cloud_.size(), sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64);
+  }
+
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
+    if (count > kChunkPoints || first + count > cloud_.size()) throw std::logic_error("asked for too much");
+    ++loads;
+    if (fail_at && first <= *fail_at && *fail_at < first + count) throw std::runtime_error("cut");
+    buffer.assign(std::max(buffer.size(), count * 3 * sizeof(T) + 64), std::byte{0x7f});
+    std::copy_n(reinterpret_cast<const std::byte*>(&cloud_.xyz[3 * first]), count * 3 * sizeof(T),
+                buffer.data());
+    PointView view = PointView::of(reinterpret_cast<const T*>(buffer.data()), 3 * sizeof(T), count);
+    view.first = first;
+    return view;
+  }
+
+  mutable std::atomic<std::size_t> loads = 0;
+  std::optional<std::size_t> fail_at;
+
+ private:
+  const test::TestCloud<T>& cloud_;
+};
+
+template <typename T>
+test::TestCloud<T> ball_surface() {
+  test::TestCloud<T> cloud = test::gaussian<T>(kCount, 5);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    T* p = &cloud.xyz[3 * i];
+    const T length = std::hypot(p[0], p[1], p[2]);
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] /= length;
+  }
+  cloud.name = "surface of a ball";
+  return cloud;
+}
+
+template <typename T>
+std::vector<test::TestCloud<T>> clouds() {
+  std::vector<test::TestCloud<T>> all{test::gaussian<T>(kCount, 1), test::gaussian<T>(kCount, 2),
+                                      ball_surface<T>()};
+  for (std::size_t i = 0; i < all[1].xyz.size(); i += 100)
+    all[1].xyz[i] = i % 3 == 0 ? std::numeric_limits<T>::quiet_NaN() : std::numeric_limits<T>::infinity();
+  all[1].name = "with holes";
+  return all;
+}
+
+// The hull of a ball's surface takes half a minute.
+bool too_slow(const Method& method, const std::string& cloud) {
+  return cloud == "surface of a ball" && method.begins_with == DirectionSet::dop26 &&
+         method.shape != "sphere" && method.shape != "kdop" && !method.upright;
+}
+
+template <typename T>
+void expect_same_fits() {
+  for (const test::TestCloud<T>& cloud : clouds<T>()) {
+    const CopyingSource<T> source(cloud);
+    for (const Method& method : methods()) {
+      if (too_slow(method, cloud.name) || method.name == "obb-min") continue;
+      for (const SphereGrowth growth :
+           {SphereGrowth::deferred, SphereGrowth::sequential, SphereGrowth::stationary}) {
+        if (growth != SphereGrowth::deferred && method.shape != "sphere") continue;
+        MethodOptions options;
+        options.growth = growth;
+        AnyVolume held;
+        const EstimationResult expected = method.fit(cloud.view(), held, {}, options);
+        for (const Execution& execution : {Execution{}, Execution{OpenMP{3}}}) {
+          AnyVolume passing;
+          const EstimationResult result = method.fit(source.view(), passing, execution, options);
+          EXPECT_TRUE(passing == held) << cloud.name << ", " << method.name;
+          EXPECT_EQ(result.used, expected.used);
+          EXPECT_EQ(result.dropped, expected.dropped);
+          EXPECT_EQ(result.rank, expected.rank);
+        }
+      }
+    }
+  }
+}
+
+TEST(PointSource, EveryMethodGivesTheBitsOfPointsInMemory) {
+  expect_same_fits<float>();
+}
+
+TEST(PointSource, EveryMethodGivesTheBitsOfDoublesInMemory) {
+  expect_same_fits<double>();
+}
+
+TEST(PointSource, TheMinimalBoxIsThatOfPointsInMemory) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(kCount, 1);
+  const CopyingSource<float> source(cloud);
+  AnyVolume held, passing;
+  find_method("obb-min")->fit(cloud.view(), held, {});
+  find_method("obb-min")->fit(source.view(), passing, {});
+  EXPECT_TRUE(passing == held);
+}
+
+TEST(PointSource, NoExecutionChangesABit) {
+  const test::TestCloud<float> cloud = clouds<float>()[1];
+  const CopyingSource<float> source(cloud);
+  for (const char* name : {"dop26", "sphere-exact", "sphere-epos26", "obb-dito14", "obb-pca"}) {
+    AnyVolume expected;
+    find_method(name)->fit(cloud.view(), expected, {});
+    for (const test::NamedExecution& execution : test::every_execution()) {
+      AnyVolume volume;
+      find_method(name)->fit(source.view(), volume, execution.execution);
+      EXPECT_TRUE(volume == expected) << name << ", " << execution.name;
+    }
+  }
+}
+
+TEST(PointSource, VerifySeesEveryPoint) {
+  test::TestCloud<float> cloud = test::gaussian<float>(kCount, 3);
+  const CopyingSource<float> source(cloud);
+  AnyVolume box;
+  find_method("aabb")->fit(cloud.view(), box, {});
+  EXPECT_EQ(verify(box, source.view()).outside, 0U);
+  EXPECT_EQ(verify(box, source.view()).checked, kCount);
+  for (const std::size_t i : {std::size_t{0}, kChunkPoints, kCount - 1}) {
+    const float kept = std::exchange(cloud.xyz[3 * i], 100.0f);
+    EXPECT_EQ(verify(box, source.view()).outside, 1U) << i;
+    cloud.xyz[3 * i] = kept;
+  }
+}
+
+TEST(PointSource, ExtremePointsHaveTheirNumbersInTheSource) {
+  test::TestCloud<float> cloud = test::gaussian<float>(kCount, 4);
+  cloud.xyz[3 * (kCount - 5)] = 50;
+  const CopyingSource<float> source(cloud);
+  const Extremes extremes = find_extremes(source.view(), DirectionSet::dop6, ExtremeDetail::points, {});
+  EXPECT_EQ(extremes.high_point[0].index, kCount - 5);
+}
+
+TEST(PointSource, WhatASourceThrowsReachesTheCaller) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(kCount, 6);
+  CopyingSource<float> source(cloud);
+  source.fail_at = kCount - 1;
+  for (const Method& method : methods()) {
+    AnyVolume volume;
+    EXPECT_THROW(method.fit(source.view(), volume, {OpenMP{2}}), std::runtime_error) << method.name;
+  }
+  EXPECT_THROW(verify(AnyVolume(), source.view()), std::runtime_error);
+}
+
+TEST(PointSource, ABoxTakesOnePassAndASphereTwo) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(kCount, 7);
+  const CopyingSource<float> source(cloud);
+  const std::size_t chunks = chunk_count(kCount);
+  AnyVolume volume;
+  find_method("aabb")->fit(source.view(), volume, {});
+  EXPECT_EQ(source.loads.exchange(0), chunks);
+  find_method("dop26")->fit(source.view(), volume, {});
+  EXPECT_EQ(source.loads.exchange(0), chunks);
+  find_method("sphere-epos26")->fit(source.view(), volume, {});
+  EXPECT_LE(source.loads.exchange(0), chunks + (kCount + kBlockPoints - 1) / kBlockPoints);
+}
+
+TEST(PointSource, APartOfAViewIsThatPart) {
+  const test::TestCloud<double> cloud = test::gaussian<double>(kCount, 8);
+  const CopyingSource<double> source(cloud);
+  const PointView part = source.view().slice(1000, 40'000);
+  const LoadedPoints loaded(part, 500, 10);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(loaded.view().index(i), 1500 + i);
+    EXPECT_EQ(load_point(loaded.view(), i), load_point(cloud.view(), 1500 + i));
+  }
+}
+
+TEST(PointSource, TwoLoadsOfOneThreadDoNotShareABuffer) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(kCount, 9);
+  const CopyingSource<float> source(cloud);
+  for (int round = 0; round < 3; ++round) {
+    const LoadedPoints first(source.view(), 0, 100), second(source.view(), 100, 100),
+        third(source.view(), 200, 100);
+    EXPECT_EQ(load_point(first.view(), 0), load_point(cloud.view(), 0));
+    EXPECT_EQ(load_point(second.view(), 99), load_point(cloud.view(), 199));
+    EXPECT_EQ(load_point(third.view(), 99), load_point(cloud.view(), 299));
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
