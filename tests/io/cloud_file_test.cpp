@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clouds that stay in their file hold the same points as those that are read, in little memory.
+#include "pcl_bv/io/cloud_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "files.h"
+#include "largest_allocation.h"
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/io/read_cloud.h"
+#include "sample_clouds.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t kPoints = kChunkPoints + 1000;
+
+class CloudInFile : public FileTest {
+ protected:
+  std::filesystem::path write(const RawCloud& cloud, PcdEncoding encoding = PcdEncoding::binary) const {
+    write_pcd(file("a.pcd"), cloud, encoding);
+    return file("a.pcd");
+  }
+
+  static std::string reason_for_open(const std::filesystem::path& path) {
+    try {
+      CloudFile::open(path);
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+void expect_same_points(const PointView& in_file, const PointView& held) {
+  ASSERT_EQ(in_file.count, held.count);
+  ASSERT_EQ(in_file.scalar, held.scalar);
+  for (const auto& [begin, count] : {std::pair<std::size_t, std::size_t>{0, kChunkPoints},
+                                     {kChunkPoints, kPoints - kChunkPoints},
+                                     {12'345, 1},
+                                     {kPoints - 1, 1}}) {
+    const LoadedPoints part(in_file, begin, count);
+    ASSERT_EQ(part.view().count, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Coordinates a = load_point(part.view(), i), b = load_point(held, begin + i);
+      ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0) << begin + i;  // NaN too
+      ASSERT_EQ(part.view().index(i), begin + i);
+    }
+  }
+}
+
+std::vector<Layout> layouts() {
+  std::vector<Layout> all = sample_layouts();
+  // Records of 3 kB, more than what is read at a time holds of a chunk, with y before x and z far behind.
+  all.push_back(
+      {"long",
+       {{"y", 'F', 4, 1, 0}, {"histogram", 'F', 8, 380, 0}, {"x", 'F', 4, 1, 0}, {"z", 'F', 4, 1, 0}}});
+  all.push_back({"doubles in a row",
+                 {{"ring", 'U', 2, 1, 0}, {"x", 'F', 8, 1, 0}, {"y", 'F', 8, 1, 0}, {"z", 'F', 8, 1, 0}}});
+  return all;
+}
+
+TEST_F(CloudInFile, HoldsThePointsOfEveryLayout) {
+  for (const Layout& layout : layouts()) {
+    SCOPED_TRACE(layout.name);
+    const RawCloud cloud = sample_cloud(layout, kPoints, 1, 3);
+    const std::filesystem::path path = write(cloud);
+    const auto opened = CloudFile::open(path);
+    ASSERT_NE(opened, nullptr);
+    EXPECT_EQ(opened->header().size(), kPoints);
+    EXPECT_EQ(opened->header().fields.size(), cloud.fields.size());
+    EXPECT_TRUE(opened->header().data.empty());
+    const RawCloud held = read_cloud(path);
+    expect_same_points(opened->xyz(), held.xyz());
+  }
+}
+
+TEST_F(CloudInFile, HoldsThePointsOfAKittiSweep) {
+  const RawCloud cloud = sample_cloud(sample_layouts()[1], kPoints, 1, 9);
+  write_text(file("1.BIN"), {reinterpret_cast<const char*>(cloud.data.data()), cloud.data.size()});
+  const auto opened = CloudFile::open(file("1.BIN"));
+  ASSERT_NE(opened, nullptr);
+  expect_same_points(opened->xyz(), cloud.xyz());
+}
+
+TEST_F(CloudInFile, IsNoneWhereAllMustBeReadOrLittleIsThere) {
+  const Layout& layout = sample_layouts()[0];
+  EXPECT_EQ(CloudFile::open(write(sample_cloud(layout, kPoints, 1, 1), PcdEncoding::ascii)), nullptr);
+  EXPECT_EQ(CloudFile::open(write(sample_cloud(layout, kPoints, 1, 1), PcdEncoding::binary_compressed)),
+            nullptr);
+  EXPECT_EQ(CloudFile::open(write(sample_cloud(layout, kChunkPoints, 1, 1))), nullptr);
+  EXPECT_EQ(CloudFile::open(write(sample_cloud(layout, 0, 1, 1))), nullptr);
+}
+
+TEST_F(CloudInFile, IsRefusedForTheReasonsOfReading) {
+  const std::filesystem::path path = write(sample_cloud(sample_layouts()[0], kPoints, 1, 1));
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+  EXPECT_EQ(reason_for_open(path), reason_for(path));
+  EXPECT_NE(reason_for_open(path).find("truncated"), std::string::npos);
+  EXPECT_EQ(reason_for_open(file("gone.pcd")), "no such file or directory");
+  EXPECT_EQ(reason_for_open(folder()), "is a directory");
+  write_text(file("odd.bin"), "12345");
+  EXPECT_EQ(reason_for_open(file("odd.bin")), reason_for(file("odd.bin")));
+}
+
+TEST_F(CloudInFile, ThatIsCutWhileItIsReadIsAnError) {
+  const std::filesystem::path path = write(sample_cloud(sample_layouts()[0], kPoints, 1, 1));
+  const auto opened = CloudFile::open(path);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+  for (const Execution& execution : {Execution{}, Execution{OpenMP{2}}}) {
+    AnyVolume box;
+    try {
+      find_method("dop26")->fit(opened->xyz(), box, execution);
+      FAIL();
+    } catch (const IoError& error) {
+      EXPECT_STREQ(error.what(), "truncated: the file became shorter while it was read");
+    }
+  }
+}
+
+TEST_F(CloudInFile, IsFittedInLittleMemory) {
+  const std::vector<Layout> all = layouts();
+  const Layout& layout = all[all.size() - 2];
+  const std::filesystem::path path = write(sample_cloud(layout, kPoints, 1, 4));
+  ASSERT_GT(std::filesystem::file_size(path), 100'000'000U);
+  largest_allocation = 0;
+  const auto opened = CloudFile::open(path);
+  for (const char* name : {"aabb", "dop26", "sphere-exact", "sphere-epos26", "obb-pca", "obb-dito14"}) {
+    AnyVolume volume;
+    find_method(name)->fit(opened->xyz(), volume, {});
+  }
+  EXPECT_LT(largest_allocation, 2'000'000U);
+}
+
+}  // namespace
+}  // namespace pcl_bv
