@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <latch>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -68,6 +70,49 @@ TEST(ForEachChunk, DoesNotNest) {
     // is.
     EXPECT_EQ(strangers, 0);
   }
+}
+
+// The only thread of the pool is held by another caller: a busy machine.
+TEST(ForEachChunk, OnOwnThreadsWaitsForNoneThatHasNotBegun) {
+  std::latch both_begun(2), released(1);
+  std::thread other([&] {
+    for_each_chunk(Threads{2}, 2, [&](std::size_t) {
+      both_begun.arrive_and_wait();
+      released.wait();
+    });
+  });
+  both_begun.wait();
+  std::atomic<int> calls{0};
+  for_each_chunk(Threads{2}, 10, [&](std::size_t) { ++calls; });
+  EXPECT_EQ(calls, 10);
+  released.count_down();
+  other.join();
+}
+
+TEST(ForEachChunk, ServesManyCallersAtATime) {
+  std::atomic<int> calls{0};
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 8; ++caller) {
+    callers.emplace_back([&] {
+      for (int round = 0; round < 200; ++round)
+        for_each_chunk(Threads{3}, 5, [&](std::size_t) { ++calls; });
+    });
+  }
+  for (std::thread& caller : callers)
+    caller.join();
+  EXPECT_EQ(calls, 8 * 200 * 5);
+}
+
+// A fork has the pool, but not its threads.
+TEST(ForEachChunk, WorksInAForkedProcess) {
+  for_each_chunk(Threads{3}, 10, [](std::size_t) {});
+  EXPECT_EXIT(
+      {
+        std::atomic<int> calls{0};
+        for_each_chunk(Threads{3}, 10, [&](std::size_t) { ++calls; });
+        std::exit(calls == 10 ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 TEST(ReduceChunks, SameOrderForAnyThreadCount) {

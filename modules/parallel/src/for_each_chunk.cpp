@@ -10,10 +10,9 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <functional>
 #include <mutex>
-#include <system_error>
-#include <thread>
+
+#include "worker_pool.h"
 
 namespace pcl_bv::internal {
 namespace {
@@ -53,7 +52,7 @@ class ChunkQueue {
 };
 
 // ThreadSanitizer does not understand libgomp's barriers and would report races that are none: under it,
-// OpenMP policies run on std::threads.
+// OpenMP policies run on our own threads.
 #if defined(__SANITIZE_THREAD__)
 constexpr bool kOpenMpIsUnderstood = false;
 #else
@@ -65,34 +64,11 @@ void work_with_openmp(ChunkQueue& queue, unsigned threads) {
   queue.work();
 }
 
-// Set while a thread works for a Threads region, which OpenMP does not know of.
-thread_local bool inside_region = false;
-
-void work_in_region(ChunkQueue& queue) {
-  inside_region = true;
-  queue.work();
-  inside_region = false;
-}
-
-// The system may refuse a thread; those that started, and this one, do the work then.
-void work_with_threads(ChunkQueue& queue, unsigned threads) {
-  std::vector<std::thread> others;
-  try {
-    others.reserve(threads - 1);
-    while (others.size() + 1 < threads)
-      others.emplace_back(work_in_region, std::ref(queue));
-  } catch (const std::exception&) {
-  }
-  work_in_region(queue);
-  for (std::thread& other : others)
-    other.join();
-}
-
 }  // namespace
 
 void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t),
                 void* body) {
-  const bool nested = inside_region || omp_in_parallel();
+  const bool nested = WorkerPool::inside() || omp_in_parallel();
   const unsigned threads =
       nested || chunks <= 1 ? 1U : static_cast<unsigned>(std::min<std::size_t>(thread_count(policy), chunks));
   ChunkQueue queue(chunks, call, body);
@@ -101,7 +77,8 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(v
   } else if (kOpenMpIsUnderstood && std::holds_alternative<OpenMP>(policy)) {
     work_with_openmp(queue, threads);
   } else {
-    work_with_threads(queue, threads);
+    WorkerPool::instance().run(
+        threads - 1, [](void* all) { static_cast<ChunkQueue*>(all)->work(); }, &queue);
   }
   queue.rethrow();
 }

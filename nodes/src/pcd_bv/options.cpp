@@ -168,7 +168,7 @@ Options to_options(const CLI::App& app, const Texts& texts) {
   options.mesh = path_or_none(app, "--mesh", texts.mesh);
   options.image = path_or_none(app, "--image", texts.image);
   if (given("--view")) options.view = parse_view(texts.view);
-  OpenMP threads;
+  Threads threads;
   if (given("--threads")) {
     threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
   }

@@ -49,7 +49,7 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
     prepared->methods.push_back(find_method(name));
   prepared->options.up = up_direction(config.ground.up);
   prepared->execution.isa = resolve_isa(parse_isa(config.isa));
-  if (config.threads != 1) prepared->execution.parallel = OpenMP{static_cast<unsigned>(config.threads)};
+  if (config.threads != 1) prepared->execution.parallel = Threads{static_cast<unsigned>(config.threads)};
   prepared->config = std::move(config);
   return prepared;
 }

@@ -40,7 +40,7 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
 
   /// Threads for compute(): 0 means all processors, 1 (the default) the calling thread. Never changes the
   /// result; clouds that are done in less than about 200 us are not threaded.
-  void setNumberOfThreads(unsigned threads) { execution_.parallel = OpenMP{threads}; }
+  void setNumberOfThreads(unsigned threads) { execution_.parallel = Threads{threads}; }
 
   /// The instruction set, Isa::automatic by default. Never changes the result.
   /// Throws std::invalid_argument if this build or machine does not have it.

@@ -70,7 +70,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
 
   /// Threads for extract(): 0 means all processors, 1 (the default) the calling thread. Never changes the
   /// result.
-  void setNumberOfThreads(unsigned threads) { policy_ = OpenMP{threads}; }
+  void setNumberOfThreads(unsigned threads) { policy_ = Threads{threads}; }
 
   /// Replaces `clusters` with those of the input cloud, or of its points in setIndices() (null: the whole
   /// cloud): largest first, indices ascending, each with the cloud's header. No finite point: no clusters.
