@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <hwy/targets.h>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
@@ -66,6 +67,14 @@ TEST(Isa, ThisBuildHasSimdKernelsForThisProcessor) {
   if (!__builtin_cpu_supports("sse4.2")) GTEST_SKIP() << "a processor without SSE4";
   EXPECT_THAT(usable_isas(), Contains(Isa::sse4));
   EXPECT_EQ(__builtin_cpu_supports("avx512bw") != 0, usable_isas().back() == Isa::avx512);
+}
+
+TEST(Isa, SetsAreThoseThatHighwayFinds) {
+  const auto found = hwy::SupportedTargets();
+  for (const auto& [isa, target] :
+       {std::pair{Isa::sse4, HWY_SSE4}, {Isa::avx2, HWY_AVX2}, {Isa::avx512, HWY_AVX3}}) {
+    EXPECT_EQ(testing::Value(usable_isas(), Contains(isa)), (found & target) != 0) << isa_name(isa);
+  }
 }
 
 TEST(Isa, SetsOfOtherProcessorsAreErrorsThatListTheUsableOnes) {
