@@ -121,6 +121,17 @@ Execution share_extremes(const PointView& points, const std::vector<const Method
   return shared;
 }
 
+const std::vector<const Method*>& methods_of_all() {
+  static const std::vector<const Method*> chosen = [] {
+    std::vector<const Method*> found;
+    for (const Method& method : methods()) {
+      if (method.shape != "hull" && method.name != "best") found.push_back(&method);
+    }
+    return found;
+  }();
+  return chosen;
+}
+
 EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
                               AnyVolume& volume, const Execution& execution, const MethodOptions& options,
                               const Method** winner) {

@@ -3,17 +3,13 @@
 
 // The command bv_stream: objects in a stream of clouds.
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <exception>
 
+#include "command/run_command.h"
 #include "options.h"
-#include "pcl_bv/io/io_error.h"
 #include "stream.h"
 
 namespace {
@@ -33,41 +29,15 @@ void catch_signals() {
   action.sa_handler = on_signal;
   for (const int signal : {SIGINT, SIGTERM})
     sigaction(signal, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), seen where it happens
-}
-
-// Files must not get the numbers of standard streams that somebody has closed.
-void keep_standard_streams() {
-  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
-    if (fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
-    if (open("/dev/null", O_RDWR) != descriptor) _exit(1);
-  }
-}
-
-int fail(int status, const char* problem) {
-  std::fprintf(stderr, "bv_stream: %s\n", problem);
-  return status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_standard_streams();
-  try {
+  return run_command([&] {
     const auto asked = parse_stream_options(argc, argv);
-    if (const auto* text = std::get_if<std::string>(&asked)) {
-      const bool written = std::fputs(text->c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
-      return written ? 0 : fail(1, "standard output: cannot be written");
-    }
+    if (const auto* text = std::get_if<std::string>(&asked)) return print(*text);
     catch_signals();
     return stream(std::get<StreamOptions>(asked), interrupted);
-  } catch (const UsageError& error) {
-    return fail(2, error.what());
-  } catch (const ConfigError& error) {
-    return fail(2, error.what());
-  } catch (const std::invalid_argument& error) {
-    return fail(2, error.what());
-  } catch (const std::exception& error) {
-    return fail(1, error.what());
-  }
+  });
 }

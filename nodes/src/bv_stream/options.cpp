@@ -5,16 +5,13 @@
 
 #include "options.h"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <charconv>
-#include <set>
+#include <tuple>
 
-#include "pcl_bv/fitting/methods.h"
+#include "command/command_line.h"
+#include "command/output_claims.h"
+#include "command/values.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
-#include "pcl_bv/kernels/isa.h"
 
 namespace pcl_bv {
 namespace {
@@ -39,10 +36,9 @@ struct Texts {
 
 void declare(CLI::App& app, Texts& t) {
   const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    app.add_option(name, text, help)->type_name(type);
+    declare_text(app, name, text, type, help);
   };
-  app.set_help_flag("-h,--help", "Show this text");
-  app.add_flag("--version", t.version, "Show the version and the usable instruction sets");
+  declare_common(app, t.version);
   option("--source", t.source, "PATH",
          "A folder of clouds, one file, or synth:street-sequence[:FRAMES[:SEED]]");
   option("--rate", t.rate, "HZ", "Frames a second, or max (10)");
@@ -70,56 +66,17 @@ void declare(CLI::App& app, Texts& t) {
   option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
 }
 
-std::string version_text() {
-  std::string text = "bv_stream " PCL_BV_VERSION "\ninstruction sets:";
-  for (const Isa isa : usable_isas())
-    text += ' ' + std::string(isa_name(isa));
-  return text + '\n';
+double number(const char* option, std::string_view text, const char* wanted) {
+  double value = 0;
+  if (read_number(text, value)) return value;
+  throw UsageError(std::string(option) + ": " + quoted(text) + " is not " + wanted);
 }
 
-template <typename T>
-T number(const char* option, std::string_view text, const char* wanted) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return value;
-  throw UsageError(std::string(option) + ": '" + std::string(text) + "' is not " + wanted);
-}
-
-std::size_t whole(const char* option, const std::string& text) {
-  return number<std::size_t>(option, text, "a whole number");
-}
-
-template <typename Parse>
-auto parsed(const char* option, const std::string& text, Parse parse) {
-  try {
-    return parse(text);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string(option) + ": " + error.what());
-  }
-}
-
-// Names of methods; `all` stands for all but the hull and `best`, as in pcd_bv.
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> parts;
-  const auto add = [&](const std::string& name) {
-    if (name != "all") return parts.push_back(name);
-    for (const Method& method : methods()) {
-      if (method.shape != "hull" && method.name != "best") parts.emplace_back(method.name);
-    }
-  };
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t comma = std::min(list.find(',', begin), list.size());
-    add(list.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
-  return parts;
-}
-
-void override_range(const std::string& text, FilterConfig& filter) {
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) throw UsageError("--range: '" + text + "' is not MIN:MAX");
-  filter.range_min = number<double>("--range", std::string_view(text).substr(0, colon), "MIN:MAX");
-  filter.range_max = number<double>("--range", std::string_view(text).substr(colon + 1), "MIN:MAX");
+std::vector<std::string> names(const std::vector<const Method*>& methods) {
+  std::vector<std::string> all;
+  for (const Method* method : methods)
+    all.emplace_back(method->name);
+  return all;
 }
 
 StreamConfig read_config(const CLI::App& app, const Texts& t) {
@@ -127,54 +84,47 @@ StreamConfig read_config(const CLI::App& app, const Texts& t) {
   config.pipeline.threads = 0;
   if (t.rate == "max") config.runner.policy = QueuePolicy::block;
   const auto given = [&](const char* option) { return app.count(option) > 0; };
-  if (given("--config")) config = read_stream_config(t.config, config);
+  try {
+    if (given("--config")) config = read_stream_config(t.config, config);
+  } catch (const ConfigError& error) {
+    throw UsageError(error.what());
+  }
   PipelineConfig& pipeline = config.pipeline;
-  if (given("--volume")) pipeline.volumes = split(t.volume);
-  if (given("--range")) override_range(t.range, pipeline.filter);
-  if (given("--ground")) pipeline.ground.method = parsed("--ground", t.ground, parse_ground_method);
-  if (given("--up")) pipeline.ground.up = parsed("--up", t.up, parse_up_axis);
-  if (given("--sensor-height"))
-    pipeline.ground.sensor_height = number<double>("--sensor-height", t.sensor_height, "a height");
-  if (given("--cluster")) pipeline.cluster.tolerance = number<double>("--cluster", t.cluster, "a distance");
-  if (given("--min-size")) pipeline.cluster.min_size = whole("--min-size", t.min_size);
-  if (given("--max-size")) pipeline.cluster.max_size = whole("--max-size", t.max_size);
+  if (given("--volume")) pipeline.volumes = names(parse_methods(t.volume));
+  if (given("--range")) std::tie(pipeline.filter.range_min, pipeline.filter.range_max) = parse_range(t.range);
+  if (given("--ground")) pipeline.ground.method = parse_with("--ground", t.ground, parse_ground_method);
+  if (given("--up")) pipeline.ground.up = parse_with("--up", t.up, parse_up_axis);
+  if (given("--sensor-height")) pipeline.ground.sensor_height = parse_sensor_height(t.sensor_height);
+  if (given("--cluster")) pipeline.cluster.tolerance = number("--cluster", t.cluster, "a distance");
+  if (given("--min-size")) pipeline.cluster.min_size = parse_whole_number("--min-size", t.min_size);
+  if (given("--max-size")) pipeline.cluster.max_size = parse_whole_number("--max-size", t.max_size);
   if (given("--track")) pipeline.track.enabled = true;
-  if (given("--threads")) pipeline.threads = whole("--threads", t.threads);
+  if (given("--threads")) pipeline.threads = parse_whole_number("--threads", t.threads);
   if (given("--isa")) pipeline.isa = t.isa;
-  if (given("--queue")) config.runner.queue = whole("--queue", t.queue);
-  if (given("--policy")) config.runner.policy = parsed("--policy", t.policy, parse_queue_policy);
+  if (given("--queue")) config.runner.queue = parse_whole_number("--queue", t.queue);
+  if (given("--policy")) config.runner.policy = parse_with("--policy", t.policy, parse_queue_policy);
   const std::vector<std::string> problems = config.validate();
   if (!problems.empty()) throw UsageError(problems.front());
   return config;
 }
 
-// What files are, whatever their names.
-std::filesystem::path identity(const std::filesystem::path& path) {
-  std::error_code unknown;
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, unknown);
-  return unknown ? std::filesystem::absolute(path).lexically_normal() : canonical;
-}
-
 // Refuses to write over what is read, and two outputs into one file.
 void claim_outputs(const StreamOptions& options, const std::string& config) {
-  std::set<std::filesystem::path> inputs{identity(options.source)}, taken;
-  if (!config.empty()) inputs.insert(identity(config));
+  OutputClaims claims;
+  claims.add_input(options.source);
+  if (!config.empty()) claims.add_input(config);
   std::error_code unknown;
-  if (std::filesystem::is_directory(options.source, unknown)) {
-    for (const std::filesystem::path& cloud : list_clouds(options.source))
-      inputs.insert(identity(cloud));
+  try {
+    if (std::filesystem::is_directory(options.source, unknown)) {
+      for (const std::filesystem::path& cloud : list_clouds(options.source))
+        claims.add_input(cloud);
+    }
+  } catch (const IoError& error) {
+    throw IoError(options.source + ": " + error.what());
   }
-  const auto claim = [&](const std::filesystem::path& output) {
-    const std::filesystem::path file = output == "-" ? output : identity(output);
-    if (inputs.count(file) > 0) throw UsageError(output.string() + ": is an input and would be overwritten");
-    const bool ordinary =
-        !std::filesystem::exists(file, unknown) || std::filesystem::is_regular_file(file, unknown);
-    if (ordinary && !taken.insert(file).second)
-      throw UsageError(output.string() + ": more than one result would be written to this file");
-  };
   for (const SinkDescription& sink : options.sinks)
-    claim(sink.kind == SinkKind::vtp ? sink.place / "frames.pvd" : sink.place);
-  if (options.stats) claim(*options.stats);
+    claims.claim(sink.kind == SinkKind::vtp ? sink.place / "frames.pvd" : sink.place);
+  if (options.stats) claims.claim(*options.stats);
 }
 
 StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig config) {
@@ -184,12 +134,10 @@ StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig confi
   if (!given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
   options.source = t.source;
   options.paced = t.rate != "max";
-  if (given("--rate") && options.paced)
-    options.stamps.rate_hz = number<double>("--rate", t.rate, "a rate or max");
+  if (given("--rate") && options.paced) options.stamps.rate_hz = number("--rate", t.rate, "a rate or max");
   if (!(options.stamps.rate_hz >= kLeastRate && options.stamps.rate_hz <= kGreatestRate))
     throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, or max");
-  if (given("--loop")) options.loops = whole("--loop", t.loop);
-  if (options.loops == 0) throw UsageError("--loop: 0 is not at least 1");
+  if (given("--loop")) options.loops = parse_whole_number("--loop", t.loop, 1);
   if (given("--stamps") && t.stamps != "rate" && t.stamps != "name")
     throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
   options.stamps.from_name = t.stamps == "name";
@@ -197,7 +145,7 @@ StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig confi
     throw UsageError("--stamps name: synth: has no names");
   if (given("--sink")) options.sinks.clear();
   for (const std::string& sink : t.sinks)
-    options.sinks.push_back(parsed("--sink", sink, parse_sink));
+    options.sinks.push_back(parse_with("--sink", sink, parse_sink));
   if (given("--stats")) options.stats = t.stats;
   claim_outputs(options, t.config);
   return options;
@@ -208,16 +156,9 @@ StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig confi
 std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv) {
   CLI::App app("Objects in a stream of point clouds, as volumes that hold every point.", "bv_stream");
   app.footer(examples);
-  app.get_formatter()->column_width(26);
   Texts texts;
   declare(app, texts);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    return app.help();
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what() + std::string("; bv_stream --help lists the options"));
-  }
+  if (const auto help = parse_command_line(app, argc, argv)) return *help;
   if (texts.version) return version_text();
   StreamConfig config = read_config(app, texts);
   if (texts.print_config) return to_yaml(config);

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -28,14 +27,9 @@ struct StreamOptions {
   std::optional<std::filesystem::path> stats;
 };
 
-/// Wrong use: what() is the line for standard error.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// What the command line asks for: work, or (--help, --version, --print-config) only a text on standard
-/// output. Throws UsageError and ConfigError.
+/// output. Throws UsageError, and IoError for a folder that cannot
+/// be listed.
 std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv);
 
 }  // namespace pcl_bv

@@ -13,6 +13,8 @@
 #include <string>
 #include <thread>
 
+#include "command/messages.h"
+#include "command/values.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/nodes/cluster_pipeline.h"
@@ -51,10 +53,10 @@ class Sinks {
     } catch (const ClosedPipe&) {
       return false;
     } catch (const IoError& error) {
-      complain(error.what());
+      complain_once(error.what());
       return false;
     } catch (const std::exception& error) {
-      complain(error.what());  // this frame cannot be written: others may be
+      complain_once(error.what());  // this frame cannot be written: others may be
     }
     return true;
   }
@@ -63,8 +65,8 @@ class Sinks {
   bool alive() const { return alive_; }
 
  private:
-  void complain(const char* problem) {
-    if (problem != last_problem_) std::fprintf(stderr, "bv_stream: %s\n", problem);
+  void complain_once(const char* problem) {
+    if (problem != last_problem_) complain(problem);
     last_problem_ = problem;
     failed_ = true;
   }
@@ -78,16 +80,15 @@ class Progress {
  public:
   void show(std::uint64_t frames, std::size_t objects, double milliseconds) {
     if (!terminal_) return;
-    std::fprintf(stderr, "\rframe %llu: %zu objects, %.1f ms ", static_cast<unsigned long long>(frames),
-                 objects, milliseconds);
-  }
-  void finish() const {
-    if (terminal_) std::fputc('\n', stderr);
+    char line[100];
+    std::snprintf(line, sizeof line, "frame %llu: %zu objects, %.1f ms",
+                  static_cast<unsigned long long>(frames), objects, milliseconds);
+    show_status_line(line);
   }
 
  private:
   // Where results go to the terminal, too, they would be mixed.
-  const bool terminal_ = isatty(STDERR_FILENO) != 0 && isatty(STDOUT_FILENO) == 0;
+  const bool terminal_ = errors_go_to_a_terminal() && isatty(STDOUT_FILENO) == 0;
 };
 
 // Sleeps in short pieces, so that a signal is heeded.
@@ -131,7 +132,9 @@ void write_stats(const std::filesystem::path& file, const RunnerStats& stats) {
 }  // namespace
 
 int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
-  const std::unique_ptr<FrameSource> source = open_source(options.source, options.stamps, options.loops);
+  const std::unique_ptr<FrameSource> source = parse_with("--source", options.source, [&](const auto& name) {
+    return open_source(name, options.stamps, options.loops);
+  });
   Sinks sinks(options.sinks);
   FramePipeline pipeline(options.config.pipeline);
   Progress progress;
@@ -142,17 +145,18 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
     progress.show(result.header.seq, result.clusters.size(), result.ms.total);
   };
   callbacks.on_error = [&](const FrameHeader& header, const std::string& reason) {
-    std::fprintf(stderr, "bv_stream: frame %llu: %s\n", static_cast<unsigned long long>(header.seq),
-                 reason.c_str());
+    complain("frame " + std::to_string(header.seq) + ": " + reason);
     sinks.each([&](FrameSink& sink) { sink.write_error(header, reason); });
   };
   callbacks.on_silence = [](double seconds) {
-    std::fprintf(stderr, "bv_stream: no frame for %.1f s\n", seconds);
+    char line[60];
+    std::snprintf(line, sizeof line, "no frame for %.1f s", seconds);
+    complain(line);
   };
   StreamRunner runner(callbacks, options.config.runner);
   read_frames(options, *source, runner, sinks, interrupted);
   runner.stop(StreamRunner::End::drain);
-  progress.finish();
+  erase_status_line();
   sinks.each([](FrameSink& sink) { sink.close(); });
   const RunnerStats stats = runner.stats();
   if (options.stats) sinks.attempt([&] { write_stats(*options.stats, stats); });

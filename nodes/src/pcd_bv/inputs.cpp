@@ -6,8 +6,8 @@
 #include "inputs.h"
 
 #include <algorithm>
-#include <set>
 
+#include "command/output_claims.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/meshes.h"
@@ -53,22 +53,6 @@ std::string stem(const std::string& input) {
   return name;
 }
 
-/// The file itself, whatever links and detours lead to it.
-fs::path identity(const fs::path& path) {
-  std::error_code unknown;
-  const fs::path canonical = fs::weakly_canonical(path, unknown);
-  return unknown ? fs::absolute(path).lexically_normal() : canonical;
-}
-
-/// Notes where a job writes to. Throws UsageError if that is an input or another one writes there too.
-void claim(std::set<fs::path>& taken, const std::set<fs::path>& inputs, const fs::path& target) {
-  const fs::path file = identity(target);
-  if (inputs.count(file) > 0) throw UsageError(target.string() + ": is an input and would be overwritten");
-  if (!taken.insert(file).second) {
-    throw UsageError(target.string() + ": more than one result would be written to this file");
-  }
-}
-
 }  // namespace
 
 std::vector<Job> plan_jobs(const Options& options) {
@@ -86,16 +70,16 @@ std::vector<Job> plan_jobs(const Options& options) {
   const char* image_extension = svg ? ".svg" : ".png";
   const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;
   const char* mesh_extension = vtp ? ".vtp" : ".ply";
-  std::set<fs::path> taken, inputs;
+  OutputClaims claims;
   for (const Job& job : jobs) {
-    if (!is_synth(job.input)) inputs.insert(identity(job.input));
+    if (!is_synth(job.input)) claims.add_input(job.input);
   }
-  if (options.output) claim(taken, inputs, *options.output);
+  if (options.output) claims.claim(*options.output);
   for (Job& job : jobs) {
     if (job.error) continue;
-    if (options.labels) claim(taken, inputs, job.labels.emplace(target(*options.labels, job, ".pcd")));
-    if (options.mesh) claim(taken, inputs, job.mesh.emplace(target(*options.mesh, job, mesh_extension)));
-    if (options.image) claim(taken, inputs, job.image.emplace(target(*options.image, job, image_extension)));
+    if (options.labels) claims.claim(job.labels.emplace(target(*options.labels, job, ".pcd")));
+    if (options.mesh) claims.claim(job.mesh.emplace(target(*options.mesh, job, mesh_extension)));
+    if (options.image) claims.claim(job.image.emplace(target(*options.image, job, image_extension)));
   }
   return jobs;
 }

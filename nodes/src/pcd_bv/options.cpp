@@ -5,11 +5,10 @@
 
 #include "options.h"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
 
+#include "command/command_line.h"
+#include "command/values.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "values.h"
 
@@ -29,16 +28,12 @@ other inputs are still done); 2 wrong use, or something not available yet; 3 --c
 a point outside. The greater reason wins: 2, 3, 1, 0.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
-/// Options of the documentation that this build refuses, so that a typing error and a missing feature read
-/// differently.
-constexpr const char* unavailable[] = {"--progress"};
-
 /// The command line as texts, before the values are looked at.
 struct Texts {
   std::vector<std::string> inputs;
   std::string volume, range, cluster, min_size, max_size, ground, up, sensor_height, format, output, labels,
       mesh, image, view, threads, isa, growth;
-  bool check = false, info = false, timings = false, version = false;
+  bool check = false, info = false, timings = false, progress = false, version = false;
 };
 
 std::string default_names() {
@@ -50,10 +45,9 @@ std::string default_names() {
 
 void declare(CLI::App& app, Texts& texts) {
   const auto option = [&](const char* name, std::string& text, const char* type, const std::string& help) {
-    app.add_option(name, text, help)->type_name(type);
+    declare_text(app, name, text, type, help);
   };
-  app.set_help_flag("-h,--help", "Show this text");
-  app.add_flag("--version", texts.version, "Show the version and the usable instruction sets");
+  declare_common(app, texts.version);
   app.add_option("INPUT", texts.inputs,
                  ".pcd, .ply and KITTI .bin files, folders of them, synth:NAME[:POINTS[:SEED]]")
       ->type_name("");
@@ -84,15 +78,7 @@ void declare(CLI::App& app, Texts& texts) {
   app.add_flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
   app.add_flag("--info", texts.info, "Add what the cloud is like: extent, spacing, bad points, fields");
   app.add_flag("--timings", texts.timings, "Add the seconds of each stage");
-  for (const char* name : unavailable)
-    app.add_option(name)->expected(0, 1)->group("");  // not in the help
-}
-
-std::string version_text() {
-  std::string text = "pcd_bv " PCL_BV_VERSION "\ninstruction sets:";
-  for (const Isa isa : usable_isas())
-    text += ' ' + std::string(isa_name(isa));
-  return text + '\n';
+  app.add_flag("--progress", texts.progress, "Show how far it is, where standard error is a terminal");
 }
 
 std::optional<std::filesystem::path> path_or_none(const CLI::App& app, const char* option,
@@ -116,10 +102,7 @@ void require_extension(const char* option, const std::string& name,
   throw UsageError(std::string(option) + ": '" + name + "' is no " + list + " file");
 }
 
-void refuse_unusable(const CLI::App& app, const Texts& texts) {
-  for (const char* name : unavailable) {
-    if (app.count(name) > 0) throw not_available_yet(name);
-  }
+void refuse_unusable(const Texts& texts) {
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
 }
@@ -136,7 +119,6 @@ void set_up(UpAxis up, bool wants_ground, Options& options) {
 }
 
 Options to_options(const CLI::App& app, const Texts& texts) {
-  constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
   constexpr std::size_t max_threads = 1024;
   const auto given = [&](const char* option) { return app.count(option) > 0; };
   for (const auto& [option, needed] : {std::pair{"--min-size", "--cluster"},
@@ -149,15 +131,18 @@ Options to_options(const CLI::App& app, const Texts& texts) {
   Options options;
   options.inputs = texts.inputs;
   options.methods = given("--volume") ? parse_methods(texts.volume) : default_methods();
-  if (given("--range")) options.range = parse_range(texts.range);
+  if (given("--range")) {
+    const auto [min, max] = parse_range(texts.range);
+    options.range = RangeFilter{min, max};
+  }
   if (given("--ground")) options.ground = parse_ground(texts.ground);
-  if (given("--up")) set_up(parse_up(texts.up), given("--ground"), options);
+  if (given("--up")) set_up(parse_with("--up", texts.up, parse_up_axis), given("--ground"), options);
   if (options.ground && given("--sensor-height")) {
     options.ground->sensor_height = parse_sensor_height(texts.sensor_height);
   }
   if (given("--cluster")) options.tolerance = parse_tolerance(texts.cluster);
-  if (given("--min-size")) options.min_size = parse_whole_number("--min-size", texts.min_size, 0, any);
-  if (given("--max-size")) options.max_size = parse_whole_number("--max-size", texts.max_size, 1, any);
+  if (given("--min-size")) options.min_size = parse_whole_number("--min-size", texts.min_size);
+  if (given("--max-size")) options.max_size = parse_whole_number("--max-size", texts.max_size, 1);
   if (options.min_size > options.max_size) {
     throw UsageError("--max-size: " + std::to_string(options.max_size) + " is below --min-size " +
                      std::to_string(options.min_size));
@@ -172,11 +157,12 @@ Options to_options(const CLI::App& app, const Texts& texts) {
   if (given("--threads")) {
     threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
   }
-  if (given("--growth")) options.method_options.growth = parse_sphere_growth(texts.growth);
+  if (given("--growth")) options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
   options.execution = {threads, parse_usable_isa(given("--isa") ? texts.isa : "auto")};
   options.check = texts.check;
   options.info = texts.info;
   options.timings = texts.timings;
+  options.progress = texts.progress;
   return options;
 }
 
@@ -186,18 +172,11 @@ std::variant<Options, std::string> parse_options(int argc, const char* const* ar
   CLI::App app("Bounding volumes of point clouds: boxes, k-DOPs and spheres that hold every point.",
                "pcd_bv");
   app.footer(examples);
-  app.get_formatter()->column_width(26);
   Texts texts;
   declare(app, texts);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    return app.help();
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what() + std::string("; pcd_bv --help lists the options"));
-  }
+  if (const auto help = parse_command_line(app, argc, argv)) return *help;
   if (texts.version) return version_text();
-  refuse_unusable(app, texts);
+  refuse_unusable(texts);
   if (texts.inputs.empty()) throw UsageError("no INPUT; pcd_bv --help lists the options");
   return to_options(app, texts);
 }

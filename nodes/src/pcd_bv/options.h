@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "command/usage_error.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/io/picture.h"
 #include "pcl_bv/segmentation/ground_plane.h"
@@ -52,18 +52,13 @@ struct Options {
   bool check = false;
   bool info = false;
   bool timings = false;
+  bool progress = false;
 };
 
 /// Whether files are asked for beside the report.
 inline bool writes_files(const Options& options) {
   return options.labels || options.mesh || options.image;
 }
-
-/// Wrong use: what() is the line for standard error.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// What the command line asks for: work, or (--help, --version) only a text on standard output. Throws
 /// UsageError.

@@ -5,57 +5,51 @@
 
 #include "output.h"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <system_error>
 #include <utility>
 
+#include "command/standard_streams.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/csv.h"
-#include "pcl_bv/io/io_error.h"
 
 namespace pcl_bv {
 
-bool write_standard_output(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t n = ::write(STDOUT_FILENO, text.data(), text.size());
-    if (n >= 0) {
-      text.remove_prefix(static_cast<std::size_t>(n));
-    } else if (errno == EPIPE) {
-      return false;
-    } else if (errno != EINTR) {
-      throw IoError(std::generic_category().message(errno));
-    }
+std::string render(const Report& report, OutputFormat format) {
+  switch (format) {
+    case OutputFormat::json:
+      return report_json(report);
+    case OutputFormat::jsonl:
+      return report_json(report) + '\n';
+    case OutputFormat::csv:
+      return report_csv(report);
+    case OutputFormat::text:
+      break;
   }
-  return true;
+  return report_text(report);
 }
 
 ReportWriter::ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file)
     : format_(format), file_(std::move(file)) {}
 
-bool ReportWriter::add(const Report& report) {
+bool ReportWriter::add(const std::string& rendered) {
+  if (format_ == OutputFormat::text && rendered.empty()) return true;
   const bool first = std::exchange(first_, false);
   switch (format_) {
     case OutputFormat::json:
-      return write((first ? "[\n" : ",\n") + report_json(report));
-    case OutputFormat::jsonl:
-      return write(report_json(report) + '\n');
+      return write((first ? "[\n" : ",\n") + rendered);
     case OutputFormat::csv:
-      return write((first ? report_csv_heading() : "") + report_csv(report));
+      return write((first ? report_csv_heading() : "") + rendered);
     case OutputFormat::text:
+      return write((first ? "" : "\n") + rendered);
+    case OutputFormat::jsonl:
       break;
   }
-  if (report.error) {
-    first_ = first;
-    return true;
-  }
-  return write((first ? "" : "\n") + report_text(report));
+  return write(rendered);
 }
 
-void ReportWriter::finish() {
-  if (format_ == OutputFormat::json) write("\n]\n");
+bool ReportWriter::finish() {
+  const bool read = format_ != OutputFormat::json || write("\n]\n");
   if (file_) write_file_atomically(*file_, pending_);
+  return read;
 }
 
 bool ReportWriter::write(const std::string& text) {

@@ -7,26 +7,25 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "options.h"
 #include "pcl_bv/io/report.h"
 
 namespace pcl_bv {
 
-/// Writes to standard output; false if nobody reads any more. Throws IoError for any other failure.
-bool write_standard_output(std::string_view text);
+/// A report in a format, without what stands between reports: the part of the writing that can be done for
+/// several at a time. Empty if the format does not show failed inputs.
+std::string render(const Report& report, OutputFormat format);
 
-/// Writes reports in one format. Both verbs throw IoError.
+/// Writes rendered reports. Both verbs give false if nobody reads any more and throw IoError.
 class ReportWriter {
  public:
   ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file);
 
-  /// False if nobody reads any more.
-  bool add(const Report& report);
+  bool add(const std::string& rendered);
 
   /// To be called after the last report; makes the file.
-  void finish();
+  bool finish();
 
  private:
   bool write(const std::string& text);

@@ -10,6 +10,7 @@
 #include <new>
 #include <utility>
 
+#include "command/messages.h"
 #include "info.h"
 #include "loaded_cloud.h"
 #include "pcl_bv/fitting/batch.h"

@@ -46,6 +46,10 @@ const Method* find_method(std::string_view name);
 Execution share_extremes(const PointView& points, const std::vector<const Method*>& among,
                          const Execution& execution, Extremes& extremes);
 
+/// What `all` stands for: every method but the hull, which has no bound on its size, and `best`, which is one
+/// of the others.
+const std::vector<const Method*>& methods_of_all();
+
 /// Fits each of the methods (at least one, or std::invalid_argument) and keeps the volume that is smallest,
 /// of equally small (flat) ones that with the smallest surface, of equal ones the first. `winner`, if not
 /// null, becomes its method; null without a valid point.

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// No output replaces an input or another output.
+
+#include "output_claims.h"
+
+#include <system_error>
+
+#include "usage_error.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path identity(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path canonical = fs::weakly_canonical(path, unknown);
+  return unknown ? fs::absolute(path).lexically_normal() : canonical;
+}
+
+// Many results may go to one terminal or to /dev/null.
+bool is_device(const fs::path& file) {
+  std::error_code unknown;
+  const fs::file_status status = fs::status(file, unknown);
+  return fs::exists(status) && fs::is_other(status);
+}
+
+}  // namespace
+
+void OutputClaims::add_input(const fs::path& file) {
+  inputs_.insert(identity(file));
+}
+
+void OutputClaims::claim(const fs::path& output) {
+  const fs::path file = identity(output);
+  if (inputs_.count(file) > 0) throw UsageError(output.string() + ": is an input and would be overwritten");
+  if (!taken_.insert(file).second && !is_device(file)) {
+    throw UsageError(output.string() + ": more than one result would be written to this file");
+  }
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// No output replaces an input or another output.
+#pragma once
+
+#include <filesystem>
+#include <set>
+
+namespace pcl_bv {
+
+/// Files by what they are, whatever links and detours lead to them.
+class OutputClaims {
+ public:
+  void add_input(const std::filesystem::path& file);
+
+  /// Throws UsageError if the file is an input, or claimed already and no device.
+  void claim(const std::filesystem::path& output);
+
+ private:
+  std::set<std::filesystem::path> inputs_, taken_;
+};
+
+}  // namespace pcl_bv

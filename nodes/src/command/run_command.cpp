@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The last resort of everything that is thrown.
+
+#include "run_command.h"
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "messages.h"
+#include "pcl_bv/io/io_error.h"
+#include "standard_streams.h"
+#include "usage_error.h"
+
+namespace pcl_bv {
+
+int run_command(const std::function<int()>& work) {
+  prepare_standard_streams();
+  try {
+    return work();
+  } catch (const UsageError& error) {
+    complain(error.what());
+    return 2;
+  } catch (const IoError& error) {
+    complain(error.what());
+  } catch (const std::bad_alloc&) {
+    complain("not enough memory");
+  } catch (const std::exception& error) {
+    complain(std::string("internal error: ") + error.what());
+  }
+  return 1;
+}
+
+int print(std::string_view text) {
+  try {
+    write_standard_output(text);
+    return 0;
+  } catch (const IoError& error) {
+    throw IoError(std::string("standard output: ") + error.what());
+  }
+}
+
+}  // namespace pcl_bv

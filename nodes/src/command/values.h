@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Texts of the command line to values; every refusal names the option, the text and what it should be.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pcl_bv/fitting/methods.h"
+#include "usage_error.h"
+
+namespace pcl_bv {
+
+std::string quoted(std::string_view text);
+
+/// Whether the whole text is one number.
+bool read_number(std::string_view text, double& value);
+bool read_number(std::string_view text, float& value);
+
+/// What `parse` makes of the text; its std::invalid_argument becomes a UsageError that names the option.
+template <typename Text, typename Parse>
+auto parse_with(std::string_view option, const Text& text, Parse parse) {
+  try {
+    return parse(text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
+/// All of these throw UsageError.
+std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min = 0,
+                               std::size_t max = std::numeric_limits<std::size_t>::max());
+std::pair<double, double> parse_range(std::string_view text);
+double parse_sensor_height(std::string_view text);
+
+/// Methods of a comma-separated list of names, aliases and `all`, each once, in the order of its first
+/// mention.
+std::vector<const Method*> parse_methods(std::string_view list);
+
+}  // namespace pcl_bv

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// All inputs over the cores, all results in order.
+
+#include "process_all.h"
+
+#include <unistd.h>
+
+#include <condition_variable>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "command/messages.h"
+#include "output.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "process.h"
+#include "progress.h"
+
+namespace pcl_bv {
+namespace {
+
+/// What is left of a job once it is done.
+struct Result {
+  std::string text;
+  std::vector<std::string> complaints;
+  std::size_t points = 0;
+  Status status = Status::done;
+};
+
+Result do_job(const Job& job, const Options& options) {
+  HeldComplaints complaints;
+  const Outcome outcome = process(job, options);
+  const std::size_t points = outcome.report.error ? 0 : outcome.report.points;
+  return {render(outcome.report, options.format), std::move(complaints.kept), points, outcome.status};
+}
+
+/// Hands out jobs and takes their results, in any order, to write them in the order of the jobs.
+class InOrder {
+ public:
+  InOrder(const Options& options, std::size_t jobs, std::size_t workers)
+      : options_(options),
+        jobs_(jobs),
+        ahead_(8 * workers),
+        writer_(options.format, options.output),
+        progress_(options.progress, jobs),
+        erase_before_writing_(!options.output && isatty(STDOUT_FILENO) != 0) {}
+
+  /// The next job, or none if there is none or nobody wants more. Waits where too many results would wait for
+  /// a slow job before them.
+  std::optional<std::size_t> next() {
+    std::unique_lock lock(mutex_);
+    written_one_.wait(lock, [&] { return stopped_ || next_ >= jobs_ || next_ < written_ + ahead_; });
+    if (stopped_ || next_ >= jobs_) return std::nullopt;
+    return next_++;
+  }
+
+  void take(std::size_t job, Result result) {
+    const std::lock_guard lock(mutex_);
+    waiting_.emplace(job, std::move(result));
+    for (auto first = waiting_.begin(); first != waiting_.end() && first->first == written_ && !stopped_;
+         first = waiting_.erase(first), ++written_) {
+      write(first->second);
+    }
+    written_one_.notify_all();
+  }
+
+  /// Ends the work of all workers.
+  void stop() {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    written_one_.notify_all();
+  }
+
+  /// After the last result.
+  Status finish() {
+    if (reports_ == Reports::wanted) attempt_to_write([&] { return writer_.finish(); });
+    progress_.erase();
+    if (jobs_ > 1 && written_ == jobs_ && reports_ != Reports::unread) say(summary());
+    return status_;
+  }
+
+ private:
+  enum class Reports { wanted, unread, unwritable };
+
+  void write(const Result& result) {
+    for (const std::string& complaint : result.complaints)
+      say(complaint);
+    if (erase_before_writing_) progress_.erase();
+    if (reports_ == Reports::wanted) attempt_to_write([&] { return writer_.add(result.text); });
+    status_ = worse(status_, result.status);
+    failed_ += result.status == Status::failed ? 1 : 0;
+    points_ += result.points;
+    progress_.show(written_ + 1, points_);
+    // What else was asked for is done all the same.
+    if (reports_ != Reports::wanted && !writes_files(options_) && !options_.check) stopped_ = true;
+  }
+
+  template <typename Write>
+  void attempt_to_write(Write&& what) {
+    try {
+      if (!what()) reports_ = Reports::unread;
+    } catch (const IoError& error) {
+      say((options_.output ? options_.output->string() : "standard output") + ": " + error.what());
+      status_ = worse(status_, Status::failed);
+      reports_ = Reports::unwritable;
+    }
+  }
+
+  std::string summary() const {
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.2f", progress_.seconds());
+    return std::to_string(jobs_ - failed_) + " files done, " + std::to_string(failed_) + " failed, " +
+           std::to_string(points_) + " points, " + seconds + " s";
+  }
+
+  const Options& options_;
+  const std::size_t jobs_, ahead_;
+  std::mutex mutex_;
+  std::condition_variable written_one_;
+  std::map<std::size_t, Result> waiting_;  ///< For the results before them.
+  std::size_t next_ = 0, written_ = 0;
+  bool stopped_ = false;
+  Status status_ = Status::done;
+  std::size_t failed_ = 0, points_ = 0;
+  ReportWriter writer_;
+  Reports reports_ = Reports::wanted;
+  Progress progress_;
+  const bool erase_before_writing_;
+};
+
+void work(const std::vector<Job>& jobs, const Options& options, InOrder& order) {
+  try {
+    while (const auto job = order.next())
+      order.take(*job, do_job(jobs[*job], options));
+  } catch (...) {
+    order.stop();
+    throw;
+  }
+}
+
+}  // namespace
+
+Status process_all(const std::vector<Job>& jobs, const Options& options) {
+  const unsigned threads = thread_count(options.execution.parallel);
+  const unsigned workers = jobs.size() >= threads ? threads : 1;
+  Options each = options;
+  if (workers > 1) each.execution.parallel = Serial{};
+  InOrder order(options, jobs.size(), workers);
+  for_each_chunk(options.execution.parallel, workers, [&](std::size_t) { work(jobs, each, order); });
+  return order.finish();
+}
+
+}  // namespace pcl_bv
