@@ -6,6 +6,7 @@
 #include "command.h"
 
 #include <fcntl.h>
+#include <pty.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -45,12 +48,39 @@ int write_end_without_reader() {
   return ends[1];
 }
 
+/// A terminal for standard error.
+class Terminal {
+ public:
+  Terminal() {
+    winsize size{};
+    size.ws_col = 80;
+    if (openpty(&ours_, &theirs_, nullptr, nullptr, &size) != 0) throw std::runtime_error("no terminal");
+  }
+  ~Terminal() { close(ours_); }
+
+  int theirs() const { return theirs_; }
+
+  /// All that is written until the last writer is gone.
+  std::string read() {
+    close(theirs_);
+    std::string text;
+    char buffer[4096];
+    for (ssize_t n; (n = ::read(ours_, buffer, sizeof buffer)) > 0;)
+      text.append(buffer, static_cast<std::size_t>(n));
+    return text;
+  }
+
+ private:
+  int ours_ = -1, theirs_ = -1;
+};
+
 int spawn_and_wait(std::vector<std::string> arguments, std::vector<std::string> variables,
-                   const posix_spawn_file_actions_t& actions) {
+                   const posix_spawn_file_actions_t& actions, Terminal* terminal, std::string& shown) {
   pid_t child = 0;
   const int error = posix_spawn(&child, arguments[0].c_str(), &actions, nullptr, pointers(arguments).data(),
                                 pointers(variables).data());
   if (error != 0) throw std::runtime_error("cannot start " + arguments[0]);
+  if (terminal != nullptr) shown = terminal->read();
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -60,6 +90,12 @@ int spawn_and_wait(std::vector<std::string> arguments, std::vector<std::string> 
 
 std::size_t Result::error_lines() const {
   return static_cast<std::size_t>(std::count(err.begin(), err.end(), '\n'));
+}
+
+std::string Result::problems() const {
+  static const std::regex summary(
+      "pcd_bv: [0-9]+ files: [0-9]+ done, [0-9]+ failed, [0-9]+ points, [0-9.]+ s\n$");
+  return std::regex_replace(err, summary, "");
 }
 
 std::string read_file(const std::filesystem::path& path) {
@@ -92,17 +128,26 @@ Result PcdBv::run(const std::vector<std::string>& arguments, const Surroundings&
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                      0644);
   }
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                   0644);
+  std::optional<Terminal> terminal;
+  if (surroundings.terminal) {
+    posix_spawn_file_actions_adddup2(&actions, terminal.emplace().theirs(), STDERR_FILENO);
+  } else {
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0644);
+  }
+  for (const int descriptor : surroundings.closed)
+    posix_spawn_file_actions_addclose(&actions, descriptor);
   const std::string& program = surroundings.program;
   std::vector<std::string> command{program.front() == '/' ? program : PCL_BV_BIN_DIR "/" + program};
   command.insert(command.end(), arguments.begin(), arguments.end());
   Result result;
-  result.status = spawn_and_wait(std::move(command), environment(surroundings.isa), actions);
+  std::string shown;
+  result.status = spawn_and_wait(std::move(command), environment(surroundings.isa), actions,
+                                 terminal ? &*terminal : nullptr, shown);
   posix_spawn_file_actions_destroy(&actions);
   if (dead_end >= 0) close(dead_end);
   result.out = read_file(captured);
-  result.err = read_file(errors);
+  result.err = surroundings.terminal ? shown : read_file(errors);
   std::filesystem::remove(captured);
   std::filesystem::remove(errors);
   return result;

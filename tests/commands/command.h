@@ -22,6 +22,7 @@ struct Result {
   std::string err;
 
   std::size_t error_lines() const;
+  std::string problems() const;  ///< `err` without the summary of several inputs.
   Json json() const { return Json::parse(out); }
 };
 
@@ -30,6 +31,8 @@ struct Surroundings {
   std::string isa{};               ///< PCL_BV_ISA; empty: as this test has it.
   std::string output{};            ///< File to be standard output; empty: captured.
   bool nobody_reads = false;       ///< Standard output is a pipe whose reader has gone.
+  bool terminal = false;           ///< Standard error is a terminal of 80 columns.
+  std::vector<int> closed{};       ///< Descriptors that are closed from the start.
 };
 
 std::string read_file(const std::filesystem::path& path);

@@ -58,14 +58,14 @@ TEST_F(PcdBv, EveryBrokenInputIsOneLineAndTheOthersAreDone) {
     SCOPED_TRACE(input);
     const Result result = run({"--format", "json", input, good});
     EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.error_lines(), 1u) << result.err;
+    EXPECT_EQ(result.error_lines(), 2u) << result.err;  // and the summary
     EXPECT_THAT(result.err, StartsWith("pcd_bv: " + input + ": "));
     const Json reports = result.json();
     ASSERT_EQ(reports.size(), 2u);
     EXPECT_EQ(reports[0]["schema"], 1);
     EXPECT_EQ(reports[0]["file"], input);
     EXPECT_EQ(reports[0].size(), 3u) << reports[0];
-    EXPECT_EQ(result.err, "pcd_bv: " + input + ": " + reports[0]["error"].get<std::string>() + "\n");
+    EXPECT_EQ(result.problems(), "pcd_bv: " + input + ": " + reports[0]["error"].get<std::string>() + "\n");
     EXPECT_EQ(reports[1]["points"], 2);
   }
 }

@@ -83,22 +83,6 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
   }
 }
 
-TEST_F(PcdBv, WhatIsNotBuiltYetSaysSo) {
-  const std::string good = ascii("good.pcd", {"1 2 3"});
-  const std::vector<std::vector<std::string>> cases = {
-      {"--progress"},
-  };
-  for (auto arguments : cases) {
-    SCOPED_TRACE(testing::PrintToString(arguments));
-    arguments.push_back(good);
-    const Result result = run(arguments);
-    EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(result.out, "");
-    EXPECT_THAT(result.err, HasSubstr("not available yet"));
-    EXPECT_EQ(result.error_lines(), 1u);
-  }
-}
-
 TEST_F(PcdBv, OptionsThatNameTheDefaultAreAccepted) {
   const std::string good = ascii("good.pcd", {"1 2 3", "4 5 7"});
   const Result plain = run({good});

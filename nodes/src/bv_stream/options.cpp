@@ -61,7 +61,7 @@ void declare(CLI::App& app, Texts& t) {
   option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (0)");
   option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   app.add_option("--sink", t.sinks,
-                 "jsonl:FILE, csv:FILE or vtp:FOLDER; several times (jsonl on standard output)")
+                 "jsonl:FILE, csv:FILE or vtp:FOLDER; repeatable (jsonl on standard output)")
       ->type_name("KIND:PLACE");
   option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
 }

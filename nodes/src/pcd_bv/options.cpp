@@ -18,7 +18,7 @@ namespace {
 constexpr const char* examples = R"(Examples:
   pcd_bv scan.pcd                                        volumes around the whole cloud
   pcd_bv --volume dop26 --check --format json *.pcd      each proven to hold every point
-  pcd_bv --ground zones --cluster 0.5 --image o.png s.pcd  around each object, and a picture
+  pcd_bv --ground zones --cluster 0.5 --image o.png s.pcd around each object, and a picture
   pcd_bv --cluster 0.5 --format jsonl sweeps/ | jq .counts
   pcd_bv --cluster 0.5 --format csv --mesh o.vtp s.bin   a line per volume, and ParaView's mesh
   pcd_bv --timings synth:street
@@ -49,7 +49,7 @@ void declare(CLI::App& app, Texts& texts) {
   };
   declare_common(app, texts.version);
   app.add_option("INPUT", texts.inputs,
-                 ".pcd, .ply and KITTI .bin files, folders of them, synth:NAME[:POINTS[:SEED]]")
+                 ".pcd, .ply, KITTI .bin files, folders of them, synth:NAME[:POINTS[:SEED]]")
       ->type_name("");
   option("--volume", texts.volume, "LIST", "Methods separated by commas, or all (" + default_names() + ")");
   option("--range", texts.range, "MIN:MAX", "Drop points nearer or farther than this from the origin");
@@ -60,19 +60,17 @@ void declare(CLI::App& app, Texts& texts) {
   option("--ground", texts.ground, "KIND",
          "Take the ground away first: plane, zones (outdoors) or none (none)");
   option("--up", texts.up, "AXIS",
-         "Against gravity, for --ground, obb-yaw, obb-lshape: x, y, z, -x, -y or -z (z)");
+         "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z (z)");
   option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
   option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   option("--labels", texts.labels, "FILE.pcd",
          "Write the input with a field `label`; several inputs: a folder");
-  option("--mesh", texts.mesh, "FILE",
-         "Write the volumes as .ply or .vtp; several inputs: a folder, whose name may end so");
-  option("--image", texts.image, "FILE",
-         "Draw cloud and volumes as .png or .svg; several inputs: a folder, as --mesh");
+  option("--mesh", texts.mesh, "FILE", "Write the volumes as .ply or .vtp; several inputs: a folder");
+  option("--image", texts.image, "FILE", "Draw cloud and volumes as .png or .svg; several inputs: a folder");
   option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
   option("--growth", texts.growth, "POLICY",
-         "How Ritter's and EPOS spheres grow: sequential, stationary or deferred (deferred)");
+         "Growth of EPOS spheres: sequential, stationary or deferred (deferred)");
   option("--threads", texts.threads, "N", "Threads, 0 for all processors (0)");
   option("--isa", texts.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   app.add_flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
