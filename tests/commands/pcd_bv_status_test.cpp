@@ -42,7 +42,7 @@ TEST_F(PcdBv, BadInputWinsOverGoodOnesWhereverItStands) {
 
 TEST_F(PcdBv, ClosedPipeEndsQuietlyWithZero) {
   const std::string good = ascii("good.pcd", {"1 2 3"});
-  for (const std::string format : {"text", "json", "jsonl"}) {
+  for (const std::string format : {"text", "json", "jsonl", "csv"}) {
     SCOPED_TRACE(format);
     const Result result = run({"--format", format, good, good}, {.nobody_reads = true});
     EXPECT_EQ(result.status, 0);

@@ -123,8 +123,15 @@ std::string aligned(const std::vector<Row>& rows) {
   return text;
 }
 
+/// A name of somebody else's making, which must neither break a line nor steer a terminal.
+std::string harmless(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
+  return name;
+}
+
 std::string header(const Report& report) {
-  std::string text = report.file + ": " + std::to_string(report.points) + " points";
+  std::string text = harmless(report.file) + ": " + std::to_string(report.points) + " points";
   const auto add = [&](std::size_t n, const char* what) {
     if (n > 0) text += ", " + std::to_string(n) + what;
   };
@@ -154,10 +161,7 @@ std::string info_text(const CloudInfo& info) {
   text +=
       std::to_string(info.nonfinite) + " not finite, " + std::to_string(info.zero) + " at 0,0,0\n  fields";
   for (const PointField& field : info.fields) {
-    std::string name = field.name;  // of a file's making: it must not steer a terminal
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
-    text += " " + name + ":" + field.type + std::to_string(8 * field.size);
+    text += " " + harmless(field.name) + ":" + field.type + std::to_string(8 * field.size);
     if (field.count > 1) text += "x" + std::to_string(field.count);
   }
   return text + "\n";
