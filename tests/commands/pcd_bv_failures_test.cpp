@@ -37,14 +37,23 @@ TEST_F(PcdBv, WhatIsNoOrdinaryFileIsRefusedAndNeverWaitedFor) {
   }
 }
 
-TEST_F(PcdBv, AFileThatMayNotBeReadIsStatusOne) {
-  if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
+TEST_F(PcdBv, WhatMayNotBeReadIsStatusOne) {
   const std::string secret = ascii("folder/secret.pcd", {"1 2 3"});
+  const auto run_without_privileges = [&](const std::string& input) {
+    if (geteuid() != 0) return run({input});
+    return run({"--inh-caps=-all", "--bounding-set=-all", PCL_BV_BIN_DIR "/pcd_bv", input},
+               {.program = "/usr/bin/setpriv"});
+  };
   fs::permissions(secret, fs::perms::none);
-  EXPECT_EQ(run({secret}).err, "pcd_bv: " + secret + ": Permission denied\n");
+  const Result file = run_without_privileges(secret);
   fs::permissions(at("folder"), fs::perms::none);
-  EXPECT_EQ(run({at("folder")}).status, 1);
+  const Result folder = run_without_privileges(at("folder"));
   fs::permissions(at("folder"), fs::perms::owner_all);
+  EXPECT_EQ(file.status, 1);
+  EXPECT_EQ(file.err, "pcd_bv: " + secret + ": permission denied\n");
+  EXPECT_EQ(folder.status, 1);
+  EXPECT_EQ(folder.error_lines(), 1U);
+  EXPECT_THAT(folder.err, StartsWith("pcd_bv: " + at("folder") + ": "));
 }
 
 TEST_F(PcdBv, AFullDiskUnderAnyFileIsStatusOneAndTheReportIsStillMade) {
