@@ -259,6 +259,18 @@ TEST_F(BvStream, AsFastAsPossibleLosesNothingAlsoWithAConfiguration) {
   EXPECT_EQ(Json::parse(read_file(stats))["frames"]["processed"], 200);
 }
 
+TEST_F(BvStream, ATerminalShowsTheFrameBelowTheProblemsAndNothingInTheEnd) {
+  ascii("sweeps/1.pcd", {"1 2 3"});
+  file("sweeps/2.pcd", "no cloud");
+  ascii("sweeps/3.pcd", {"1 2 3"});
+  const Result result = stream({"--source", at("sweeps"), "--rate", "max"}, {.terminal = true});
+  EXPECT_EQ(result.status, 0);
+  const std::string erased = "\r" + std::string(std::string("frame 0: 0 objects, 0.0 ms").size(), ' ') + "\r";
+  EXPECT_THAT(result.err, testing::StartsWith("frame 0: 0 objects, "));
+  EXPECT_THAT(result.err, HasSubstr(" ms" + erased + "bv_stream: frame 1: "));
+  EXPECT_THAT(result.err, testing::EndsWith(erased));
+}
+
 TEST_F(BvStream, AllMeansEveryMethodButTheHull) {
   const std::string cloud = ascii("1.pcd", {"1 2 3", "1.1 2 3", "1 2.1 3", "1 2 3.1", "1.1 2.1 3.2"});
   const Result result =

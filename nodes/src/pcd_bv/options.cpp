@@ -24,8 +24,8 @@ constexpr const char* examples = R"(Examples:
   pcd_bv --timings synth:street
 
 Exit status: 0 done; 1 some input could not be processed or an output not written (the
-other inputs are still done); 2 wrong use, or something not available yet; 3 --check found
-a point outside. The greater reason wins: 2, 3, 1, 0.
+other inputs are still done); 2 wrong use, or an instruction set that is not usable here;
+3 --check found a point outside. The greater reason wins: 2, 3, 1, 0.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 /// The command line as texts, before the values are looked at.
@@ -100,11 +100,6 @@ void require_extension(const char* option, const std::string& name,
   throw UsageError(std::string(option) + ": '" + name + "' is no " + list + " file");
 }
 
-void refuse_unusable(const Texts& texts) {
-  require_extension("--image", texts.image, {".png", ".svg"});
-  require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
-}
-
 /// For those who ask: the ground and upright boxes.
 void set_up(UpAxis up, bool wants_ground, Options& options) {
   const bool wants_upright = std::any_of(options.methods.begin(), options.methods.end(),
@@ -116,25 +111,24 @@ void set_up(UpAxis up, bool wants_ground, Options& options) {
   options.method_options.up = up_direction(up);
 }
 
-Options to_options(const CLI::App& app, const Texts& texts) {
-  constexpr std::size_t max_threads = 1024;
-  const auto given = [&](const char* option) { return app.count(option) > 0; };
+void refuse_useless(const CLI::App& app) {
   for (const auto& [option, needed] : {std::pair{"--min-size", "--cluster"},
                                        {"--max-size", "--cluster"},
                                        {"--view", "--image"},
                                        {"--sensor-height", "--ground"}}) {
-    if (given(option) && !given(needed))
+    if (app.count(option) > 0 && app.count(needed) == 0)
       throw UsageError(std::string(option) + ": only useful with " + needed);
   }
-  Options options;
-  options.inputs = texts.inputs;
-  options.methods = given("--volume") ? parse_methods(texts.volume) : default_methods();
+}
+
+/// What of the cloud the volumes are fitted around.
+void read_segmentation(const CLI::App& app, const Texts& texts, Options& options) {
+  const auto given = [&](const char* option) { return app.count(option) > 0; };
   if (given("--range")) {
     const auto [min, max] = parse_range(texts.range);
     options.range = RangeFilter{min, max};
   }
   if (given("--ground")) options.ground = parse_ground(texts.ground);
-  if (given("--up")) set_up(parse_with("--up", texts.up, parse_up_axis), given("--ground"), options);
   if (options.ground && given("--sensor-height")) {
     options.ground->sensor_height = parse_sensor_height(texts.sensor_height);
   }
@@ -145,22 +139,40 @@ Options to_options(const CLI::App& app, const Texts& texts) {
     throw UsageError("--max-size: " + std::to_string(options.max_size) + " is below --min-size " +
                      std::to_string(options.min_size));
   }
-  if (given("--format")) options.format = parse_format(texts.format);
+}
+
+void read_outputs(const CLI::App& app, const Texts& texts, Options& options) {
+  if (app.count("--format") > 0) options.format = parse_format(texts.format);
   options.output = path_or_none(app, "--output", texts.output);
   options.labels = path_or_none(app, "--labels", texts.labels);
   options.mesh = path_or_none(app, "--mesh", texts.mesh);
   options.image = path_or_none(app, "--image", texts.image);
-  if (given("--view")) options.view = parse_view(texts.view);
-  Threads threads;
-  if (given("--threads")) {
-    threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
-  }
-  if (given("--growth")) options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
-  options.execution = {threads, parse_usable_isa(given("--isa") ? texts.isa : "auto")};
+  require_extension("--image", texts.image, {".png", ".svg"});
+  require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
+  if (app.count("--view") > 0) options.view = parse_view(texts.view);
   options.check = texts.check;
   options.info = texts.info;
   options.timings = texts.timings;
   options.progress = texts.progress;
+}
+
+Options to_options(const CLI::App& app, const Texts& texts) {
+  constexpr std::size_t max_threads = 1024;
+  const auto given = [&](const char* option) { return app.count(option) > 0; };
+  if (texts.inputs.empty()) throw UsageError("no INPUT; pcd_bv --help lists the options");
+  refuse_useless(app);
+  Options options;
+  options.inputs = texts.inputs;
+  options.methods = given("--volume") ? parse_methods(texts.volume) : default_methods();
+  read_segmentation(app, texts, options);
+  if (given("--up")) set_up(parse_with("--up", texts.up, parse_up_axis), given("--ground"), options);
+  if (given("--growth")) options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
+  read_outputs(app, texts, options);
+  Threads threads;
+  if (given("--threads")) {
+    threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
+  }
+  options.execution = {threads, parse_usable_isa(given("--isa") ? texts.isa : "auto")};
   return options;
 }
 
@@ -174,8 +186,6 @@ std::variant<Options, std::string> parse_options(int argc, const char* const* ar
   declare(app, texts);
   if (const auto help = parse_command_line(app, argc, argv)) return *help;
   if (texts.version) return version_text();
-  refuse_unusable(texts);
-  if (texts.inputs.empty()) throw UsageError("no INPUT; pcd_bv --help lists the options");
   return to_options(app, texts);
 }
 
