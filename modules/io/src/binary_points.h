@@ -10,6 +10,7 @@
 
 #include "input_file.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -29,6 +30,6 @@ BinaryPoints find_kitti_points(const InputFile& file);
 void require_points(const InputFile& file, std::size_t offset, const RawCloud& header);
 
 /// Reads them into the cloud.
-RawCloud read_points(const InputFile& file, BinaryPoints points);
+RawCloud read_points(const InputFile& file, BinaryPoints points, const ParallelPolicy& policy);
 
 }  // namespace pcl_bv

@@ -15,7 +15,7 @@
 #include "element_type.h"
 #include "header_words.h"
 #include "pcl_bv/io/io_error.h"
-#include "text_rows.h"
+#include "read_text_rows.h"
 
 namespace pcl_bv {
 namespace {
@@ -36,44 +36,43 @@ std::size_t values_per_point(const RawCloud& cloud) {
   return values;
 }
 
-class AsciiReader {
+// Reads a row at a time; fields of one type that follow each other are read as one.
+class PointRow {
  public:
-  AsciiReader(std::string_view text, RawCloud& cloud)
-      : rows_(text), cloud_(cloud), values_(values_per_point(cloud)) {}
+  explicit PointRow(const RawCloud& cloud) : cloud_(cloud) {
+    for (const PointField& field : cloud.fields)
+      append_run(runs_, field);
+  }
 
-  void read() {
-    cloud_.data.resize(cloud_.size() * cloud_.point_step);
-    for (row_ = 1; row_ <= cloud_.size(); ++row_)
-      read_row(&cloud_.data[(row_ - 1) * cloud_.point_step]);
-    if (rows_.find_row()) throw IoError("more rows than the " + std::to_string(cloud_.size()) + " POINTS");
+  void operator()(TextRows& rows, std::byte* to) const {
+    std::size_t read = 0;
+    for (const PointField& run : runs_) {
+      const std::uint32_t found = rows.read(run, to);
+      read += found;
+      if (found < run.count) refuse(rows, read);
+      to += run.bytes();
+    }
+    if (rows.find_value()) {
+      throw RowError{"row ", " has more than " + std::to_string(values_per_point(cloud_)) + " values"};
+    }
   }
 
  private:
-  void read_row(std::byte* to) {
-    if (!rows_.find_row()) fail("truncated: row ", " is missing, of " + std::to_string(cloud_.size()));
-    std::size_t read = 0;
-    for (const PointField& field : cloud_.fields) {
-      for (std::uint32_t i = 0; i < field.count; ++i, ++read, to += field.size) {
-        if (!rows_.find_value()) {
-          fail("truncated: row ",
-               " has " + std::to_string(read) + " values instead of " + std::to_string(values_));
-        }
-        if (rows_.read(field, to)) continue;
-        fail("row ", ", field " + in_quotes(field.name) + ": " + in_quotes(rows_.value()) +
-                         " is not a number of TYPE " + field.type + ", SIZE " + std::to_string(field.size));
-      }
+  [[noreturn]] void refuse(TextRows& rows, std::size_t read) const {
+    if (!rows.find_value()) {
+      throw RowError{"truncated: row ", " has " + std::to_string(read) + " values instead of " +
+                                            std::to_string(values_per_point(cloud_))};
     }
-    if (rows_.find_value()) fail("row ", " has more than " + std::to_string(values_) + " values");
+    const PointField* field = cloud_.fields.data();
+    for (; read >= field->count; ++field)
+      read -= field->count;
+    throw RowError{"row ", ", field " + in_quotes(field->name) + ": " + in_quotes(rows.value()) +
+                               " is not a number of TYPE " + field->type + ", SIZE " +
+                               std::to_string(field->size)};
   }
 
-  [[noreturn]] void fail(const char* before, const std::string& after) const {
-    throw IoError(before + std::to_string(row_) + after);
-  }
-
-  TextRows rows_;
-  RawCloud& cloud_;
-  std::size_t values_;
-  std::size_t row_ = 0;
+  const RawCloud& cloud_;
+  std::vector<PointField> runs_;
 };
 
 template <typename T>
@@ -94,7 +93,8 @@ void append_number(std::string& text, T value) {
 
 }  // namespace
 
-void read_ascii_points(const InputFile& file, std::size_t offset, RawCloud& cloud) {
+void read_ascii_points(const InputFile& file, std::size_t offset, RawCloud& cloud,
+                       const ParallelPolicy& policy) {
   check_types(cloud);
   const std::size_t available = file.size() - offset;
   // A value takes a digit and a separator, which only the last one of the file may lack.
@@ -104,9 +104,14 @@ void read_ascii_points(const InputFile& file, std::size_t offset, RawCloud& clou
                   std::to_string(values_per_point(cloud)) + " values do not fit in the " +
                   std::to_string(available) + " bytes after the header");
   }
-  std::string text(available, '\0');
-  file.read(offset, text.data(), text.size());
-  AsciiReader(text, cloud).read();
+  cloud.data.resize(cloud.size() * cloud.point_step);
+  const RowsRead rows = read_text_rows({file, offset, false}, {1, cloud.size(), cloud.point_step},
+                                       PointRow(cloud), cloud.data.data(), policy);
+  if (rows.count < cloud.size()) {
+    throw IoError("truncated: row " + std::to_string(rows.count + 1) + " is missing, of " +
+                  std::to_string(cloud.size()));
+  }
+  if (rows.more) throw IoError("more rows than the " + std::to_string(cloud.size()) + " POINTS");
 }
 
 std::string format_ascii_points(const RawCloud& cloud) {

@@ -9,11 +9,13 @@
 
 #include "input_file.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
 /// Reads the rows from `offset` to the end of the file into cloud.data. Throws IoError.
-void read_ascii_points(const InputFile& file, std::size_t offset, RawCloud& cloud);
+void read_ascii_points(const InputFile& file, std::size_t offset, RawCloud& cloud,
+                       const ParallelPolicy& policy);
 
 /// The rows of all points. Throws IoError for a field that has no form as text.
 std::string format_ascii_points(const RawCloud& cloud);

@@ -6,11 +6,13 @@
 
 #include <liblzf/lzf.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
 #include "copy_strided.h"
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {
 namespace {
@@ -41,28 +43,35 @@ void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t nee
   }
 }
 
-std::string unpack(const std::string& packed, std::size_t size) {
-  std::string unpacked(size, '\0');
+void unpack(const ByteBuffer& packed, ByteBuffer& unpacked) {
   const unsigned got = lzf_decompress(packed.data(), static_cast<unsigned>(packed.size()), unpacked.data(),
-                                      static_cast<unsigned>(size));
-  if (got != size) throw IoError("corrupt: the compressed data cannot be unpacked");
-  return unpacked;
+                                      static_cast<unsigned>(unpacked.size()));
+  if (got != unpacked.size()) throw IoError("corrupt: the compressed data cannot be unpacked");
 }
 
-const std::byte* bytes(const std::string& text) {
-  return reinterpret_cast<const std::byte*>(text.data());
-}
-std::byte* bytes(std::string& text) {
-  return reinterpret_cast<std::byte*>(text.data());
+// The records of a block of points stay in the cache while field after field is written to them.
+constexpr std::size_t block_bytes = 128 << 10;
+
+void gather_records(const ByteBuffer& columns, RawCloud& cloud, const ParallelPolicy& policy) {
+  const std::size_t block = std::max<std::size_t>(block_bytes / cloud.point_step, 1);
+  for_each_chunk(policy, (cloud.size() + block - 1) / block, [&](std::size_t i) {
+    const std::size_t first = i * block, count = std::min(block, cloud.size() - first);
+    std::byte* records = cloud.data.data() + first * cloud.point_step;
+    for (const PointField& field : cloud.fields) {
+      const std::byte* column = columns.data() + field.offset * cloud.size();
+      copy_strided({column, first * field.bytes(), field.bytes()}, {records, field.offset, cloud.point_step},
+                   field.bytes(), count);
+    }
+  });
 }
 
 // All values of the first field, then of the second one, ...; padding is left out.
-std::string field_by_field(const RawCloud& cloud) {
+ByteBuffer field_by_field(const RawCloud& cloud) {
   std::size_t step = 0;
   for (const PointField& field : cloud.fields)
     step += field.name == "_" ? 0 : field.bytes();
-  std::string columns(cloud.size() * step, '\0');
-  std::byte* column = bytes(columns);
+  ByteBuffer columns(cloud.size() * step);
+  std::byte* column = columns.data();
   for (const PointField& field : cloud.fields) {
     if (field.name == "_") continue;
     copy_strided({cloud.data.data(), field.offset, cloud.point_step}, {column, 0, field.bytes()},
@@ -74,7 +83,8 @@ std::string field_by_field(const RawCloud& cloud) {
 
 }  // namespace
 
-void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud& cloud) {
+void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud& cloud,
+                            const ParallelPolicy& policy) {
   if (cloud.size() == 0) return;
   BlockSizes sizes;
   const std::size_t available = file.size() - offset;
@@ -82,20 +92,18 @@ void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud&
   file.read(offset, &sizes, sizeof sizes);
   check_sizes(sizes, available - sizeof sizes, cloud.size() * cloud.point_step);
 
-  std::string packed(sizes.packed, '\0');
-  file.read(offset + sizeof sizes, packed.data(), packed.size());
-  const std::string columns = unpack(packed, sizes.unpacked);
-  cloud.data.resize(columns.size());
-  const std::byte* column = bytes(columns);
-  for (const PointField& field : cloud.fields) {
-    copy_strided({column, 0, field.bytes()}, {cloud.data.data(), field.offset, cloud.point_step},
-                 field.bytes(), cloud.size());
-    column += field.bytes() * cloud.size();
+  ByteBuffer columns(sizes.unpacked);
+  {
+    ByteBuffer packed(sizes.packed);
+    file.read(offset + sizeof sizes, packed.data(), packed.size(), policy);
+    unpack(packed, columns);
   }
+  cloud.data.resize(columns.size());
+  gather_records(columns, cloud, policy);
 }
 
 std::string compress_points(const RawCloud& cloud) {
-  const std::string columns = field_by_field(cloud);
+  const ByteBuffer columns = field_by_field(cloud);
   if (columns.size() > most_unpacked) {
     throw IoError(std::to_string(columns.size()) +
                   " bytes of points are too many for binary_compressed, at most " +

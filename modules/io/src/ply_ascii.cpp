@@ -2,109 +2,114 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A row of text for each vertex; every error names the vertex.
-#include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <string>
+#include <vector>
 
 #include "header_words.h"
 #include "pcl_bv/io/io_error.h"
 #include "ply_vertices.h"
-#include "text_rows.h"
+#include "read_text_rows.h"
 
 namespace pcl_bv {
 namespace {
 
-class VertexRows {
+// Reads a vertex at a time; properties of one type that follow each other are read as one.
+class VertexRow {
  public:
-  VertexRows(std::string_view text, PlyHeader& header) : rows_(text), header_(header) {}
-
-  void read() {
-    for (const PlyElement& element : header_.skipped)
-      skip(element);
-    RawCloud& cloud = header_.cloud;
-    cloud.data.resize(cloud.size() * cloud.point_step);
-    for (vertex_ = 0; vertex_ < cloud.size(); ++vertex_)
-      read_vertex(&cloud.data[vertex_ * cloud.point_step]);
-    if (header_.vertices_are_last && rows_.find_row()) {
-      throw IoError("more rows than the " + std::to_string(cloud.size()) + " vertices");
+  explicit VertexRow(const PlyElement& vertex) : vertex_(vertex) {
+    std::vector<PointField> runs;
+    for (const PlyProperty& property : vertex.properties) {
+      if (!property.is_list) {
+        append_run(runs, property.value);
+        continue;
+      }
+      end_runs(runs);
+      steps_.push_back(property);
     }
+    end_runs(runs);
+  }
+
+  void operator()(TextRows& rows, std::byte* to) const {
+    const PlyProperty* property = vertex_.properties.data();
+    for (const PlyProperty& step : steps_) {
+      if (step.is_list) {
+        skip_list(rows, *property++);
+        continue;
+      }
+      const std::uint32_t found = rows.read(step.value, to);
+      property += found;
+      if (found < step.value.count) refuse(rows, property->value);
+      to += step.value.bytes();
+    }
+    if (rows.find_value()) throw RowError{"vertex ", " has more values than properties"};
   }
 
  private:
-  void skip(const PlyElement& element) {
-    if (element.properties.empty()) return;
-    for (std::size_t i = 0; i < element.count; ++i) {
-      if (!rows_.find_row()) {
-        throw IoError("truncated: row " + std::to_string(i) + " of element " + in_quotes(element.name) +
-                      " is missing, of " + std::to_string(element.count));
-      }
-      rows_.skip_row();
-    }
+  void end_runs(std::vector<PointField>& runs) {
+    for (const PointField& run : runs)
+      steps_.push_back({run, {}, false});
+    runs.clear();
   }
 
-  void read_vertex(std::byte* to) {
-    if (!rows_.find_row()) throw IoError("truncated: " + here() + " is missing, of " + count());
-    for (const PlyProperty& property : header_.vertex.properties) {
-      if (property.is_list) {
-        skip_list(property);
-      } else {
-        read_value(property.value, to);
-        to += property.value.size;
-      }
-    }
-    if (rows_.find_value()) throw IoError(here() + " has more values than properties");
-  }
-
-  void read_value(const PointField& value, std::byte* to) {
-    need_value(value);
-    if (!rows_.read(value, to)) refuse_value(value);
-  }
-
-  void skip_list(const PlyProperty& list) {
+  static void skip_list(TextRows& rows, const PlyProperty& list) {
     std::uint64_t n = 0;  // little-endian, and not negative: a smaller element fills its low bytes
     PointField count = list.count;
     count.type = 'U';
-    read_value(count, reinterpret_cast<std::byte*>(&n));
+    count.count = 1;
+    if (rows.read(count, reinterpret_cast<std::byte*>(&n)) == 0) refuse(rows, count);
     for (; n > 0; --n) {
-      need_value(list.value);
-      rows_.skip_value();
+      if (!rows.find_value()) refuse(rows, list.value);
+      rows.skip_value();
     }
   }
 
-  void need_value(const PointField& value) {
-    if (rows_.find_value()) return;
-    throw IoError("truncated: " + here() + " has no more values for property " + in_quotes(value.name));
+  // The value that is missing here, or is none of this type.
+  [[noreturn]] static void refuse(TextRows& rows, const PointField& value) {
+    if (!rows.find_value()) {
+      throw RowError{"truncated: vertex ", " has no more values for property " + in_quotes(value.name)};
+    }
+    throw RowError{"vertex ", ", property " + in_quotes(value.name) + ": " + in_quotes(rows.value()) +
+                                  " is not of type " + std::string(ply_type_name(value))};
   }
 
-  [[noreturn]] void refuse_value(const PointField& value) const {
-    throw IoError(here() + ", property " + in_quotes(value.name) + ": " + in_quotes(rows_.value()) +
-                  " is not of type " + std::string(ply_type_name(value)));
-  }
-
-  std::string here() const { return "vertex " + std::to_string(vertex_); }
-  std::string count() const { return std::to_string(header_.cloud.size()); }
-
-  TextRows rows_;
-  PlyHeader& header_;
-  std::size_t vertex_ = 0;
+  const PlyElement& vertex_;
+  std::vector<PlyProperty> steps_;
 };
+
+void skip(TextBody& body, const PlyElement& element) {
+  if (element.properties.empty()) return;
+  const std::size_t found = skip_text_rows(body, element.count);
+  if (found == element.count) return;
+  throw IoError("truncated: row " + std::to_string(found) + " of element " + in_quotes(element.name) +
+                " is missing, of " + std::to_string(element.count));
+}
 
 }  // namespace
 
-void read_ply_ascii(const InputFile& file, PlyHeader& header) {
+void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy) {
+  RawCloud& cloud = header.cloud;
   const std::size_t available = file.size() - header.data_offset;
   const std::size_t values = header.vertex.properties.size();
   // A value takes a digit and a separator, which only the last one of the file may lack.
-  if (header.cloud.size() > (available + 1) / (2 * values)) {
-    throw IoError("truncated: " + std::to_string(header.cloud.size()) + " vertices of " +
-                  std::to_string(values) + " properties do not fit in the " + std::to_string(available) +
-                  " bytes after the header");
+  if (cloud.size() > (available + 1) / (2 * values)) {
+    throw IoError("truncated: " + std::to_string(cloud.size()) + " vertices of " + std::to_string(values) +
+                  " properties do not fit in the " + std::to_string(available) + " bytes after the header");
   }
-  std::string text(available, '\0');
-  file.read(header.data_offset, text.data(), text.size());
-  std::replace(text.begin(), text.end(), '\r', '\n');  // alone it ends lines too; empty ones do not count
-  VertexRows(text, header).read();
+  // A carriage return alone ends rows too; where a line feed follows, the row between them is empty.
+  TextBody body{file, header.data_offset, true};
+  for (const PlyElement& element : header.skipped)
+    skip(body, element);
+  cloud.data.resize(cloud.size() * cloud.point_step);
+  const RowsRead rows = read_text_rows(body, {0, cloud.size(), cloud.point_step}, VertexRow(header.vertex),
+                                       cloud.data.data(), policy);
+  if (rows.count < cloud.size()) {
+    throw IoError("truncated: vertex " + std::to_string(rows.count) + " is missing, of " +
+                  std::to_string(cloud.size()));
+  }
+  if (header.vertices_are_last && rows.more) {
+    throw IoError("more rows than the " + std::to_string(cloud.size()) + " vertices");
+  }
 }
 
 }  // namespace pcl_bv

@@ -67,7 +67,7 @@ void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<
   for (const PointField& field : fields)
     step += field.bytes();
 
-  std::vector<std::byte> data(cloud.size() * step);
+  ByteBuffer data(cloud.size() * step);
   std::size_t offset = 0;
   for (PointField& field : fields) {
     const StridedSource from =

@@ -22,11 +22,11 @@ bool is_cloud_name(const std::filesystem::path& path) {
   return extension == ".pcd" || extension == ".ply" || extension == ".bin";
 }
 
-RawCloud read_cloud(const std::filesystem::path& path) {
+RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy) {
   const std::string extension = lower_case_extension(path);
-  if (extension == ".ply") return read_ply(path);
-  if (extension == ".bin") return read_kitti_bin(path);
-  return read_pcd(path);
+  if (extension == ".ply") return read_ply(path, policy);
+  if (extension == ".bin") return read_kitti_bin(path, policy);
+  return read_pcd(path, policy);
 }
 
 }  // namespace pcl_bv

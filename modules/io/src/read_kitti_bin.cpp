@@ -10,10 +10,10 @@
 
 namespace pcl_bv {
 
-RawCloud read_kitti_bin(const std::filesystem::path& path) {
+RawCloud read_kitti_bin(const std::filesystem::path& path, const ParallelPolicy& policy) {
   const InputFile file(path);
   try {
-    return read_points(file, find_kitti_points(file));
+    return read_points(file, find_kitti_points(file), policy);
   } catch (const std::bad_alloc&) {
     throw not_enough_memory(file);
   }

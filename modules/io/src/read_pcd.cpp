@@ -16,17 +16,17 @@
 namespace pcl_bv {
 namespace {
 
-RawCloud read_points(const InputFile& file) {
+RawCloud read_points(const InputFile& file, const ParallelPolicy& policy) {
   PcdHeader header = read_pcd_header(file);
   switch (header.encoding) {
     case PcdEncoding::ascii:
-      read_ascii_points(file, header.data_offset, header.cloud);
+      read_ascii_points(file, header.data_offset, header.cloud, policy);
       break;
     case PcdEncoding::binary:
       require_points(file, header.data_offset, header.cloud);
-      return read_points(file, {std::move(header.cloud), header.data_offset});
+      return read_points(file, {std::move(header.cloud), header.data_offset}, policy);
     case PcdEncoding::binary_compressed:
-      read_compressed_points(file, header.data_offset, header.cloud);
+      read_compressed_points(file, header.data_offset, header.cloud, policy);
       break;
   }
   update_packed_xyz(header.cloud);
@@ -35,10 +35,10 @@ RawCloud read_points(const InputFile& file) {
 
 }  // namespace
 
-RawCloud read_pcd(const std::filesystem::path& path) {
+RawCloud read_pcd(const std::filesystem::path& path, const ParallelPolicy& policy) {
   const InputFile file(path);
   try {
-    return read_points(file);
+    return read_points(file, policy);
   } catch (const std::bad_alloc&) {
     throw not_enough_memory(file);
   }

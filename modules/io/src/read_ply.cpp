@@ -18,14 +18,14 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "records are little-endian, as in the file");
 
-RawCloud read_vertices(const InputFile& file) {
+RawCloud read_vertices(const InputFile& file, const ParallelPolicy& policy) {
   std::string start(std::min(file.size(), max_ply_header_size), '\0');
   file.read(0, start.data(), start.size());
   PlyHeader header = parse_ply_header(start);
   if (header.encoding == PlyEncoding::ascii) {
-    read_ply_ascii(file, header);
+    read_ply_ascii(file, header, policy);
   } else {
-    read_ply_binary(file, header);
+    read_ply_binary(file, header, policy);
   }
   update_packed_xyz(header.cloud);
   return std::move(header.cloud);
@@ -33,10 +33,10 @@ RawCloud read_vertices(const InputFile& file) {
 
 }  // namespace
 
-RawCloud read_ply(const std::filesystem::path& path) {
+RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& policy) {
   const InputFile file(path);
   try {
-    return read_vertices(file);
+    return read_vertices(file, policy);
   } catch (const std::bad_alloc&) {
     throw not_enough_memory(file);
   }

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One pass over the text with std::from_chars.
+// One pass over the text: the numbers that clouds are full of by hand, all others by std::from_chars.
 #include "text_rows.h"
 
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "element_type.h"
 #include "numbers.h"
@@ -12,49 +14,62 @@
 namespace pcl_bv {
 namespace {
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+// Organised clouds have many of them.
+template <typename T>
+const char* read_nan(const char* at, T& value) {
+  if (std::memcmp(at, "nan", 3) != 0 || !ends_value(at[3])) return nullptr;
+  value = std::numeric_limits<T>::quiet_NaN();
+  return at + 3;
+}
+
+template <typename T>
+const char* read_number(const char* at, const char* end, T& value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    if (const char* after = read_short_decimal(at, value)) return after;
+    if (const char* after = read_nan(at, value)) return after;
+  }
+  const char* after = parse_number(at, end, value);
+  return after && ends_value(*after) ? after : nullptr;
 }
 
 }  // namespace
 
-bool TextRows::find_row() {
-  while (at_ != end_ && (is_blank(*at_) || *at_ == '\n'))
-    ++at_;
-  return at_ != end_;
+template <typename T>
+std::uint32_t TextRows::read_elements(std::uint32_t count, std::byte* to) {
+  const char* at = at_;
+  std::uint32_t read = 0;
+  for (; read < count; ++read) {
+    while (is_blank(*at))
+      ++at;
+    T value;
+    const char* after = *at == '\n' ? nullptr : read_number(at, end_, value);
+    if (!after) break;
+    std::memcpy(to + read * sizeof value, &value, sizeof value);
+    at = after;
+  }
+  at_ = at;
+  return read;
 }
 
-bool TextRows::find_value() {
-  while (at_ != end_ && is_blank(*at_))
-    ++at_;
-  return at_ != end_ && *at_ != '\n';
-}
-
-bool TextRows::read(const PointField& field, std::byte* to) {
-  const char* after = with_element_type(field, [&](auto value) {
-    const char* stop = parse_number(at_, end_, value);
-    std::memcpy(to, &value, sizeof value);
-    return stop;
-  });
-  if (!after || (after != end_ && *after != '\n' && !is_blank(*after))) return false;
-  at_ = after;
-  return true;
-}
-
-void TextRows::skip_value() {
-  at_ += value().size();
-}
-
-void TextRows::skip_row() {
-  const void* newline = at_ == end_ ? nullptr : std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));
-  at_ = newline ? static_cast<const char*>(newline) : end_;
+std::uint32_t TextRows::read(const PointField& field, std::byte* to) {
+  return with_element_type(field, [&](auto type) { return read_elements<decltype(type)>(field.count, to); });
 }
 
 std::string_view TextRows::value() const {
   const char* stop = at_;
-  while (stop != end_ && *stop != '\n' && !is_blank(*stop))
+  while (!ends_value(*stop))
     ++stop;
   return {at_, static_cast<std::size_t>(stop - at_)};
+}
+
+void append_run(std::vector<PointField>& runs, const PointField& field) {
+  const bool joins = !runs.empty() && runs.back().type == field.type && runs.back().size == field.size &&
+                     runs.back().count <= std::numeric_limits<std::uint32_t>::max() - field.count;
+  if (joins) {
+    runs.back().count += field.count;
+  } else {
+    runs.push_back(field);
+  }
 }
 
 }  // namespace pcl_bv

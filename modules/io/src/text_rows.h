@@ -5,39 +5,55 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
+#include "short_decimal.h"
 
 namespace pcl_bv {
 
-/// A place in a text whose lines are rows of values between blanks. Does not own the text.
+/// A place in a text whose lines are rows of values between blanks. Does not own the text, which must be
+/// followed by text_padding readable bytes that begin with an end of line.
 class TextRows {
  public:
   explicit TextRows(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
 
   /// Moves to the next value, over line ends too. False at the end of the text.
-  bool find_row();
+  bool find_row() {
+    while (at_ != end_ && ends_value(*at_))
+      ++at_;
+    return at_ != end_;
+  }
 
   /// Moves to the next value of the row. False if it has none.
-  bool find_value();
+  bool find_value() {
+    while (is_blank(*at_))
+      ++at_;
+    return *at_ != '\n';
+  }
 
-  /// Reads the value here as one element of the field. False, without moving, if it is no such number.
-  bool read(const PointField& field, std::byte* to);
+  /// Reads the next values of the row as the elements of one field. Returns how many it found before one that
+  /// is missing or no such number, and stays there.
+  std::uint32_t read(const PointField& field, std::byte* to);
 
   /// Moves over the value here, whatever it is.
-  void skip_value();
-
-  /// Moves to the end of the row.
-  void skip_row();
+  void skip_value() { at_ += value().size(); }
 
   /// The value here.
   std::string_view value() const;
 
  private:
+  template <typename T>
+  std::uint32_t read_elements(std::uint32_t count, std::byte* to);
+
   const char* at_;
   const char* end_;
 };
+
+/// Appends a field to those that rows are read by; it becomes one with the last of them if both are of one
+/// type.
+void append_run(std::vector<PointField>& runs, const PointField& field);
 
 }  // namespace pcl_bv

@@ -8,6 +8,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -16,6 +17,6 @@ namespace pcl_bv {
 ///
 /// Throws IoError, naming the reason, for a file that is missing, unreadable, empty or of a size that is no
 /// multiple of 16 ("truncated").
-RawCloud read_kitti_bin(const std::filesystem::path& path);
+RawCloud read_kitti_bin(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv

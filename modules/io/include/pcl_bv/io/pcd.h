@@ -8,6 +8,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -22,7 +23,7 @@ namespace pcl_bv {
 ///
 /// Throws IoError, naming the reason, for a file that is missing, unreadable, empty, truncated, inconsistent
 /// or of an unsupported type.
-RawCloud read_pcd(const std::filesystem::path& path);
+RawCloud read_pcd(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
 enum class PcdEncoding { ascii, binary, binary_compressed };
 

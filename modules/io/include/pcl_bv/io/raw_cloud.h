@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pcl_bv/io/byte_buffer.h"
 #include "pcl_bv/kernels/point_view.h"
 
 namespace pcl_bv {
@@ -35,9 +36,9 @@ struct RawCloud {
   std::size_t height = 1;
   std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz qw qx qy qz; kept, never applied.
   std::size_t point_step = 0;
-  std::vector<std::byte> data;  ///< width * height * point_step bytes, little-endian.
+  ByteBuffer data;  ///< width * height * point_step bytes, little-endian.
   /// x y z of all points, in their type, only where the record does not hold them side by side.
-  std::vector<std::byte> packed_xyz;
+  ByteBuffer packed_xyz;
 
   std::size_t size() const { return width * height; }
 

@@ -9,6 +9,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -20,6 +21,6 @@ bool is_cloud_name(const std::filesystem::path& path);
 
 /// Reads the cloud by the reader that the extension names: .ply by read_ply(), .bin by read_kitti_bin(), all
 /// others by read_pcd(). Throws IoError, naming the reason.
-RawCloud read_cloud(const std::filesystem::path& path);
+RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Decimal numbers as clouds have them, eight digits at a time: of a dozen digits at most, near to 1. Rounded
+// exactly like std::from_chars or left to it (Clinger 1990; the arithmetic of eight digits: Lemire 2021).
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace pcl_bv {
+
+/// Bytes after a text that read_short_decimal() may look at.
+inline constexpr std::size_t text_padding = 16;
+
+/// What separates values: blanks as C knows them, and the end of a line.
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+inline bool ends_value(char c) {
+  return c == '\n' || is_blank(c);
+}
+
+namespace internal {
+
+static_assert(std::endian::native == std::endian::little, "the first digit is the lowest byte");
+
+/// The digits at the front of eight characters.
+struct DigitRun {
+  unsigned length;      ///< 0 to 8.
+  std::uint64_t value;  ///< Of the number that they are.
+};
+
+inline DigitRun read_digit_run(const char* at) {
+  std::uint64_t text;
+  std::memcpy(&text, at, sizeof text);
+  const std::uint64_t digits = text ^ 0x3030303030303030;  // 0 to 9 where there are digits
+  // The sum may carry out of a byte that is no digit, but only into later ones.
+  const std::uint64_t others = (digits | (digits + 0x7676767676767676)) & 0x8080808080808080;
+  const unsigned length = others == 0 ? 8U : static_cast<unsigned>(std::countr_zero(others)) / 8;
+  const unsigned half_shift = 32 - 4 * length;  // twice: a shift by 64 is not defined
+  std::uint64_t value = digits << half_shift << half_shift;
+  value = value * 10 + (value >> 8);  // pairs of digits, in every other byte
+  constexpr std::uint64_t pairs = 0x000000FF000000FF;
+  value = ((value & pairs) * (100 + (std::uint64_t{1000000} << 32)) +
+           ((value >> 16) & pairs) * (1 + (std::uint64_t{10000} << 32))) >>
+          32;
+  return {length, value};
+}
+
+inline constexpr std::array<std::uint64_t, 9> integer_powers{1,      10,      100,      1000,     10000,
+                                                             100000, 1000000, 10000000, 100000000};
+
+/// The powers of ten that are doubles.
+inline constexpr int greatest_power = 22;
+inline constexpr std::array<double, greatest_power + 1> double_powers{
+    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/// digits * 10^exponent; digits < 1e18.
+struct Decimal {
+  std::int64_t digits;
+  int exponent;
+};
+
+/// Rounds to nearest, or says that it cannot.
+inline bool round_decimal(Decimal decimal, bool negative, double& value) {
+  constexpr std::int64_t doubles_end = std::int64_t{1} << 53;
+  if (decimal.digits > doubles_end || decimal.exponent > greatest_power || decimal.exponent < -greatest_power)
+    return false;
+  const double digits = static_cast<double>(decimal.digits);
+  const double magnitude = decimal.exponent < 0
+                               ? digits / double_powers[static_cast<unsigned>(-decimal.exponent)]
+                               : digits * double_powers[static_cast<unsigned>(decimal.exponent)];
+  value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | std::uint64_t{negative} << 63);
+  return true;
+}
+
+/// By way of a double that is off by two units in its last place at most: one rounding of the digits, one of
+/// the product. Where it is nearer than that to the middle between two floats, the text has to decide.
+inline bool round_decimal(Decimal decimal, bool negative, float& value) {
+  if (decimal.exponent > greatest_power || decimal.exponent < -greatest_power) return false;
+  const double digits = static_cast<double>(decimal.digits);
+  const double magnitude = decimal.exponent < 0
+                               ? digits / double_powers[static_cast<unsigned>(-decimal.exponent)]
+                               : digits * double_powers[static_cast<unsigned>(decimal.exponent)];
+  constexpr std::uint64_t middle = std::uint64_t{1} << 28, below_float = (middle << 1) - 1;
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(magnitude);
+  const bool near_middle = (bits & below_float) - (middle - 2) <= 4;
+  // No denormal: what is not 0 is at least 1e-22.
+  if (near_middle || magnitude > static_cast<double>(std::numeric_limits<float>::max())) return false;
+  const float rounded = static_cast<float>(magnitude);
+  value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) | std::uint32_t{negative} << 31);
+  return true;
+}
+
+/// Moves over "e-5"; false if it is none.
+inline bool read_exponent(const char*& at, int& exponent) {
+  ++at;
+  const bool negative = *at == '-';
+  at += negative || *at == '+';
+  const DigitRun run = read_digit_run(at);
+  if (run.length == 0 || run.length > 3) return false;
+  at += run.length;
+  exponent += negative ? -static_cast<int>(run.value) : static_cast<int>(run.value);
+  return true;
+}
+
+}  // namespace internal
+
+/// Reads a number that blanks or a line's end follow. Returns where it ends, or null, which says nothing: the
+/// number may be one that has to be read in another way. The text must be followed by text_padding bytes that
+/// begin with an end of line.
+template <typename T>
+inline const char* read_short_decimal(const char* at, T& value) {
+  static_assert(std::is_floating_point_v<T>);
+  const bool negative = *at == '-';
+  at += negative || *at == '+';
+  const char* const first = at;
+  const internal::DigitRun whole = internal::read_digit_run(at);
+  at += whole.length;
+  internal::Decimal decimal{static_cast<std::int64_t>(whole.value), 0};
+  bool has_digits = whole.length > 0;
+  if (*at == '.') {
+    ++at;
+    internal::DigitRun run;
+    do {
+      run = internal::read_digit_run(at);
+      if (decimal.digits >= 10'000'000'000) return nullptr;
+      decimal.digits = decimal.digits * static_cast<std::int64_t>(internal::integer_powers[run.length]) +
+                       static_cast<std::int64_t>(run.value);
+      decimal.exponent -= static_cast<int>(run.length);
+      at += run.length;
+    } while (run.length == 8);
+    has_digits = at - first > 1;
+  }
+  if (!has_digits) return nullptr;
+  if ((*at == 'e' || *at == 'E') && !internal::read_exponent(at, decimal.exponent)) return nullptr;
+  if (!ends_value(*at) || !internal::round_decimal(decimal, negative, value)) return nullptr;
+  return at;
+}
+
+}  // namespace pcl_bv
