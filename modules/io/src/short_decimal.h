@@ -119,7 +119,7 @@ template <typename T>
 inline const char* read_short_decimal(const char* at, T& value) {
   static_assert(std::is_floating_point_v<T>);
   const bool negative = *at == '-';
-  at += negative || *at == '+';
+  at += negative | (*at == '+');
   const char* const first = at;
   const internal::DigitRun whole = internal::read_digit_run(at);
   at += whole.length;
@@ -127,15 +127,14 @@ inline const char* read_short_decimal(const char* at, T& value) {
   bool has_digits = whole.length > 0;
   if (*at == '.') {
     ++at;
-    internal::DigitRun run;
     do {
-      run = internal::read_digit_run(at);
+      const internal::DigitRun run = internal::read_digit_run(at);
       if (decimal.digits >= 10'000'000'000) return nullptr;
       decimal.digits = decimal.digits * static_cast<std::int64_t>(internal::integer_powers[run.length]) +
                        static_cast<std::int64_t>(run.value);
       decimal.exponent -= static_cast<int>(run.length);
       at += run.length;
-    } while (run.length == 8);
+    } while (*at >= '0' && *at <= '9');  // not of the length: one of 8 ends the number as often as not
     has_digits = at - first > 1;
   }
   if (!has_digits) return nullptr;
