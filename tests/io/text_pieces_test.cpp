@@ -21,11 +21,10 @@ const ParallelPolicy policies[] = {Serial{}, OpenMP{2}, Threads{2}, Threads{5}};
 
 class TextPieces : public FileTest {
  protected:
-  // Rows "000017 2 3" with a comment in the header that shifts all of them.
+  // Rows "000017 2 3", all of them shifted by blanks before the first one.
   std::string numbered(std::size_t points, std::size_t rows, std::size_t shift = 0) const {
-    std::string text = "#" + std::string(shift, ' ') +
-                       "\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH " +
-                       std::to_string(points) + "\nHEIGHT 1\nDATA ascii\n";
+    std::string text = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH " + std::to_string(points) +
+                       "\nHEIGHT 1\nDATA ascii\n" + std::string(shift, ' ');
     for (std::size_t i = 0; i < rows; ++i) {
       const std::string number = std::to_string(i);
       text += std::string(6 - number.size(), '0') + number + " 2 3\n";
