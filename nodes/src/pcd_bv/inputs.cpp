@@ -84,13 +84,13 @@ std::vector<Job> plan_jobs(const Options& options) {
   return jobs;
 }
 
-RawCloud load_cloud(const Job& job) {
+RawCloud load_cloud(const Job& job, const ParallelPolicy& policy) {
   if (job.error) throw IoError(*job.error);
   if (is_synth(job.input)) {
     const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
-  return read_cloud(job.input);
+  return read_cloud(job.input, policy);
 }
 
 }  // namespace pcl_bv

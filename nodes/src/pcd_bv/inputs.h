@@ -11,6 +11,7 @@
 
 #include "options.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -28,6 +29,6 @@ bool is_synth(const std::string& input);
 std::vector<Job> plan_jobs(const Options& options);
 
 /// The cloud of a job. Throws IoError, or std::invalid_argument for an unknown scene, with the reason.
-RawCloud load_cloud(const Job& job);
+RawCloud load_cloud(const Job& job, const ParallelPolicy& policy);
 
 }  // namespace pcl_bv

@@ -7,9 +7,9 @@
 
 namespace pcl_bv {
 
-LoadedCloud::LoadedCloud(const Job& job, bool hold) {
+LoadedCloud::LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy) {
   if (!hold && !job.error && !is_synth(job.input)) file_ = CloudFile::open(job.input);
-  if (!file_) held_ = load_cloud(job);
+  if (!file_) held_ = load_cloud(job, policy);
 }
 
 }  // namespace pcl_bv

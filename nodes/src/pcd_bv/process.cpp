@@ -133,7 +133,7 @@ Status write_files(const Job& job, const Options& options, const Segmentation& s
 Status process(const Job& job, const Options& options, Report& report) {
   Stopwatch watch;
   Seconds seconds;
-  LoadedCloud loaded(job, tells_points_apart(options) || job.labels);
+  LoadedCloud loaded(job, tells_points_apart(options) || job.labels, options.execution.parallel);
   seconds.read = watch.lap();
   const Segmentation segmentation = segment(loaded.xyz(), options);
   seconds.segment = watch.lap();
