@@ -61,11 +61,14 @@ void write_plys(const fs::path& folder) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name : {"pcd", "ply", "lzf", "bin", "number"})
+  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
   write_plys(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));
   write(folder / "number" / "some", "-12.3456789e-01");
+  write(folder / "text" / "rows",
+        "\x03\x05"
+        "1 2\n\n 3.5 -4e1\r\nnan 6\n");
 }

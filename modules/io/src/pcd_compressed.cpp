@@ -12,7 +12,6 @@
 
 #include "copy_strided.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {
 namespace {
@@ -52,17 +51,17 @@ void unpack(const ByteBuffer& packed, ByteBuffer& unpacked) {
 // The records of a block of points stay in the cache while field after field is written to them.
 constexpr std::size_t block_bytes = 128 << 10;
 
-void gather_records(const ByteBuffer& columns, RawCloud& cloud, const ParallelPolicy& policy) {
+void gather_records(const ByteBuffer& columns, RawCloud& cloud) {
   const std::size_t block = std::max<std::size_t>(block_bytes / cloud.point_step, 1);
-  for_each_chunk(policy, (cloud.size() + block - 1) / block, [&](std::size_t i) {
-    const std::size_t first = i * block, count = std::min(block, cloud.size() - first);
+  for (std::size_t first = 0; first < cloud.size(); first += block) {
+    const std::size_t count = std::min(block, cloud.size() - first);
     std::byte* records = cloud.data.data() + first * cloud.point_step;
     for (const PointField& field : cloud.fields) {
       const std::byte* column = columns.data() + field.offset * cloud.size();
       copy_strided({column, first * field.bytes(), field.bytes()}, {records, field.offset, cloud.point_step},
                    field.bytes(), count);
     }
-  });
+  }
 }
 
 // All values of the first field, then of the second one, ...; padding is left out.
@@ -83,8 +82,7 @@ ByteBuffer field_by_field(const RawCloud& cloud) {
 
 }  // namespace
 
-void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud& cloud,
-                            const ParallelPolicy& policy) {
+void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud& cloud) {
   if (cloud.size() == 0) return;
   BlockSizes sizes;
   const std::size_t available = file.size() - offset;
@@ -95,11 +93,11 @@ void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud&
   ByteBuffer columns(sizes.unpacked);
   {
     ByteBuffer packed(sizes.packed);
-    file.read(offset + sizeof sizes, packed.data(), packed.size(), policy);
+    file.read(offset + sizeof sizes, packed.data(), packed.size());
     unpack(packed, columns);
   }
   cloud.data.resize(columns.size());
-  gather_records(columns, cloud, policy);
+  gather_records(columns, cloud);
 }
 
 std::string compress_points(const RawCloud& cloud) {

@@ -9,13 +9,11 @@
 
 #include "input_file.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
 /// Reads the block at `offset` into cloud.data. Throws IoError.
-void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud& cloud,
-                            const ParallelPolicy& policy);
+void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud& cloud);
 
 /// The block of all points, without padding fields: two sizes, then the packed bytes. Throws IoError if there
 /// is too much to pack.

@@ -26,7 +26,7 @@ RawCloud read_points(const InputFile& file, const ParallelPolicy& policy) {
       require_points(file, header.data_offset, header.cloud);
       return read_points(file, {std::move(header.cloud), header.data_offset}, policy);
     case PcdEncoding::binary_compressed:
-      read_compressed_points(file, header.data_offset, header.cloud, policy);
+      read_compressed_points(file, header.data_offset, header.cloud);
       break;
   }
   update_packed_xyz(header.cloud);

@@ -15,11 +15,15 @@
 
 namespace pcl_bv {
 
+/// With the records made of it, such a piece stays in the second-level cache.
+inline constexpr std::size_t default_text_piece = 256 << 10;
+
 /// Where rows begin in a file, and what ends them.
 struct TextBody {
   const InputFile& file;
   std::size_t begin;
-  bool returns_end_rows;  ///< A carriage return alone ends a row too.
+  bool returns_end_rows;                         ///< A carriage return alone ends a row too.
+  std::size_t piece_bytes = default_text_piece;  ///< Of the text at a time.
 };
 
 /// A row that cannot be read. What it says goes around the number of the row.

@@ -10,11 +10,8 @@
 namespace pcl_bv {
 namespace {
 
-// With the records made of it, a piece stays in the second-level cache.
-constexpr std::size_t piece_bytes = 256 << 10;
-
-// What a piece is read beyond its end at first, since its last line ends there.
-constexpr std::size_t first_overhang = 512;
+// What a piece is read beyond its end at first, since its last line ends there: a part of this of its size.
+constexpr std::size_t overhang_part = 512;
 
 // Offset behind the first line end at or after `from`, or npos.
 std::size_t behind_line_end(std::string_view text, std::size_t from) {
@@ -25,10 +22,10 @@ std::size_t behind_line_end(std::string_view text, std::size_t from) {
 }  // namespace
 
 TextPieces::TextPieces(const TextBody& body)
-    : body_(body), count_((body.file.size() - body.begin + piece_bytes - 1) / piece_bytes) {}
+    : body_(body), count_((body.file.size() - body.begin + body.piece_bytes - 1) / body.piece_bytes) {}
 
 std::size_t TextPieces::piece_begin(std::size_t piece) const {
-  return std::min(body_.begin + piece * piece_bytes, body_.file.size());
+  return std::min(body_.begin + piece * body_.piece_bytes, body_.file.size());
 }
 
 // Appends `bytes` bytes of the file, from `from` on, to the `have` bytes that the buffer has.
@@ -45,7 +42,7 @@ std::string_view TextPieces::fetch(std::size_t piece, ByteBuffer& buffer) const 
   const std::size_t begin = piece_begin(piece) - before;
   const std::size_t inside = piece_begin(piece + 1) - begin;  // the last byte may end the last line
   std::size_t have = 0, first = 0, last = std::string_view::npos;
-  for (std::size_t overhang = first_overhang;; overhang *= 2) {
+  for (std::size_t overhang = body_.piece_bytes / overhang_part + 1;; overhang *= 2) {
     const std::size_t want = std::min(inside + overhang, body_.file.size() - begin);
     fill(buffer, begin + have, want - have, have);
     const std::string_view text(reinterpret_cast<const char*>(buffer.data()), want);
