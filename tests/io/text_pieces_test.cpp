@@ -44,7 +44,7 @@ class TextPieces : public FileTest {
 
   void expect_reason(const std::string& text, const std::string& reason) const {
     write_text(file("a.pcd"), text);
-    for (int repeat = 0; repeat < 5; ++repeat) {
+    for (int repeat = 0; repeat < 2; ++repeat) {
       for (const ParallelPolicy& policy : policies) {
         try {
           read_pcd(file("a.pcd"), policy);
