@@ -9,7 +9,6 @@
 #include <benchmark/benchmark.h>
 #include <pcl/point_types.h>
 
-#include <cstdlib>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -108,25 +107,16 @@ void run(benchmark::State& state, std::size_t clusters, std::size_t points, unsi
 }  // namespace pcl_bv::bench
 
 int main(int argc, char** argv) {
-  const char* policy = std::getenv("OMP_WAIT_POLICY");
-  const std::string wait = std::string("/wait:") + (policy ? policy : "default");
+  using namespace pcl_bv::bench;
   const std::pair<std::size_t, std::size_t> sizes[] = {{100, 300}, {1000, 50}, {1, 300'000}};
   for (const auto& [clusters, points] : sizes) {
     for (const unsigned threads : {1U, 2U}) {
       const std::string row = "batch/aabb+sphere-exact+obb-dito14/" + std::to_string(clusters) + 'x' +
-                              std::to_string(points) + "/threads:" + std::to_string(threads) + wait;
-      benchmark::RegisterBenchmark(row.c_str(),
-                                   [=, clusters = clusters, points = points](benchmark::State& state) {
-                                     pcl_bv::bench::run(state, clusters, points, threads);
-                                   })
-          ->Iterations(pcl_bv::bench::kPairs)
-          ->Repetitions(1)
-          ->UseManualTime()
-          ->Unit(benchmark::kMicrosecond);
+                              std::to_string(points) + "/threads:" + std::to_string(threads) + wait_policy();
+      add_turns(row, kPairs, [=, clusters = clusters, points = points](benchmark::State& state) {
+        run(state, clusters, points, threads);
+      });
     }
   }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  return run_program(argc, argv);
 }

@@ -10,9 +10,11 @@
 #include <span>
 #include <stdexcept>
 
+#include "meshes.h"
 #include "pcl_bv/estimation/point_cloud_view.h"
 #include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/synth/synth.h"
+#include "program.h"
 #include "shapes.h"
 
 namespace pcl_bv::bench {
@@ -21,6 +23,7 @@ namespace {
 using Coordinates = std::span<const float>;
 
 std::vector<float> make_scene(const std::string& scene, std::size_t points) {
+  if (const Mesh* mesh = find_mesh(scene)) return mesh->first_points(points);
   if (std::vector<float> shape = make_shape(scene, points); !shape.empty()) return shape;
   const std::string count = std::to_string(points);
   const std::string spec = scene == "paper"  ? "paper-" + count
@@ -140,8 +143,10 @@ const std::vector<std::string>& layouts() {
   return names;
 }
 
-Cloud& cloud(const CloudName& name) {
+Cloud& cloud(const CloudName& wanted) {
   static Cloud last;
+  CloudName name = wanted;
+  name.points = wanted.scene == "paper" && tiny() ? kPaperSizes[0] : points_in_this_run(wanted.points);
   if (last.name == name) return last;
   last = Cloud();
   for (const LayoutEntry& entry : layout_table()) {

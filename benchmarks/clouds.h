@@ -29,8 +29,9 @@ inline constexpr std::size_t kL1 = 2048, kL2 = 32'768, kL3 = 1'000'000, kMemory 
 inline constexpr std::size_t kPaperSizes[] = {4010, 7260, 30'892, 32'875, 48'485, 100'722, 327'323};
 
 struct CloudName {
-  std::string
-      scene;  ///< "gauss", "cube", "street" (a LiDAR sweep), "paper" (kPaperSizes only), a shape of shapes.h.
+  /// "gauss", "cube", "street" (a LiDAR sweep), "paper" (kPaperSizes only), a shape of shapes.h, a mesh of
+  /// meshes.h.
+  std::string scene;
   std::size_t points = 0;      ///< A multiple of 64 for the street.
   std::string layout = "xyz";  ///< One of layouts().
   std::string bad = "no-nan";  ///< Or "one-nan" (the middle point), "1pc-nan" (every hundredth).
@@ -57,6 +58,7 @@ struct Cloud {
   std::map<std::string_view, std::size_t> outside;  ///< By peer: points outside its answer.
 };
 
+/// As it is in this run: tiny ones (program.h) have fewer points.
 Cloud& cloud(const CloudName& name);
 
 }  // namespace pcl_bv::bench

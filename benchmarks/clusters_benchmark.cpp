@@ -8,11 +8,14 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <random>
 #include <stdexcept>
 
 #include "cluster_peers.h"
 #include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/ground_zones.h"
 #include "pcl_bv/synth/street.h"
@@ -21,12 +24,14 @@
 namespace pcl_bv::bench {
 namespace {
 
-/// Scenes: "street" (a LiDAR sweep above ground), "street-whole" (with its ground), "sheets" (two, dense,
-/// just out of reach of 0.5 m), "sparse" (hardly a point within 0.5 m of another). `size` is rays for the
-/// first two.
+/// Scenes: "street" (a LiDAR sweep above ground), "street-whole" (with its ground), "sweep" (the first of
+/// $PCL_BV_DATA/lidar_sequence, without ground and dead beams), "sheets" (two, dense, just out of reach of
+/// 0.5 m), "sparse" (hardly a point within 0.5 m of another). `size` is rays for the first two, of no use for
+/// the third.
 struct Scene {
   std::string name;
   std::size_t size;
+  auto operator<=>(const Scene&) const = default;
 };
 
 ClusterCloud::Ptr street(std::size_t rays, bool with_ground) {
@@ -54,10 +59,32 @@ ClusterCloud::Ptr scattered(std::size_t points, float half_side, bool as_sheets)
   return cloud;
 }
 
+ClusterCloud::Ptr sweep() {
+  const RawCloud raw = read_cloud(std::string(std::getenv("PCL_BV_DATA")) + "/lidar_sequence/0000000000.pcd");
+  GroundSplit split;
+  GroundZones().split(raw.xyz(), {}, split);
+  const auto cloud = std::make_shared<ClusterCloud>();
+  for (const std::int32_t i : split.rest) {
+    const Coordinates p = load_point(raw.xyz(), static_cast<std::size_t>(i));
+    if (p.x != 0 || p.y != 0 || p.z != 0)
+      cloud->push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+  return cloud;
+}
+
 ClusterCloud::Ptr make(const Scene& scene) {
-  if (scene.name == "sheets") return scattered(scene.size, 5, true);
-  if (scene.name == "sparse") return scattered(scene.size, std::cbrt(static_cast<float>(scene.size)), false);
-  return street(scene.size, scene.name == "street-whole");
+  const std::size_t size = points_in_this_run(scene.size);
+  if (scene.name == "sweep") return sweep();
+  if (scene.name == "sheets") return scattered(size, 5, true);
+  if (scene.name == "sparse") return scattered(size, std::cbrt(static_cast<float>(size)), false);
+  return street(size, scene.name == "street-whole");
+}
+
+ClusterCloud::Ptr cloud_of(const Scene& scene) {
+  static std::map<Scene, ClusterCloud::Ptr> made;
+  ClusterCloud::Ptr& cloud = made[scene];
+  if (!cloud) cloud = make(scene);
+  return cloud;
 }
 
 ClusterSets sorted(ClusterSets sets) {
@@ -87,25 +114,22 @@ class Ours {
   Clusters clusters_;
 };
 
+std::string row_name(const std::string& what, const Scene& scene, float tolerance) {
+  return what + '/' + scene.name + "/n:" + std::to_string(cloud_of(scene)->size()) +
+         "/r:" + std::to_string(tolerance).substr(0, 3);
+}
+
 // Registers a comparison of what first(cloud) returns with ours.
 template <typename MakeFirst>
 void add(const std::string& comparison, const Scene& scene, float tolerance, const ParallelPolicy& policy,
          int pairs, MakeFirst make_first) {
-  const std::string points = std::to_string(make(scene)->size());
-  const std::string row =
-      comparison + '/' + scene.name + "/n:" + points + "/r:" + std::to_string(tolerance).substr(0, 3);
-  benchmark::RegisterBenchmark(row.c_str(),
-                               [=](benchmark::State& state) {
-                                 const ClusterCloud::ConstPtr cloud = make(scene);
-                                 Ours ours(*cloud, tolerance, policy);
-                                 ours();
-                                 compare(state, make_first(cloud, ours), ours);
-                                 state.counters["clusters"] = static_cast<double>(ours.sets().size());
-                               })
-      ->Iterations(pairs)
-      ->Repetitions(1)
-      ->UseManualTime()
-      ->Unit(benchmark::kMicrosecond);
+  add_turns(row_name(comparison, scene, tolerance), pairs, [=](benchmark::State& state) {
+    const ClusterCloud::ConstPtr cloud = cloud_of(scene);
+    Ours ours(*cloud, tolerance, policy);
+    ours();
+    compare(state, make_first(cloud, ours), ours);
+    state.counters["clusters"] = static_cast<double>(ours.sets().size());
+  });
 }
 
 void over_peers(const Scene& scene, float tolerance, int pairs) {
@@ -120,8 +144,17 @@ void over_peers(const Scene& scene, float tolerance, int pairs) {
   }
 }
 
+// How the cost grows.
+void alone(const Scene& scene, float tolerance) {
+  benchmark::RegisterBenchmark(row_name("clusters", scene, tolerance).c_str(), [=](benchmark::State& state) {
+    Ours ours(*cloud_of(scene), tolerance, Serial{});
+    for (auto _ : state)
+      ours();
+  })->Unit(benchmark::kMicrosecond);
+}
+
 void two_threads(const Scene& scene, float tolerance) {
-  add("two-threads", scene, tolerance, OpenMP{2}, kPairs,
+  add("threads-2", scene, tolerance, OpenMP{2}, kPairs,
       [=](const ClusterCloud::ConstPtr& cloud, const Ours&) {
         return [cloud, one = std::make_shared<Ours>(*cloud, tolerance, Serial{})] { (*one)(); };
       });
@@ -141,6 +174,12 @@ void register_all() {
     two_threads({"sparse", points}, 0.5F);
     two_threads({"sheets", points}, 0.5F);
   }
+  if (std::getenv("PCL_BV_DATA") != nullptr && !tiny()) {
+    for (const float r : {0.2F, 0.5F})
+      over_peers({"sweep", 0}, r, 5);
+  }
+  for (std::size_t rays = 3072; rays <= 3'145'728; rays *= 4)  // 1 k to 1 M points
+    alone({"street", rays}, 0.5F);
   over_peers({"sheets", 20'000}, 0.5F, 3);  // Where a search finds thousands of neighbours.
 }
 
@@ -148,7 +187,9 @@ void register_all() {
 template <typename Split>
 void add_ground(const std::string& kind, Split split) {
   benchmark::RegisterBenchmark(("ground/" + kind + "/n:128000").c_str(), [split](benchmark::State& state) {
-    const SynthCloud sweep = make_street_frame({}, 0).cloud;
+    StreetOptions options;
+    options.points = points_in_this_run(128'000);
+    const SynthCloud sweep = make_street_frame(options, 0).cloud;
     const PointView view = PointView::of(sweep.xyz.data(), 12, sweep.size());
     GroundSplit result;
     for (auto _ : state)
@@ -176,8 +217,5 @@ void ground() {
 int main(int argc, char** argv) {
   pcl_bv::bench::register_all();
   pcl_bv::bench::ground();
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  return pcl_bv::bench::run_program(argc, argv);
 }

@@ -16,17 +16,13 @@
 namespace pcl_bv::bench {
 namespace {
 
-void add_fit(const std::string& work, Isa isa, const CloudName& name) {
-  const Fit fit(work);
-  add(work, std::string(isa_name(isa)), name, [=](benchmark::State& state) {
-    Cloud& points = cloud(name);
-    const Execution execution{Serial{}, isa};
-    fit.check(points, execution);
-    static const Fit hull("hull");
-    state.counters["over_hull"] =
-        volume(fit.volume(points, execution)) / volume(hull.volume(points, execution));
-    time_passes(state, points, [&] { fit(points, execution); });
-  });
+void describe_volume(benchmark::State& state, const Fit& fit, const Cloud& cloud) {
+  static const Fit hull("hull");
+  state.counters["over_hull"] = volume(fit.volume(cloud, {})) / volume(hull.volume(cloud, {}));
+}
+
+void add_hull_fit(const std::string& work, Isa isa, const CloudName& name) {
+  add_fit(work, {Serial{}, isa}, std::string(isa_name(isa)), name, describe_volume);
 }
 
 // As whoever calls Qhull does it: a copy in double of all points.
@@ -35,7 +31,7 @@ void add_plain_qhull(const CloudName& name) {
     const Cloud& points = cloud(name);
     const FloatEnvironment environment;
     std::size_t triangles = 0;
-    time_passes(state, points, [&] {
+    time_passes(state, [&] {
       std::vector<Eigen::Vector3d> copy;
       copy.reserve(points.view.count);
       for (std::size_t i = 0; i < points.view.count; ++i) {
@@ -57,7 +53,7 @@ void add_pcl(const CloudName& name) {
     estimation.setDimension(3);
     pcl::PointCloud<pcl::PointXYZ> vertices;
     std::vector<pcl::Vertices> polygons;
-    time_passes(state, points, [&] { estimation.reconstruct(vertices, polygons); });
+    time_passes(state, [&] { estimation.reconstruct(vertices, polygons); });
     state.counters["triangles"] = static_cast<double>(polygons.size());
   });
 }
@@ -67,11 +63,11 @@ void add_pcl(const CloudName&) {}
 
 void add_cloud(const CloudName& name) {
   for (const Isa isa : usable_isas())
-    add_fit("hull", isa, name);
+    add_hull_fit("hull", isa, name);
   add_plain_qhull(name);
   add_pcl(name);
   for (const std::string work : {"cylinder", "capsule", "ellipsoid", "best"})
-    add_fit(work, usable_isas().back(), name);
+    add_hull_fit(work, usable_isas().back(), name);
 }
 
 }  // namespace
@@ -84,8 +80,5 @@ int main(int argc, char** argv) {
   }
   for (const std::size_t points : {300, 10'000})  // every point is a vertex
     pcl_bv::bench::add_cloud({"surface", points});
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  return pcl_bv::bench::run_program(argc, argv);
 }

@@ -34,7 +34,6 @@ void fit(benchmark::State& state, const std::string& name, const Method* method,
     method->fit(cloud.view(), volume, {Serial{}, isa});
     benchmark::DoNotOptimize(volume);
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cloud.points().size()));
   state.counters["over_least"] = std::get<Obb>(volume).volume() / least_volume(cloud);
 }
 
@@ -44,10 +43,12 @@ void against_peer(benchmark::State& state, const std::string& name, const ObbPee
   AnyVolume volume;
   method->fit(cloud.view(), volume, {});
   require_enclosed(volume, cloud.view());
-  double theirs = 0;
+  const PeerBox theirs = peer->run(cloud);
   compare(
-      state, [&] { theirs = peer->run(cloud); }, [&] { method->fit(cloud.view(), volume, {}); });
-  state.counters["volume_over_peer"] = std::get<Obb>(volume).volume() / theirs;
+      state, [&] { benchmark::DoNotOptimize(peer->run(cloud)); },
+      [&] { method->fit(cloud.view(), volume, {}); });
+  state.counters["volume_over_peer"] = std::get<Obb>(volume).volume() / theirs.volume();
+  state.counters["outside"] = static_cast<double>(theirs.points_outside(cloud));
 }
 
 // What DiTO-14 is made of: the 14-DOP with its points, and the extents along three directions.
@@ -124,8 +125,8 @@ auto* add(const std::string& name, Arguments... arguments) {
   return benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMicrosecond);
 }
 
-void add_turns(const std::string& name, auto... arguments) {
-  add("turns/" + name, arguments...)->UseManualTime()->Iterations(kTurns);
+void turns(const std::string& name, auto body, auto... arguments) {
+  add_turns("turns/" + name, kTurns, [=](benchmark::State& state) { body(state, arguments...); });
 }
 
 void add_all() {
@@ -137,13 +138,13 @@ void add_all() {
             isa);
     }
     for (const ObbPeer& peer : obb_peers())
-      add_turns(peer.name + " over " + peer.against + '/' + cloud, against_peer, cloud, &peer,
-                find_method(peer.against));
-    add_turns("obb-dito14 over its two passes/" + cloud, dito_against_its_passes, cloud);
+      turns(peer.name + " over " + peer.against + '/' + cloud, against_peer, cloud, &peer,
+            find_method(peer.against));
+    turns("obb-dito14 over its two passes/" + cloud, dito_against_its_passes, cloud);
   }
   for (const ObbPeer& peer : obb_peers()) {
     if (peer.against == "obb-pca") {
-      add_turns("100 clusters of 300, " + peer.name + " over aabb + obb-pca", clusters_against_pcl, &peer);
+      turns("100 clusters of 300, " + peer.name + " over aabb + obb-pca", clusters_against_pcl, &peer);
     }
   }
   for (const unsigned threads : {1U, 2U}) {
@@ -158,7 +159,5 @@ void add_all() {
 
 int main(int argc, char** argv) {
   pcl_bv::bench::add_all();
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  return pcl_bv::bench::run_program(argc, argv);
 }

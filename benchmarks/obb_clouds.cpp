@@ -4,22 +4,21 @@
 #include "obb_clouds.h"
 
 #include <Eigen/Geometry>
-#include <fstream>
 #include <map>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 
+#include "meshes.h"
 #include "obb_peers.h"
 #include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/kernels/point_records.h"
+#include "program.h"
 
 namespace pcl_bv::bench {
 namespace {
 
 using Points = pcl::PointCloud<pcl::PointXYZ>;
-constexpr const char* kBunny = "/usr/share/glmark2/models/bunny.obj";
 
 class Shape {
  public:
@@ -67,14 +66,14 @@ Points::Ptr make_shape(const std::string& kind, std::size_t count) {
   return points;
 }
 
-Points::Ptr read_bunny() {
+Points::Ptr make_points(const std::string& name) {
+  const std::size_t colon = name.find(':');
+  if (colon != std::string::npos)
+    return make_shape(name.substr(0, colon), points_in_this_run(std::stoul(name.substr(colon + 1))));
   const auto points = pcl::make_shared<Points>();
-  std::ifstream in(kBunny);
-  for (std::string line, kind; std::getline(in, line);) {
-    std::istringstream words(line);
-    Eigen::Vector3d p;
-    if (words >> kind >> p.x() >> p.y() >> p.z() && kind == "v") append(*points, p);
-  }
+  const std::vector<float>& xyz = find_mesh(name)->xyz;
+  for (std::size_t i = 0; i < points_in_this_run(xyz.size() / 3); ++i)
+    points->push_back({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
   return points;
 }
 
@@ -95,7 +94,9 @@ const std::vector<std::string>& obb_cloud_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all{"gauss:300",    "car:300",    "L:3000",      "gauss:3000", "car:10000",
                                  "gauss:100000", "box:100000", "ball:100000", "sphere:3000"};
-    if (std::ifstream(kBunny)) all.emplace_back("bunny");
+    for (const std::string mesh : {"stanford-bunny", "armadillo"}) {
+      if (find_mesh(mesh) != nullptr) all.push_back(mesh);
+    }
     return all;
   }();
   return names;
@@ -105,10 +106,7 @@ const ObbCloud& obb_cloud(const std::string& name) {
   static std::map<std::string, ObbCloud> clouds;
   const auto found = clouds.find(name);
   if (found != clouds.end()) return found->second;
-  const std::size_t colon = name.find(':');
-  const Points::Ptr points =
-      name == "bunny" ? read_bunny() : make_shape(name.substr(0, colon), std::stoul(name.substr(colon + 1)));
-  return clouds.emplace(name, ObbCloud(name, points)).first->second;
+  return clouds.emplace(name, ObbCloud(name, make_points(name))).first->second;
 }
 
 ObbCloud make_clusters(std::size_t clusters, std::size_t points) {
@@ -129,7 +127,7 @@ double least_volume(const ObbCloud& cloud) {
     fit_obb(cloud.view(), ObbMethod::minimal, box);
     place->second = box.volume();
     for (const ObbPeer& peer : obb_peers()) {
-      if (peer.against == "obb-min") place->second = std::min(place->second, peer.run(cloud));
+      if (peer.against == "obb-min") place->second = std::min(place->second, peer.run(cloud).volume());
     }
   }
   return place->second;

@@ -32,7 +32,8 @@ class ObbCloud {
 };
 
 /// "gauss", "ball", "box" (turned), "car" (three sides, yawed), "L" (two) and "sphere" (all points on it)
-/// with the number of points, and the Stanford bunny if glmark2-data is installed.
+/// with the number of points, and two meshes of meshes.h where they
+/// are installed.
 const std::vector<std::string>& obb_cloud_names();
 const ObbCloud& obb_cloud(const std::string& name);
 

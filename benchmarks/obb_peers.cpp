@@ -23,7 +23,7 @@
 namespace pcl_bv::bench {
 namespace {
 
-double pcl_cheapest(const ObbCloud& cloud) {
+PeerBox pcl_cheapest(const ObbCloud& cloud) {
   pcl::PointXYZ low, high;
   pcl::getMinMax3D(cloud.points(), low, high);
   benchmark::DoNotOptimize(low);
@@ -39,11 +39,12 @@ double pcl_cheapest(const ObbCloud& cloud) {
     least = least.min(along);
     most = most.max(along);
   }
-  return static_cast<double>((most - least).prod());
+  return {mean.head<3>().cast<double>(), to_axes.cast<double>(), least.matrix().cast<double>(),
+          most.matrix().cast<double>()};
 }
 
 #ifdef PCL_BV_BENCH_FEATURES
-double moment_of_inertia(const ObbCloud& cloud, float angle_step) {
+PeerBox moment_of_inertia(const ObbCloud& cloud, float angle_step) {
   pcl::MomentOfInertiaEstimation<pcl::PointXYZ> estimation;
   estimation.setInputCloud(cloud.pointer());
   estimation.setAngleStep(angle_step);
@@ -51,33 +52,50 @@ double moment_of_inertia(const ObbCloud& cloud, float angle_step) {
   pcl::PointXYZ low, high, position;
   Eigen::Matrix3f axes;
   estimation.getOBB(low, high, position, axes);
-  return static_cast<double>((high.getArray3fMap() - low.getArray3fMap()).prod());
+  return {position.getVector3fMap().cast<double>(), axes.transpose().cast<double>(),
+          low.getVector3fMap().cast<double>(), high.getVector3fMap().cast<double>()};
 }
 
-double moment_of_inertia_as_it_comes(const ObbCloud& cloud) {
+PeerBox moment_of_inertia_as_it_comes(const ObbCloud& cloud) {
   return moment_of_inertia(cloud, 10);
 }
 
-double moment_of_inertia_one_axis(const ObbCloud& cloud) {
+PeerBox moment_of_inertia_one_axis(const ObbCloud& cloud) {
   return moment_of_inertia(cloud, 360);
 }
 #endif
 
 #ifdef PCL_BV_BENCH_CGAL
-double cgal(const ObbCloud& cloud) {
+PeerBox cgal(const ObbCloud& cloud) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Kernel::Point_3> points;
   for (const pcl::PointXYZ& p : cloud.points())
     points.emplace_back(p.x, p.y, p.z);
   std::array<Kernel::Point_3, 8> corners;
   CGAL::oriented_bounding_box(points, corners, CGAL::parameters::use_convex_hull(true));
-  return std::sqrt(CGAL::squared_distance(corners[0], corners[1]) *
-                   CGAL::squared_distance(corners[0], corners[3]) *
-                   CGAL::squared_distance(corners[0], corners[5]));
+  const auto vector = [](const Kernel::Point_3& p) { return Eigen::Vector3d(p.x(), p.y(), p.z()); };
+  PeerBox box{vector(corners[0]), {}, Eigen::Vector3d::Zero(), {}};
+  for (const int axis : {0, 1, 2})
+    box.axes.row(axis) = vector(corners[2 * axis + 1]) - box.origin;
+  box.high = box.axes.rowwise().squaredNorm();
+  return box;
 }
 #endif
 
 }  // namespace
+
+double PeerBox::volume() const {
+  return ((high - low).array() / axes.rowwise().norm().array()).prod();
+}
+
+std::size_t PeerBox::points_outside(const ObbCloud& cloud) const {
+  std::size_t count = 0;
+  for (const pcl::PointXYZ& p : cloud.points()) {
+    const Eigen::Array3d along = axes * (p.getVector3fMap().cast<double>() - origin);
+    count += (along < low.array()).any() || (along > high.array()).any();
+  }
+  return count;
+}
 
 const std::vector<ObbPeer>& obb_peers() {
   static const std::vector<ObbPeer> peers = {

@@ -4,6 +4,7 @@
 // Others who fit oriented boxes: PCL, and CGAL where it is installed.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,21 @@
 
 namespace pcl_bv::bench {
 
+/// A box as a peer stores it: p is inside if axes * (p - origin) is between low and high.
+struct PeerBox {
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d axes;  ///< Rows, of any length.
+  Eigen::Vector3d low, high;
+
+  double volume() const;
+  /// By arithmetic in double on these numbers.
+  std::size_t points_outside(const ObbCloud& cloud) const;
+};
+
 struct ObbPeer {
   std::string name;
-  std::string against;             ///< Our method that does the same.
-  double (*run)(const ObbCloud&);  ///< Gives the volume of its box.
+  std::string against;  ///< Our method that does the same.
+  PeerBox (*run)(const ObbCloud&);
 };
 
 /// "CGAL oriented_bounding_box" (with its convex hull, as it comes), "PCL cheapest" (an AABB and a PCA box of

@@ -16,7 +16,7 @@
 #include <functional>
 
 #include "fits.h"
-#include "plain_dop26.h"
+#include "plain_dop.h"
 
 #ifdef PCL_BV_BENCH_FCL
 #include <fcl/math/bv/utility.h>
@@ -100,16 +100,23 @@ Box eigen_box(const Cloud& cloud) {
   return {{low.x(), low.y(), low.z(), 0}, {high.x(), high.y(), high.z(), 0}};
 }
 
-template <PlainDop26 (*loop)(const float*, std::size_t)>
-PlainDop26 plain(const Cloud& cloud) {
-  return loop(cloud.pcl->points.front().data, cloud.pcl->size());
+// A plain loop's bounds along the first `k` directions.
+template <std::size_t k>
+struct Slabs {
+  PlainDop kdop;
+};
+
+template <std::size_t k, PlainDop (*loop)(const float*, std::size_t)>
+Slabs<k> plain(const Cloud& cloud) {
+  return {loop(cloud.pcl->points.front().data, cloud.pcl->size())};
 }
 
 Bounds bounds_of(const Box& box) {
   return cube_bounds(3, box.first, box.second);
 }
-Bounds bounds_of(const PlainDop26& kdop) {
-  return cube_bounds(kMaxDirections, kdop.low, kdop.high);
+template <std::size_t k>
+Bounds bounds_of(const Slabs<k>& slabs) {
+  return cube_bounds(k, slabs.kdop.low, slabs.kdop.high);
 }
 
 #ifdef PCL_BV_BENCH_FCL
@@ -146,11 +153,17 @@ Peer make_peer(const std::string& name, const std::string& layout = "xyz") {
 
 const std::vector<Peer>& peers() {
   static const std::vector<Peer> all = {
-      make_peer<pcl_box<true>>("pcl-dense"),           make_peer<pcl_box<false>>("pcl-non-dense"),
-      make_peer<eigen_minmax>("eigen-minmax"),         make_peer<eigen_box>("eigen-box"),
-      make_peer<plain<naive_dop26>>("naive-dop26"),    make_peer<plain<plain_dop26>>("plain-dop26"),
+      make_peer<pcl_box<true>>("pcl-dense"),
+      make_peer<pcl_box<false>>("pcl-non-dense"),
+      make_peer<eigen_minmax>("eigen-minmax"),
+      make_peer<eigen_box>("eigen-box"),
+      make_peer<plain<3, naive_dop<3>>>("naive-aabb"),
+      make_peer<plain<7, naive_dop<7>>>("naive-dop14"),
+      make_peer<plain<13, naive_dop<13>>>("naive-dop26"),
+      make_peer<plain<13, plain_dop26>>("plain-dop26"),
 #ifdef PCL_BV_BENCH_FCL
-      make_peer<fcl_kdop<18>>("fcl-kdop18", "packed"), make_peer<fcl_kdop<24>>("fcl-kdop24", "packed"),
+      make_peer<fcl_kdop<18>>("fcl-kdop18", "packed"),
+      make_peer<fcl_kdop<24>>("fcl-kdop24", "packed"),
 #endif
   };
   return all;
@@ -165,16 +178,17 @@ const Peer& peer(const std::string& name) {
 
 void Unchecked::check(Isa isa, const Cloud& cloud) const {
   const UncheckedExtents extents = run(isa, cloud.view);
-  const PlainDop26 expected = plain<plain_dop26>(cloud);
+  const PlainDop expected = plain<kMaxDirections, plain_dop26>(cloud).kdop;
   for (std::size_t k = 0; k < directions; ++k) {
     require(extents.low[k] == expected.low[k] && extents.high[k] == expected.high[k],
-            "unchecked " + work + " of " + cloud.name.text() + ": not the plain loop's answer");
+            name + " of " + cloud.name.text() + ": not the plain loop's answer");
   }
 }
 
 const std::vector<Unchecked>& unchecked() {
-  static const std::vector<Unchecked> all = {{"aabb", unchecked_aabb, 3},
-                                             {"dop26", unchecked_dop26, kMaxDirections}};
+  static const std::vector<Unchecked> all = {{"unchecked-aabb", "aabb", unchecked_aabb, 3},
+                                             {"unchecked-dop26", "dop26", unchecked_dop26, kMaxDirections},
+                                             {"tested-dop26", "dop26", tested_dop26, kMaxDirections}};
   return all;
 }
 

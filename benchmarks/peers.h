@@ -24,14 +24,16 @@ struct Peer {
 };
 
 /// "pcl-dense", "pcl-non-dense" (pcl::getMinMax3D as is_dense says), "eigen-minmax" (rowwise minCoeff and
-/// maxCoeff), "eigen-box" (AlignedBox3f::extend), "naive-dop26" (-O2), "plain-dop26" (-O3, shared sums, not
-/// vectorised), and with FCL "fcl-kdop18", "fcl-kdop24" (fcl::fit).
+/// maxCoeff), "eigen-box" (AlignedBox3f::extend), "naive-aabb", "naive-dop14", "naive-dop26" (-O2),
+/// "plain-dop26"
+/// (-O3, shared sums, not vectorised), and with FCL "fcl-kdop18", "fcl-kdop24" (fcl::fit).
 const std::vector<Peer>& peers();
 
 const Peer& peer(const std::string& name);
 
 /// A kernel of rivals.h.
 struct Unchecked {
+  std::string name;  ///< "unchecked-aabb", "unchecked-dop26", "tested-dop26".
   std::string work;  ///< Ours that it is held against.
   UncheckedExtents (*run)(Isa, const PointView&);
   std::size_t directions;

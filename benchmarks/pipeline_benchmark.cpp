@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The whole way from a cloud in memory to volumes, frame by frame, and PCL's own way beside it. The sequences are
-// synth:street-sequence and, where PCL_BV_DATA names a folder with lidar_sequence in it, its sweeps. Counters:
-// milliseconds of a frame at the 50th and 99th percentile and at most, the first five apart (`first_max`), and of
-// each stage at the median.
+// The whole way from a cloud in memory to volumes, frame by frame, and PCL's own way beside it. The sequences
+// are synth:street-sequence and, where PCL_BV_DATA names a folder with lidar_sequence in it, its sweeps.
+// Counters: milliseconds of a frame at the 50th and 99th percentile and at most, the first five apart
+// (`first_max`), and of each stage at the median.
 
 #include <benchmark/benchmark.h>
 #ifdef PCL_BV_BENCH_SEGMENTATION
@@ -21,12 +21,13 @@
 #include "pcl_bv/nodes/cluster_pipeline.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/nodes/stream_runner.h"
+#include "program.h"
 
 namespace pcl_bv::bench {
 namespace {
 
 constexpr std::size_t kWarmUp = 5;
-constexpr std::size_t kFrames = 132;
+constexpr int kFrames = 132;
 
 const std::vector<Frame>& frames_of(const std::string& source) {
   static std::string loaded;
@@ -156,22 +157,20 @@ void pcl_way(benchmark::State& state, const std::string& source) {
 
 #endif  // PCL_BV_BENCH_SEGMENTATION
 
-void add(const std::string& name, const std::string& source) {
-  for (const std::size_t threads : {1, 2}) {
-    benchmark::RegisterBenchmark(("pipeline/" + std::to_string(threads) + "-thread/" + name).c_str(),
-                                 [=](benchmark::State& state) { pipeline(state, source, threads); })
-        ->Iterations(kFrames)
+void add_sequence(const std::string& name, const std::string& source) {
+  const auto add_way = [&](const std::string& way, int frames, auto body) {
+    benchmark::RegisterBenchmark(("pipeline/" + way + '/' + name).c_str(), body)
+        ->Iterations(times_in_this_run(frames))
         ->Repetitions(1)
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
+  };
+  for (const std::size_t threads : {1, 2}) {
+    add_way(std::to_string(threads) + "-thread", kFrames,
+            [=](benchmark::State& state) { pipeline(state, source, threads); });
   }
 #ifdef PCL_BV_BENCH_SEGMENTATION
-  benchmark::RegisterBenchmark(("pipeline/pcl/" + name).c_str(),
-                               [=](benchmark::State& state) { pcl_way(state, source); })
-      ->Iterations(3)
-      ->Repetitions(1)
-      ->UseManualTime()
-      ->Unit(benchmark::kMillisecond);
+  add_way("pcl", 3, [=](benchmark::State& state) { pcl_way(state, source); });
 #endif
 }
 
@@ -179,12 +178,9 @@ void add(const std::string& name, const std::string& source) {
 }  // namespace pcl_bv::bench
 
 int main(int argc, char** argv) {
-  pcl_bv::bench::add("street", "synth:street-sequence");
-  if (const char* data = std::getenv("PCL_BV_DATA")) {
-    pcl_bv::bench::add("sweeps", std::string(data) + "/lidar_sequence");
-  }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  using namespace pcl_bv::bench;
+  add_sequence("street", tiny() ? "synth:street-sequence:2" : "synth:street-sequence");
+  const char* data = std::getenv("PCL_BV_DATA");
+  if (data != nullptr && !tiny()) add_sequence("sweeps", std::string(data) + "/lidar_sequence");
+  return run_program(argc, argv);
 }

@@ -3,7 +3,7 @@
 
 // Built with -O3 -fno-tree-vectorize. Minima and maxima as expressions, which become minss and maxss.
 
-#include "plain_dop26.h"
+#include "plain_dop.h"
 
 namespace pcl_bv::bench {
 
@@ -24,7 +24,7 @@ namespace pcl_bv::bench {
   }
 #define PCL_BV_KEEP(k, projection) out.low[k] = low##k, out.high[k] = high##k;
 
-PlainDop26 plain_dop26(const float* xyzw, std::size_t points) {
+PlainDop plain_dop26(const float* xyzw, std::size_t points) {
   PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
   for (std::size_t i = 0; i < points; ++i) {
     const float x = xyzw[4 * i], y = xyzw[4 * i + 1], z = xyzw[4 * i + 2];
@@ -32,7 +32,7 @@ PlainDop26 plain_dop26(const float* xyzw, std::size_t points) {
     const float difference = x - y;
     PCL_BV_EACH_DIRECTION(PCL_BV_STEP)
   }
-  PlainDop26 out;
+  PlainDop out;
   PCL_BV_EACH_DIRECTION(PCL_BV_KEEP)
   return out;
 }

@@ -127,19 +127,42 @@ UncheckedExtents unchecked_aabb(const PointView& points) {
   }
 #define PCL_BV_KEEP(k, projection) keep(d, low##k, high##k, k, out);
 
-UncheckedExtents unchecked_dop26(const PointView& points) {
+// Zero times a sum that is not finite is NaN; without fused products the sums themselves are added.
+template <class D>
+HWY_INLINE V<D> add_test(D d, V<D> sum, V<D> test) {
+#if HWY_NATIVE_FMA
+  return hn::MulAdd(sum, hn::Zero(d), test);
+#else
+  (void)d;
+  return hn::Add(test, sum);
+#endif
+}
+
+template <bool tested>
+UncheckedExtents dop26(const PointView& points) {
   const Tag<float> d;
+  auto test = hn::Zero(d);
   PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
   for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
     load_packet<Layout::packed16>(d, points, i, x, y, z);
     const auto sum = hn::Add(x, y);
     const auto difference = hn::Sub(x, y);
+    if constexpr (tested) test = add_test(d, hn::Add(sum, z), test);
     PCL_BV_EACH_DIRECTION(PCL_BV_STEP)
   }
   UncheckedExtents out;
   PCL_BV_EACH_DIRECTION(PCL_BV_KEEP)
+  const auto total = hn::SumOfLanes(d, hn::Sub(test, test));
+  if (hn::GetLane(total) != 0) out.low.fill(hn::GetLane(total));
   return out;
+}
+
+UncheckedExtents unchecked_dop26(const PointView& points) {
+  return dop26<false>(points);
+}
+UncheckedExtents tested_dop26(const PointView& points) {
+  return dop26<true>(points);
 }
 
 #undef PCL_BV_EACH_DIRECTION
@@ -171,6 +194,12 @@ UncheckedExtents unchecked_aabb(Isa isa, const PointView& points) {
 UncheckedExtents unchecked_dop26(Isa isa, const PointView& points) {
   static constexpr KernelTable<UncheckedExtents(const PointView&)> kTable =
       PCL_BV_KERNEL_TABLE(unchecked_dop26, nullptr);
+  return kTable[isa](points);
+}
+
+UncheckedExtents tested_dop26(Isa isa, const PointView& points) {
+  static constexpr KernelTable<UncheckedExtents(const PointView&)> kTable =
+      PCL_BV_KERNEL_TABLE(tested_dop26, nullptr);
   return kTable[isa](points);
 }
 

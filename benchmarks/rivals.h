@@ -30,4 +30,8 @@ struct UncheckedExtents {
 UncheckedExtents unchecked_aabb(Isa isa, const PointView& points);
 UncheckedExtents unchecked_dop26(Isa isa, const PointView& points);
 
+/// The second with the test of every point that the library makes, and still no exact arithmetic: what the
+/// test costs by itself. Not numbers, if a point is not finite.
+UncheckedExtents tested_dop26(Isa isa, const PointView& points);
+
 }  // namespace pcl_bv::bench

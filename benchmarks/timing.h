@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 #include <vector>
+
+#include "program.h"
 
 namespace pcl_bv::bench {
 
@@ -31,9 +34,8 @@ int times_for(Run&& run) {
 inline constexpr int kPairs = 30;
 
 /// Runs both in turns, the order changing, once per iteration of `state` (manual time: the second's).
-/// Counters: the time of the first over that of the second as median of the pairs (`ratio`) and from the two
-/// minima
-/// (`ratio_of_minima`), which other work on the machine disturbs less; the minima in microseconds.
+/// Counters: the time of the first over that of the second as median of the pairs (`ratio`), and the two
+/// minima in microseconds, whose ratio other work on the machine disturbs less.
 template <typename First, typename Second>
 void compare(benchmark::State& state, First&& first, Second&& second) {
   const int first_times = times_for(first), second_times = times_for(second);
@@ -51,9 +53,18 @@ void compare(benchmark::State& state, First&& first, Second&& second) {
   }
   std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
   state.counters["ratio"] = ratios[ratios.size() / 2];
-  state.counters["ratio_of_minima"] = least_first / least_second;
   state.counters["first_us"] = 1e6 * least_first;
   state.counters["second_us"] = 1e6 * least_second;
+}
+
+/// A row whose body calls compare() or times itself in another way, `times` iterations.
+template <typename Body>
+void add_turns(const std::string& row, int times, Body body) {
+  benchmark::RegisterBenchmark(row.c_str(), body)
+      ->Iterations(times_in_this_run(times))
+      ->Repetitions(1)
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
 }
 
 }  // namespace pcl_bv::bench
