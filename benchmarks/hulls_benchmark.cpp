@@ -9,6 +9,9 @@
 #include <pcl/surface/convex_hull.h>
 #endif
 
+#include <Eigen/Geometry>
+#include <algorithm>
+
 #include "hull_triangles.h"
 #include "pcl_bv/kernels/float_environment.h"
 #include "rows.h"
@@ -30,7 +33,6 @@ void add_plain_qhull(const CloudName& name) {
   add("qhull-of-all-points", "peer", name, [=](benchmark::State& state) {
     const Cloud& points = cloud(name);
     const FloatEnvironment environment;
-    std::size_t triangles = 0;
     time_passes(state, [&] {
       std::vector<Eigen::Vector3d> copy;
       copy.reserve(points.view.count);
@@ -38,23 +40,53 @@ void add_plain_qhull(const CloudName& name) {
         const Coordinates p = load_point(points.view, i);
         copy.emplace_back(p.x, p.y, p.z);
       }
-      triangles = hull_triangles(copy).size();
+      benchmark::DoNotOptimize(hull_triangles(copy));
     });
-    state.counters["triangles"] = static_cast<double>(triangles);
   });
 }
 
 #ifdef PCL_BV_BENCH_SURFACE
+// By arithmetic in double: points more than 1e-12 of the cloud's size beyond a triangle's plane.
+std::size_t points_outside(const PointView& points, const pcl::PointCloud<pcl::PointXYZ>& vertices,
+                           const std::vector<pcl::Vertices>& triangles) {
+  const auto vertex = [&](pcl::index_t i) {
+    return Eigen::Vector3d(vertices[i].getVector3fMap().cast<double>());
+  };
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    center += vertex(static_cast<pcl::index_t>(i)) / static_cast<double>(vertices.size());
+  double size = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    size = std::max(size, (vertex(static_cast<pcl::index_t>(i)) - center).norm());
+  std::vector<Eigen::Vector4d> planes;  // outward unit normals, and the greatest height that is allowed
+  for (const pcl::Vertices& t : triangles) {
+    const Eigen::Vector3d a = vertex(t.vertices[0]);
+    Eigen::Vector3d normal = (vertex(t.vertices[1]) - a).cross(vertex(t.vertices[2]) - a).normalized();
+    if (normal.dot(a - center) < 0) normal = -normal;
+    planes.emplace_back(normal.x(), normal.y(), normal.z(), normal.dot(a) + 1e-12 * size);
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    const Eigen::Vector4d q(p.x, p.y, p.z, -1);
+    count += std::any_of(planes.begin(), planes.end(),
+                         [&](const Eigen::Vector4d& plane) { return plane.dot(q) > 0; });
+  }
+  return count;
+}
+
 void add_pcl(const CloudName& name) {
   add("pcl::ConvexHull", "peer", name, [=](benchmark::State& state) {
-    const Cloud& points = cloud(name);
+    Cloud& points = cloud(name);
     pcl::ConvexHull<pcl::PointXYZ> estimation;
     estimation.setInputCloud(points.pcl);
     estimation.setDimension(3);
     pcl::PointCloud<pcl::PointXYZ> vertices;
     std::vector<pcl::Vertices> polygons;
     time_passes(state, [&] { estimation.reconstruct(vertices, polygons); });
-    state.counters["triangles"] = static_cast<double>(polygons.size());
+    if (!points.outside.contains("pcl::ConvexHull"))
+      points.outside["pcl::ConvexHull"] = points_outside(points.view, vertices, polygons);
+    state.counters["outside"] = static_cast<double>(points.outside["pcl::ConvexHull"]);
   });
 }
 #else
@@ -62,7 +94,7 @@ void add_pcl(const CloudName&) {}
 #endif
 
 void add_cloud(const CloudName& name) {
-  for (const Isa isa : usable_isas())
+  for (const Isa isa : {Isa::scalar, usable_isas().back()})
     add_hull_fit("hull", isa, name);
   add_plain_qhull(name);
   add_pcl(name);

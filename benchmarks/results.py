@@ -1,49 +1,90 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads a file of benchmarks/results: rows by name, as boxes_benchmark.cpp and pairs_benchmark.cpp name them."""
+"""Reads a file of benchmarks/results: rows by the names that the programs give them, in the units of the tables."""
 import json
+import math
 import pathlib
 import re
 
 SETS = ["scalar", "sse4", "avx2", "avx512", "neon", "sve", "sve2"]
-PAPER = {
-    4010: "Frog", 7260: "Chair", 30892: "Tiger", 32875: "Bunny", 48485: "Horse", 100722: "Golfball", 327323: "Hand",
-}
 LEVELS = {2048: "L1", 32768: "L2", 1000000: "L3", 16000000: "memory"}
+BYTES = {"xyz": 16, "packed": 12, "xyzi": 32, "indices": 20, "double": 24, "groups": 12}  # a point, by layout
 
 
 class Results:
     def __init__(self, path):
         self.path = pathlib.Path(path)
         content = json.loads(self.path.read_text())
-        self.context = content["context"]
-        self.rows = {}
-        for run in content["benchmarks"]:
-            # What Google Benchmark appends to a name says how it was run, not what.
-            name = re.sub(r"(/(iterations|repeats):\d+|/manual_time|/real_time)+$", "", run["run_name"])
-            statistic = run.get("aggregate_name", "median")
-            self.rows.setdefault(name, {}).setdefault(statistic, run)
+        self.machine, self.parts = content["machine"], content["parts"]
+        self.rows = {name: row for rows in content["rows"].values() for name, row in rows.items()}
+        found = {name.split("/")[1] for name in self.rows if name.startswith("aabb/")}
+        self.sets = [s for s in SETS if s in found]  # the scalar reference first
+        self.best = self.sets[-1]
 
-    def row(self, name):
-        """The medians of a row's repetitions (of a comparison: the row), or None."""
-        return self.rows.get(name, {}).get("median")
+    def us(self, name):
+        """The median of a row's repetitions in microseconds, or None."""
+        row = self.rows.get(name)
+        return row["us"][0] if row and "us" in row else None
+
+    def ms(self, name):
+        us = self.us(name)
+        return us and us / 1e3
 
     def speed(self, name):
-        """Mpt/s, or None if there is no such row."""
-        row = self.row(name)
-        return row and row["items_per_second"] / 1e6
+        """Mpt/s."""
+        us = self.us(name)
+        return us and points_of(name) / us
 
-    def milliseconds(self, name):
-        row = self.row(name)
-        return row and 1e-3 * (row["cpu_time"] if "real_time" not in row["run_name"] else row["real_time"])
+    def bandwidth(self, name):
+        """GB/s."""
+        us = self.us(name)
+        return us and 1e-3 * points_of(name) * BYTES[name.split("/")[3]] / us
 
-    def sets(self):
-        """The instruction sets of the run, scalar first."""
-        found = {name.split("/")[1] for name in self.rows if name.startswith("aabb/")}
-        return [s for s in SETS if s in found]
+    def ratio(self, name):
+        """Of a comparison in turns: the median of the pairs' ratios, and the ratio of the two minima; or None."""
+        row = self.rows.get(name)
+        return row and (row["ratio"], row["first_us"] / row["second_us"])
+
+    def matching(self, pattern):
+        """Names that match from their beginning, in the order of the file."""
+        return [name for name in self.rows if re.match(pattern, name)]
+
+
+def points_of(name):
+    return int(re.search(r"n:(\d+)", name).group(1))
+
+
+def exponent(pairs):
+    """Least squares in the logarithms: the p of time ~ points^p."""
+    logs = [(math.log(n), math.log(t)) for n, t in pairs]
+    mean_x, mean_y = (sum(v) / len(logs) for v in zip(*logs))
+    return sum((x - mean_x) * (y - mean_y) for x, y in logs) / sum((x - mean_x) ** 2 for x, _ in logs)
+
+
+def number(value, figures=3):
+    """With so many figures, never in powers of ten; None becomes a dash."""
+    if value is None:
+        return "-"
+    if value == 0:
+        return "0"
+    decimals = max(0, figures - 1 - math.floor(math.log10(abs(value))))
+    return f"{value:.{decimals}f}"
+
+
+def count(n):
+    """16777216 as 16 777 216."""
+    return f"{n:,}".replace(",", " ")
+
+
+def percent(value, decimals=0):
+    return "-" if value is None else f"{value:+.{decimals}f} %"
 
 
 def table(head, lines):
-    """A Markdown table; None becomes a dash."""
-    cells = [head, ["---"] * len(head)] + [["-" if c is None else str(c) for c in line] for line in lines]
+    """A Markdown table without the lines that hold nothing but their names."""
+    lines = [["-" if c is None else str(c) for c in line] for line in lines]
+    kept = [line for line in lines if any(c != "-" for c in line[1:])]
+    if not kept:
+        return "No row of this table has been measured on this machine."
+    cells = [head, ["---"] * len(head)] + kept
     return "\n".join("| " + " | ".join(line) + " |" for line in cells)

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes docs/benchmarks.md (from benchmarks/benchmarks.md.in and misses.md), its plots and the README's table from a
+file of benchmarks/results; with --check, only says whether they are what it would write.
+
+usage: benchmarks/docs.py [--check] [RESULTS.json]
+
+Without a file: the only one of benchmarks/results, or the one that docs/benchmarks.md names.
+"""
+import pathlib
+import re
+import sys
+
+import paper_tables
+import plots
+import tables
+import targets
+from results import Results, number, table
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent
+PLOTS = ROOT / "docs/benchmarks"
+PAGE = ROOT / "docs/benchmarks.md"
+README = ROOT / "README.md"
+
+
+def misses(results, all_targets):
+    """Why each missed target is missed and what was tried: the sections of misses.md, by the targets' ids."""
+    sections = re.split(r"^## ([\w-]+)\n", (HERE / "misses.md").read_text(), flags=re.MULTILINE)[1:]
+    reasons = dict(zip(sections[::2], sections[1::2]))
+    unknown = reasons.keys() - {t.id for t in all_targets}
+    if unknown:
+        sys.exit(f"misses.md: no target {', '.join(sorted(unknown))}")
+    text = []
+    for target in targets.missed(all_targets):
+        if target.id not in reasons:
+            print(f"misses.md says nothing about {target.id}, which is missed", file=sys.stderr)
+        text.append(f'<a id="{target.id}"></a>**{target.title}.** '
+                    + fill(reasons.get(target.id, "Not looked into yet.").strip(), results))
+    return "\n\n".join(text) or "None."
+
+
+def inline(results, what, name):
+    """A figure in running text: {{ratio ROW}}, {{percent ROW}} (extra time), {{ms ROW}}, {{first ROW}}, {{second ROW}}."""
+    row = results.rows.get(name)
+    if row is None:
+        return "(not measured)"
+    if what == "ratio":
+        return number(row["ratio"])
+    if what == "inverse":
+        return number(1 / row["ratio"])
+    if what == "percent":
+        return f"{100 / row['ratio'] - 100:.0f} %"
+    if what in ("first", "second"):
+        return f"{number(row[what + '_us'] / 1e3)} ms"
+    if what == "ms":
+        return f"{number(results.ms(name))} ms"
+    if what == "speed":
+        return f"{number(results.speed(name))} Mpt/s"
+    return number(row[what])
+
+
+def fill(text, results, blocks=None):
+    """Replaces {{block}} and {{what row}}; `best` stands for the widest instruction set."""
+    def one(found):
+        words = found.group(1).split(maxsplit=1)
+        if len(words) == 2:
+            return inline(results, words[0], words[1].replace("/best/", f"/{results.best}/", 1)
+                          if "read-" not in words[1] else words[1])
+        return blocks[words[0]]()
+
+    return re.sub(r"\{\{([^}]+)\}\}", one, text)
+
+
+def page(results, drawn):
+    all_targets = targets.all_targets(results)
+    blocks = {name: lambda f=f: f(results) for module in (tables, paper_tables) for name, f in vars(module).items()
+              if callable(f) and f.__module__ == module.__name__}
+    blocks["targets"] = lambda: targets.targets_table(all_targets)
+    blocks["misses"] = lambda: misses(results, all_targets)
+    for name in ("speed-aabb", "speed-dop26", "speed-all", "speed-up", "radii", "threads"):
+        blocks["plot-" + name] = lambda n=name: f"![{n}](benchmarks/{n}.svg)" if f"{n}.svg" in drawn else \
+            "No figure: its rows have not been measured on this machine."
+    return fill((HERE / "benchmarks.md.in").read_text(), results, blocks)
+
+
+def readme(results):
+    points, cloud = 100722, "paper/xyz/no-nan/n:100722"
+    works = [("AABB", "aabb"), ("26-DOP", "dop26"), ("sphere, EPOS-26", "sphere-epos26"), ("smallest sphere", "sphere-exact")]
+    lines = [[label] + [number(results.speed(f"{work}/{s}/{cloud}")) for s in results.sets] for label, work in works]
+    pcl = [number(results.speed(f"pcl-{flag}/peer/{cloud}")) for flag in ("dense", "non-dense")]
+    before, rest = README.read_text().split("<!-- table:begin -->\n")
+    after = rest.split("<!-- table:end -->")[1]
+    text = (f"{table([f'Mpt/s, {points} pcl::PointXYZ, one core'] + results.sets, lines)}\n\n"
+            f"`pcl::getMinMax3D` in the same run: {pcl[0]} dense, {pcl[1]} not dense. Boxes and k-DOPs exact, enclosure proven;\n"
+            "scalar is the reference loop of the same fit. Made by `./bootstrap bench`; all tables, other libraries and what is\n"
+            "not reached: [benchmarks](docs/benchmarks.md).")
+    return f"{before}<!-- table:begin -->\n{text}\n<!-- table:end -->{after}"
+
+
+def results_file(arguments):
+    if arguments:
+        return pathlib.Path(arguments[0])
+    files = sorted((HERE / "results").glob("*.json"))
+    named = re.search(r"results/([\w-]+\.json)", PAGE.read_text()) if PAGE.exists() else None
+    return HERE / "results" / named.group(1) if named and len(files) > 1 else files[0]
+
+
+def main(arguments):
+    check = "--check" in arguments
+    arguments = [a for a in arguments if a != "--check"]
+    if len(arguments) > 1:
+        sys.exit(__doc__)
+    results = Results(results_file(arguments))
+    drawn = plots.all_plots(results)
+    wanted = {PAGE: page(results, drawn), README: readme(results)}
+    wanted.update((PLOTS / name, text) for name, text in drawn.items())
+    stale = [path for path, text in wanted.items() if not path.exists() or path.read_text() != text]
+    stale += [path for path in PLOTS.glob("*.svg") if path not in wanted]
+    if check:
+        sys.exit("\n".join(f"{path.relative_to(ROOT)}: not what {results.path.name} gives" for path in stale) or 0)
+    PLOTS.mkdir(exist_ok=True)
+    for path in stale:
+        if path in wanted:
+            path.write_text(wanted[path])
+        else:
+            path.unlink()
+
+
+main(sys.argv[1:])
