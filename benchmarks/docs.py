@@ -58,7 +58,7 @@ def inline(results, what, name):
         return f"{number(results.ms(name))} ms"
     if what == "speed":
         return f"{number(results.speed(name))} Mpt/s"
-    return number(row[what])
+    return f"{row[what]:.5f}" if what == "radius" else number(row[what])
 
 
 def fill(text, results, blocks=None):
