@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/benchmarks.md (from benchmarks/benchmarks.md.in and misses.md), its plots and the README's table from a
-file of benchmarks/results; with --check, only says whether they are what it would write.
+"""Writes docs/benchmarks.md (from benchmarks.md.in and misses.md), its plots and the README's table from a file of
+benchmarks/results; with --check, only says whether they are what it would write.
 
 usage: benchmarks/docs.py [--check] [RESULTS.json]
 
@@ -12,7 +12,9 @@ import pathlib
 import re
 import sys
 
+import judging
 import paper_tables
+import peer_tables
 import plots
 import tables
 import targets
@@ -33,41 +35,43 @@ def misses(results, all_targets):
     if unknown:
         sys.exit(f"misses.md: no target {', '.join(sorted(unknown))}")
     text = []
-    for target in targets.missed(all_targets):
+    for target in judging.missed(all_targets):
         if target.id not in reasons:
             print(f"misses.md says nothing about {target.id}, which is missed", file=sys.stderr)
-        text.append(f'<a id="{target.id}"></a>**{target.title}.** '
-                    + fill(reasons.get(target.id, "Not looked into yet.").strip(), results))
+        text.append(
+            f'<a id="{target.id}"></a>**{target.title}.** '
+            + fill(reasons.get(target.id, "Not looked into yet.").strip(), results)
+        )
     return "\n\n".join(text) or "None."
 
 
 def inline(results, what, name):
-    """A figure in running text: {{ratio ROW}}, {{percent ROW}} (extra time), {{ms ROW}}, {{first ROW}}, {{second ROW}}."""
+    """A figure in running text: {{ms ROW}}, {{least ROW}} (repetition), {{speed ROW}}; of rows in turns {{ratio ROW}},
+    {{minima ROW}} (their ratio), {{first ROW}}, {{second ROW}}; any other word is a counter."""
     row = results.rows.get(name)
     if row is None:
         return "(not measured)"
-    if what == "ratio":
-        return number(row["ratio"])
-    if what == "inverse":
-        return number(1 / row["ratio"])
-    if what == "percent":
-        return f"{100 / row['ratio'] - 100:.0f} %"
-    if what in ("first", "second"):
-        return f"{number(row[what + '_us'] / 1e3)} ms"
-    if what == "ms":
-        return f"{number(results.ms(name))} ms"
-    if what == "speed":
-        return f"{number(results.speed(name))} Mpt/s"
-    return f"{row[what]:.5f}" if what == "radius" else number(row[what])
+    ways = {
+        "ms": lambda: f"{number(results.ms(name))} ms",
+        "least": lambda: f"{number(row['us'][-1] / 1e3)} ms",
+        "speed": lambda: f"{number(results.speed(name))} Mpt/s",
+        "ratio": lambda: number(row["ratio"]),
+        "minima": lambda: number(results.ratio(name)[1]),
+        "first": lambda: f"{number(row['first_us'] / 1e3)} ms",
+        "second": lambda: f"{number(row['second_us'] / 1e3)} ms",
+        "radius": lambda: f"{row['radius']:.5f}",
+    }
+    return ways[what]() if what in ways else number(row.get(what))
 
 
 def fill(text, results, blocks=None):
     """Replaces {{block}} and {{what row}}; `best` stands for the widest instruction set."""
+
     def one(found):
         words = found.group(1).split(maxsplit=1)
         if len(words) == 2:
-            return inline(results, words[0], words[1].replace("/best/", f"/{results.best}/", 1)
-                          if "read-" not in words[1] else words[1])
+            row = words[1] if words[1].startswith("read-") else words[1].replace("/best/", f"/{results.best}/")
+            return inline(results, words[0], row)
         return blocks[words[0]]()
 
     return re.sub(r"\{\{([^}]+)\}\}", one, text)
@@ -75,27 +79,44 @@ def fill(text, results, blocks=None):
 
 def page(results, drawn):
     all_targets = targets.all_targets(results)
-    blocks = {name: lambda f=f: f(results) for module in (tables, paper_tables) for name, f in vars(module).items()
-              if callable(f) and f.__module__ == module.__name__}
-    blocks["targets"] = lambda: targets.targets_table(all_targets)
+    blocks = {
+        name: lambda f=f: f(results)
+        for module in (tables, paper_tables, peer_tables)
+        for name, f in vars(module).items()
+        if callable(f) and f.__module__ == module.__name__
+    }
+    blocks["targets"] = lambda: judging.targets_table(all_targets)
     blocks["misses"] = lambda: misses(results, all_targets)
     for name in ("speed-aabb", "speed-dop26", "speed-all", "speed-up", "radii", "threads"):
-        blocks["plot-" + name] = lambda n=name: f"![{n}](benchmarks/{n}.svg)" if f"{n}.svg" in drawn else \
-            "No figure: its rows have not been measured on this machine."
+        blocks["plot-" + name] = (
+            lambda n=name: f"![{n}](benchmarks/{n}.svg)"
+            if f"{n}.svg" in drawn
+            else "No figure: its rows have not been measured on this machine."
+        )
     return fill((HERE / "benchmarks.md.in").read_text(), results, blocks)
 
 
 def readme(results):
     points, cloud = 100722, "paper/xyz/no-nan/n:100722"
-    works = [("AABB", "aabb"), ("26-DOP", "dop26"), ("sphere, EPOS-26", "sphere-epos26"), ("smallest sphere", "sphere-exact")]
-    lines = [[label] + [number(results.speed(f"{work}/{s}/{cloud}")) for s in results.sets] for label, work in works]
+    works = [
+        ("AABB", "aabb"),
+        ("26-DOP", "dop26"),
+        ("sphere, EPOS-26", "sphere-epos26"),
+        ("smallest sphere", "sphere-exact"),
+    ]
+    lines = [
+        [label] + [number(results.speed(f"{work}/{s}/{cloud}")) for s in results.sets]
+        for label, work in works
+    ]
     pcl = [number(results.speed(f"pcl-{flag}/peer/{cloud}")) for flag in ("dense", "non-dense")]
     before, rest = README.read_text().split("<!-- table:begin -->\n")
     after = rest.split("<!-- table:end -->")[1]
-    text = (f"{table([f'Mpt/s, {points} pcl::PointXYZ, one core'] + results.sets, lines)}\n\n"
-            f"`pcl::getMinMax3D` in the same run: {pcl[0]} dense, {pcl[1]} not dense. Boxes and k-DOPs exact, enclosure proven;\n"
-            "scalar is the reference loop of the same fit. Made by `./bootstrap bench`; all tables, other libraries and what is\n"
-            "not reached: [benchmarks](docs/benchmarks.md).")
+    text = (
+        f"{table([f'Mpt/s, {points} pcl::PointXYZ, one core'] + results.sets, lines)}\n\n"
+        f"`pcl::getMinMax3D` in the same run: {pcl[0]} dense, {pcl[1]} not dense. Boxes and k-DOPs exact, enclosure proven;\n"
+        "scalar is the reference loop of the same fit. Made by `./bootstrap bench`; all tables, other libraries and what is\n"
+        "not reached: [benchmarks](docs/benchmarks.md)."
+    )
     return f"{before}<!-- table:begin -->\n{text}\n<!-- table:end -->{after}"
 
 
@@ -119,7 +140,9 @@ def main(arguments):
     stale = [path for path, text in wanted.items() if not path.exists() or path.read_text() != text]
     stale += [path for path in PLOTS.glob("*.svg") if path not in wanted]
     if check:
-        sys.exit("\n".join(f"{path.relative_to(ROOT)}: not what {results.path.name} gives" for path in stale) or 0)
+        sys.exit(
+            "\n".join(f"{path.relative_to(ROOT)}: not what {results.path.name} gives" for path in stale) or 0
+        )
     PLOTS.mkdir(exist_ok=True)
     for path in stale:
         if path in wanted:

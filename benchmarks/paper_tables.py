@@ -7,12 +7,19 @@ from results import count, number, points_of, table
 # Vertices and triangles of Table 1; speed-ups by SSE of Tables 2 and 3; of Table 4 the optimal radius over the longest
 # side, and the radii by SSE; of Table 5 one core's time over that of two and of four.
 PAPER = {
-    4010: ("Frog", 7964), 7260: ("Chair", 14372), 30892: ("Tiger", 61766), 32875: ("Bunny", 65536),
-    48485: ("Horse", 96966), 100722: ("Golfball", 201440), 327323: ("Hand", 654666),
+    4010: ("Frog", 7964),
+    7260: ("Chair", 14372),
+    30892: ("Tiger", 61766),
+    32875: ("Bunny", 65536),
+    48485: ("Horse", 96966),
+    100722: ("Golfball", 201440),
+    327323: ("Hand", 654666),
 }
 SPEED_UPS = {
-    "aabb": (9.11, 8.68, 8.64, 8.62, 8.72, 8.34, 4.40), "dop14": (9.23, 8.25, 8.20, 8.27, 8.49, 8.17, 7.12),
-    "dop26": (8.78, 7.97, 7.84, 7.95, 8.20, 7.93, 7.38), "sphere-epos6": (3.32, 3.67, 4.31, 4.25, 4.13, 4.38, 3.73),
+    "aabb": (9.11, 8.68, 8.64, 8.62, 8.72, 8.34, 4.40),
+    "dop14": (9.23, 8.25, 8.20, 8.27, 8.49, 8.17, 7.12),
+    "dop26": (8.78, 7.97, 7.84, 7.95, 8.20, 7.93, 7.38),
+    "sphere-epos6": (3.32, 3.67, 4.31, 4.25, 4.13, 4.38, 3.73),
     "sphere-epos14": (3.68, 4.00, 4.67, 4.67, 4.40, 4.73, 4.31),
     "sphere-epos26": (3.69, 3.73, 4.63, 4.65, 4.37, 4.74, 4.51),
     "sphere-ritter": (2.78, 3.02, 3.30, 3.27, 3.00, 3.30, 2.81),
@@ -25,8 +32,14 @@ RADII = {
     "sphere-epos26": (0.59903, 0.63793, 0.51507, 0.64415, 0.62897, 0.50114, 0.52950),
 }
 TWO_CORES = dict(zip(PAPER, ("0.23", "0.37", "1.07", "1.01", "1.20", "1.51", "1.77")))
-METHODS = [("Ritter", "sphere-ritter"), ("EPOS-6", "sphere-epos6"), ("EPOS-14", "sphere-epos14"),
-           ("EPOS-26", "sphere-epos26"), ("EPOS-98", "sphere-epos98"), ("smallest", "sphere-exact")]
+METHODS = [
+    ("Ritter", "sphere-ritter"),
+    ("EPOS-6", "sphere-epos6"),
+    ("EPOS-14", "sphere-epos14"),
+    ("EPOS-26", "sphere-epos26"),
+    ("EPOS-98", "sphere-epos98"),
+    ("smallest", "sphere-exact"),
+]
 VOLUMES = [("AABB", "aabb"), ("14-DOP", "dop14"), ("26-DOP", "dop26")]
 
 
@@ -38,8 +51,11 @@ def of_paper(figures, cloud):
 
 def point_sets(results):
     """Clouds by the end of their rows' names: the stand-ins, then the real meshes."""
-    clouds = [name.split("/", 2)[2] for name in results.matching("naive-dop26/peer/.*/xyz/no-nan/")
-              if "/gauss/" not in name]
+    clouds = [
+        name.split("/", 2)[2]
+        for name in results.matching("naive-dop26/peer/.*/xyz/no-nan/")
+        if "/gauss/" not in name
+    ]
     if not clouds:  # a file of before the naive loops of all volumes
         clouds = [f"paper/xyz/no-nan/n:{n}" for n in PAPER]
     return clouds
@@ -56,8 +72,14 @@ def table_1(results):
         scene, n = cloud.split("/")[0], points_of(cloud)
         row = results.rows.get(f"aabb/{results.best}/{cloud}", {})
         if scene == "paper":
-            lines.append([f"as {PAPER[n][0]}", count(n), f"{count(PAPER[n][1])} in the paper",
-                          f"generated: `synth paper-{n}`"])
+            lines.append(
+                [
+                    f"as {PAPER[n][0]}",
+                    count(n),
+                    f"{count(PAPER[n][1])} in the paper",
+                    f"generated: `synth paper-{n}`",
+                ]
+            )
         else:
             source = "glmark2-data" if scene == "stanford-bunny" else "libcgal-demo"
             lines.append([scene, count(n), count(round(row.get("triangles", 0))), source])
@@ -80,7 +102,9 @@ def speed_ups(results, work):
             line.append(time and scalar and f"{scalar / time:.2f}")
         lines.append(line + [of_paper(SPEED_UPS.get(work), cloud)])
     heads = [h for s in results.sets[1:] for h in ([s, "S", "S'"] if naive else [s, "S'"])]
-    return table(["point set"] + (["naive, -O2"] if naive else []) + ["scalar, -O3"] + heads + ["paper's S"], lines)
+    return table(
+        ["point set"] + (["naive, -O2"] if naive else []) + ["scalar, -O3"] + heads + ["paper's S"], lines
+    )
 
 
 def table_2(results):
@@ -108,15 +132,20 @@ def table_4(results):
             radius = of_paper(RADII[method], cloud)
             line.append(radius and f"{100 * (radius / optimum - 1):.2f} %")
         lines.append(line)
-    return table(["point set", "optimum"] + [title for title, _ in METHODS[:-1]]
-                 + ["paper: optimum", "Ritter over it", "EPOS-26 over it"], lines)
+    return table(
+        ["point set", "optimum"]
+        + [title for title, _ in METHODS[:-1]]
+        + ["paper: optimum", "Ritter over it", "EPOS-26 over it"],
+        lines,
+    )
 
 
 def table_5(results):
     """26-DOP: ms on one core and on more (minima of pairs in turns), the median of the pairs' ratios."""
     names = results.matching(r"threads-\d+/[^/]*/[^/]*/(?!gauss)[^/]*/xyz/no-nan/n:\d+/wait:default")
-    kinds = sorted({tuple(name.split("/")[:3]) for name in names},
-                   key=lambda k: (k[0], results.sets.index(k[2])))
+    kinds = sorted(
+        {tuple(name.split("/")[:3]) for name in names}, key=lambda k: (k[0], results.sets.index(k[2]))
+    )
     head, lines = ["point set"], []
     for threads, _, s in kinds:
         cores = threads.split("-")[1]
@@ -125,8 +154,11 @@ def table_5(results):
         line = [label(cloud)]
         for threads, work, s in kinds:
             row = results.rows.get(f"{threads}/{work}/{s}/{cloud}/wait:default")
-            line += [number(row["first_us"] / 1e3), number(row["second_us"] / 1e3), f"{row['ratio']:.2f}"] if row \
+            line += (
+                [number(row["first_us"] / 1e3), number(row["second_us"] / 1e3), f"{row['ratio']:.2f}"]
+                if row
                 else [None] * 3
+            )
         scene, n = cloud.split("/")[0], points_of(cloud)
         lines.append(line + [TWO_CORES[n] if scene == "paper" else None])
     return table(head + ["paper: 2 cores"], lines)
