@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes docs/benchmarks.md (from benchmarks.md.in and misses.md), its plots and the README's table from a file of
-benchmarks/results; with --check, only says whether they are what it would write.
+"""Writes docs/benchmarks.md (from benchmarks.md.in and misses.md), its plots and the README's table from a
+file of benchmarks/results; with --check, only says whether they are what it would write.
 
 usage: benchmarks/docs.py [--check] [RESULTS.json]
 
@@ -11,6 +11,7 @@ Without a file: the only one of benchmarks/results, or the one that docs/benchma
 import pathlib
 import re
 import sys
+import textwrap
 
 import judging
 import paper_tables
@@ -18,7 +19,7 @@ import peer_tables
 import plots
 import tables
 import targets
-from results import Results, number, table
+from results import Results, duration, number, table
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -38,27 +39,29 @@ def misses(results, all_targets):
     for target in judging.missed(all_targets):
         if target.id not in reasons:
             print(f"misses.md says nothing about {target.id}, which is missed", file=sys.stderr)
-        text.append(
-            f'<a id="{target.id}"></a>**{target.title}.** '
-            + fill(reasons.get(target.id, "Not looked into yet.").strip(), results)
+        reason = fill(reasons.get(target.id, "Not looked into yet."), results)
+        lines = textwrap.wrap(
+            f"**{target.title}.** {reason}", 120, break_long_words=False, break_on_hyphens=False
         )
+        text.append("\n".join([f'<a id="{target.id}"></a>', *lines]))
     return "\n\n".join(text) or "None."
 
 
 def inline(results, what, name):
-    """A figure in running text: {{ms ROW}}, {{least ROW}} (repetition), {{speed ROW}}; of rows in turns {{ratio ROW}},
-    {{minima ROW}} (their ratio), {{first ROW}}, {{second ROW}}; any other word is a counter."""
+    """A figure in running text: {{ms ROW}}, {{least ROW}} (repetition), {{speed ROW}}; of rows in turns
+    {{ratio ROW}}, {{minima ROW}} (their ratio), {{first ROW}}, {{second ROW}}; any other word is a counter.
+    """
     row = results.rows.get(name)
     if row is None:
         return "(not measured)"
     ways = {
-        "ms": lambda: f"{number(results.ms(name))} ms",
-        "least": lambda: f"{number(row['us'][-1] / 1e3)} ms",
+        "ms": lambda: duration(row["us"][0]),
+        "least": lambda: duration(row["us"][-1]),
         "speed": lambda: f"{number(results.speed(name))} Mpt/s",
         "ratio": lambda: number(row["ratio"]),
         "minima": lambda: number(results.ratio(name)[1]),
-        "first": lambda: f"{number(row['first_us'] / 1e3)} ms",
-        "second": lambda: f"{number(row['second_us'] / 1e3)} ms",
+        "first": lambda: duration(row["first_us"]),
+        "second": lambda: duration(row["second_us"]),
         "radius": lambda: f"{row['radius']:.5f}",
     }
     return ways[what]() if what in ways else number(row.get(what))
@@ -70,7 +73,9 @@ def fill(text, results, blocks=None):
     def one(found):
         words = found.group(1).split(maxsplit=1)
         if len(words) == 2:
-            row = words[1] if words[1].startswith("read-") else words[1].replace("/best/", f"/{results.best}/")
+            row = (
+                words[1] if words[1].startswith("read-") else words[1].replace("/best/", f"/{results.best}/")
+            )
             return inline(results, words[0], row)
         return blocks[words[0]]()
 
@@ -113,9 +118,9 @@ def readme(results):
     after = rest.split("<!-- table:end -->")[1]
     text = (
         f"{table([f'Mpt/s, {points} pcl::PointXYZ, one core'] + results.sets, lines)}\n\n"
-        f"`pcl::getMinMax3D` in the same run: {pcl[0]} dense, {pcl[1]} not dense. Boxes and k-DOPs exact, enclosure proven;\n"
-        "scalar is the reference loop of the same fit. Made by `./bootstrap bench`; all tables, other libraries and what is\n"
-        "not reached: [benchmarks](docs/benchmarks.md)."
+        f"`pcl::getMinMax3D` in the same run: {pcl[0]} dense, {pcl[1]} not dense. Boxes and k-DOPs exact,\n"
+        "enclosure proven; scalar is the reference loop of the same fit. Made by `./bootstrap bench`; all tables,\n"
+        "other libraries and what is not reached: [benchmarks](docs/benchmarks.md)."
     )
     return f"{before}<!-- table:begin -->\n{text}\n<!-- table:end -->{after}"
 

@@ -5,7 +5,7 @@ import collections
 
 from results import number, table
 
-# `wanted` is the bound as text ("" is none, only shown), `reached` the figure as text, `met` None without a bound.
+# `wanted` is the bound as text ("" is none, only shown), `reached` the figure, `met` None without bound.
 Line = collections.namedtuple("Line", "what where wanted reached met")
 # `part` is what .ci/run-benchmarks repeats.
 Target = collections.namedtuple("Target", "id title part lines")
@@ -49,7 +49,7 @@ def cost(results, what, where, name, bound=None):
     if not found:
         return []
     extra = [100 / ratio - 100 for ratio in found]
-    return [Line(what, where, *judge(extra[0], "<=", bound, lambda v: f"{v:+.0f}", " %", extra[1]))]
+    return [Line(what, where, *judge(extra[0], "<=", bound, lambda v: f"{round(v) + 0:+d}", " %", extra[1]))]
 
 
 def targets_table(targets):

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables 1 to 5 of "Parallel Construction of Bounding Volumes" (SIGRAD 2010) on this machine. Of the paper itself
-only ratios stand here: another machine's times compare with nothing."""
+"""Tables 1 to 5 of "Parallel Construction of Bounding Volumes" (SIGRAD 2010) on this machine. Of the paper
+itself only ratios stand here: another machine's times compare with nothing."""
 from results import count, number, points_of, table
 
-# Vertices and triangles of Table 1; speed-ups by SSE of Tables 2 and 3; of Table 4 the optimal radius over the longest
-# side, and the radii by SSE; of Table 5 one core's time over that of two and of four.
+# Vertices and triangles of Table 1; speed-ups by SSE of Tables 2 and 3; of Table 4 the optimal radius over
+# the longest side, and the radii by SSE; of Table 5 one core's time over that of two and of four.
 PAPER = {
     4010: ("Frog", 7964),
     7260: ("Chair", 14372),
@@ -87,7 +87,7 @@ def table_1(results):
 
 
 def speed_ups(results, work):
-    """ms of one core, and the speed-ups over the sequential columns: S (naive loop), S' (scalar reference)."""
+    """ms of one core, and speed-ups over the sequential columns: S (naive loop), S' (scalar reference)."""
     naive = {"aabb": "naive-aabb", "dop14": "naive-dop14", "dop26": "naive-dop26"}.get(work)
     lines = []
     for cloud in point_sets(results):
@@ -116,7 +116,7 @@ def table_3(results):
 
 
 def table_4(results):
-    """Radii over the longest side of the box, in brackets over the optimum; then the paper's, over its optimum."""
+    """Radii over the box's longest side, in brackets over the optimum; then the paper's, over its optimum."""
     lines = []
     for cloud in point_sets(results):
         rows = [results.rows.get(f"{work}/{results.best}/{cloud}", {}) for _, work in METHODS]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables in Markdown that hold our fits against other libraries' or against themselves, many of them in turns."""
+"""Tables in Markdown that hold our fits against other libraries' or against themselves, many in turns."""
 from results import LEVELS, count, number, percent, points_of, table
 
 

@@ -27,10 +27,12 @@ class Chart:
         self.x_range, self.y_range, self.x_log, self.y_log = x, y, x_log, y_log
         self.legend = 0
         self.parts = [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="12">',
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '
+            'font-family="sans-serif" font-size="12">',
             f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
             f'<text x="{LEFT}" y="22" font-size="15">{title}</text>',
-            f'<text x="{(LEFT + WIDTH - RIGHT) / 2:.0f}" y="{HEIGHT - 10}" text-anchor="middle">{x_title}</text>',
+            f'<text x="{(LEFT + WIDTH - RIGHT) / 2:.0f}" y="{HEIGHT - 10}" text-anchor="middle">'
+            f"{x_title}</text>",
             f'<text x="16" y="{(TOP + HEIGHT - BOTTOM) / 2:.0f}" text-anchor="middle" '
             f'transform="rotate(-90 16 {(TOP + HEIGHT - BOTTOM) / 2:.0f})">{y_title}</text>',
         ]
@@ -123,8 +125,10 @@ SIZES = [
 
 def curve(results, prefix):
     """Mpt/s by points of the powers of two."""
-    names = results.matching(f"{prefix}/gauss/xyz/no-nan/")
-    return sorted((points_of(n), results.speed(n)) for n in names if points_of(n) & (points_of(n) - 1) == 0)
+    names = [
+        n for n in results.matching(f"{prefix}/gauss/xyz/no-nan/") if points_of(n) & (points_of(n) - 1) == 0
+    ]
+    return sorted((points_of(n), 1e3 * results.bandwidth(n) / 16) for n in names)
 
 
 def speed_chart(title, curves, roofs):
@@ -149,7 +153,7 @@ def speed_chart(title, curves, roofs):
 
 
 def speeds(results):
-    """A chart of each kernel by instruction set, and one of all kernels on the best set; limit: the same bytes read."""
+    """A chart of each kernel by instruction set, one of all on the best set; the limit: the same bytes read."""
     roof = [("read only, one core", curve(results, "read-1-thread/best"), "#000")]
     both = roof + [("read only, two cores", curve(results, "read-2-thread/best"), "#888")]
     titles = {"aabb": "AABB", "dop26": "26-DOP"}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads a file of benchmarks/results: rows by the names that the programs give them, in the units of the tables."""
+"""Reads a file of benchmarks/results: rows by the names that programs give them, in the tables' units."""
 import json
 import math
 import pathlib
@@ -36,12 +36,12 @@ class Results:
         return us and points_of(name) / us
 
     def bandwidth(self, name):
-        """GB/s."""
-        us = self.us(name)
+        """GB/s; of what only reads by its least time, since that is the limit."""
+        us = self.rows[name]["us"][-1] if name in self.rows and name.startswith("read-") else self.us(name)
         return us and 1e-3 * points_of(name) * BYTES[name.split("/")[3]] / us
 
     def ratio(self, name):
-        """Of a comparison in turns: the median of the pairs' ratios, and the ratio of the two minima; or None."""
+        """Of a comparison in turns: the median of the pairs' ratios, the ratio of the two minima; or None."""
         row = self.rows.get(name)
         return row and (row["ratio"], row["first_us"] / row["second_us"])
 
@@ -71,13 +71,18 @@ def number(value, figures=3):
     return f"{value:.{decimals}f}"
 
 
+def duration(us):
+    """Microseconds in the unit that leaves no zeros behind the point."""
+    return f"{number(us)} µs" if us < 100 else f"{number(us / 1e3)} ms"
+
+
 def count(n):
     """16777216 as 16 777 216."""
     return f"{n:,}".replace(",", " ")
 
 
 def percent(value, decimals=0):
-    return "-" if value is None else f"{value:+.{decimals}f} %"
+    return "-" if value is None else f"{round(value, decimals) + 0.0:+.{decimals}f} %"
 
 
 def table(head, lines):

@@ -78,10 +78,12 @@ inline void add_peer(const Peer& peer, const CloudName& name) {
 
 /// How fast the bytes of a cloud can be read at all: "read-1-thread/best/...".
 inline void add_reading(const CloudName& name, unsigned threads) {
-  add("read-" + std::to_string(threads) + "-thread", "best", name, [=](benchmark::State& state) {
-    const Reading reading(cloud(name), threads);
-    time_passes(state, reading);
-  })->UseRealTime();
+  auto* const row =
+      add("read-" + std::to_string(threads) + "-thread", "best", name, [=](benchmark::State& state) {
+        const Reading reading(cloud(name), threads);
+        time_passes(state, reading);
+      });
+  if (threads > 1) row->UseRealTime();
 }
 
 /// In turns (timing.h): what make_first(cloud) returns, and a fit.

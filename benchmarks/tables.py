@@ -10,8 +10,9 @@ def machine(results):
     compilers = sorted({part["compiler"] for part in results.parts.values()})
     return (
         f"{m['cpu']}, family {m['family']}, model {m['model']}; {m['cores']} cores; {caches}; "
-        f"{m['memory_mb'] / 1024:.0f} GB of memory; Linux {m['kernel']}; {', '.join(compilers)}; instruction sets "
-        f"{', '.join(results.sets)}. Source of every figure: [{results.path.name}](../benchmarks/results/{results.path.name})."
+        f"{m['memory_mb'] / 1024:.0f} GB of memory; Linux {m['kernel']}; {', '.join(compilers)}; "
+        f"instruction sets {', '.join(results.sets)}.\n\nSource of every figure: "
+        f"[{results.path.name}](../benchmarks/results/{results.path.name})."
     )
 
 
