@@ -17,9 +17,8 @@ def box_peers(results):
             + [number(results.speed(f"{work}/{results.best}/gauss/xyz/no-nan/n:{n}")) for n in LEVELS]
             + ["0"]
         )
-    seen = dict.fromkeys(
-        tuple(n.split("/")[i] for i in (0, 3)) for n in results.matching("[^/]*/peer/gauss/[^/]*/no-nan")
-    )
+    rows = results.matching("(?!cgal-min)[^/]*/peer/gauss/[^/]*/no-nan")
+    seen = dict.fromkeys(tuple(n.split("/")[i] for i in (0, 3)) for n in rows)
     for peer, layout in seen:
         names = [f"{peer}/peer/gauss/{layout}/no-nan/n:{n}" for n in LEVELS]
         lines.append(
