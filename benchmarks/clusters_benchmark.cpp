@@ -128,7 +128,6 @@ void add(const std::string& comparison, const Scene& scene, float tolerance, con
     Ours ours(*cloud, tolerance, policy);
     ours();
     compare(state, make_first(cloud, ours), ours);
-    state.counters["clusters"] = static_cast<double>(ours.sets().size());
   });
 }
 
@@ -164,8 +163,8 @@ void register_all() {
   for (const float r : {0.1F, 0.2F, 0.5F, 1.F}) {
     for (const std::size_t rays : {56'000U, 128'000U})  // 19 k and 43 k points
       over_peers({"street", rays}, r, 5);
-    over_peers({"street", 300'000}, r, 3);  // 100 k points
-    over_peers({"street", 900'000}, r, 1);  // 300 k points
+    over_peers({"street", 300'000}, r, 3);                // 100 k points
+    if (r < 0.3F) over_peers({"street", 900'000}, r, 1);  // 300 k points; PCL takes 9 s at 0.5 m
     over_peers({"street-whole", 128'000}, r, 3);
     two_threads({"street-whole", 128'000}, r);
   }

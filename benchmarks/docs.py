@@ -119,8 +119,8 @@ def readme(results):
     text = (
         f"{table([f'Mpt/s, {points} pcl::PointXYZ, one core'] + results.sets, lines)}\n\n"
         f"`pcl::getMinMax3D` in the same run: {pcl[0]} dense, {pcl[1]} not dense. Boxes and k-DOPs exact,\n"
-        "enclosure proven; scalar is the reference loop of the same fit. Made by `./bootstrap bench`; all tables,\n"
-        "other libraries and what is not reached: [benchmarks](docs/benchmarks.md)."
+        "enclosure proven; scalar is the reference loop of the same fit. Made by `./bootstrap bench`; all\n"
+        "tables, other libraries and what is not reached: [benchmarks](docs/benchmarks.md)."
     )
     return f"{before}<!-- table:begin -->\n{text}\n<!-- table:end -->{after}"
 

@@ -14,16 +14,14 @@ namespace {
 
 void over_scalar() {
   const Fit dop26("dop26");
-  for (const CloudName& name : {CloudName{"gauss", kL2}, CloudName{"paper", 100'722}}) {
-    for (const Isa isa : simd_isas()) {
-      add_comparison("over-scalar", dop26, {Serial{}, isa}, name, "", [=](const Cloud& points) {
-        return [&points, dop26] { dop26(points, {Serial{}, Isa::scalar}); };
-      });
-      for (const std::string plain : {"plain-dop26", "naive-dop26"}) {
-        add_comparison("over-" + plain, dop26, {Serial{}, isa}, name, "", [=](const Cloud& points) {
-          return [&points, run = peer(plain).run] { run(points); };
-        });
-      }
+  const CloudName name{"gauss", kL2};
+  for (const Isa isa : simd_isas()) {
+    add_comparison("over-scalar", dop26, {Serial{}, isa}, name, "", [=](const Cloud& points) {
+      return [&points, dop26] { dop26(points, {Serial{}, Isa::scalar}); };
+    });
+    for (const std::string plain : {"plain-dop26", "naive-dop26"}) {
+      add_comparison("over-" + plain, dop26, {Serial{}, isa}, name, "",
+                     [=](const Cloud& points) { return [&points, run = peer(plain).run] { run(points); }; });
     }
   }
 }
@@ -41,38 +39,36 @@ void spheres_over_scalar() {
 
 // The smallest sphere beside one that is nearly so, and beside another solver.
 void smallest_sphere() {
-  const Fit exact("sphere-exact");
+  const Fit exact("sphere-exact"), epos26("sphere-epos26");
+  const Isa best = usable_isas().back();
   for (const std::string scene : {"gauss", "cube", "ball", "car", "golfball", "surface"}) {
     for (const std::size_t points : {100'722, 1'000'000}) {
       const CloudName name{scene, points};
-      for (const Isa isa : simd_isas()) {
-        add_comparison("over-epos26", exact, {Serial{}, isa}, name, "",
-                       [isa, epos26 = Fit("sphere-epos26")](const Cloud& cloud) {
-                         return [&cloud, isa, epos26] { epos26(cloud, {Serial{}, isa}); };
-                       });
-      }
+      add_comparison("over-epos26", exact, {Serial{}, best}, name, "", [=](const Cloud& cloud) {
+        return [&cloud, best, epos26] { epos26(cloud, {Serial{}, best}); };
+      });
       if (points < 1'000'000) continue;
       for (const Peer& peer : cgal_spheres()) {
-        add_comparison("over-" + peer.name, exact, {Serial{}, usable_isas().back()}, name, "",
+        add_comparison("over-" + peer.name, exact, {Serial{}, best}, name, "",
                        [run = peer.run](const Cloud& cloud) { return [&cloud, run] { run(cloud); }; });
       }
     }
   }
 }
 
+void of_bandwidth(const std::string& work, Isa isa, unsigned threads) {
+  const ParallelPolicy policy = threads == 1 ? ParallelPolicy(Serial{}) : ParallelPolicy(OpenMP{threads});
+  const std::string suffix = "/threads:" + std::to_string(threads) + (threads == 1 ? "" : wait_policy());
+  add_comparison("of-bandwidth", Fit(work), {policy, isa}, {"gauss", kMemory}, suffix,
+                 [=](const Cloud& points) { return Reading(points, threads); });
+}
+
 void of_bandwidth() {
-  for (const std::string work : {"dop26", "aabb"}) {
-    for (const Isa isa : simd_isas()) {
-      for (const unsigned threads : {1U, 2U}) {
-        const Execution execution{threads == 1 ? ParallelPolicy(Serial{}) : ParallelPolicy(OpenMP{threads}),
-                                  isa};
-        const std::string suffix =
-            "/threads:" + std::to_string(threads) + (threads == 1 ? "" : wait_policy());
-        add_comparison("of-bandwidth", Fit(work), execution, {"gauss", kMemory}, suffix,
-                       [=](const Cloud& points) { return Reading(points, threads); });
-      }
-    }
+  for (const Isa isa : simd_isas()) {
+    for (const unsigned threads : {1U, 2U})
+      of_bandwidth("dop26", isa, threads);
   }
+  of_bandwidth("aabb", usable_isas().back(), 1);
 }
 
 void over_pcl(std::size_t points) {

@@ -86,33 +86,48 @@ def table_1(results):
     return table(["point set", "n_v", "n_t", "source"], lines)
 
 
-def speed_ups(results, work):
-    """ms of one core, and speed-ups over the sequential columns: S (naive loop), S' (scalar reference)."""
-    naive = {"aabb": "naive-aabb", "dop14": "naive-dop14", "dop26": "naive-dop26"}.get(work)
+def speed_ups(results, work, naive=None, plain=None, peers=()):
+    """ms of one core, and speed-ups over two sequential columns: S (naive loop), S' (scalar reference). Then
+    others who solve the same, with the points that they leave outside."""
     lines = []
     for cloud in point_sets(results):
-        sequential = results.ms(f"{naive}/peer/{cloud}") if naive else None
+        sequential = results.ms(f"{naive}/peer/{cloud}")
         scalar = results.ms(f"{work}/scalar/{cloud}")
-        line = [label(cloud)] + ([number(sequential)] if naive else []) + [number(scalar)]
+        line = [label(cloud)] + [
+            number(results.ms(f"{loop}/peer/{cloud}")) for loop in (naive, plain) if loop
+        ]
+        line.append(number(scalar))
         for s in results.sets[1:]:
             time = results.ms(f"{work}/{s}/{cloud}")
             line.append(number(time))
             if naive:
                 line.append(time and sequential and f"{sequential / time:.2f}")
             line.append(time and scalar and f"{scalar / time:.2f}")
-        lines.append(line + [of_paper(SPEED_UPS.get(work), cloud)])
-    heads = [h for s in results.sets[1:] for h in ([s, "S", "S'"] if naive else [s, "S'"])]
-    return table(
-        ["point set"] + (["naive, -O2"] if naive else []) + ["scalar, -O3"] + heads + ["paper's S"], lines
-    )
+        for peer in peers:
+            row = results.rows.get(f"{peer}/peer/{cloud}")
+            line += [number(row["us"][0] / 1e3), f"{row['outside']:.0f}"] if row else [None, None]
+        lines.append(line + ([of_paper(SPEED_UPS[work], cloud)] if work in SPEED_UPS else []))
+    head = ["point set"] + ["naive, -O2"] * bool(naive) + ["plain, -O3"] * bool(plain) + ["scalar, -O3"]
+    head += [h for s in results.sets[1:] for h in ([s, "S", "S'"] if naive else [s, "S'"])]
+    head += [h for peer in peers for h in (peer, "outside")]
+    return table(head + ["paper's S"] * (work in SPEED_UPS), lines)
 
 
 def table_2(results):
-    return "\n\n".join(f"{title}, ms:\n\n{speed_ups(results, work)}" for title, work in VOLUMES)
+    parts = [
+        f"{title}, ms:\n\n{speed_ups(results, work, 'naive-' + work, 'plain-dop26' if work == 'dop26' else None)}"
+        for title, work in VOLUMES
+    ]
+    return "\n\n".join(parts)
 
 
 def table_3(results):
-    return "\n\n".join(f"{title}, ms:\n\n{speed_ups(results, work)}" for title, work in METHODS)
+    cgal = ("cgal-min-sphere", "cgal-min-sphere-of-spheres")
+    parts = [
+        f"{title}, ms:\n\n{speed_ups(results, work, peers=cgal if work == 'sphere-exact' else ())}"
+        for title, work in METHODS
+    ]
+    return "\n\n".join(parts)
 
 
 def table_4(results):

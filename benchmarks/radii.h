@@ -36,11 +36,16 @@ inline void add_sphere(const std::string& work, const Execution& execution, cons
   add_fit(work, execution, how, name, describe_radius)->UseRealTime();
 }
 
-/// Every method on each of `isas`, and CGAL's solvers.
+/// Every method on each of `isas`, the last of which says how tight all are, and CGAL's solvers.
 inline void add_spheres(const CloudName& name, const std::vector<Isa>& isas) {
   for (const std::string& method : sphere_methods()) {
-    for (const Isa isa : isas)
-      add_fit(method, {Serial{}, isa}, std::string(isa_name(isa)), name, describe_radius);
+    for (const Isa isa : isas) {
+      if (isa != isas.back()) {
+        add_fit(method, isa, name);
+      } else {
+        add_fit(method, {Serial{}, isa}, std::string(isa_name(isa)), name, describe_radius);
+      }
+    }
   }
   for (const Peer& peer : cgal_spheres())
     add_peer(peer, name);
