@@ -114,8 +114,9 @@ def speed_ups(results, work, naive=None, plain=None, peers=()):
 
 
 def table_2(results):
+    plain = {"dop26": "plain-dop26"}
     parts = [
-        f"{title}, ms:\n\n{speed_ups(results, work, 'naive-' + work, 'plain-dop26' if work == 'dop26' else None)}"
+        f"{title}, ms:\n\n{speed_ups(results, work, f'naive-{work}', plain.get(work))}"
         for title, work in VOLUMES
     ]
     return "\n\n".join(parts)

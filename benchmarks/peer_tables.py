@@ -182,3 +182,28 @@ def batches(results):
     return in_turns(
         results, "batch/", ("one by one, ms", "at once, ms"), lambda n: n.removeprefix("batch/"), False
     )
+
+
+def files(results):
+    """Whole processes in turns: ms, and the most memory that each had resident."""
+    lines = []
+    for name in results.matching("files/over-pcl/"):
+        row = results.rows[name]
+        ratio, of_minima = results.ratio(name)
+        lines.append(
+            [
+                name.removeprefix("files/over-pcl/"),
+                number(row["first_us"] / 1e3),
+                number(row["second_us"] / 1e3),
+            ]
+            + [f"{number(ratio)} ({number(of_minima)})", number(row["first_mib"]), number(row["second_mib"])]
+        )
+    head = [
+        "in turns",
+        "PCL, ms",
+        "pcd_bv, ms",
+        "ratio: median of pairs (of minima)",
+        "PCL, MiB",
+        "pcd_bv, MiB",
+    ]
+    return table(head, lines)

@@ -153,7 +153,7 @@ def speed_chart(title, curves, roofs):
 
 
 def speeds(results):
-    """A chart of each kernel by instruction set, one of all on the best set; the limit: the same bytes read."""
+    """A chart of each kernel by instruction set, one of all on the best set; the limit: reading alone."""
     roof = [("read only, one core", curve(results, "read-1-thread/best"), "#000")]
     both = roof + [("read only, two cores", curve(results, "read-2-thread/best"), "#888")]
     titles = {"aabb": "AABB", "dop26": "26-DOP"}

@@ -1,244 +1,156 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the project set out to reach: works, inputs and bounds."""
+"""What the project set out to reach, a function for each target: works, inputs and bounds."""
 import re
 
 from judging import Line, Target, by_set, cost, faster, judge, share
-from results import count, points_of
+from results import count, number, points_of
 
-L2, MEMORY = "gauss/xyz/no-nan/n:32768", "gauss/xyz/no-nan/n:16000000"
+L2, L3, MEMORY = "gauss/xyz/no-nan/n:32768", "paper/xyz/no-nan/n:100722", "gauss/xyz/no-nan/n:16000000"
+INPUTS = {
+    L2: "32 768 points, L2, one thread",
+    L3: "100 722 points, L3, one thread",
+    MEMORY: "16 M points, memory, one thread",
+}
 SHAPES = ("gauss", "cube", "ball", "car", "golfball", "surface")
 THREE = "aabb + sphere-exact + obb-dito14"
-INPUTS = {
-    L2: "32 768 points, L2",
-    MEMORY: "16 M points, memory",
-    "paper/xyz/no-nan/n:100722": "100 722 points, L3",
-}
 
 
-def boxes(results):
-    one = "one thread"
-    yield Target(
-        "dop26-cache",
-        "26-DOP against plain loops",
-        "pairs",
-        (
-            by_set(
-                results,
-                "over the plain loop, -O3, not vectorised",
-                f"32 768 points, L2, {one}",
-                "over-plain-dop26/dop26/{}/" + L2,
-                {"avx512": 16, "avx2": 7, "sse4": 4},
-            )
-            + by_set(
-                results,
-                "over the library's scalar reference, -O3",
-                f"32 768 points, L2, {one}",
-                "over-scalar/dop26/{}/" + L2,
-                {"avx512": 16, "avx2": 7, "sse4": 4},
-            )
-            + by_set(
-                results,
-                "over the naive loop, -O2",
-                f"32 768 points, L2, {one}",
-                "over-naive-dop26/dop26/{}/" + L2,
-                {},
-            )
-        ),
-    )
-    yield Target(
-        "dop26-memory",
-        "26-DOP from memory, of the bandwidth read in the same run",
-        "pairs pairs-passive",
-        [
-            line
-            for wait in ("default", "passive")
-            for line in by_set(
-                results,
-                f"two threads, {wait} waiting",
-                "16 M points, memory",
-                "of-bandwidth/dop26/{}/" + MEMORY + "/threads:2/wait:" + wait,
-                {"avx512": 90, "avx2": 75} if wait == "default" else {},
-                share,
-            )
-        ]
-        + by_set(
-            results, one, "16 M points, memory", "of-bandwidth/dop26/{}/" + MEMORY + "/threads:1", {}, share
-        ),
-    )
-    yield Target(
-        "aabb-pcl",
-        "AABB against pcl::getMinMax3D",
-        "pairs",
-        [
-            line
-            for cloud, flag, bounds in (
-                (L2, "dense", {"avx512": 6.5}),
-                (L2, "non-dense", {"avx512": 30, "avx2": 18, "sse4": 5}),
-                (MEMORY, "dense", {}),
-                (MEMORY, "non-dense", {"avx512": 6, "avx2": 6, "sse4": 6}),
-            )
-            for line in by_set(
-                results,
-                f"is_dense {'true' if flag == 'dense' else 'false'}",
-                f"{INPUTS[cloud]}, {one}",
-                f"over-pcl-{flag}/aabb/{{}}/{cloud}",
-                bounds,
-            )
-        ],
-    )
-    yield Target(
-        "bad-points",
-        "What dropping bad points costs",
-        "pairs",
-        [
-            line
-            for cloud, aabb, dop in (
-                (L2, {"avx512": 15, "avx2": 15, "sse4": 60}, 6),
-                (MEMORY, dict.fromkeys(results.sets, 3), 3),
-            )
-            for work, name, bounds in (
-                ("AABB, test of every point", "over-unchecked-aabb/aabb", aabb),
-                (
-                    "26-DOP, test of every point",
-                    "over-unchecked-dop26/tested-dop26",
-                    dict.fromkeys(results.sets, dop),
-                ),
-                ("26-DOP, the exact look at its extremes", "over-tested-dop26/dop26", {}),
-            )
-            for line in by_set(results, work, f"{INPUTS[cloud]}, {one}", f"{name}/{{}}/{cloud}", bounds, cost)
-        ],
-    )
+def dop26_in_cache(results):
+    bounds = {"avx512": 16, "avx2": 7, "sse4": 4}
+    lines = []
+    for what, peer, wanted in (
+        ("over the plain loop, -O3, not vectorised", "plain-dop26", bounds),
+        ("over the library's scalar reference, -O3", "scalar", bounds),
+        ("over the naive loop, -O2", "naive-dop26", {}),
+    ):
+        lines += by_set(results, what, INPUTS[L2], f"over-{peer}/dop26/{{}}/{L2}", wanted)
+    return Target("dop26-cache", "26-DOP against plain loops", "pairs", lines)
 
 
-def spheres(results):
-    one = "one thread"
-    yield Target(
-        "epos26",
-        "EPOS-26 against its scalar reference",
-        "pairs",
-        [
-            line
-            for cloud in (L2, "paper/xyz/no-nan/n:100722")
-            for line in by_set(
-                results,
-                "over scalar",
-                f"{INPUTS[cloud]}, {one}",
-                f"over-scalar/sphere-epos26/{{}}/{cloud}",
-                {"avx512": 12, "sse4": 3.5},
-            )
-        ],
-    )
+def dop26_from_memory(results):
+    row, lines = f"of-bandwidth/dop26/{{}}/{MEMORY}/threads:", []
+    for wait, bounds in (("default", {"avx512": 90, "avx2": 75}), ("passive", {})):
+        what = f"two threads, {wait} waiting"
+        lines += by_set(results, what, "16 M points, memory", f"{row}2/wait:{wait}", bounds, share)
+    lines += by_set(results, "one thread", "16 M points, memory", f"{row}1", {}, share)
+    title = "26-DOP from memory, of the bandwidth read in the same run"
+    return Target("dop26-memory", title, "pairs pairs-passive", lines)
+
+
+def aabb_against_pcl(results):
+    lines = []
+    for cloud, flag, bounds in (
+        (L2, "dense", {"avx512": 6.5}),
+        (L2, "non-dense", {"avx512": 30, "avx2": 18, "sse4": 5}),
+        (MEMORY, "dense", {}),
+        (MEMORY, "non-dense", {"avx512": 6, "avx2": 6, "sse4": 6}),
+    ):
+        what = f"is_dense {'true' if flag == 'dense' else 'false'}"
+        lines += by_set(results, what, INPUTS[cloud], f"over-pcl-{flag}/aabb/{{}}/{cloud}", bounds)
+    return Target("aabb-pcl", "AABB against pcl::getMinMax3D", "pairs", lines)
+
+
+def bad_points(results):
+    lines = []
+    for cloud, aabb, dop26 in (
+        (L2, {"avx512": 15, "avx2": 15, "sse4": 60}, dict.fromkeys(results.sets, 6)),
+        (MEMORY, dict.fromkeys(results.sets, 3), dict.fromkeys(results.sets, 3)),
+    ):
+        for what, row, bounds in (
+            ("AABB, test of every point", "over-unchecked-aabb/aabb", aabb),
+            ("26-DOP, test of every point", "over-unchecked-dop26/tested-dop26", dop26),
+            ("26-DOP, the exact look at its extremes", "over-tested-dop26/dop26", {}),
+        ):
+            lines += by_set(results, what, INPUTS[cloud], f"{row}/{{}}/{cloud}", bounds, cost)
+    return Target("bad-points", "What dropping bad points costs", "pairs", lines)
+
+
+def epos26(results):
+    lines = []
+    for cloud in (L2, L3):
+        row, bounds = f"over-scalar/sphere-epos26/{{}}/{cloud}", {"avx512": 12, "sse4": 3.5}
+        lines += by_set(results, "over scalar", INPUTS[cloud], row, bounds)
+    return Target("epos26", "EPOS-26 against its scalar reference", "pairs", lines)
+
+
+def exact_over_epos(results):
     lines = []
     for shape in SHAPES:
+        most = 3 if shape in ("golfball", "surface") else 1.3
         for n in (100722, 1000000):
-            row = results.ratio(f"over-epos26/sphere-exact/{results.best}/{shape}/xyz/no-nan/n:{n}")
-            most = (3 if shape in ("golfball", "surface") else 1.3) if results.best == "avx512" else None
-            if row:
-                lines.append(
-                    Line(
-                        shape,
-                        f"{count(n)} points, {one}, {results.best}",
-                        *judge(1 / row[0], "<=", most, aside=1 / row[1]),
-                    )
-                )
-    yield Target("exact-epos", "Smallest sphere, time over that of EPOS-26", "pairs", lines)
-    yield Target(
-        "exact-cgal",
-        "Smallest sphere against CGAL",
-        "pairs",
-        [
-            line
-            for peer, bound in (("cgal-min-sphere", 25), ("cgal-min-sphere-of-spheres", None))
-            for shape in SHAPES
-            for line in faster(
-                results,
-                f"{shape}, over {peer}",
-                f"1 M points, {one}, {results.best}",
-                f"over-{peer}/sphere-exact/{results.best}/{shape}/xyz/no-nan/n:1000000",
-                bound,
-            )
-        ],
-    )
+            found = results.ratio(f"over-epos26/sphere-exact/{results.best}/{shape}/xyz/no-nan/n:{n}")
+            if found:
+                bound = most if results.best == "avx512" else None
+                reached = judge(1 / found[0], "<=", bound, aside=1 / found[1])
+                lines.append(Line(shape, f"{count(n)} points, one thread, {results.best}", *reached))
+    return Target("exact-epos", "Smallest sphere, time over that of EPOS-26", "pairs", lines)
 
 
-def clusters(results):
+def exact_against_cgal(results):
     lines = []
-    for name in results.matching("over-pcl/(street|sweep)/"):
+    for peer, bound in (("cgal-min-sphere", 25), ("cgal-min-sphere-of-spheres", None)):
+        for shape in SHAPES:
+            row = f"over-{peer}/sphere-exact/{results.best}/{shape}/xyz/no-nan/n:1000000"
+            where = f"1 M points, one thread, {results.best}"
+            lines += faster(results, f"{shape}, over {peer}", where, row, bound)
+    return Target("exact-cgal", "Smallest sphere against CGAL", "pairs", lines)
+
+
+def clusters_against_pcl(results):
+    lines = []
+    for name in results.matching("over-pcl/(street|sweep)/n:.*/r:0.[25]"):
         scene, n, r = re.match(r"over-pcl/([^/]*)/n:(\d+)/r:(.*)", name).groups()
-        bound = {"0.5": 100, "0.2": 20}.get(r)
-        if bound:
-            usual = scene == "sweep" or n == "42886"  # of 128 000 rays
-            lines += faster(
-                results,
-                "synth:street" if scene == "street" else "a recorded sweep",
-                f"{count(int(n))} points above ground, {r} m, one thread",
-                name,
-                bound if usual else None,
-            )
-    yield Target("clusters", "Clusters against pcl::EuclideanClusterExtraction", "clusters", lines)
+        what = "synth:street" if scene == "street" else "a recorded sweep"
+        usual = scene == "sweep" or n == "42886"  # of 128 000 rays
+        bound = {"0.5": 100, "0.2": 20}[r] if usual else None
+        where = f"{count(int(n))} points above ground, {r} m, one thread"
+        lines += faster(results, what, where, name, bound)
+    return Target("clusters", "Clusters against pcl::EuclideanClusterExtraction", "clusters", lines)
+
+
+def least_box_against_cgal(results):
     lines = []
     for name in results.matching("turns/CGAL oriented_bounding_box over obb-min/"):
-        cloud = name.split("/")[-1]
-        lines += faster(
-            results,
-            f"{cloud}, time",
-            "one thread, " + results.best,
-            name,
-            None if cloud.startswith("sphere") else 2,
-        )
-        lines.append(
-            Line(
-                f"{cloud}, volume over CGAL's",
-                "one thread, " + results.best,
-                *judge(
-                    results.rows[name]["volume_over_peer"],
-                    "<=",
-                    None if cloud.startswith("sphere") else 1.0005,
-                    "{:.4f}".format,
-                ),
-            )
-        )
-    yield Target("obb-cgal", "Least oriented box against CGAL::oriented_bounding_box", "obb", lines)
-    yield Target(
-        "clusters-pcl",
-        "100 clusters of 300 points, AABB and PCA box, against PCL",
-        "obb",
-        [
-            line
-            for peer, bound in (
-                ("PCL cheapest", 3),
-                ("PCL MomentOfInertia, one axis", None),
-                ("PCL MomentOfInertia", None),
-            )
-            for line in faster(
-                results,
-                f"over {peer}",
-                "one thread, " + results.best,
-                f"turns/100 clusters of 300, {peer} over aabb + obb-pca",
-                bound,
-            )
-        ],
-    )
+        cloud, where = name.split("/")[-1], f"one thread, {results.best}"
+        apart = cloud.startswith("sphere")  # where no box is much smaller than others
+        lines += faster(results, f"{cloud}, time", where, name, None if apart else 2)
+        volume = results.rows[name]["volume_over_peer"]
+        reached = judge(volume, "<=", None if apart else 1.0005, "{:.4f}".format)
+        lines.append(Line(f"{cloud}, volume over CGAL's", where, *reached))
+    return Target("obb-cgal", "Least oriented box against CGAL::oriented_bounding_box", "obb", lines)
+
+
+def many_clusters_against_pcl(results):
+    lines = []
+    for peer, bound in (
+        ("PCL cheapest", 3),
+        ("PCL MomentOfInertia, one axis", None),
+        ("PCL MomentOfInertia", None),
+    ):
+        row = f"turns/100 clusters of 300, {peer} over aabb + obb-pca"
+        lines += faster(results, f"over {peer}", f"one thread, {results.best}", row, bound)
+    return Target("clusters-pcl", "100 clusters of 300 points, AABB and PCA box, against PCL", "obb", lines)
+
+
+def many_clusters(results):
     lines = []
     for wait in ("default", "passive"):
-        for threads in (2, 1):
-            bound = 0.5 if threads == 2 else None
+        for threads, bound in ((2, 0.5), (1, None)):
+            what = f"threads: {threads}, {wait} waiting"
             row = results.rows.get(f"100 clusters of 300/{THREE}/threads:{threads}/wait:{wait}")
             if row:
-                where = f"one after another in memory, {results.best}"
                 reached = judge(row["us"][0] / 1e3, "<=", bound, unit=" ms", aside=row["us"][-1] / 1e3)
-                lines.append(Line(f"threads: {threads}, {wait} waiting", where, *reached))
+                lines.append(Line(what, f"one after another in memory, {results.best}", *reached))
             row = results.rows.get(f"batch/{THREE.replace(' ', '')}/100x300/threads:{threads}/wait:{wait}")
             if row:
-                where = f"index lists into a mixed cloud, {results.best}"
                 reached = judge(row["second_us"] / 1e3, "<=", None, unit=" ms")
-                lines.append(Line(f"threads: {threads}, {wait} waiting", where, *reached))
+                lines.append(Line(what, f"index lists into a mixed cloud, {results.best}", *reached))
     title = "The same clusters: AABB, smallest sphere and obb-dito14; median (least)"
-    yield Target("batch", title, "obb obb-passive batch batch-passive", lines)
+    return Target("batch", title, "obb obb-passive batch batch-passive", lines)
 
 
-def threads(results):
+def two_threads(results):
     """The least ratio from 4 k points on, and in L3 where one thread takes at least 200 us."""
     least = {}
     for name in results.matching("threads-2/.*/gauss/"):
@@ -246,50 +158,61 @@ def threads(results):
         n = points_of(name)
         places = ["4 k to 32 M points"]
         if results.rows[name]["first_us"] >= 200 and 2**20 < 16 * n <= 2**25:
-            places.append("L3, one thread takes >= 200 us")
+            places.append("L3, one thread takes >= 200 µs")
         for place in places:
             key = (place, wait, work, isa)
             least[key] = min(least.get(key, (9e9, 0, 0)), (*results.ratio(name), n))
-    lines = [
-        Line(
-            f"{work} {isa}, {wait} waiting",
-            f"{place}; least at {count(n)} points",
-            *judge(ratio, ">=", 0.95 if place[0] == "4" else 1.8, aside=aside),
-        )
-        for (place, wait, work, isa), (ratio, aside, n) in sorted(least.items())
-    ]
-    yield Target("threads", "Two threads against one", "pairs pairs-passive", lines)
+    lines = []
+    for (place, wait, work, isa), (ratio, aside, n) in sorted(least.items()):
+        reached = judge(ratio, ">=", 0.95 if place[0] == "4" else 1.8, aside=aside)
+        lines.append(Line(f"{work} {isa}, {wait} waiting", f"{place}; least at {count(n)} points", *reached))
+    return Target("threads", "Two threads against one", "pairs pairs-passive", lines)
 
 
-def programs(results):
+def pipeline(results):
     lines = []
     for name in results.matching("pipeline/[12]-thread/"):
-        row = results.rows[name]
-        lines.append(
-            Line(
-                {"street": "synth:street-sequence", "sweeps": "recorded sweeps"}[name.split("/")[2]],
-                f"{count(round(row['points']))} points, {name.split('/')[1]}, p99 of 127 frames",
-                *judge(row["total_p99"], "<=", 12 if "/2-" in name else None, unit=" ms"),
-            )
+        row, (_, threads, source) = results.rows[name], name.split("/")
+        what = {"street": "synth:street-sequence", "sweeps": "recorded sweeps"}[source]
+        where = f"{count(round(row['points']))} points, {threads}, p99 of 127 frames"
+        reached = judge(row["total_p99"], "<=", 12 if threads == "2-thread" else None, unit=" ms")
+        lines.append(Line(what, where, *reached))
+    title = "Filter, ground by zones, clusters, AABB, sphere, obb-yaw and 26-DOP of a 64-beam sweep"
+    return Target("pipeline", title, "pipeline", lines)
+
+
+def binary_file(results):
+    lines = []
+    for threads in (1, 2):
+        name, where = (
+            f"files/over-pcl/binary/n:16000000/threads:{threads}",
+            f"16 M points, threads: {threads}",
         )
-    yield Target(
-        "pipeline",
-        "Filter, ground by zones, clusters, AABB, sphere, obb-yaw and 26-DOP of a 64-beam sweep",
-        "pipeline",
-        lines,
-    )
-    yield Target(
-        "files-binary",
-        "pcd_bv on a 16 M-point binary .pcd against loadPCDFile and getMinMax3D",
-        "files",
-        file_lines(results, "binary"),
-    )
-    yield Target("files-ascii", "ASCII .pcd against loadPCDFile", "files", file_lines(results, "ascii"))
+        lines += faster(results, "over loadPCDFile and getMinMax3D", where, name, 15)
+        row = results.rows.get(name)
+        if row:
+            most = judge(row["second_mib"], "<=", 96, unit=" MiB")
+            lines.append(Line(f"resident at most (PCL: {number(row['first_mib'])} MiB)", where, *most))
+    title = "pcd_bv on a binary .pcd, AABB and 26-DOP, whole process, against PCL"
+    return Target("files-binary", title, "files", lines)
 
 
-def file_lines(results, kind):
-    return []
+def ascii_file(results):
+    lines = []
+    for threads, bound in ((1, 8), (2, 14)):
+        name = f"files/over-pcl/ascii/n:1024000/threads:{threads}"
+        where = f"1 024 000 points, threads: {threads}"
+        lines += faster(results, "over loadPCDFile and getMinMax3D", where, name, bound)
+    return Target("files-ascii", "pcd_bv on an ASCII .pcd, whole process, against PCL", "files", lines)
 
 
 def all_targets(results):
-    return [t for part in (boxes, spheres, clusters, threads, programs) for t in part(results)]
+    return [
+        target(results)
+        for target in (
+            *(dop26_in_cache, dop26_from_memory, aabb_against_pcl, bad_points),
+            *(epos26, exact_over_epos, exact_against_cgal),
+            *(clusters_against_pcl, least_box_against_cgal, many_clusters_against_pcl, many_clusters),
+            *(two_threads, pipeline, binary_file, ascii_file),
+        )
+    ]
