@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -135,6 +137,63 @@ TEST(Picture, FarStrayPointsDoNotShrinkTheScene) {
   for (int i = 0; i < 20; ++i)
     cloud.xyz.insert(cloud.xyz.end(), {1e6f, -1e6f, static_cast<float>(i)});
   EXPECT_GT(difference(picture_png(picture_of(cloud.view())), background()), alone / 2);
+}
+
+// Of pixels in the lower left corner, how many are as red, green or blue as an axis.
+std::array<std::size_t, 3> axis_pixels(const std::string& png) {
+  const Pixels pixels = decode(png);
+  std::array<std::size_t, 3> n{};
+  for (int y = pixels.height - 160; y < pixels.height; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const std::uint32_t rgb = pixels.rgb[static_cast<std::size_t>(y) * pixels.width + x];
+      const std::uint32_t r = rgb >> 16, g = rgb >> 8 & 0xff, b = rgb & 0xff;
+      n[0] += r > 150 && g < 120 && b < 120;
+      n[1] += g > 150 && r < 140 && b < 140;
+      n[2] += b > 180 && r < 140;
+    }
+  }
+  return n;
+}
+
+TEST(Picture, ShowsTheAxesThatAreNotSeenEndOn) {
+  Picture picture = picture_of({});
+  picture.width = 960;
+  picture.height = 600;
+  picture.volumes.push_back({AnyVolume(Aabb({-3, -3, -3}, {3, 3, 3})), 4});
+  using testing::ElementsAre;
+  using testing::Gt;
+  picture.from = ViewFrom::iso;
+  EXPECT_THAT(axis_pixels(picture_png(picture)), ElementsAre(Gt(20u), Gt(20u), Gt(20u)));
+  picture.from = ViewFrom::top;
+  EXPECT_THAT(axis_pixels(picture_png(picture)), ElementsAre(Gt(20u), Gt(20u), 0u));
+  picture.from = ViewFrom::front;
+  EXPECT_THAT(axis_pixels(picture_png(picture)), ElementsAre(Gt(20u), 0u, Gt(20u)));
+  picture.volumes.clear();
+  EXPECT_THAT(axis_pixels(picture_png(picture)), ElementsAre(0u, 0u, 0u));
+}
+
+TEST(Picture, HasAScaleBarOfARoundLength) {
+  for (const double size : {1e-30, 0.013, 1.0, 40.0, 5e6, 1e30}) {
+    Picture picture = picture_of({});
+    picture.width = 1000;
+    picture.height = 1000;
+    picture.from = ViewFrom::top;
+    picture.volumes.push_back({AnyVolume(Aabb({0, 0, 0}, {size, size, size})), 4});
+    const Pixels pixels = decode(picture_png(picture));
+    std::size_t longest = 0;  // run of light grey
+    for (int y = 900; y < 1000; ++y) {
+      std::size_t run = 0;
+      for (int x = 100; x < 500; ++x) {
+        const std::uint32_t rgb = pixels.rgb[static_cast<std::size_t>(y) * 1000 + x];
+        run = (rgb & 0xff) > 150 && (rgb >> 16) > 150 ? run + 1 : 0;
+        longest = std::max(longest, run);
+      }
+    }
+    const double length = static_cast<double>(longest) / 920 * size;  // the frame has margins of 4 %
+    const double digit = length / std::pow(10.0, std::floor(std::log10(length * 1.02)));
+    EXPECT_TRUE(std::abs(digit - 1) < 0.05 || std::abs(digit - 2) < 0.1 || std::abs(digit - 5) < 0.2)
+        << size << ": " << length;
+  }
 }
 
 TEST(Picture, NearPointsHideFarOnes) {

@@ -18,6 +18,7 @@
 
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "picture_marks.h"
 #include "picture_points.h"
 #include "picture_view.h"
 
@@ -197,6 +198,7 @@ void draw(cairo_surface_t* surface, cairo_surface_t* points, const Picture& pict
     cairo_paint(cairo.get());
   }
   draw_volumes(cairo.get(), picture, view);
+  if (!view.empty) draw_marks(cairo.get(), view);
   require(cairo_status(cairo.get()));
 }
 

@@ -137,6 +137,7 @@ View fit_view(const Picture& picture) {
   const bool by_points = picture.labels || volumes.empty();
   const Corners points = by_points ? framed_points(picture) : Corners();
   if (volumes.empty() && points.empty()) return view;
+  view.empty = false;
 
   const Eigen::Vector3d axes[3] = {view.right, view.up, view.toward};
   Eigen::Vector3d size;

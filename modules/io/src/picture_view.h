@@ -18,6 +18,7 @@ struct View {
   double scale = 1;  ///< Pixels per unit.
   int width = 0;
   int height = 0;
+  bool empty = true;  ///< Whether there is nothing to see.
 
   /// Pixel x, pixel y, depth.
   Eigen::Vector3d project(const Eigen::Vector3d& p) const {

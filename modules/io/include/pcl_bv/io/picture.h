@@ -50,7 +50,8 @@ struct Picture {
 /// What is far away does not shrink the scene: the frame holds the central 98 % of the points (of those in
 /// clusters if there are labels) and the volumes, of 16 and more only the inner ones: up to a sixteenth are
 /// left out at each side. Volumes without labels are framed alone. A picture of nothing is only background.
-/// Throws std::invalid_argument for a side outside 16..16384.
+/// From 480 x 320 pixels on, the lower left corner shows the axes (x red, y green, z blue) and a scale bar
+/// with its length in the points' unit. Throws std::invalid_argument for a side outside 16..16384.
 std::string picture_png(const Picture& picture);
 
 /// The same picture as an SVG file in memory: the points as one embedded PNG, the volumes as lines and areas
