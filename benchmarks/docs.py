@@ -39,7 +39,7 @@ def misses(results, all_targets):
     for target in judging.missed(all_targets):
         if target.id not in reasons:
             print(f"misses.md says nothing about {target.id}, which is missed", file=sys.stderr)
-        reason = fill(reasons.get(target.id, "Not looked into yet."), results)
+        reason = fill(reasons.get(target.id, "Not looked into yet.").strip(), results)
         lines = textwrap.wrap(
             f"**{target.title}.** {reason}", 120, break_long_words=False, break_on_hyphens=False
         )
@@ -64,7 +64,7 @@ def inline(results, what, name):
         "second": lambda: duration(row["second_us"]),
         "radius": lambda: f"{row['radius']:.5f}",
     }
-    return ways[what]() if what in ways else number(row.get(what))
+    return ways[what]() if what in ways else f"{row[what]:g}" if what in row else "(not measured)"
 
 
 def fill(text, results, blocks=None):
