@@ -136,7 +136,7 @@ class InOrder {
 };
 
 // What one file needs, the next one needs again: given back to the system each time, 24 sweeps of a 64-beam
-// sensor cost 38 000 page faults instead of 3 200 and 0.53 s of processor time instead of 0.45.
+// sensor cost 38 000 page faults instead of 3 200 and 0.51 s of processor time instead of 0.45.
 void keep_freed_memory() {
 #if defined(__GLIBC__)
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
