@@ -15,6 +15,17 @@
 namespace pcl_bv {
 namespace {
 
+TEST(Methods, AllIsEveryMethodInOrderButTheHullAndBest) {
+  std::vector<std::string_view> names, expected;
+  for (const Method* method : methods_of_all())
+    names.push_back(method->name);
+  for (const Method& method : methods()) {
+    if (method.name != "hull" && method.name != "best") expected.push_back(method.name);
+  }
+  EXPECT_EQ(names, expected);
+  EXPECT_EQ(names.size() + 2, methods().size());
+}
+
 TEST(Methods, NamesAndAliasesAreUnique) {
   std::set<std::string_view> names;
   for (const Method& method : methods()) {
