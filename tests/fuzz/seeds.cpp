@@ -56,6 +56,21 @@ void write_plys(const fs::path& folder) {
   }
 }
 
+// Small files that claim to be great.
+void write_claims(const fs::path& folder) {
+  for (const std::string encoding : {"ascii", "binary", "binary_compressed"}) {
+    write(folder / "pcd" / ("great_" + encoding),
+          "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 50000000\nHEIGHT 1\nDATA " + encoding +
+              "\n1 2 3\n4 5 6\n");
+  }
+  for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    write(folder / "ply" / ("great_" + format),
+          "ply\nformat " + format +
+              " 1.0\nelement vertex 50000000\nproperty float x\nproperty float y\nproperty float "
+              "z\nend_header\n1 2 3\n4 5 6\n");
+  }
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -66,6 +81,7 @@ int main(int count, char** arguments) {
   write_pcds(folder);
   write_streams(folder);
   write_plys(folder);
+  write_claims(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));
   write(folder / "number" / "some", "-12.3456789e-01");
   write(folder / "text" / "rows",
