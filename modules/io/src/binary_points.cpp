@@ -53,10 +53,10 @@ void require_points(const InputFile& file, std::size_t offset, const RawCloud& h
                 " bytes, the file has " + std::to_string(available));
 }
 
-RawCloud read_points(const InputFile& file, BinaryPoints points, const ParallelPolicy& policy) {
+RawCloud read_points(const InputFile& file, BinaryPoints points) {
   RawCloud cloud = std::move(points.header);
   cloud.data.resize(cloud.size() * cloud.point_step);
-  file.read(points.offset, cloud.data.data(), cloud.data.size(), policy);
+  file.read(points.offset, cloud.data.data(), cloud.data.size());
   update_packed_xyz(cloud);
   return cloud;
 }

@@ -10,7 +10,6 @@
 
 #include "input_file.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -30,6 +29,6 @@ BinaryPoints find_kitti_points(const InputFile& file);
 void require_points(const InputFile& file, std::size_t offset, const RawCloud& header);
 
 /// Reads them into the cloud.
-RawCloud read_points(const InputFile& file, BinaryPoints points, const ParallelPolicy& policy);
+RawCloud read_points(const InputFile& file, BinaryPoints points);
 
 }  // namespace pcl_bv

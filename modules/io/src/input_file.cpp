@@ -8,10 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-
-#include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {
 
@@ -40,13 +37,6 @@ void InputFile::read(std::size_t offset, void* to, std::size_t bytes) const {
 
 void InputFile::expect(std::size_t offset, std::size_t bytes) const {
   ::posix_fadvise(file_.get(), static_cast<off_t>(offset), static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
-}
-
-void InputFile::read(std::size_t offset, void* to, std::size_t bytes, const ParallelPolicy& policy) const {
-  constexpr std::size_t piece = std::size_t{4} << 20;
-  for_each_chunk(policy, (bytes + piece - 1) / piece, [&](std::size_t i) {
-    read(offset + i * piece, static_cast<char*>(to) + i * piece, std::min(piece, bytes - i * piece));
-  });
 }
 
 IoError not_enough_memory(const InputFile& file) {

@@ -9,7 +9,6 @@
 
 #include "file_descriptor.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -24,9 +23,6 @@ class InputFile {
 
   /// Fills `to` with `bytes` bytes from `offset` on. Throws IoError if they are not there (any more).
   void read(std::size_t offset, void* to, std::size_t bytes) const;
-
-  /// The same in pieces by several threads.
-  void read(std::size_t offset, void* to, std::size_t bytes, const ParallelPolicy& policy) const;
 
   /// Tells the system that these bytes will be read soon.
   void expect(std::size_t offset, std::size_t bytes) const;

@@ -24,8 +24,8 @@ class ByteStream {
 
   /// The caller makes sure that so many are left().
   void skip(std::size_t bytes) { at_ += bytes; }
-  void read_all(std::byte* to, std::size_t bytes, const ParallelPolicy& policy) {
-    file_.read(at_, to, bytes, policy);
+  void read_all(std::byte* to, std::size_t bytes) {
+    file_.read(at_, to, bytes);
     at_ += bytes;
   }
   void read_few(std::byte* to, std::size_t bytes) {
@@ -62,11 +62,11 @@ class Walk {
     }
   }
 
-  void read(const PlyElement& vertex, RawCloud& cloud, const ParallelPolicy& policy) {
+  void read(const PlyElement& vertex, RawCloud& cloud) {
     check_room(vertex);
     cloud.data.resize(cloud.size() * cloud.point_step);
     if (!vertex.has_lists()) {
-      stream_.read_all(cloud.data.data(), cloud.data.size(), policy);
+      stream_.read_all(cloud.data.data(), cloud.data.size());
     } else {
       std::byte* to = cloud.data.data();
       for (std::size_t i = 0; i < vertex.count; ++i) {
@@ -134,11 +134,11 @@ class Walk {
 
 }  // namespace
 
-void read_ply_binary(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy) {
+void read_ply_binary(const InputFile& file, PlyHeader& header) {
   Walk walk(file, header);
   for (const PlyElement& element : header.skipped)
     walk.skip(element);
-  walk.read(header.vertex, header.cloud, policy);
+  walk.read(header.vertex, header.cloud);
 }
 
 }  // namespace pcl_bv

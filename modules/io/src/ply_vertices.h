@@ -12,6 +12,6 @@ namespace pcl_bv {
 
 /// Each reads the data of the vertices into header.cloud.data; lists are left out. Throws IoError.
 void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy);
-void read_ply_binary(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy);
+void read_ply_binary(const InputFile& file, PlyHeader& header);
 
 }  // namespace pcl_bv

@@ -25,7 +25,7 @@ bool is_cloud_name(const std::filesystem::path& path) {
 RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy) {
   const std::string extension = lower_case_extension(path);
   if (extension == ".ply") return read_ply(path, policy);
-  if (extension == ".bin") return read_kitti_bin(path, policy);
+  if (extension == ".bin") return read_kitti_bin(path);
   return read_pcd(path, policy);
 }
 

@@ -10,10 +10,10 @@
 
 namespace pcl_bv {
 
-RawCloud read_kitti_bin(const std::filesystem::path& path, const ParallelPolicy& policy) {
+RawCloud read_kitti_bin(const std::filesystem::path& path) {
   const InputFile file(path);
   try {
-    return read_points(file, find_kitti_points(file), policy);
+    return read_points(file, find_kitti_points(file));
   } catch (const std::bad_alloc&) {
     throw not_enough_memory(file);
   }

@@ -24,7 +24,7 @@ RawCloud read_points(const InputFile& file, const ParallelPolicy& policy) {
       break;
     case PcdEncoding::binary:
       require_points(file, header.data_offset, header.cloud);
-      return read_points(file, {std::move(header.cloud), header.data_offset}, policy);
+      return read_points(file, {std::move(header.cloud), header.data_offset});
     case PcdEncoding::binary_compressed:
       read_compressed_points(file, header.data_offset, header.cloud);
       break;

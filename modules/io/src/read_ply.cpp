@@ -25,7 +25,7 @@ RawCloud read_vertices(const InputFile& file, const ParallelPolicy& policy) {
   if (header.encoding == PlyEncoding::ascii) {
     read_ply_ascii(file, header, policy);
   } else {
-    read_ply_binary(file, header, policy);
+    read_ply_binary(file, header);
   }
   update_packed_xyz(header.cloud);
   return std::move(header.cloud);

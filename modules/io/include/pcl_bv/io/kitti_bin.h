@@ -8,7 +8,6 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
@@ -17,6 +16,6 @@ namespace pcl_bv {
 ///
 /// Throws IoError, naming the reason, for a file that is missing, unreadable, empty or of a size that is no
 /// multiple of 16 ("truncated").
-RawCloud read_kitti_bin(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
+RawCloud read_kitti_bin(const std::filesystem::path& path);
 
 }  // namespace pcl_bv

@@ -21,9 +21,9 @@ namespace pcl_bv {
 /// Bytes after the last point of a binary file are ignored; rows after the last point of an ascii file are an
 /// error.
 ///
-/// Rows of text, great binary files and the records of compressed ones are read by the policy's threads; the
-/// cloud and the error are the same for any number of them. Beside the cloud, text takes under 2 MiB per
-/// thread (more only for rows longer than that) and binary_compressed the file and once more the points.
+/// Rows of text are read by the policy's threads; cloud and error are the same for any number of them. Beside
+/// the cloud, text takes under 4 MiB per thread (more only for rows longer than that) and binary_compressed
+/// the file and once more the points.
 ///
 /// Throws IoError, naming the reason, for a file that is missing, unreadable, empty, truncated, inconsistent
 /// or of an unsupported type.

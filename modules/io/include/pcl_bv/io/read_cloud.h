@@ -20,7 +20,7 @@ std::string lower_case_extension(const std::filesystem::path& path);
 bool is_cloud_name(const std::filesystem::path& path);
 
 /// Reads the cloud by the reader that the extension names: .ply by read_ply(), .bin by read_kitti_bin(), all
-/// others by read_pcd(), on the policy's threads. Throws IoError, naming the reason.
+/// others by read_pcd(), text by the policy's threads. Throws IoError, naming the reason.
 RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv
