@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <fstream>
 #include <random>
+#include <thread>
 
 #include "files.h"
 #include "pcl_bv/io/pcd.h"
@@ -118,6 +121,28 @@ TEST_F(TextPieces, MissingRowsAndOneTooManyAreCountedOverAllOfThem) {
 TEST_F(TextPieces, RowsBeyondThePointsAreNotLookedInto) {
   expect_reason(numbered(many, many) + "not a row\n", "more rows than the 100000 POINTS");
   expect_reason(numbered(0, many), "more rows than the 0 POINTS");
+}
+
+TEST_F(TextPieces, ChangedWhileTheyAreReadGiveAnErrorOrAWholeCloud) {
+  const std::string text = numbered(many, many);
+  write_text(file("a.pcd"), text);
+  std::atomic<bool> done{false};
+  std::thread writer([&] {
+    const std::size_t body = text.find("ascii\n") + 6;
+    std::fstream stream(file("a.pcd"), std::ios::in | std::ios::out | std::ios::binary);
+    for (std::size_t i = 0; !done; ++i) {
+      stream.seekp(static_cast<std::streamoff>(body + 11 * (i * 7919 % many) + 10));
+      stream.put(i % 2 == 0 ? ' ' : '\n').flush();
+    }
+  });
+  for (int i = 0; i < 30; ++i) {
+    try {
+      EXPECT_EQ(read_pcd(file("a.pcd"), Threads{3}).size(), many);
+    } catch (const IoError&) {
+    }
+  }
+  done = true;
+  writer.join();
 }
 
 TEST_F(TextPieces, VerticesAreFoundBetweenOtherElements) {

@@ -22,7 +22,7 @@ namespace pcl_bv {
 /// error.
 ///
 /// Rows of text are read by the policy's threads; cloud and error are the same for any number of them. Beside
-/// the cloud, text takes under 4 MiB per thread (more only for rows longer than that) and binary_compressed
+/// the cloud, text takes 0.3 MiB per thread (more only for rows longer than that) and binary_compressed
 /// the file and once more the points.
 ///
 /// Throws IoError, naming the reason, for a file that is missing, unreadable, empty, truncated, inconsistent
