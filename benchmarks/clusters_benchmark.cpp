@@ -153,7 +153,7 @@ void alone(const Scene& scene, float tolerance) {
 }
 
 void two_threads(const Scene& scene, float tolerance) {
-  add("threads-2", scene, tolerance, OpenMP{2}, kPairs,
+  add("threads-2", scene, tolerance, policy_of(2), kPairs,
       [=](const ClusterCloud::ConstPtr& cloud, const Ours&) {
         return [cloud, one = std::make_shared<Ours>(*cloud, tolerance, Serial{})] { (*one)(); };
       });

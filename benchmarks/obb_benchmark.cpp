@@ -98,7 +98,7 @@ void many_clusters(benchmark::State& state, const std::vector<std::string>& name
   const std::vector<PointView> views = clusters();
   const std::vector<const Method*> methods = named(names);
   for (auto _ : state)
-    fit_clusters(views, methods, {OpenMP{threads}, Isa::automatic});
+    fit_clusters(views, methods, {policy_of(threads), Isa::automatic});
 }
 
 void clusters_against_pcl(benchmark::State& state, const ObbPeer* peer) {

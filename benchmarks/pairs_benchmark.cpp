@@ -57,7 +57,7 @@ void smallest_sphere() {
 }
 
 void of_bandwidth(const std::string& work, Isa isa, unsigned threads) {
-  const ParallelPolicy policy = threads == 1 ? ParallelPolicy(Serial{}) : ParallelPolicy(OpenMP{threads});
+  const ParallelPolicy policy = policy_of(threads);
   const std::string suffix = "/threads:" + std::to_string(threads) + (threads == 1 ? "" : wait_policy());
   add_comparison("of-bandwidth", Fit(work), {policy, isa}, {"gauss", kMemory}, suffix,
                  [=](const Cloud& points) { return Reading(points, threads); });

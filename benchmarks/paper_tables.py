@@ -158,7 +158,7 @@ def table_4(results):
 
 def table_5(results):
     """26-DOP: ms on one core and on more (minima of pairs in turns), the median of the pairs' ratios."""
-    names = results.matching(r"threads-\d+/[^/]*/[^/]*/(?!gauss)[^/]*/xyz/no-nan/n:\d+/wait:default")
+    names = results.matching(r"threads-\d+/[^/]*/[^/]*/(?!gauss)[^/]*/xyz/no-nan/n:\d+/wait:own")
     kinds = sorted(
         {tuple(name.split("/")[:3]) for name in names}, key=lambda k: (k[0], results.sets.index(k[2]))
     )
@@ -169,7 +169,7 @@ def table_5(results):
     for cloud in point_sets(results):
         line = [label(cloud)]
         for threads, work, s in kinds:
-            row = results.rows.get(f"{threads}/{work}/{s}/{cloud}/wait:default")
+            row = results.rows.get(f"{threads}/{work}/{s}/{cloud}/wait:own")
             line += (
                 [number(row["first_us"] / 1e3), number(row["second_us"] / 1e3), f"{row['ratio']:.2f}"]
                 if row

@@ -4,7 +4,7 @@
 import math
 
 from paper_tables import METHODS, point_sets
-from results import points_of
+from results import POOLS, points_of
 
 WIDTH, HEIGHT = 760, 420
 LEFT, RIGHT, TOP, BOTTOM = 70, 200, 40, 50
@@ -256,10 +256,10 @@ def threads(results):
         ("dop26", results.best),
         ("dop26", results.sets[min(1, len(results.sets) - 1)]),
     ):
-        for wait in ("default", "passive"):
+        for wait in ("own", "passive"):
             names = results.matching(f"threads-2/{work}/{s}/gauss/.*/wait:{wait}$")
             points = sorted((points_of(n), results.ratio(n)[0]) for n in names)
-            curves.append((f"{work} {s}, {wait}", points, SERIES[len(curves)]))
+            curves.append((f"{work} {s}, {POOLS[wait]}", points, SERIES[len(curves)]))
     if not any(points for _, points, _ in curves):
         return None
     top = max(2.2, 1.05 * max(v for _, points, _ in curves for _, v in points))

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "pcl_bv/parallel/policy.h"
+
 namespace pcl_bv::bench {
 
 /// PCL_BV_BENCH_TINY is set: every row runs once, on a part of its cloud. Names of rows stay as they are;
@@ -29,10 +31,21 @@ inline int times_in_this_run(int times) {
   return tiny() ? std::min(times, 2) : times;
 }
 
-/// "/wait:default", or as OMP_WAIT_POLICY says: how threads wait for work, part of the names of their rows.
+/// Whether rows of several threads run on OpenMP's pool and not on ours: PCL_BV_BENCH_OPENMP=1.
+inline bool on_openmp() {
+  return std::getenv("PCL_BV_BENCH_OPENMP") != nullptr;
+}
+
+inline ParallelPolicy policy_of(unsigned threads) {
+  if (threads == 1) return Serial{};
+  return on_openmp() ? ParallelPolicy(OpenMP{threads}) : ParallelPolicy(Threads{threads});
+}
+
+/// "/wait:own", or on OpenMP's pool "/wait:default" or what OMP_WAIT_POLICY says: how threads wait for work,
+/// part of the names of their rows.
 inline std::string wait_policy() {
   const char* policy = std::getenv("OMP_WAIT_POLICY");
-  return std::string("/wait:") + (policy ? policy : "default");
+  return std::string("/wait:") + (!on_openmp() ? "own" : policy ? policy : "default");
 }
 
 /// Runs the rows registered so far.

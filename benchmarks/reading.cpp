@@ -55,7 +55,7 @@ std::uint64_t Reading::read(const Way& way) const {
     return read_words(way.isa, words_ + begin, std::min(piece, count_ - begin), way.streams);
   };
   if (way.pieces == 1) return read_piece(0);
-  const ParallelPolicy policy = threads_ == 1 ? ParallelPolicy(Serial{}) : ParallelPolicy(OpenMP{threads_});
+  const ParallelPolicy policy = policy_of(threads_);
   return reduce_chunks(policy, way.pieces, std::uint64_t{0}, read_piece,
                        [](std::uint64_t& sum, std::uint64_t part) { sum ^= part; });
 }

@@ -8,6 +8,7 @@ import re
 
 SETS = ["scalar", "sse4", "avx2", "avx512", "neon", "sve", "sve2"]
 LEVELS = {2048: "L1", 32768: "L2", 1000000: "L3", 16000000: "memory"}
+POOLS = {"own": "own threads", "default": "OpenMP", "passive": "OpenMP, passive"}
 BYTES = {"xyz": 16, "packed": 12, "xyzi": 32, "indices": 20, "double": 24, "groups": 12}  # a point, by layout
 
 

@@ -103,7 +103,7 @@ void add_comparison(const std::string& comparison, const Fit& fit, const Executi
 /// A fit on one thread and on `threads` of them: "threads-2/...".
 inline void add_threads(unsigned threads, const std::string& work, Isa isa, const CloudName& name) {
   const Fit fit(work);
-  add_comparison("threads-" + std::to_string(threads), fit, {OpenMP{threads}, isa}, name, wait_policy(),
+  add_comparison("threads-" + std::to_string(threads), fit, {policy_of(threads), isa}, name, wait_policy(),
                  [=](const Cloud& points) { return [&points, fit, isa] {
                                               fit(points, {Serial{}, isa});
                                             }; });

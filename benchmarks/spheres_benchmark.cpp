@@ -22,7 +22,7 @@ void growth() {
     for (const std::string way : {"+sequential", "+stationary", "+deferred"}) {
       for (const std::size_t points : {100'722, 1'000'000}) {
         add_sphere(method + way, {Serial{}, best}, "1-thread", {"ball", points});
-        add_sphere(method + way, {OpenMP{2}, best}, "2-threads", {"ball", points});
+        add_sphere(method + way, {policy_of(2), best}, "2-threads", {"ball", points});
       }
     }
   }
