@@ -79,9 +79,11 @@ std::vector<PointView> clusters() {
 void fit_clusters(const std::vector<PointView>& views, const std::vector<const Method*>& methods,
                   const Execution& execution) {
   for_each_view(views, execution, [&](std::size_t i, const Execution& inner) {
+    Extremes extremes;
+    const Execution shared = share_extremes(views[i], methods, inner, extremes);
     for (const Method* method : methods) {
       AnyVolume volume;
-      method->fit(views[i], volume, inner);
+      method->fit(views[i], volume, shared);
       benchmark::DoNotOptimize(volume);
     }
   });
