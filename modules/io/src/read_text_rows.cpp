@@ -33,10 +33,11 @@ std::size_t count_rows(std::string_view text) {
   std::size_t rows = !text.empty() && !ends_value(text[0]), others = !text.empty() && is_blank(text[0]);
   for (std::size_t begin = 1; begin < text.size(); begin += block) {
     const std::size_t n = std::min(block, text.size() - begin);
-    const auto* at = reinterpret_cast<const std::uint8_t*>(text.data()) + begin;
+    const auto* before = reinterpret_cast<const std::uint8_t*>(text.data()) + begin - 1;
+    const std::uint8_t* at = before + 1;
     std::uint8_t rows_here = 0, others_here = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const std::uint8_t begins = at[i - 1] == '\n';
+      const std::uint8_t begins = before[i] == '\n';
       const std::uint8_t is_end = at[i] == '\n';
       const std::uint8_t is_space = at[i] == ' ';
       const std::uint8_t is_control = static_cast<std::uint8_t>(at[i] - '\t') <= '\r' - '\t';
