@@ -94,7 +94,8 @@ TEST(ClustersInAStream, KeepDenormalsOnThreadsThatFlushThem) {
 
 TEST(ClustersInAStream, TakeNoMemoryInTheSecondPass) {
   const std::vector<SynthCloud> frames = sweeps();
-  for (const ParallelPolicy& policy : {ParallelPolicy(Serial{}), ParallelPolicy(OpenMP{2})}) {
+  for (const ParallelPolicy& policy :
+       {ParallelPolicy(Serial{}), ParallelPolicy(OpenMP{2}), ParallelPolicy(Threads{2})}) {
     EuclideanClusterer clusterer;
     Clusters clusters;
     std::size_t before = 0;
