@@ -56,8 +56,8 @@ class TwoGigabytes : public PcdBv {
 TEST_F(TwoGigabytes, AreFittedAndCheckedInSixtyFourMegabytes) {
   const std::string path = write();
   ASSERT_GT(std::filesystem::file_size(path), std::size_t{2} << 30);
-  const Result result = in_64_megabytes(
-      {"--volume", "aabb,dop26,sphere,obb-dito14", "--check", "--info", "--format", "jsonl", path});
+  const Result result = in_64_megabytes({"--volume", "aabb,dop26,sphere,obb-dito14,obb-yaw", "--threads", "2",
+                                         "--check", "--info", "--format", "jsonl", path});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json report = result.json();
   EXPECT_EQ(report["points"], kPoints);

@@ -45,7 +45,7 @@ void for_each_view(const std::vector<PointView>& views, const Execution& executi
 
   std::size_t small = 0;
   for (; small < views.size() && views[nth(small)].count >= kManyPoints; ++small)
-    fit(nth(small), execution);
+    fit(nth(small), {execution.parallel, execution.isa});
   if (small == views.size()) return;
   // The first of the small ones tells what the others will take; that decides about threads, nothing else.
   const Execution serial{Serial{}, execution.isa};

@@ -54,7 +54,7 @@ class DistanceScan {
   /// for points of a source.
   void list(const DistanceCenter& center, double limit, Positions& positions) const;
 
-  /// Calls visit(p) for those of one block, in order.
+  /// Calls visit(position in the block, p) for those of one block, in order.
   template <typename Visit>
   void visit_block(std::size_t block, const DistanceCenter& center, double limit, const Visit& visit) const {
     const LoadedPoints part = blocks(block, 1);

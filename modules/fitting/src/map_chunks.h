@@ -4,6 +4,7 @@
 // A cloud in chunks over the cores: what every pass of a kernel is built on.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "pcl_bv/kernels/float_environment.h"
@@ -13,8 +14,9 @@
 namespace pcl_bv {
 
 /// merge(map(chunk)) for each chunk of the points: the maps in parallel, each under a FloatEnvironment, the
-/// merges in order. Clouds of one chunk, of which there are many in a sweep, need no allocation; for them the
-/// caller's FloatEnvironment counts.
+/// merges in order, 256 chunks at a time, so that what they give takes little memory whatever the cloud's
+/// size (up to 16 KiB each). Clouds of one chunk, of which there are many in a sweep, need no allocation; for
+/// them the caller's FloatEnvironment counts.
 template <typename Partial, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);
@@ -22,13 +24,17 @@ void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map
     if (chunks == 1) merge(map(load_chunk(points, 0).view()));
     return;
   }
-  std::vector<Partial> partials(chunks);
-  for_each_chunk(policy, chunks, [&](std::size_t chunk) {
-    const FloatEnvironment environment;
-    partials[chunk] = map(load_chunk(points, chunk).view());
-  });
-  for (const Partial& partial : partials)
-    merge(partial);
+  constexpr std::size_t most = 256;
+  std::vector<Partial> partials(std::min(chunks, most));
+  for (std::size_t first = 0; first < chunks; first += most) {
+    const std::size_t count = std::min(most, chunks - first);
+    for_each_chunk(policy, count, [&](std::size_t chunk) {
+      const FloatEnvironment environment;
+      partials[chunk] = map(load_chunk(points, first + chunk).view());
+    });
+    for (std::size_t chunk = 0; chunk < count; ++chunk)
+      merge(partials[chunk]);
+  }
 }
 
 }  // namespace pcl_bv

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <system_error>
+#include <exception>
 
 namespace pcl_bv::internal {
 namespace {
@@ -17,15 +17,16 @@ thread_local bool inside_pool = false;
 
 }  // namespace
 
-// A fork has the pool but not its threads: there is nobody to join, and to destroy a condition that they wait
-// for would wait for them.
-void WorkerPool::End::operator()(WorkerPool* pool) const {
-  if (::getpid() == pool->process_) delete pool;
+// The object stays to the end of the process: others may be in run(), or call it, while objects are
+// destroyed.
+WorkerPool& WorkerPool::instance() {
+  static WorkerPool* const pool = new WorkerPool;
+  static const End end{*pool};
+  return *pool;
 }
 
-WorkerPool& WorkerPool::instance() {
-  static const std::unique_ptr<WorkerPool, End> pool(new WorkerPool);
-  return *pool;
+WorkerPool::End::~End() {
+  if (::getpid() == pool.process_) pool.end();
 }
 
 bool WorkerPool::inside() {
@@ -34,10 +35,10 @@ bool WorkerPool::inside() {
 
 WorkerPool::WorkerPool() : process_(::getpid()) {}
 
-WorkerPool::~WorkerPool() {
+void WorkerPool::end() {
   {
     const std::lock_guard lock(mutex_);
-    stop_ = true;
+    ended_ = true;
   }
   work_.notify_all();
   for (std::thread& thread : threads_)
@@ -49,7 +50,7 @@ void WorkerPool::start(unsigned threads) {
   try {
     while (threads_.size() < threads)
       threads_.emplace_back([this] { serve(); });
-  } catch (const std::system_error&) {
+  } catch (const std::exception&) {
   }
 }
 
@@ -64,8 +65,8 @@ void WorkerPool::serve() {
   std::unique_lock lock(mutex_);
   for (;;) {
     Task* task = nullptr;
-    work_.wait(lock, [&] { return stop_ || (task = wanting()) != nullptr; });
-    if (stop_) return;
+    work_.wait(lock, [&] { return ended_ || (task = wanting()) != nullptr; });
+    if (ended_) return;
     --task->wanted;
     ++task->active;
     lock.unlock();
@@ -80,7 +81,7 @@ void WorkerPool::run(unsigned helpers, void (*work)(void*), void* argument) {
   if (task.wanted == 0) return work(argument);
   {
     const std::lock_guard lock(mutex_);
-    if (threads_.size() < helpers) start(helpers);
+    if (!ended_ && threads_.size() < helpers) start(helpers);
     tasks_.push_back(&task);
   }
   for (unsigned i = 0; i < helpers; ++i)

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -16,7 +15,8 @@ namespace pcl_bv::internal {
 
 class WorkerPool {
  public:
-  /// The process's pool. Threads are started when they are first wanted and joined at exit.
+  /// The process's pool. Threads are started when they are first wanted and joined at exit; from then on
+  /// calls do without. A fork has the pool but not its threads, and does without those.
   static WorkerPool& instance();
 
   /// Runs work(argument) here and on up to `helpers` other threads that find the time before it returns here;
@@ -38,11 +38,12 @@ class WorkerPool {
   };
 
   struct End {
-    void operator()(WorkerPool* pool) const;
+    ~End();
+    WorkerPool& pool;
   };
 
   WorkerPool();
-  ~WorkerPool();
+  void end();
   void start(unsigned threads);
   Task* wanting();
   void serve();
@@ -51,7 +52,7 @@ class WorkerPool {
   std::condition_variable work_, done_;
   std::vector<Task*> tasks_;
   std::vector<std::thread> threads_;
-  bool stop_ = false;
+  bool ended_ = false;
   const int process_;
 };
 

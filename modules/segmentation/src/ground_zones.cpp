@@ -43,7 +43,8 @@ void check(const GroundZonesSettings& settings) {
   constexpr const char* who = "ground zones";
   check_ground(who, settings.distance, settings.max_slope_degrees, settings.sensor_height);
   for (int axis = 0; axis < 3; ++axis) {
-    require(std::abs(settings.sensor[axis]) <= kMaxCoordinate, who, "sensor", settings.sensor[axis], "finite");
+    require(std::abs(settings.sensor[axis]) <= kMaxCoordinate, who, "sensor", settings.sensor[axis],
+            "finite");
   }
 }
 

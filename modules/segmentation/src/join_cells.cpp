@@ -223,16 +223,17 @@ void start_sets(const Joining<T>& joining) {
   }
 }
 
-// Room for any two cells in each chunk's memory. With threads it depends on their timing which cells are
-// compared; what is allocated must not.
+// Room for any two cells in each chunk's memory, but for cells of very many points. With threads it depends
+// on their timing which cells are compared; what is allocated should not.
 template <typename T>
-void make_room(const Cells<T>& cells, std::vector<LinkScratch<T>>& links) {
+void make_room(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
+  constexpr std::uint32_t very_many = 4096;
   std::uint32_t most = 0;
   for (std::uint32_t c = 0; c < cells.size(); ++c)
     most = std::max(most, cells.begin[c + 1] - cells.begin[c]);
-  for (LinkScratch<T>& scratch : links) {
-    scratch.a.reserve(most);
-    scratch.b.reserve(most);
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+    links[chunk].a.reserve(std::min(most, very_many));
+    links[chunk].b.reserve(std::min(most, very_many));
   }
 }
 
@@ -253,7 +254,7 @@ void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const 
   const std::size_t blocks = keys.size();
   const std::size_t chunks = (blocks + blocks_per_chunk - 1) / blocks_per_chunk;
   if (scratch.links.size() < chunks) scratch.links.resize(chunks);
-  if (chunks > 1 && thread_count(policy) > 1) make_room(cells, scratch.links);
+  if (chunks > 1 && thread_count(policy) > 1) make_room(cells, scratch.links, chunks);
   const auto in_chunks = [&](auto work) {
     for_each_chunk(policy, chunks, [&](std::size_t chunk) {
       const FloatEnvironment environment;

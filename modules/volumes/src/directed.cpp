@@ -44,9 +44,6 @@ void add_square_of_difference(ExactSum& sum, double a, double b, double sign) {
 double next_up(double x) {
   return std::nextafter(x, infinity);
 }
-double next_down(double x) {
-  return std::nextafter(x, -infinity);
-}
 
 ExactSum& ExactSum::add(double x) {
   std::size_t kept = 0;

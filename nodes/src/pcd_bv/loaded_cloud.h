@@ -13,7 +13,8 @@ namespace pcl_bv {
 
 class LoadedCloud {
  public:
-  /// `hold`: whether it has to be in memory; then the policy says on which threads it is read. Throws what load_cloud() throws.
+  /// `hold`: whether it has to be in memory; then the policy says on which threads it is read. Throws what
+  /// load_cloud() throws.
   LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy);
 
   /// Fields, size and viewpoint; the points only if it is held.

@@ -10,8 +10,10 @@
 
 #include <condition_variable>
 #include <cstdio>
+#include <exception>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,11 +36,28 @@ struct Result {
   Status status = Status::done;
 };
 
+/// The report as text. One that cannot be written (too great for the memory, most likely) becomes one that
+/// says so, and the other inputs are still done.
+std::string render_or_say_why(Outcome& outcome, OutputFormat format) {
+  try {
+    return render(outcome.report, format);
+  } catch (const std::bad_alloc&) {
+    outcome.report.error = "not enough memory for its report";
+  } catch (const std::exception& error) {
+    outcome.report.error = error.what();
+  }
+  complain(outcome.report.file + ": " + *outcome.report.error);
+  outcome.status = worse(outcome.status, Status::failed);
+  outcome.report.clusters.clear();
+  return render(outcome.report, format);
+}
+
 Result do_job(const Job& job, const Options& options) {
   HeldComplaints complaints;
-  const Outcome outcome = process(job, options);
+  Outcome outcome = process(job, options);
+  std::string text = render_or_say_why(outcome, options.format);
   const std::size_t points = outcome.report.error ? 0 : outcome.report.points;
-  return {render(outcome.report, options.format), std::move(complaints.kept), points, outcome.status};
+  return {std::move(text), std::move(complaints.kept), points, outcome.status};
 }
 
 /// Hands out jobs and takes their results, in any order, to write them in the order of the jobs.

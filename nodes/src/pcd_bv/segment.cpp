@@ -75,7 +75,7 @@ Segmentation segment(const PointView& cloud, const Options& options) {
     return result;
   }
   EuclideanClusterer().extract(result.points, {*options.tolerance, options.min_size, options.max_size},
-                               result.clusters);
+                               result.clusters, options.execution.parallel);
   result.counts.small = result.clusters.small_points;
   result.counts.large = result.clusters.large_points;
   for (std::size_t id = 0; id < result.clusters.size(); ++id) {

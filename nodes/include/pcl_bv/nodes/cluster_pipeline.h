@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud in, the objects in it as volumes out: the whole way, without threads of its own and without I/O.
+// A cloud in, the objects in it as volumes out: the whole way, without I/O and, unless `threads` asks for more, in one thread.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds that stay in their file: however big they are, a fit holds a few parts of them in memory.
+// Clouds that stay in their file: a fit holds a part of them for each thread, and what it has found so far.
 #pragma once
 
 #include <filesystem>

@@ -23,11 +23,6 @@ constexpr std::size_t chunk_count(std::size_t points) {
   return (points + kChunkPoints - 1) / kChunkPoints;
 }
 
-inline PointView chunk_of(const PointView& points, std::size_t chunk) {
-  const std::size_t begin = chunk * kChunkPoints;
-  return points.slice(begin, std::min(kChunkPoints, points.count - begin));
-}
-
 inline PointView block_of(const PointView& points, std::size_t block) {
   const std::size_t begin = block * kBlockPoints;
   return points.slice(begin, std::min(kBlockPoints, points.count - begin));

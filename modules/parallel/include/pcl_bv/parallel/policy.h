@@ -12,13 +12,14 @@ namespace pcl_bv {
 struct Serial {};
 
 /// On OpenMP's pool, which the rest of the program may use, too. `threads` 0 means all processors that this
-/// process may use. Ends when all threads have arrived: on a busy machine that is when the last one got a core.
+/// process may use. Ends when all threads have arrived: on a busy machine that is when the last one got a
+/// core.
 struct OpenMP {
   unsigned threads = 0;
 };
 
-/// On a pool of our own, whose threads sleep between calls and are not waited for unless they have begun: on a
-/// busy machine never much slower than one thread. `threads` as above.
+/// On a pool of our own, whose threads sleep between calls and are not waited for unless they have begun: on
+/// a busy machine never much slower than one thread. `threads` as above.
 struct Threads {
   unsigned threads = 0;
 };
