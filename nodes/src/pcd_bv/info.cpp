@@ -90,6 +90,7 @@ std::vector<Sample> take_samples(const PointView& points, std::size_t before, st
 
 double median(const std::vector<Sample>& samples) {
   std::vector<double> distances;
+  distances.reserve(samples.size());
   for (const Sample& sample : samples)
     distances.push_back(sample.nearest);
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
