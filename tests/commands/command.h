@@ -35,6 +35,9 @@ struct Surroundings {
   std::vector<int> closed{};       ///< Descriptors that are closed from the start.
 };
 
+/// Whether this system gives out pseudo-terminals: a bare chroot has none.
+bool has_terminals();
+
 std::string read_file(const std::filesystem::path& path);
 
 /// A fixture with an empty folder, removed at the end.

@@ -36,6 +36,7 @@ std::vector<std::string> on_screen(const std::string& written, std::size_t* wide
 }
 
 TEST_F(PcdBv, ProgressIsABarOfFilesPointsAndSecondsThatGoesAway) {
+  if (!has_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
   std::vector<std::string> arguments = {"--progress", "--threads", "2"};
   for (int i = 0; i < 10; ++i)
     arguments.push_back("synth:gauss:250000:" + std::to_string(i + 1));
@@ -53,6 +54,7 @@ TEST_F(PcdBv, ProgressIsABarOfFilesPointsAndSecondsThatGoesAway) {
 }
 
 TEST_F(PcdBv, ProgressNeverMixesWithProblems) {
+  if (!has_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
   std::vector<std::string> arguments = {"--progress"};
   for (int i = 0; i < 5; ++i) {
     arguments.push_back("synth:sphere:1000");
@@ -66,6 +68,7 @@ TEST_F(PcdBv, ProgressNeverMixesWithProblems) {
 }
 
 TEST_F(PcdBv, ProgressIsNothingWithoutATerminalAndWithoutBeingAsked) {
+  if (!has_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
   const std::string cloud = ascii("c.pcd", {"1 2 3"});
   const Result plain = run({cloud});
   EXPECT_EQ(run({"--progress", cloud}).err, "");

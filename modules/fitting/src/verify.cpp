@@ -124,7 +124,8 @@ Rational dot(const ExactVector& a, const ExactVector& b) {
 // With q = p - center, off by U of itself, and an axis of about length 1, q . axis and |q x axis| are off by
 // less than 32 U |q|_1 together with the axis' length.
 double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d q = p - cylinder.center(), axis = cylinder.axis();
+  const Eigen::Vector3d q = p - cylinder.center();
+  const Eigen::Vector3d& axis = cylinder.axis();
   const double along = std::abs(q.dot(axis)), across = q.cross(axis).stableNorm();
   const double doubt = 32 * kU * terms(q) + kTiny;
   const double r = cylinder.radius(), h = cylinder.half_height();
@@ -159,7 +160,8 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
 }
 
 double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d q = p - ellipsoid.center(), radii = ellipsoid.radii();
+  const Eigen::Vector3d q = p - ellipsoid.center();
+  const Eigen::Vector3d& radii = ellipsoid.radii();
   const double doubt = 16 * kU * terms(q) + kTiny;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {

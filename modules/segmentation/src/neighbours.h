@@ -27,19 +27,27 @@ inline constexpr std::array<BlockRow, 5> half_of_neighbours{{{0, 0}, {-1, 0}, {0
 /// For each cell of a block, the cells of another one.
 using CellMasks = std::array<std::uint64_t, 64>;
 
-constexpr CellMasks cells_within(const BlockOffset& offset, int least, int most) {
-  CellMasks masks{};
-  const auto distance = [](int from, int to) { return from < to ? to - from : from - to; };
-  const auto greater = [](int a, int b) { return a > b ? a : b; };
-  for (int a = 0; a < 64; ++a) {
-    for (int b = 0; b < 64; ++b) {
-      const int x = distance(a & 3, (b & 3) + 4 * offset.dx);
-      const int y = distance(a >> 2 & 3, (b >> 2 & 3) + 4 * offset.dy);
-      const int z = distance(a >> 4, (b >> 4) + 4 * offset.dz);
-      const int steps = greater(x, greater(y, z));
-      if (steps >= least && steps <= most) masks[a] |= std::uint64_t{1} << b;
-    }
+/// The cells whose coordinate in bits [shift, shift + 2) is at most so far from `own` in the block before.
+constexpr std::uint64_t cells_along(int shift, int own, int offset, int most) {
+  std::uint64_t mask = 0;
+  for (int b = 0; b < 64; ++b) {
+    const int difference = (b >> shift & 3) + 4 * offset - own;
+    if (difference >= -most && difference <= most) mask |= std::uint64_t{1} << b;
   }
+  return mask;
+}
+
+/// By axis, which takes few steps of a compiler's constant evaluation: clang allows a million.
+constexpr CellMasks cells_up_to(const BlockOffset& offset, int most) {
+  std::array<std::array<std::uint64_t, 4>, 3> along{};
+  for (int own = 0; own < 4; ++own) {
+    along[0][own] = cells_along(0, own, offset.dx, most);
+    along[1][own] = cells_along(2, own, offset.dy, most);
+    along[2][own] = cells_along(4, own, offset.dz, most);
+  }
+  CellMasks masks{};
+  for (int a = 0; a < 64; ++a)
+    masks[a] = along[0][a & 3] & along[1][a >> 2 & 3] & along[2][a >> 4];
   return masks;
 }
 
@@ -49,7 +57,13 @@ struct NearAndFar {
 };
 
 constexpr NearAndFar near_and_far(const BlockOffset& offset) {
-  return {cells_within(offset, 1, 1), cells_within(offset, 2, 2)};
+  const CellMasks same = cells_up_to(offset, 0), one = cells_up_to(offset, 1), two = cells_up_to(offset, 2);
+  NearAndFar result{};
+  for (std::size_t a = 0; a < 64; ++a) {
+    result.near[a] = one[a] & ~same[a];
+    result.far[a] = two[a] & ~one[a];
+  }
+  return result;
 }
 
 inline constexpr NearAndFar within_block = near_and_far({0, 0, 0});

@@ -74,6 +74,7 @@ double number(const char* option, std::string_view text, const char* wanted) {
 
 std::vector<std::string> names(const std::vector<const Method*>& methods) {
   std::vector<std::string> all;
+  all.reserve(methods.size());
   for (const Method* method : methods)
     all.emplace_back(method->name);
   return all;
