@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Changes operators, constants and comparisons of the modules one at a time and lists the changes that no test
+notices: each is a gap in the tests, or has its reason in explained.txt.
+
+All that a run writes is in build/mutants. Results are kept there and collected over runs.
+"""
+import argparse
+import os
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import build
+from cases import cases_of, who_notices
+from results import Results, explained_in, in_random_order, key_of
+
+HERE = Path(__file__).resolve().parent
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seed", type=int, default=1, help="of the order in which mutants are tried")
+    parser.add_argument("--minutes", type=float, default=20, help="for trying mutants, once all is built")
+    parser.add_argument("--count", type=int, default=0, help="mutants to try at most (0: as many as fit)")
+    parser.add_argument("--only", default="", metavar="PART", help="of the paths of files to mutate")
+    parser.add_argument("--results", type=Path, default=build.BUILD / "results.json", metavar="FILE")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="mutants at a time, and compilers")
+    parser.add_argument("--list", action="store_true", help="list the mutants in this order, try none")
+    return parser.parse_args()
+
+
+def say(text):
+    print(f"[{time.strftime('%H:%M:%S')}] {text}", file=sys.stderr, flush=True)
+
+
+def line_of(mutant):
+    return f"{mutant.file}:{mutant.line}: `{mutant.original}` -> `{mutant.mutated}`, {mutant.function or 'no function'}"
+
+
+def try_all(mutants, cases, results, options):
+    """Until the time is over."""
+    covering = {}
+    for case in cases:
+        for slot in case.slots:
+            covering.setdefault(slot, []).append(case)
+    deadline = time.monotonic() + 60 * options.minutes
+    lock = threading.Lock()
+    tried = 0
+
+    def try_one(mutant):
+        nonlocal tried
+        with lock:
+            over = time.monotonic() > deadline or (options.count and tried >= options.count)
+            if over or results.get(mutant) is not None:
+                return
+            tried += 1
+        reaching = covering.get(mutant.slot, [])
+        noticed_by = who_notices(mutant, reaching)
+        with lock:
+            results.put(mutant, noticed_by, len(reaching))
+            if not noticed_by:
+                say(f"not noticed: {line_of(mutant)}, reached by {len(reaching)} tests")
+
+    with ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(try_one, mutants))
+    return tried
+
+
+def report(mutants, results):
+    """Prints what no test noticed. True if all of that is explained."""
+    reasons = explained_in((HERE / "explained.txt").read_text())
+    known = [(m, results.get(m)) for m in mutants]
+    known = [(m, r) for m, r in known if r is not None]
+    missed = [(m, r) for m, r in known if not r["noticed_by"]]
+    unexplained = [(m, r) for m, r in missed if key_of(m) not in reasons]
+    for mutant, result in unexplained:
+        print(f"{line_of(mutant)}, reached by {result['reached']} tests")
+    there = {key_of(m) for m in mutants}
+    for key in reasons:
+        if key not in there:
+            print(f"explained.txt: no such mutant any more: {' | '.join(key)}")
+    blocks = ["\n".join(key_of(m)) + "\n" for m, _ in unexplained]
+    (build.BUILD / "not_noticed.txt").write_text("\n".join(blocks))
+    noticed = len(known) - len(missed)
+    print(f"mutants: {len(known)} tried, {noticed} noticed ({100 * noticed / max(1, len(known)):.1f} %), "
+          f"{len(missed) - len(unexplained)} explained, {len(unexplained)} not noticed")
+    return not unexplained
+
+
+def main():
+    options = arguments()
+    sources = build.Sources()
+    if options.list:
+        sources.write()
+    else:
+        programs = build.build(sources, options.jobs, say)
+    mutants = [m for m in in_random_order(sources.mutants, options.seed) if options.only in m.file]
+    if options.list:
+        print("\n".join(map(line_of, mutants)))
+        return 0
+    cases = cases_of(programs, build.BUILD / "cases.json", options.jobs, say)
+    say(f"{len(cases)} cases, {sum(c.seconds for c in cases):.0f} s; {len(mutants)} mutants")
+    results = Results(options.results)
+    say(f"{try_all(mutants, cases, results, options)} mutants tried in this run")
+    return 0 if report(mutants, results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
