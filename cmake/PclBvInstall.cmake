@@ -5,4 +5,6 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/pcl_bvConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/pcl_bvConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/pcl_bvConfig.cmake ${PROJECT_BINARY_DIR}/pcl_bvConfigVersion.cmake
         DESTINATION ${package_dir})
-install(EXPORT pcl_bvTargets NAMESPACE pcl_bv:: DESTINATION ${package_dir})
+foreach(component ${PCL_BV_COMPONENTS})
+  install(EXPORT pcl_bv_${component} FILE pcl_bv_${component}.cmake NAMESPACE pcl_bv:: DESTINATION ${package_dir})
+endforeach()

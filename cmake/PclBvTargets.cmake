@@ -16,20 +16,43 @@ function(pcl_bv_compile_options target)
   endif()
 endfunction()
 
-# pcl_bv_library(name SOURCES ... PUBLIC ... PRIVATE ...): the layer `name`, as pcl_bv::name.
+# pcl_bv_precompile(target HEADER KIND): the first target of a kind compiles the header, the others use that: all of a
+# kind have the same options.
+function(pcl_bv_precompile target header kind)
+  get_filename_component(path ${header} ABSOLUTE BASE_DIR ${PROJECT_SOURCE_DIR})
+  get_property(owner GLOBAL PROPERTY pcl_bv_precompiled_${kind})
+  if(owner)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  else()
+    set_property(GLOBAL PROPERTY pcl_bv_precompiled_${kind} ${target})
+    target_precompile_headers(${target} PRIVATE ${path})
+  endif()
+  # What g++ 12 inlines from a precompiled std::string it takes for ours, and warns of.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-array-bounds>)
+endfunction()
+
+# pcl_bv_library(name [COMPONENT component] SOURCES ... PUBLIC ... PRIVATE ...): the layer `name`, as pcl_bv::name,
+# installed with this component of the package (`name`). PRECOMPILED: its sources begin with cmake/precompiled.h.
 function(pcl_bv_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "PRECOMPILED" "COMPONENT" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target pcl_bv_${name})
   if(arg_SOURCES)
     add_library(${target} ${arg_SOURCES})
     pcl_bv_compile_options(${target})
+    # What public headers declare is visible (an attribute of their namespace); the rest is nobody's interface.
+    set_target_properties(${target} PROPERTIES
+      POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+      VERSION ${pcl_bv_VERSION} SOVERSION ${pcl_bv_VERSION_MAJOR}.${pcl_bv_VERSION_MINOR})
+    if(arg_PRECOMPILED)
+      pcl_bv_precompile(${target} cmake/precompiled.h library)
+    endif()
     set(scope PUBLIC)
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
   endif()
   add_library(pcl_bv::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(${target} ${scope} cxx_std_17)
   target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
                                                 $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -37,37 +60,50 @@ function(pcl_bv_library name)
   if(arg_PRIVATE)
     target_link_libraries(${target} PRIVATE ${arg_PRIVATE})
   endif()
-  install(TARGETS ${target} EXPORT pcl_bvTargets)
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  if(PCL_BV_INSTALL)
+    if(NOT arg_COMPONENT)
+      set(arg_COMPONENT ${name})
+    endif()
+    install(TARGETS ${target} EXPORT pcl_bv_${arg_COMPONENT})
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
 endfunction()
 
-# pcl_bv_program(name SOURCES ... LINK ...): a command, in build/<preset>/bin.
-function(pcl_bv_program name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
-  add_executable(${name} ${arg_SOURCES})
-  pcl_bv_compile_options(${name})
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-  target_link_libraries(${name} PRIVATE ${arg_LINK})
-  install(TARGETS ${name})
-endfunction()
-
-# pcl_bv_test(name SOURCES ... LINK ... [ISA]): a GoogleTest program. Tests marked ISA depend on the instruction
-# set: `./bootstrap test` repeats them with PCL_BV_ISA set to each one that the machine has.
+# pcl_bv_test(name SOURCES ... LINK ... [ISA | SETS]): a GoogleTest program. Labels of its tests:
+#   isa       run on the instruction set that PCL_BV_ISA names; `./bootstrap test` repeats them with each of the machine
+#   sets      try every set of the processor themselves: programs with SETS, and of those with ISA the tests whose name
+#             says EveryInstructionSet
+#   portable  no instruction set can change them
 function(pcl_bv_test name)
-  cmake_parse_arguments(arg "ISA" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "ISA;SETS" "" "SOURCES;LINK" ${ARGN})
   set(target test_${name})
   add_executable(${target} ${arg_SOURCES})
-  pcl_bv_compile_options(${target})
-  if(PCL_BV_SANITIZE MATCHES thread)
-    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized) # false alarms of g++ 12 with its instrumentation
-  endif()
-  target_link_libraries(${target} PRIVATE ${arg_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${target} PRIVATE PCL_BV_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
+  pcl_bv_test_options(${target})
+  target_link_libraries(${target} PRIVATE ${arg_LINK} pcl_bv_test_support GTest::gtest_main)
   set(discovery PRE_TEST)
   if(CMAKE_CROSSCOMPILING)
-    target_compile_definitions(${target} PRIVATE PCL_BV_EMULATED)
     set(discovery POST_BUILD) # by the emulator's own processor: those that ctest asks it to play have fewer sets
   endif()
-  gtest_discover_tests(${target} DISCOVERY_MODE ${discovery} DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS $<IF:$<BOOL:${arg_ISA}>,isa,portable> TIMEOUT 600)
+  set(common ${target} DISCOVERY_MODE ${discovery} DISCOVERY_TIMEOUT 60)
+  if(arg_ISA)
+    gtest_discover_tests(${common} TEST_FILTER "-*EveryInstructionSet*" PROPERTIES LABELS isa TIMEOUT 600)
+    gtest_discover_tests(${common} TEST_FILTER "*EveryInstructionSet*" TEST_LIST ${target}_sets
+                         PROPERTIES LABELS sets TIMEOUT 600)
+  else()
+    gtest_discover_tests(${common} PROPERTIES LABELS $<IF:$<BOOL:${arg_SETS}>,sets,portable> TIMEOUT 600)
+  endif()
+endfunction()
+
+# How tests are compiled, and their support library: -O1, since most of their time is the compiler's.
+function(pcl_bv_test_options target)
+  pcl_bv_compile_options(${target})
+  if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+  if(PCL_BV_SANITIZE) # false alarms of g++ 12 with its instrumentation
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  endif()
+  target_compile_definitions(${target} PRIVATE PCL_BV_BIN_DIR="${PROJECT_BINARY_DIR}/bin"
+                                               $<$<BOOL:${CMAKE_CROSSCOMPILING}>:PCL_BV_EMULATED>)
+  pcl_bv_precompile(${target} tests/support/precompiled.h test)
 endfunction()

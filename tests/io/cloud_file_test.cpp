@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "files.h"
-#include "largest_allocation.h"
+#include "allocations.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/read_cloud.h"

@@ -15,7 +15,7 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include "files.h"
-#include "pcl_bv/io/meshes.h"
+#include "pcl_bv/report/meshes.h"
 
 namespace pcl_bv {
 namespace {

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "files.h"
-#include "largest_allocation.h"
+#include "allocations.h"
 #include "pcl_bv/io/pcd.h"
 #include "sample_clouds.h"
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "files.h"
-#include "largest_allocation.h"
+#include "allocations.h"
 #include "pcl_bv/io/ply.h"
 #include "sample_plys.h"
 

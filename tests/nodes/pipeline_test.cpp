@@ -1,54 +1,27 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/nodes/cluster_pipeline.h"
+#include "pcl_bv/nodes/frame_pipeline.h"
 
 #include <gtest/gtest.h>
 
-#include <pcl/point_types.h>
 #include <limits>
 
 #include "allocations.h"
 #include "clouds.h"
 #include "executions.h"
+#include "frames.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {
 namespace {
-
-std::vector<std::vector<float>> street(std::size_t frames) {
-  std::vector<std::vector<float>> all;
-  StreetOptions options;
-  options.points = 32'000;
-  for (std::size_t i = 0; i < frames; ++i)
-    all.push_back(make_street_frame(options, i).cloud.xyz);
-  return all;
-}
-
-Frame frame_of(const std::vector<float>& xyz, std::size_t number) {
-  Frame frame;
-  frame.header = {number, static_cast<std::int64_t>(number) * 100'000'000, "lidar"};
-  frame.points = PointView::of(xyz.data(), 12, xyz.size() / 3);
-  return frame;
-}
 
 PipelineConfig all_shapes() {
   PipelineConfig config;
   config.volumes = {"aabb", "dop26", "sphere-exact", "sphere-epos26", "obb-dito14", "obb-yaw"};
   config.track.enabled = true;
   return config;
-}
-
-void expect_equal(const FrameResult& a, const FrameResult& b) {
-  EXPECT_EQ(a.clusters.indices, b.clusters.indices);
-  EXPECT_EQ(a.clusters.offsets, b.clusters.offsets);
-  EXPECT_EQ(a.ground.ground, b.ground.ground);
-  EXPECT_EQ(a.tracks, b.tracks);
-  ASSERT_EQ(a.volumes.size(), b.volumes.size());
-  for (std::size_t i = 0; i < a.volumes.size(); ++i)
-    EXPECT_TRUE(a.volumes[i] == b.volumes[i]) << i;
 }
 
 TEST(Pipeline, EachPointOfAClusterIsInsideItsVolumes) {
@@ -214,28 +187,6 @@ TEST(Pipeline, TracksDoNotDependOnTheVolumesAskedFor) {
       EXPECT_EQ(result.tracks, expected[f]);
     }
   }
-}
-
-TEST(Pipeline, TakesPclCloudsAsTheyAre) {
-  const auto frames = street(1);
-  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZI>>();
-  for (std::size_t i = 0; i < frames[0].size(); i += 3) {
-    pcl::PointXYZI p;
-    p.x = frames[0][i], p.y = frames[0][i + 1], p.z = frames[0][i + 2];
-    cloud->push_back(p);
-  }
-  cloud->header.stamp = 1'234'567;
-  cloud->header.seq = 3;
-  cloud->header.frame_id = "velodyne";
-  ClusterPipeline<pcl::PointXYZI> pipeline;
-  FrameResult result, expected;
-  pipeline.process(cloud, result);
-  FramePipeline().process(frame_of(frames[0], 0), expected);
-  expect_equal(result, expected);
-  EXPECT_EQ(result.header.stamp_ns, 1'234'567'000);
-  EXPECT_EQ(result.header.frame_id, "velodyne");
-  pipeline.process(nullptr, result);
-  EXPECT_EQ(result.clusters.size(), 0U);
 }
 
 // The axes of a box keep their names and directions from frame to frame.

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "pcl_bv/nodes/cluster_pipeline.h"
+#include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {

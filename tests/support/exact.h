@@ -5,15 +5,13 @@
 #pragma once
 
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
 
 #include "pcl_bv/kernels/point_view.h"
+#include "rational.h"
 
 namespace pcl_bv::test {
-
-using Rational = boost::multiprecision::cpp_rational;
 
 template <typename Direction>
 Rational exact_dot(const Direction& d, const Coordinates& p) {

@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cstddef>
 #include <random>
 #include <string>
@@ -15,10 +14,11 @@
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/sphere.h"
+#include "rational.h"
 
 namespace pcl_bv::testing {
 
-using Rational = boost::multiprecision::cpp_rational;
+using test::Rational;
 using ExactPoint = std::array<Rational, 3>;
 
 inline ExactPoint exact(const Eigen::Vector3d& p) {

@@ -20,13 +20,4 @@ Words split(std::string_view line) {
   return words;
 }
 
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  std::string result(text.substr(0, longest));
-  for (char& c : result) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return "'" + result + (text.size() > longest ? "...'" : "'");
-}
-
 }  // namespace pcl_bv

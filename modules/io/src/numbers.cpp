@@ -6,10 +6,8 @@
 #include "numbers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
 
 namespace pcl_bv {
 namespace {
@@ -27,13 +25,6 @@ std::int64_t parse_exponent(std::string_view text) {
 }
 
 }  // namespace
-
-std::string shortest(double value) {
-  if (!std::isfinite(value)) throw std::domain_error("a volume has a number that is not finite");
-  if (value == 0) return "0";
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
 
 double value_beyond_range(std::string_view number) {
   const bool negative = number.front() == '-';

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers in text, whatever the locale: written for results, and read with the two things that
-// std::from_chars leaves open: "+1" and numbers beyond the range of the type.
+// Numbers read from text, whatever the locale, with the two things that std::from_chars leaves open: "+1" and
+// numbers beyond the range of the type.
 #pragma once
 
 #include <charconv>
-#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -15,10 +14,6 @@ namespace pcl_bv {
 /// The value of a well-formed decimal number that std::from_chars found out of range: an infinity or a zero,
 /// signed.
 double value_beyond_range(std::string_view number);
-
-/// The fewest digits that read back as exactly this double; never -0. Throws std::domain_error if it is not
-/// finite.
-std::string shortest(double value);
 
 /// Reads the number at the front of [at, end). Floating point is rounded to nearest; "nan" and "inf" are
 /// numbers; integers must be in range. Returns where it ends, or null if there is no number of this type.

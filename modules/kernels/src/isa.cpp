@@ -29,7 +29,7 @@ constexpr std::array<Entry, 8> kEntries = {{{Isa::automatic, "auto", 0},
                                             {Isa::sse4, "sse4", HWY_SSE4},
                                             {Isa::avx2, "avx2", HWY_AVX2},
                                             {Isa::avx512, "avx512", HWY_AVX3},
-                                            {Isa::neon, "neon", HWY_NEON},
+                                            {Isa::neon, "neon", PCL_BV_NEON},
                                             {Isa::sve, "sve", HWY_SVE},
                                             {Isa::sve2, "sve2", HWY_SVE2}}};
 
@@ -60,8 +60,18 @@ bool usable(const Entry& entry) {
   return entry.isa == Isa::scalar || (entry.target & supported) != 0;
 }
 
+// NEON before SVE: for index lists and wide records SVE has only the general way to load points (Layout::any in
+// load-inl.h), and on most processors its vectors are no longer than NEON's.
+Isa find_best_isa() {
+  Isa best = Isa::scalar;
+  for (const Entry& entry : kEntries) {
+    if (entry.isa <= Isa::neon && usable(entry)) best = entry.isa;
+  }
+  return best;
+}
+
 Isa best_isa() {
-  static const Isa best = usable_isas().back();
+  static const Isa best = find_best_isa();
   return best;
 }
 

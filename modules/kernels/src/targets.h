@@ -4,8 +4,37 @@
 // What Highway compiles, and how a target is found by name. Include before any Highway header.
 #pragma once
 
-// SSSE3 gains nothing over SSE4; the specialised targets repeat the general ones.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE_256 | HWY_SVE2_128)
+// SSE2 and SSSE3 gain nothing over SSE4 and the scalar reference; the specialised targets repeat the general ones.
+// From 1.0.5 on Highway's NEON asks for AES instructions, which a Raspberry Pi 4 lacks and no kernel uses.
+#define HWY_DISABLED_TARGETS                                                                               \
+  (HWY_SSE2 | HWY_SSSE3 | HWY_AVX3_DL | HWY_AVX3_ZEN4 | HWY_AVX3_SPR | PCL_BV_NEON_WITH_AES | HWY_SVE_256 | \
+   HWY_SVE2_128)
+#define HWY_BROKEN_EMU128 1  // where there is no SIMD, our scalar reference serves
+
+#include <hwy/detect_targets.h>
+
+#if defined(HWY_NEON_WITHOUT_AES)
+#define PCL_BV_NEON HWY_NEON_WITHOUT_AES
+#define PCL_BV_NEON_WITH_AES (HWY_NEON | HWY_NEON_BF16)
+#define PCL_BV_CHOOSE_NEON HWY_CHOOSE_NEON_WITHOUT_AES
+#else
+#define PCL_BV_NEON HWY_NEON
+#define PCL_BV_NEON_WITH_AES 0
+#define PCL_BV_CHOOSE_NEON HWY_CHOOSE_NEON
+#endif
+// Targets that an older Highway does not know.
+#if !defined(HWY_SSE2)
+#define HWY_SSE2 0
+#endif
+#if !defined(HWY_AVX3_ZEN4)
+#define HWY_AVX3_ZEN4 0
+#endif
+#if !defined(HWY_AVX3_SPR)
+#define HWY_AVX3_SPR 0
+#endif
+#if !defined(HWY_NEON_BF16)
+#define HWY_NEON_BF16 0
+#endif
 
 #include <cstddef>
 
@@ -27,6 +56,6 @@ struct KernelTable {
   {                                                                                                        \
     {                                                                                                      \
       nullptr, reference, HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function), \
-          HWY_CHOOSE_NEON(function), HWY_CHOOSE_SVE(function), HWY_CHOOSE_SVE2(function)                   \
+          PCL_BV_CHOOSE_NEON(function), HWY_CHOOSE_SVE(function), HWY_CHOOSE_SVE2(function)                   \
     }                                                                                                      \
   }

@@ -34,7 +34,7 @@ void catch_signals() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_command([&] {
+  return run_command("bv_stream", [&] {
     const auto asked = parse_stream_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&asked)) return print(*text);
     catch_signals();

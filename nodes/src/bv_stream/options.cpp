@@ -31,39 +31,34 @@ struct Texts {
   std::string source, rate, stamps, config, volume, range, ground, up, sensor_height, cluster, min_size,
       max_size, threads, isa, loop, queue, policy, stats;
   std::vector<std::string> sinks;
-  bool print_config = false, track = false, version = false;
+  bool print_config = false, track = false;
 };
 
-void declare(CLI::App& app, Texts& t) {
-  const auto option = [&](const char* name, std::string& text, const char* type, const char* help) {
-    declare_text(app, name, text, type, help);
-  };
-  declare_common(app, t.version);
-  option("--source", t.source, "PATH",
+void declare(CommandLine& line, Texts& t) {
+  line.option("--source", t.source, "PATH",
          "A folder of clouds, one file, or synth:street-sequence[:FRAMES[:SEED]]");
-  option("--rate", t.rate, "HZ", "Frames a second, or max (10)");
-  option("--loop", t.loop, "N", "Repeat the source N times (1)");
-  option("--stamps", t.stamps, "RULE", "Times of the frames: by rate, or by the number in the name (rate)");
-  option("--config", t.config, "FILE.yaml", "Settings; the options below override them");
-  app.add_flag("--print-config", t.print_config, "Print the settings that would be used, as such a file");
-  option("--volume", t.volume, "LIST", "Methods separated by commas (aabb,sphere,obb-yaw)");
-  option("--range", t.range, "MIN:MAX", "Drop points nearer or farther than this from the origin (0.5:inf)");
-  option("--ground", t.ground, "KIND", "Take the ground away first: none, plane or zones (zones)");
-  option("--up", t.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
-  option("--sensor-height", t.sensor_height, "M", "Of the origin above the ground (learnt)");
-  option("--cluster", t.cluster, "TOL", "Points nearer than TOL to each other are one object (0.5)");
-  option("--min-size", t.min_size, "N", "Drop clusters of fewer points (10)");
-  option("--max-size", t.max_size, "N", "Drop clusters of more points (no limit)");
-  app.add_flag("--track", t.track, "Give objects ids that last from frame to frame");
-  option("--queue", t.queue, "N", "Frames that may wait (1)");
-  option("--policy", t.policy, "NAME",
+  line.option("--rate", t.rate, "HZ", "Frames a second, or max (10)");
+  line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
+  line.option("--stamps", t.stamps, "RULE", "Times of the frames: by rate, or by the number in the name (rate)");
+  line.option("--config", t.config, "FILE.yaml", "Settings; the options below override them");
+  line.flag("--print-config", t.print_config, "Print the settings that would be used, as such a file");
+  line.option("--volume", t.volume, "LIST", "Methods separated by commas (aabb,sphere,obb-yaw)");
+  line.option("--range", t.range, "MIN:MAX", "Drop points nearer or farther than this from the origin (0.5:inf)");
+  line.option("--ground", t.ground, "KIND", "Take the ground away first: none, plane or zones (zones)");
+  line.option("--up", t.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
+  line.option("--sensor-height", t.sensor_height, "M", "Of the origin above the ground (learnt)");
+  line.option("--cluster", t.cluster, "TOL", "Points nearer than TOL to each other are one object (0.5)");
+  line.option("--min-size", t.min_size, "N", "Drop clusters of fewer points (10)");
+  line.option("--max-size", t.max_size, "N", "Drop clusters of more points (no limit)");
+  line.flag("--track", t.track, "Give objects ids that last from frame to frame");
+  line.option("--queue", t.queue, "N", "Frames that may wait (1)");
+  line.option("--policy", t.policy, "NAME",
          "When they do: drop_oldest, drop_newest or block (block with --rate max)");
-  option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (0)");
-  option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
-  app.add_option("--sink", t.sinks,
-                 "jsonl:FILE, csv:FILE or vtp:FOLDER; repeatable (jsonl on standard output)")
-      ->type_name("KIND:PLACE");
-  option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
+  line.option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (0)");
+  line.option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
+  line.option("--sink", t.sinks, "KIND:PLACE",
+              "jsonl:FILE, csv:FILE or vtp:FOLDER; repeatable (jsonl on standard output)");
+  line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
 }
 
 double number(const char* option, std::string_view text, const char* wanted) {
@@ -80,30 +75,29 @@ std::vector<std::string> names(const std::vector<const Method*>& methods) {
   return all;
 }
 
-StreamConfig read_config(const CLI::App& app, const Texts& t) {
+StreamConfig read_config(const CommandLine& line, const Texts& t) {
   StreamConfig config;
   config.pipeline.threads = 0;
   if (t.rate == "max") config.runner.policy = QueuePolicy::block;
-  const auto given = [&](const char* option) { return app.count(option) > 0; };
   try {
-    if (given("--config")) config = read_stream_config(t.config, config);
+    if (line.given("--config")) config = read_stream_config(t.config, config);
   } catch (const ConfigError& error) {
     throw UsageError(error.what());
   }
   PipelineConfig& pipeline = config.pipeline;
-  if (given("--volume")) pipeline.volumes = names(parse_methods(t.volume));
-  if (given("--range")) std::tie(pipeline.filter.range_min, pipeline.filter.range_max) = parse_range(t.range);
-  if (given("--ground")) pipeline.ground.method = parse_with("--ground", t.ground, parse_ground_method);
-  if (given("--up")) pipeline.ground.up = parse_with("--up", t.up, parse_up_axis);
-  if (given("--sensor-height")) pipeline.ground.sensor_height = parse_sensor_height(t.sensor_height);
-  if (given("--cluster")) pipeline.cluster.tolerance = number("--cluster", t.cluster, "a distance");
-  if (given("--min-size")) pipeline.cluster.min_size = parse_whole_number("--min-size", t.min_size);
-  if (given("--max-size")) pipeline.cluster.max_size = parse_whole_number("--max-size", t.max_size);
-  if (given("--track")) pipeline.track.enabled = true;
-  if (given("--threads")) pipeline.threads = parse_whole_number("--threads", t.threads);
-  if (given("--isa")) pipeline.isa = t.isa;
-  if (given("--queue")) config.runner.queue = parse_whole_number("--queue", t.queue);
-  if (given("--policy")) config.runner.policy = parse_with("--policy", t.policy, parse_queue_policy);
+  if (line.given("--volume")) pipeline.volumes = names(parse_methods(t.volume));
+  if (line.given("--range")) std::tie(pipeline.filter.range_min, pipeline.filter.range_max) = parse_range(t.range);
+  if (line.given("--ground")) pipeline.ground.method = parse_with("--ground", t.ground, parse_ground_method);
+  if (line.given("--up")) pipeline.ground.up = parse_with("--up", t.up, parse_up_axis);
+  if (line.given("--sensor-height")) pipeline.ground.sensor_height = parse_sensor_height(t.sensor_height);
+  if (line.given("--cluster")) pipeline.cluster.tolerance = number("--cluster", t.cluster, "a distance");
+  if (line.given("--min-size")) pipeline.cluster.min_size = parse_whole_number("--min-size", t.min_size);
+  if (line.given("--max-size")) pipeline.cluster.max_size = parse_whole_number("--max-size", t.max_size);
+  if (line.given("--track")) pipeline.track.enabled = true;
+  if (line.given("--threads")) pipeline.threads = parse_whole_number("--threads", t.threads);
+  if (line.given("--isa")) pipeline.isa = t.isa;
+  if (line.given("--queue")) config.runner.queue = parse_whole_number("--queue", t.queue);
+  if (line.given("--policy")) config.runner.policy = parse_with("--policy", t.policy, parse_queue_policy);
   const std::vector<std::string> problems = config.validate();
   if (!problems.empty()) throw UsageError(problems.front());
   return config;
@@ -128,26 +122,25 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   if (options.stats) claims.claim(*options.stats);
 }
 
-StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig config) {
+StreamOptions to_options(const CommandLine& line, const Texts& t, StreamConfig config) {
   StreamOptions options;
   options.config = std::move(config);
-  const auto given = [&](const char* option) { return app.count(option) > 0; };
-  if (!given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
+  if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
   options.source = t.source;
   options.paced = t.rate != "max";
-  if (given("--rate") && options.paced) options.stamps.rate_hz = number("--rate", t.rate, "a rate or max");
+  if (line.given("--rate") && options.paced) options.stamps.rate_hz = number("--rate", t.rate, "a rate or max");
   if (!(options.stamps.rate_hz >= kLeastRate && options.stamps.rate_hz <= kGreatestRate))
     throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, or max");
-  if (given("--loop")) options.loops = parse_whole_number("--loop", t.loop, 1);
-  if (given("--stamps") && t.stamps != "rate" && t.stamps != "name")
+  if (line.given("--loop")) options.loops = parse_whole_number("--loop", t.loop, 1);
+  if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
     throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
   options.stamps.from_name = t.stamps == "name";
   if (options.stamps.from_name && t.source.rfind("synth:", 0) == 0)
     throw UsageError("--stamps name: synth: has no names");
-  if (given("--sink")) options.sinks.clear();
+  if (line.given("--sink")) options.sinks.clear();
   for (const std::string& sink : t.sinks)
     options.sinks.push_back(parse_with("--sink", sink, parse_sink));
-  if (given("--stats")) options.stats = t.stats;
+  if (line.given("--stats")) options.stats = t.stats;
   claim_outputs(options, t.config);
   return options;
 }
@@ -155,15 +148,14 @@ StreamOptions to_options(const CLI::App& app, const Texts& t, StreamConfig confi
 }  // namespace
 
 std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv) {
-  CLI::App app("Objects in a stream of point clouds, as volumes that hold every point.", "bv_stream");
-  app.footer(examples);
+  CommandLine line("bv_stream", "Objects in a stream of point clouds, as volumes that hold every point.",
+                   examples);
   Texts texts;
-  declare(app, texts);
-  if (const auto help = parse_command_line(app, argc, argv)) return *help;
-  if (texts.version) return version_text();
-  StreamConfig config = read_config(app, texts);
+  declare(line, texts);
+  if (auto text = line.parse(argc, argv)) return *std::move(text);
+  StreamConfig config = read_config(line, texts);
   if (texts.print_config) return to_yaml(config);
-  return to_options(app, texts, std::move(config));
+  return to_options(line, texts, std::move(config));
 }
 
 }  // namespace pcl_bv

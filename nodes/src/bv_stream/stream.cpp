@@ -17,7 +17,7 @@
 #include "command/values.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/nodes/cluster_pipeline.h"
+#include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/frame_sink.h"
 #include "pcl_bv/nodes/stream_runner.h"
 

@@ -1,29 +1,38 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What every command line understands, on top of CLI11.
 #pragma once
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pcl_bv {
 
-/// Adds --help and the flag --version.
-void declare_common(CLI::App& app, bool& version);
+/// The options of a command, on top of CLI11, which only its source includes: each file that does takes 8 s to
+/// compile. Values are texts; what they mean is looked at later, so that every refusal reads the same.
+class CommandLine {
+ public:
+  /// With --help and --version. `footer` ends the help.
+  CommandLine(const std::string& command, const std::string& description, const std::string& footer);
+  ~CommandLine();
 
-/// Declares an option that takes a text; what the text means is looked at later, so that every refusal reads
-/// the same.
-void declare_text(CLI::App& app, const char* name, std::string& text, const char* type,
-                  const std::string& help);
+  /// `type` stands for the value in the help. A name without dashes is an argument in its place. A list takes all
+  /// of them; an option that is repeated, too.
+  void option(const char* name, std::string& value, const char* type, const std::string& help);
+  void option(const char* name, std::vector<std::string>& values, const char* type, const std::string& help);
+  void flag(const char* name, bool& value, const std::string& help);
 
-/// Parses; gives the help if that was asked for. Throws UsageError.
-std::optional<std::string> parse_command_line(CLI::App& app, int argc, const char* const* argv);
+  /// Gives the text of --help or --version, if it was asked for. Throws UsageError.
+  std::optional<std::string> parse(int argc, const char* const* argv);
 
-/// The command's name and version, and the instruction sets that are usable here.
-std::string version_text();
+  /// Whether a declared option was on the command line.
+  bool given(const char* name) const;
+
+ private:
+  struct App;
+  std::unique_ptr<App> app_;
+};
 
 }  // namespace pcl_bv

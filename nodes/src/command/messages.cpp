@@ -16,6 +16,7 @@ namespace pcl_bv {
 namespace {
 
 std::mutex mutex;
+std::string command;
 std::string shown;  // the status line, if there is one
 thread_local HeldComplaints* holder = nullptr;
 
@@ -40,8 +41,12 @@ std::size_t terminal_width() {
 
 }  // namespace
 
+void name_command(std::string_view name) {
+  command = name;
+}
+
 void say(std::string_view text) {
-  std::string line = std::string(PCL_BV_COMMAND ": ").append(text);
+  std::string line = (command + ": ").append(text);
   std::replace_if(
       line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
   const std::lock_guard lock(mutex);

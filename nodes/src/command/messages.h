@@ -10,6 +10,9 @@
 
 namespace pcl_bv {
 
+/// What every line begins with; before anything is said.
+void name_command(std::string_view command);
+
 /// One line on standard error, "<command>: text", whole whatever other threads say; control characters become
 /// question marks, so that a file's name can neither break the line nor steer a terminal.
 void say(std::string_view text);

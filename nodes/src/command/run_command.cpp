@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The last resort of everything that is thrown.
-
 #include "run_command.h"
 
 #include <exception>
@@ -16,7 +14,8 @@
 
 namespace pcl_bv {
 
-int run_command(const std::function<int()>& work) {
+int run_command(std::string_view command, const std::function<int()>& work) {
+  name_command(command);
   prepare_standard_streams();
   try {
     return work();

@@ -10,8 +10,8 @@
 namespace pcl_bv {
 
 /// Prepares the standard streams and does the work, which gives the exit status. What it throws is one line
-/// on standard error and a status: UsageError 2, anything else 1.
-int run_command(const std::function<int()>& work);
+/// on standard error, "<command>: text", and a status: UsageError 2, anything else 1.
+int run_command(std::string_view command, const std::function<int()>& work);
 
 /// Writes a text that was asked for instead of work: 0, also if nobody reads it; throws IoError, naming
 /// standard output, if it cannot be written.

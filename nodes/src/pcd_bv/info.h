@@ -5,7 +5,7 @@
 #pragma once
 
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/io/report.h"
+#include "pcl_bv/report/report.h"
 #include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {

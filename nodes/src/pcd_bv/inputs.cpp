@@ -10,7 +10,7 @@
 #include "command/output_claims.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
-#include "pcl_bv/io/meshes.h"
+#include "pcl_bv/report/meshes.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/synth.h"
 

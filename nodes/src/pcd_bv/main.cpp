@@ -10,7 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace pcl_bv;
-  return run_command([&] {
+  return run_command("pcd_bv", [&] {
     const auto asked = parse_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&asked)) return print(*text);
     const auto& options = std::get<Options>(asked);

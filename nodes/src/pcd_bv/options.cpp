@@ -33,7 +33,7 @@ struct Texts {
   std::vector<std::string> inputs;
   std::string volume, range, cluster, min_size, max_size, ground, up, sensor_height, format, output, labels,
       mesh, image, view, threads, isa, growth;
-  bool check = false, info = false, timings = false, progress = false, version = false;
+  bool check = false, info = false, timings = false, progress = false;
 };
 
 std::string default_names() {
@@ -43,45 +43,40 @@ std::string default_names() {
   return names;
 }
 
-void declare(CLI::App& app, Texts& texts) {
-  const auto option = [&](const char* name, std::string& text, const char* type, const std::string& help) {
-    declare_text(app, name, text, type, help);
-  };
-  declare_common(app, texts.version);
-  app.add_option("INPUT", texts.inputs,
-                 ".pcd, .ply, KITTI .bin files, folders of them, synth:NAME[:POINTS[:SEED]]")
-      ->type_name("");
-  option("--volume", texts.volume, "LIST", "Methods separated by commas, or all (" + default_names() + ")");
-  option("--range", texts.range, "MIN:MAX", "Drop points nearer or farther than this from the origin");
-  option("--cluster", texts.cluster, "TOL",
+void declare(CommandLine& line, Texts& texts) {
+  line.option("INPUT", texts.inputs, "",
+              ".pcd, .ply, KITTI .bin files, folders of them, synth:NAME[:POINTS[:SEED]]");
+  line.option("--volume", texts.volume, "LIST", "Methods separated by commas, or all (" + default_names() + ")");
+  line.option("--range", texts.range, "MIN:MAX", "Drop points nearer or farther than this from the origin");
+  line.option("--cluster", texts.cluster, "TOL",
          "Segment first: points nearer than TOL to each other are one object");
-  option("--min-size", texts.min_size, "N", "Drop clusters of fewer points (10)");
-  option("--max-size", texts.max_size, "N", "Drop clusters of more points (no limit)");
-  option("--ground", texts.ground, "KIND",
+  line.option("--min-size", texts.min_size, "N", "Drop clusters of fewer points (10)");
+  line.option("--max-size", texts.max_size, "N", "Drop clusters of more points (no limit)");
+  line.option("--ground", texts.ground, "KIND",
          "Take the ground away first: plane, zones (outdoors) or none (none)");
-  option("--up", texts.up, "AXIS",
+  line.option("--up", texts.up, "AXIS",
          "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z (z)");
-  option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
-  option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
-  option("--output", texts.output, "FILE", "Write the results here, not to standard output");
-  option("--labels", texts.labels, "FILE.pcd",
+  line.option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
+  line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
+  line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
+  line.option("--labels", texts.labels, "FILE.pcd",
          "Write the input with a field `label`; several inputs: a folder");
-  option("--mesh", texts.mesh, "FILE", "Write the volumes as .ply or .vtp; several inputs: a folder");
-  option("--image", texts.image, "FILE", "Draw cloud and volumes as .png or .svg; several inputs: a folder");
-  option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
-  option("--growth", texts.growth, "POLICY",
+  line.option("--mesh", texts.mesh, "FILE", "Write the volumes as .ply or .vtp; several inputs: a folder");
+  line.option("--image", texts.image, "FILE", "Draw cloud and volumes as .png or .svg; several inputs: a folder");
+  line.option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
+  line.option("--growth", texts.growth, "POLICY",
          "Growth of EPOS spheres: sequential, stationary or deferred (deferred)");
-  option("--threads", texts.threads, "N", "Threads, 0 for all processors (0)");
-  option("--isa", texts.isa, "NAME", "Instruction set, of those that --version lists (auto)");
-  app.add_flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
-  app.add_flag("--info", texts.info, "Add what the cloud is like: extent, spacing, bad points, fields");
-  app.add_flag("--timings", texts.timings, "Add the seconds of each stage");
-  app.add_flag("--progress", texts.progress, "Show how far it is, where standard error is a terminal");
+  line.option("--threads", texts.threads, "N", "Threads, 0 for all processors (0)");
+  line.option("--isa", texts.isa, "NAME", "Instruction set, of those that --version lists (auto)");
+  line.flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
+  line.flag("--info", texts.info, "Add what the cloud is like: extent, spacing, bad points, fields");
+  line.flag("--timings", texts.timings, "Add the seconds of each stage");
+  line.flag("--progress", texts.progress, "Show how far it is, where standard error is a terminal");
 }
 
-std::optional<std::filesystem::path> path_or_none(const CLI::App& app, const char* option,
+std::optional<std::filesystem::path> path_or_none(const CommandLine& line, const char* option,
                                                   const std::string& text) {
-  if (app.count(option) == 0) return std::nullopt;
+  if (!line.given(option)) return std::nullopt;
   if (text.empty()) throw UsageError(std::string(option) + ": the name is empty");
   return text;
 }
@@ -111,82 +106,78 @@ void set_up(UpAxis up, bool wants_ground, Options& options) {
   options.method_options.up = up_direction(up);
 }
 
-void refuse_useless(const CLI::App& app) {
+void refuse_useless(const CommandLine& line) {
   for (const auto& [option, needed] : {std::pair{"--min-size", "--cluster"},
                                        {"--max-size", "--cluster"},
                                        {"--view", "--image"},
                                        {"--sensor-height", "--ground"}}) {
-    if (app.count(option) > 0 && app.count(needed) == 0)
+    if (line.given(option) && !line.given(needed))
       throw UsageError(std::string(option) + ": only useful with " + needed);
   }
 }
 
 /// What of the cloud the volumes are fitted around.
-void read_segmentation(const CLI::App& app, const Texts& texts, Options& options) {
-  const auto given = [&](const char* option) { return app.count(option) > 0; };
-  if (given("--range")) {
+void read_segmentation(const CommandLine& line, const Texts& texts, Options& options) {
+  if (line.given("--range")) {
     const auto [min, max] = parse_range(texts.range);
     options.range = RangeFilter{min, max};
   }
-  if (given("--ground")) options.ground = parse_ground(texts.ground);
-  if (options.ground && given("--sensor-height")) {
+  if (line.given("--ground")) options.ground = parse_ground(texts.ground);
+  if (options.ground && line.given("--sensor-height")) {
     options.ground->sensor_height = parse_sensor_height(texts.sensor_height);
   }
-  if (given("--cluster")) options.tolerance = parse_tolerance(texts.cluster);
-  if (given("--min-size")) options.min_size = parse_whole_number("--min-size", texts.min_size);
-  if (given("--max-size")) options.max_size = parse_whole_number("--max-size", texts.max_size, 1);
+  if (line.given("--cluster")) options.tolerance = parse_tolerance(texts.cluster);
+  if (line.given("--min-size")) options.min_size = parse_whole_number("--min-size", texts.min_size);
+  if (line.given("--max-size")) options.max_size = parse_whole_number("--max-size", texts.max_size, 1);
   if (options.min_size > options.max_size) {
     throw UsageError("--max-size: " + std::to_string(options.max_size) + " is below --min-size " +
                      std::to_string(options.min_size));
   }
 }
 
-void read_outputs(const CLI::App& app, const Texts& texts, Options& options) {
-  if (app.count("--format") > 0) options.format = parse_format(texts.format);
-  options.output = path_or_none(app, "--output", texts.output);
-  options.labels = path_or_none(app, "--labels", texts.labels);
-  options.mesh = path_or_none(app, "--mesh", texts.mesh);
-  options.image = path_or_none(app, "--image", texts.image);
+void read_outputs(const CommandLine& line, const Texts& texts, Options& options) {
+  if (line.given("--format")) options.format = parse_format(texts.format);
+  options.output = path_or_none(line, "--output", texts.output);
+  options.labels = path_or_none(line, "--labels", texts.labels);
+  options.mesh = path_or_none(line, "--mesh", texts.mesh);
+  options.image = path_or_none(line, "--image", texts.image);
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
-  if (app.count("--view") > 0) options.view = parse_view(texts.view);
+  if (line.given("--view")) options.view = parse_view(texts.view);
   options.check = texts.check;
   options.info = texts.info;
   options.timings = texts.timings;
   options.progress = texts.progress;
 }
 
-Options to_options(const CLI::App& app, const Texts& texts) {
+Options to_options(const CommandLine& line, const Texts& texts) {
   constexpr std::size_t max_threads = 1024;
-  const auto given = [&](const char* option) { return app.count(option) > 0; };
   if (texts.inputs.empty()) throw UsageError("no INPUT; pcd_bv --help lists the options");
-  refuse_useless(app);
+  refuse_useless(line);
   Options options;
   options.inputs = texts.inputs;
-  options.methods = given("--volume") ? parse_methods(texts.volume) : default_methods();
-  read_segmentation(app, texts, options);
-  if (given("--up")) set_up(parse_with("--up", texts.up, parse_up_axis), given("--ground"), options);
-  if (given("--growth")) options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
-  read_outputs(app, texts, options);
+  options.methods = line.given("--volume") ? parse_methods(texts.volume) : default_methods();
+  read_segmentation(line, texts, options);
+  if (line.given("--up")) set_up(parse_with("--up", texts.up, parse_up_axis), line.given("--ground"), options);
+  if (line.given("--growth")) options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
+  read_outputs(line, texts, options);
   Threads threads;
-  if (given("--threads")) {
+  if (line.given("--threads")) {
     threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
   }
-  options.execution = {threads, parse_usable_isa(given("--isa") ? texts.isa : "auto")};
+  options.execution = {threads, parse_usable_isa(line.given("--isa") ? texts.isa : "auto")};
   return options;
 }
 
 }  // namespace
 
 std::variant<Options, std::string> parse_options(int argc, const char* const* argv) {
-  CLI::App app("Bounding volumes of point clouds: boxes, k-DOPs and spheres that hold every point.",
-               "pcd_bv");
-  app.footer(examples);
+  CommandLine line("pcd_bv",
+                   "Bounding volumes of point clouds: boxes, k-DOPs and spheres that hold every point.", examples);
   Texts texts;
-  declare(app, texts);
-  if (const auto help = parse_command_line(app, argc, argv)) return *help;
-  if (texts.version) return version_text();
-  return to_options(app, texts);
+  declare(line, texts);
+  if (auto text = line.parse(argc, argv)) return *std::move(text);
+  return to_options(line, texts);
 }
 
 }  // namespace pcl_bv

@@ -14,7 +14,7 @@
 
 #include "command/usage_error.h"
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/io/picture.h"
+#include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 
 namespace pcl_bv {

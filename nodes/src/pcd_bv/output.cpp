@@ -9,7 +9,7 @@
 
 #include "command/standard_streams.h"
 #include "pcl_bv/io/atomic_file.h"
-#include "pcl_bv/io/csv.h"
+#include "pcl_bv/report/csv.h"
 
 namespace pcl_bv {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "options.h"
-#include "pcl_bv/io/report.h"
+#include "pcl_bv/report/report.h"
 
 namespace pcl_bv {
 

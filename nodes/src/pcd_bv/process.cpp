@@ -16,9 +16,9 @@
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/io/meshes.h"
+#include "pcl_bv/report/meshes.h"
 #include "pcl_bv/io/pcd.h"
-#include "pcl_bv/io/picture.h"
+#include "pcl_bv/report/picture.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "segment.h"
 

@@ -6,7 +6,7 @@
 
 #include "inputs.h"
 #include "options.h"
-#include "pcl_bv/io/report.h"
+#include "pcl_bv/report/report.h"
 #include "status.h"
 
 namespace pcl_bv {

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-#include "pcl_bv/io/picture.h"
+#include "pcl_bv/report/picture.h"
 #include "stages/filter.h"
 #include "stages/filtered_points.h"
 #include "stages/ground.h"

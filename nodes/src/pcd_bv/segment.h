@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "options.h"
-#include "pcl_bv/io/report.h"
+#include "pcl_bv/report/report.h"
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 

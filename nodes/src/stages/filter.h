@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "pcl_bv/io/report.h"
+#include "pcl_bv/report/report.h"
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 

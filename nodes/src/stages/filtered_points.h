@@ -4,7 +4,7 @@
 // A filter for clouds that are not held: it drops points as they come past.
 #pragma once
 
-#include "pcl_bv/io/report.h"
+#include "pcl_bv/report/report.h"
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/parallel/policy.h"

@@ -4,7 +4,7 @@
 // Results as io writes them.
 #pragma once
 
-#include "pcl_bv/io/frame_report.h"
+#include "pcl_bv/report/frame_report.h"
 #include "pcl_bv/nodes/frame_result.h"
 
 namespace pcl_bv {

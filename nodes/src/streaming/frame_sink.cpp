@@ -12,9 +12,9 @@
 
 #include "frame_report.h"
 #include "line_file.h"
-#include "pcl_bv/io/csv.h"
+#include "pcl_bv/report/csv.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/io/meshes.h"
+#include "pcl_bv/report/meshes.h"
 
 namespace pcl_bv {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "pcl_bv/synth/synth_cloud.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 inline constexpr std::array<double, 3> shape_center{1, 2, 3};
 inline constexpr std::array<double, 3> box_half_extents{2, 1, 0.5};

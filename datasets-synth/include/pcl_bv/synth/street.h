@@ -20,7 +20,7 @@
 
 #include "pcl_bv/synth/synth_cloud.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 inline constexpr std::size_t street_beams = 64;
 inline constexpr double street_sensor_height = 1.73;  ///< Metres above the road.

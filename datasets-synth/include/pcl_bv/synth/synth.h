@@ -11,7 +11,7 @@
 
 #include "pcl_bv/synth/synth_cloud.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A scene, fully settled: `points` is exactly the number of points that make_synth gives.
 struct SynthSpec {

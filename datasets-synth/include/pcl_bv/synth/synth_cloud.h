@@ -10,7 +10,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Points and what each of them is. The labels are empty for scenes that have none (the shapes).
 struct SynthCloud {

@@ -10,7 +10,7 @@
 
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What names a frame; kept as it came.
 struct FrameHeader {

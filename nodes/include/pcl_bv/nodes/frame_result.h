@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/io/report.h"
+#include "pcl_bv/report/report.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Wall-clock milliseconds of each stage; `total` is from the cloud in memory to the volumes, without decode.
 struct StageTimes {

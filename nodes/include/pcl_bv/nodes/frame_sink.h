@@ -13,7 +13,7 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/nodes/frame_result.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A pipe that nobody reads any more: for a program that prints, the end, but no failure.
 class ClosedPipe : public IoError {

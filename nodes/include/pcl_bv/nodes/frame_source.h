@@ -15,7 +15,7 @@
 
 #include "pcl_bv/nodes/frame.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A frame that its source has not been able to read; the next one may be fine. what() names it and says why.
 class FrameError : public std::runtime_error {

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Percentiles of durations from 1 us to 1000 s, to 1 %: a histogram whose classes grow by that. No
 /// allocation, whatever the number of durations.

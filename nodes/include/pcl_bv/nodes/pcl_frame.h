@@ -12,7 +12,7 @@
 #include "pcl_bv/estimation/point_cloud_view.h"
 #include "pcl_bv/nodes/frame.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The cloud as a frame that shares it: nothing is copied. PCL's stamps are microseconds. A null pointer
 /// gives a frame without points.

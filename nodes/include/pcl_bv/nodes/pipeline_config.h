@@ -15,7 +15,7 @@
 
 #include "pcl_bv/segmentation/ground_plane.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Points that are kept at all. Those that are not finite never are.
 struct FilterConfig {

@@ -14,7 +14,7 @@
 
 #include "pcl_bv/nodes/pipeline_config.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What happens to a frame that finds the queue full.
 enum class QueuePolicy : std::uint8_t {

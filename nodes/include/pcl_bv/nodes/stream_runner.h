@@ -14,7 +14,7 @@
 #include "pcl_bv/nodes/latency.h"
 #include "pcl_bv/nodes/stream_config.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What became of the frames. in = processed + dropped_* + those still waiting or being processed.
 struct FrameTotals {

@@ -13,7 +13,7 @@
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/volumes/aabb.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Gives objects ids that stay while they are seen, and are never given twice.
 ///

@@ -11,7 +11,7 @@
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Calls fit(i, execution) once for each view, in any order and on the threads of the execution's policy.
 ///

@@ -7,7 +7,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/parallel/policy.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct Extremes;
 

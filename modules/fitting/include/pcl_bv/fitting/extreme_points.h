@@ -15,7 +15,7 @@
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/kernels/projections.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// How far all points reach along one direction n, in units of n . p: of a point's coordinate if n has unit
 /// length.

@@ -16,7 +16,7 @@
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 enum class ExtremeDetail {
   bounds,  ///< How far only: all that a box needs, four times as fast along the axes alone.

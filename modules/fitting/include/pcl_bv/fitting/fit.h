@@ -22,7 +22,7 @@
 #include "pcl_bv/volumes/kdop.h"
 #include "pcl_bv/volumes/sphere.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// How a bounding sphere is found, loosest first.
 enum class SphereMethod : std::uint8_t {

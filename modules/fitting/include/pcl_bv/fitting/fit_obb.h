@@ -12,7 +12,7 @@
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/volumes/obb.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// How the axes of an oriented box are chosen.
 enum class ObbMethod : std::uint8_t {

@@ -13,7 +13,7 @@
 #include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What a method's user may choose besides it. Methods ignore what does not concern them.
 struct MethodOptions {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 enum class EstimationStatus : std::uint8_t {
   ok,          ///< The volume has three dimensions.

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A ball of few points, and why it cannot be smaller.
 struct SmallBall {

@@ -14,7 +14,7 @@
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// In the points' unit and frame. Without a valid point centroid and covariance are zero, the volumes empty.
 struct CloudSummary {

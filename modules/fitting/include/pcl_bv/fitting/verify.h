@@ -10,7 +10,7 @@
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct Verification {
   std::size_t checked = 0;  ///< Finite points looked at.

@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <string_view>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Makes `content` the content of the file: written to a new file in the same folder, which then takes the
 /// name. At every moment, and after an error, the name stands for the old content (or nothing) or for all of

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 namespace internal {
 void* allocate_buffer(std::size_t bytes);
 void free_buffer(void* memory, std::size_t bytes) noexcept;

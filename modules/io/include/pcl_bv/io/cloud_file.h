@@ -11,7 +11,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/kernels/point_source.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An open binary .pcd or KITTI .bin. Points are read where and when they are asked for, by position, so that
 /// several threads read and fit side by side; the system is told what comes next, 8 MiB ahead.

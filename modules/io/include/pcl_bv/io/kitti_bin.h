@@ -9,7 +9,7 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Reads a .bin file: records of four little-endian float32, which become the fields x, y, z and intensity.
 /// The format has no header, so any file of a fitting size gives a cloud.

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Natural order: runs of digits compare as whole numbers of any length, all else byte by byte, so frame2
 /// comes before frame10. Names that differ only in leading zeros (frame01, frame1) compare byte by byte.

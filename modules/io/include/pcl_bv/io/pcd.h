@@ -10,7 +10,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/policy.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Reads a .pcd file: ascii, binary or binary_compressed, with fields x, y and z, all float32 or
 /// all float64, among any others.

@@ -10,7 +10,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/policy.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Reads the element `vertex` of a .ply file: ascii, binary_little_endian or binary_big_endian, elements and
 /// properties in any order. x, y and z must be all float or all double. Every property that is no list

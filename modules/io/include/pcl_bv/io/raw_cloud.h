@@ -14,7 +14,7 @@
 #include "pcl_bv/io/byte_buffer.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// One field of a point record, with the letters and sizes of the .pcd format.
 struct PointField {

@@ -10,7 +10,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A cloud of width n and height 1 with the float32 fields x, y, z, from n triples "x y z", kept to the bit.
 /// Throws std::invalid_argument if the number of floats is no multiple of three.

@@ -11,7 +11,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/policy.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The extension of a path in lower case, with the dot: ".ply". Empty if there is none.
 std::string lower_case_extension(const std::filesystem::path& path);

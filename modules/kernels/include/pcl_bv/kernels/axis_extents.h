@@ -10,7 +10,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Exact minimum and maximum of the valid points; +infinity and -infinity if there is none. Never -0.
 struct AxisExtents {

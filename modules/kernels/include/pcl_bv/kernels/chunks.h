@@ -9,7 +9,7 @@
 
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Points per block: what a kernel judges as a whole (is any point invalid, can any be extreme?). 16 KiB of
 /// pcl::PointXYZ, so a second look finds it in the first-level cache.

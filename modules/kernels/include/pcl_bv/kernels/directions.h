@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Taken from the unit cube and not normalised; all coefficients are -1, 0, 1.
 using CubeDirection = std::array<std::int8_t, 3>;

@@ -13,7 +13,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A place to measure from, and the unit to measure in. `scale` is a power of two, and 1 for float views:
 /// their squares stay in the range of double by themselves. With it, distances of about 1 come out.

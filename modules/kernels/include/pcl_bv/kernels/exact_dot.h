@@ -8,7 +8,7 @@
 
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A direction of any length.
 using Direction = std::array<double, 3>;

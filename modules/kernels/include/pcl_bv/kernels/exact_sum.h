@@ -9,7 +9,7 @@
 
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The exact sum of three doubles, kept unevaluated as head + tail + rest with head the rounded sum. Valid
 /// for |terms| <= 1e100.

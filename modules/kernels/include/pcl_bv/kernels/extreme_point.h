@@ -10,7 +10,7 @@
 #include "pcl_bv/kernels/exact_sum.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The point of greatest projection so far, and that projection.
 struct ExtremePoint {

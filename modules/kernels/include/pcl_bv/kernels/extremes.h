@@ -13,7 +13,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// For each end (directions.h) of a set, a projection along end_direction() that some other point of the
 /// cloud is known to reach; -infinity if none is. Points that do not reach it need not be found.

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// While it lives, this thread computes in the IEEE default environment: denormals kept (no FTZ, no DAZ),
 /// rounding to nearest, no traps. The previous environment returns at destruction.

@@ -12,7 +12,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// More half-spaces than this are never needed: the facets of a polytope of 26 vertices.
 inline constexpr std::size_t kMaxHalfSpaces = 48;

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An instruction set for which the kernels are compiled. `scalar` is the scalar reference; every set gives
 /// the same bits. `automatic` is the set named by the environment variable PCL_BV_ISA, else the machine's
-/// best.
+/// best; of 64-bit Arm's NEON, SVE only on request.
 enum class Isa : std::uint8_t { automatic, scalar, sse4, avx2, avx512, neon, sve, sve2 };
 
 /// The name used on command lines and in PCL_BV_ISA: "auto", "scalar", "sse4", ...

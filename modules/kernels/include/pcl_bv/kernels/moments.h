@@ -10,7 +10,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Sums over the valid points of the coordinates relative to an origin.
 struct Moments {

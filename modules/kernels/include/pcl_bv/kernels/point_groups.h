@@ -11,7 +11,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An owning copy of points as groups: 64 bytes of x, 64 of y, 64 of z (16 points of float, 8 of double), and
 /// again. Memory is aligned to 64 bytes; the last group is filled up with a valid point.

@@ -12,7 +12,7 @@
 
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// All of `count` records. Record is any struct with members x, y, z, all float or all double, that follow
 /// one another in memory in this order; throws std::invalid_argument for a struct in which they do not.

@@ -11,7 +11,7 @@
 #include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Where the points of a view with PointView::source come from. Each load of the same points gives the same
 /// bits.

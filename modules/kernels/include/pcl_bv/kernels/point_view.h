@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 enum class ScalarType : std::uint8_t { float32, float64 };
 

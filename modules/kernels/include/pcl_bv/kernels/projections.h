@@ -12,7 +12,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Directions per call of the kernel: KdopSet::max_size, the half of EPOS-98.
 inline constexpr std::size_t kMaxProjections = 49;

@@ -12,7 +12,7 @@
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Along each axis the least and greatest (nx qx + ny qy) + nz qz, q = p - origin, each step rounded to
 /// double, of the valid points and of the origin, whose is 0. Never -0.

@@ -12,7 +12,7 @@
 
 #include "pcl_bv/parallel/policy.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 namespace internal {
 void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t),
                 void* body);

@@ -6,7 +6,7 @@
 
 #include <variant>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// In the calling thread.
 struct Serial {};

@@ -14,7 +14,7 @@
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/parallel/policy.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What a cluster is.
 struct ClusterSettings {

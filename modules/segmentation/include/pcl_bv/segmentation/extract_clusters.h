@@ -23,7 +23,7 @@ template <typename PointT>
 class Search;
 }  // namespace pcl::search
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Drop-in for pcl::EuclideanClusterExtraction: the same partition (see EuclideanClusterer), the same setters
 /// and defaults. Any point type with x, y, z of float or double in a row works, without instantiation.

@@ -13,7 +13,7 @@
 
 #include "pcl_bv/kernels/point_view.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The coordinate axis that points against gravity.
 enum class UpAxis : std::uint8_t { x, y, z, minus_x, minus_y, minus_z };

@@ -13,7 +13,7 @@
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What counts as ground.
 struct GroundZonesSettings {

@@ -12,7 +12,7 @@
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A copy of an Aabb for float consumers, rounded outward: it encloses the box. Beyond the range of float:
 /// infinite.

@@ -21,7 +21,7 @@
 #include "pcl_bv/volumes/ray_interval.h"
 #include "pcl_bv/volumes/sphere.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 using AnyVolume = std::variant<Aabb, Kdop, Sphere, Obb, Cylinder, Capsule, Ellipsoid, Hull>;
 

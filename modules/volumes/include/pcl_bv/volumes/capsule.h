@@ -12,7 +12,7 @@
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A capsule in the frame and unit of its points: all p with a distance from the segment a b of at most the
 /// radius, a closed set.

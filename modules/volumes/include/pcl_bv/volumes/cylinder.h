@@ -12,7 +12,7 @@
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A cylinder in the frame and unit of its points: with q = p - center, |q x axis| <= radius |axis| and
 /// |q . axis| <= half_height |axis|, a closed set. The axis has length 1 up to rounding.

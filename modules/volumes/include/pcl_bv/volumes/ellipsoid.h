@@ -12,7 +12,7 @@
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An ellipsoid in the frame and unit of its points: the sum over i of ((axis i . (p - center)) / radius i)^2
 /// is at most 1, a closed set; where a radius is 0, axis i . (p - center) = 0 instead. Axes are the columns

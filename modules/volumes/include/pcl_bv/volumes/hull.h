@@ -15,7 +15,7 @@
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The half-space normal . p <= offset. The normal has length 1 up to rounding and points outward.
 struct HullPlane {

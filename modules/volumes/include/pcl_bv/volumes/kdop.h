@@ -16,7 +16,7 @@
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// One number per slab, stored inline (no allocation).
 using SlabVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(KdopSet::max_size), 1>;

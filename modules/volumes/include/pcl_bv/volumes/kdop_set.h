@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An immutable list of directions, one per slab, of any length each (the built-in ones have components
 /// 0 and +-1, un-normalised, so that projections need no multiplication). k is twice their number. Klosowski

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A closed polygon mesh in the frame and unit of the volume it came from. Faces are convex,
 /// counter-clockwise seen from outside. An empty volume has an empty mesh; a flat one has faces of area 0 or

@@ -13,7 +13,7 @@
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A copy of an Obb for float consumers: |axes.col(i) . (p - center)| <= half_extents[i] with these numbers
 /// holds for every point of the box. Beyond the range of float: infinite. Empty: centre NaN, half extents -1.

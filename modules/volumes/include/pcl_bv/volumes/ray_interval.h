@@ -4,7 +4,7 @@
 // What a ray test answers, the same for every volume.
 #pragma once
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The part of a ray inside a volume: origin + t direction for enter <= t <= exit, t >= 0, in units of the
 /// direction. So a segment (t <= 1) meets the volume if enter <= 1.

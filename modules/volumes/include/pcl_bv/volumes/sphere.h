@@ -12,7 +12,7 @@
 #include "pcl_bv/volumes/mesh.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A copy of a Sphere for float consumers. The radius has grown by the rounding of the centre and is rounded
 /// up, so it encloses the sphere; beyond the range of float it is infinite. An empty sphere: centre NaN,

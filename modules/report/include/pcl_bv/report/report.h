@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What was found in one input, as plain data, and its two written forms: JSON for programs, a table for
+// people.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+struct VolumeEntry {
+  std::string method;  ///< The canonical name, never an alias: "dop26".
+  AnyVolume volume;
+  std::optional<std::size_t> outside;  ///< Points that exact arithmetic found outside, if it was asked.
+};
+
+struct ClusterEntry {
+  std::size_t id = 0;
+  std::size_t points = 0;  ///< Valid points.
+  std::vector<VolumeEntry> volumes;
+};
+
+/// Points that are in no entry, by reason.
+struct Counts {
+  std::size_t nonfinite = 0;
+  std::size_t range = 0;   ///< Finite, but too near or too far.
+  std::size_t ground = 0;  ///< Removed as ground.
+  std::size_t small = 0;   ///< In clusters of too few points.
+  std::size_t large = 0;   ///< In clusters of too many points.
+};
+
+/// Wall-clock time of each stage.
+struct Seconds {
+  double read = 0;
+  double segment = 0;
+  double fit = 0;
+};
+
+/// What the cloud of an input is like. Organised clouds have height > 1.
+struct CloudInfo {
+  Aabb box;  ///< Of the finite points that are not exactly at 0,0,0; empty if there is none.
+  std::optional<double> spacing;  ///< Typical distance from a point to the nearest other one.
+  std::size_t width = 0;
+  std::size_t height = 1;
+  std::size_t nonfinite = 0;  ///< Points with a coordinate that is not finite.
+  std::size_t zero = 0;       ///< Points exactly at 0,0,0: dead beams, most likely.
+  std::vector<PointField> fields;
+};
+
+/// One input. If `error` is set the input failed and only `file` and `error` mean anything.
+struct Report {
+  std::string file;        ///< As the user named it; invalid UTF-8 is replaced where it is written.
+  std::size_t points = 0;  ///< All points of the input, good or bad.
+  Counts counts;
+  std::vector<ClusterEntry> clusters;
+  std::optional<CloudInfo> info;
+  std::optional<Seconds> seconds;
+  std::optional<std::string> error;
+};
+
+/// The report as one JSON object on one line, without the line's end.
+///
+/// Every number has the fewest digits that read back as exactly the same double, so that the volume read back
+/// holds every point that the stored one holds; there is no null, no NaN and no -0. An empty volume is
+/// `"empty":true` and has no numbers. Throws std::domain_error if a number is not finite, which no fitted
+/// volume has.
+std::string report_json(const Report& report);
+
+/// The report as a table of at most 120 columns: a line on the file, then one row for each volume with its
+/// centre, size and volume in the unit of the points. Rounded for reading: use JSON to compute. A failed
+/// report gives no text.
+std::string report_text(const Report& report);
+
+}  // namespace pcl_bv

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Reports as a table that a person reads at a terminal.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "pcl_bv/report/report.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t n_columns = 11;
+constexpr std::size_t method_column = 2;  // the only one aligned to the left
+using Row = std::array<std::string, n_columns>;
+
+std::string format(const char* pattern, int precision, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, pattern, precision, value == 0 ? 0.0 : value);
+  return text;
+}
+
+/// A length with the decimals chosen for the whole table; negative decimals mean that no fixed notation fits.
+std::string length(double value, int decimals) {
+  if (decimals < 0) return format("%.*g", 4, value);
+  const bool rounds_to_zero = std::abs(value) * std::pow(10, decimals) < 0.5;
+  return format("%.*f", decimals, rounds_to_zero ? 0 : value);
+}
+
+/// Four digits of a volume, whatever its magnitude.
+std::string four_digits(double value) {
+  const int exponent = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
+  return exponent < -3 || exponent > 6 ? format("%.*g", 4, value)
+                                       : format("%.*f", std::max(0, 3 - exponent), value);
+}
+
+/// Decimals that show the largest size to five digits and keep every centre within 11 characters.
+int choose_decimals(const Report& report) {
+  double size = 0, magnitude = 0;
+  for (const ClusterEntry& cluster : report.clusters) {
+    for (const VolumeEntry& entry : cluster.volumes) {
+      if (empty(entry.volume)) continue;
+      const Aabb box = aabb(entry.volume);
+      size = std::max(size, (box.max() - box.min()).maxCoeff());
+      magnitude = std::max({magnitude, box.max().cwiseAbs().maxCoeff(), box.min().cwiseAbs().maxCoeff()});
+    }
+  }
+  if (magnitude == 0) return 1;
+  if (magnitude >= 1e7 || magnitude < 1e-3) return -1;
+  const auto digits_before_point = [](double v) { return static_cast<int>(std::floor(std::log10(v))) + 1; };
+  const int wanted = size > 0 ? 5 - digits_before_point(size) : 6;
+  return std::clamp(std::min(wanted, 9 - digits_before_point(magnitude)), 0, 6);
+}
+
+Row volume_row(const VolumeEntry& entry, int decimals) {
+  Row row;
+  row[method_column] = entry.method;
+  if (entry.outside) row[10] = std::to_string(*entry.outside);
+  if (empty(entry.volume)) {
+    row[3] = "empty";
+    return row;
+  }
+  const Eigen::Vector3d middle = center(entry.volume);
+  for (int k = 0; k < 3; ++k)
+    row[3 + k] = length(middle[k], decimals);
+  if (const auto* sphere = std::get_if<Sphere>(&entry.volume)) {
+    row[6] = "r ";
+    row[6] += length(sphere->radius(), decimals);
+  } else if (const auto* oriented = std::get_if<Obb>(&entry.volume)) {
+    for (int k = 0; k < 3; ++k)  // along its own axes
+      row[6 + k] = length(2 * oriented->half_extents()[k], decimals);
+  } else {
+    const Aabb box = aabb(entry.volume);
+    for (int k = 0; k < 3; ++k)
+      row[6 + k] = length(box.max()[k] - box.min()[k], decimals);
+  }
+  row[9] = four_digits(volume(entry.volume));
+  return row;
+}
+
+std::vector<Row> table(const Report& report) {
+  std::vector<Row> rows{
+      {"id", "points", "method", "centre x", "y", "z", "size x", "y", "z", "volume", "outside"}};
+  const int decimals = choose_decimals(report);
+  bool checked = false;
+  for (const ClusterEntry& cluster : report.clusters) {
+    bool first = true;
+    for (const VolumeEntry& entry : cluster.volumes) {
+      Row row = volume_row(entry, decimals);
+      if (first) {
+        row[0] = std::to_string(cluster.id);
+        row[1] = std::to_string(cluster.points);
+      }
+      first = false;
+      checked = checked || entry.outside;
+      rows.push_back(std::move(row));
+    }
+  }
+  if (!checked) rows.front().back().clear();
+  return rows;
+}
+
+std::string aligned(const std::vector<Row>& rows) {
+  std::array<std::size_t, n_columns> width{};
+  for (const Row& row : rows) {
+    for (std::size_t c = 0; c < n_columns; ++c)
+      width[c] = std::max(width[c], row[c].size());
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < n_columns; ++c) {
+      const std::string padding(width[c] - row[c].size(), ' ');
+      const bool inside_triple = c == 4 || c == 5 || c == 7 || c == 8;
+      line += inside_triple ? " " : "  ";
+      line += c == method_column ? row[c] + padding : padding + row[c];
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
+  return text;
+}
+
+/// A name of somebody else's making, which must neither break a line nor steer a terminal.
+std::string harmless(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
+  return name;
+}
+
+std::string header(const Report& report) {
+  std::string text = harmless(report.file) + ": " + std::to_string(report.points) + " points";
+  const auto add = [&](std::size_t n, const char* what) {
+    if (n > 0) text += ", " + std::to_string(n) + what;
+  };
+  add(report.counts.nonfinite, " not finite");
+  add(report.counts.range, " out of range");
+  add(report.counts.ground, " ground");
+  add(report.counts.small, " in small clusters");
+  add(report.counts.large, " in large clusters");
+  if (report.clusters.empty()) text += ", no clusters";
+  if (report.seconds) {
+    text += "; read " + format("%.*f", 1, report.seconds->read * 1e3);
+    text += ", segment " + format("%.*f", 1, report.seconds->segment * 1e3);
+    text += ", fit " + format("%.*f", 1, report.seconds->fit * 1e3) + " ms";
+  }
+  return text + '\n';
+}
+
+std::string info_text(const CloudInfo& info) {
+  std::string text = "  ";
+  for (int axis = 0; axis < 3 && !info.box.empty(); ++axis) {
+    text.append(1, "xyz"[axis]).append(" ").append(format("%.*g", 6, info.box.min()[axis]));
+    text.append(" to ").append(format("%.*g", 6, info.box.max()[axis])).append(", ");
+  }
+  if (info.spacing) text += "spacing " + format("%.*g", 3, *info.spacing) + ", ";
+  if (info.height > 1) text += std::to_string(info.width) + " x " + std::to_string(info.height) + ", ";
+  text +=
+      std::to_string(info.nonfinite) + " not finite, " + std::to_string(info.zero) + " at 0,0,0\n  fields";
+  for (const PointField& field : info.fields) {
+    text.append(" ").append(harmless(field.name)).append(":").append(1, field.type);
+    text.append(std::to_string(8 * field.size));
+    if (field.count > 1) text.append("x").append(std::to_string(field.count));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string report_text(const Report& report) {
+  if (report.error) return {};
+  return header(report) + (report.info ? info_text(*report.info) : std::string()) +
+         (report.clusters.empty() ? std::string() : aligned(table(report)));
+}
+
+}  // namespace pcl_bv

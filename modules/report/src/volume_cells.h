@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// All volumes of a report as one list of vertices and cells: what the mesh formats have in common.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pcl_bv/report/report.h"
+
+namespace pcl_bv {
+
+/// What a cell belongs to.
+struct CellOwner {
+  std::size_t cluster = 0;
+  std::size_t method = 0;  ///< Number in VolumeCells::methods.
+  std::size_t points = 0;
+  double volume = 0;
+};
+
+struct Cell {
+  std::vector<std::int32_t> vertices;
+  std::size_t owner = 0;  ///< Number in VolumeCells::owners.
+};
+
+struct VolumeCells {
+  std::vector<std::string> methods;  ///< In order of appearance.
+  std::vector<CellOwner> owners;     ///< One for each volume that is not empty.
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::size_t> vertex_owners;     ///< Of each vertex.
+  std::vector<Cell> points, lines, polygons;  ///< Cells of one, of two and of more vertices.
+};
+
+/// Throws std::length_error if there are more vertices than an int32 counts.
+VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters);
+
+/// The .ply file of volumes_ply().
+std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster);
+
+}  // namespace pcl_bv

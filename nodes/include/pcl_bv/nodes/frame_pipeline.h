@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A cloud in, the objects in it as volumes out: the whole way, without I/O and, unless `threads` asks for more, in one thread.
+#pragma once
+
+#include <memory>
+
+#include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/nodes/pipeline_config.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Filter, ground, clusters, volumes, tracks, for frames of any point type.
+///
+/// All stages work on lists of indices into the frame's cloud. Same configuration and frames, same bits, on
+/// every instruction set and number of threads. Memory is kept: a second pass over the same sequence
+/// allocates nothing (for aabb, dop*, sphere-*, obb-pca, obb-dito14 and obb-yaw).
+class FramePipeline {
+ public:
+  /// Throws std::invalid_argument with the lines of PipelineConfig::validate(), if there are any.
+  explicit FramePipeline(PipelineConfig config = {});
+  ~FramePipeline();
+  FramePipeline(FramePipeline&&) noexcept;
+  FramePipeline& operator=(FramePipeline&&) noexcept;
+
+  /// Takes effect with the next frame; callable from any thread. Throws as the constructor and changes
+  /// nothing then. Tracks live on.
+  void set_config(PipelineConfig config);
+  PipelineConfig config() const;
+
+  /// Replaces `result`. Frames must come in the order of their stamps where they are tracked. No valid point:
+  /// no clusters, the frame's header, and the counts say why. Throws std::length_error beyond 2^31 - 1
+  /// points. Not for several threads at once.
+  void process(const Frame& frame, FrameResult& result);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pcl_bv

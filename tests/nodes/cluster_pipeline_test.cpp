@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/cluster_pipeline.h"
+
+#include <pcl/point_types.h>
+
+#include "frames.h"
+
+namespace pcl_bv {
+namespace {
+
+TEST(ClusterPipeline, TakesPclCloudsAsTheyAre) {
+  const auto frames = street(1);
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZI>>();
+  for (std::size_t i = 0; i < frames[0].size(); i += 3) {
+    pcl::PointXYZI p;
+    p.x = frames[0][i], p.y = frames[0][i + 1], p.z = frames[0][i + 2];
+    cloud->push_back(p);
+  }
+  cloud->header.stamp = 1'234'567;
+  cloud->header.seq = 3;
+  cloud->header.frame_id = "velodyne";
+  ClusterPipeline<pcl::PointXYZI> pipeline;
+  FrameResult result, expected;
+  pipeline.process(cloud, result);
+  FramePipeline().process(frame_of(frames[0], 0), expected);
+  expect_equal(result, expected);
+  EXPECT_EQ(result.header.stamp_ns, 1'234'567'000);
+  EXPECT_EQ(result.header.frame_id, "velodyne");
+  pipeline.process(nullptr, result);
+  EXPECT_EQ(result.clusters.size(), 0U);
+}
+
+}  // namespace
+}  // namespace pcl_bv

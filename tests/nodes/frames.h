@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/synth/street.h"
+
+namespace pcl_bv {
+
+inline std::vector<std::vector<float>> street(std::size_t frames) {
+  std::vector<std::vector<float>> all;
+  StreetOptions options;
+  options.points = 32'000;
+  for (std::size_t i = 0; i < frames; ++i)
+    all.push_back(make_street_frame(options, i).cloud.xyz);
+  return all;
+}
+
+inline Frame frame_of(const std::vector<float>& xyz, std::size_t number) {
+  Frame frame;
+  frame.header = {number, static_cast<std::int64_t>(number) * 100'000'000, "lidar"};
+  frame.points = PointView::of(xyz.data(), 12, xyz.size() / 3);
+  return frame;
+}
+
+inline void expect_equal(const FrameResult& a, const FrameResult& b) {
+  EXPECT_EQ(a.clusters.indices, b.clusters.indices);
+  EXPECT_EQ(a.clusters.offsets, b.clusters.offsets);
+  EXPECT_EQ(a.ground.ground, b.ground.ground);
+  EXPECT_EQ(a.tracks, b.tracks);
+  ASSERT_EQ(a.volumes.size(), b.volumes.size());
+  for (std::size_t i = 0; i < a.volumes.size(); ++i)
+    EXPECT_TRUE(a.volumes[i] == b.volumes[i]) << i;
+}
+
+}  // namespace pcl_bv
