@@ -16,12 +16,13 @@ SOURCE = BUILD / "source"
 BINARY = BUILD / "build"
 
 MODULES = ("kernels", "volumes", "fitting", "segmentation")
-TEST_FOLDERS = ("volumes", "kernels", "parallel", "fitting", "segmentation")
+TEST_FOLDERS = ("volumes", "kernels", "parallel", "fitting", "segmentation", "estimation")
 # Other implementations, as peers: slow to build, and what they compare has tests without them.
 PEERS = {"test_fitting_cgal", "test_clusters_as_pcl", "test_extract_clusters"}
 WITHOUT_TESTS = {"modules/segmentation/include/pcl_bv/segmentation/extract_clusters.h"}
-# An index past an array's end is noticed as the sanitizers notice it, not only where it changes a result.
+# With assertions: an index past an array's end is noticed as the sanitizers notice it, not only by what it changes.
 FLAGS = "-w -D_GLIBCXX_ASSERTIONS"
+OPTIMISED = "-O2"
 
 _ERROR = re.compile(r"^([^:\s]+):(\d+):(\d+): (?:fatal )?error: ", re.MULTILINE)
 _PLACE = re.compile(r"^(?:In file included from |\s+from )?([^:\s]+):(\d+)(?::(\d+))?", re.MULTILINE)
@@ -30,6 +31,12 @@ _PLACE = re.compile(r"^(?:In file included from |\s+from )?([^:\s]+):(\d+)(?::(\
 def tracked_files():
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout
     return [name for name in listed.decode().split("\0") if name and (ROOT / name).is_file()]
+
+
+def functions_of_speed_alone():
+    """What only_speed.txt lists: (file, function)."""
+    lines = (Path(__file__).parent / "only_speed.txt").read_text().splitlines()
+    return {tuple(line.split(": ")) for line in lines if line and not line.startswith(("#", " "))}
 
 
 def is_mutated(name):
@@ -52,14 +59,14 @@ class Sources:
     def write(self):
         """Brings the copy up to date with the sources and with what is left out."""
         self.mutants = []
-        names = tracked_files()
+        names, unasked = tracked_files(), functions_of_speed_alone()
         first = 0
         for name in names:
             data = (ROOT / name).read_bytes()
             if is_mutated(name):
                 # Always inlined, a function would be there once for each mutant of all that call it.
                 text = data.decode().replace("HWY_INLINE", "inline")
-                text, made, arms, count = rewrite(text, name, self._dropped, first, first)
+                text, made, arms, count = rewrite(text, name, self._dropped | unasked, first, first)
                 # Room, so that an edit of one file leaves the numbers in others, and those need no compiler.
                 first += (count // 64 + 2) * 64
                 self.mutants += made
@@ -130,7 +137,7 @@ def configure():
     header = ROOT / "tests/mutants/mutant.h"
     command = ["cmake", "-S", SOURCE, "-B", BINARY, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"]
     command += ["-DPCL_BV_BUILD_BENCHMARKS=OFF", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON", "--no-warn-unused-cli"]
-    command += [f"-DCMAKE_CXX_FLAGS={FLAGS} -include {header}"]
+    command += [f"-DCMAKE_CXX_FLAGS={FLAGS} -include {header}", f"-DCMAKE_CXX_FLAGS_RELEASE={OPTIMISED}"]
     if shutil.which("ccache"):
         command += ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)

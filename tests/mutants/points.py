@@ -5,10 +5,10 @@ import re
 from typing import NamedTuple
 
 BINARY = {
-    "<": ("<=", ">"),
-    "<=": ("<", ">"),
-    ">": (">=", "<"),
-    ">=": (">", "<"),
+    "<": ("<=", ">", ">="),
+    "<=": ("<", ">=", ">"),
+    ">": (">=", "<", "<="),
+    ">=": (">", "<=", "<"),
     "==": ("!=",),
     "!=": ("==",),
     "+": ("-",),
@@ -76,7 +76,7 @@ def points_in(tokens, ends, first, last):
 def _options(tokens, i, first, last):
     token = tokens[i]
     if token.kind == "number":
-        return (_other_number(token.text),)
+        return _other_numbers(token.text)
     if token.kind == "word":
         return _other_word(tokens, i)
     follows_space = i + 1 < last and tokens[i + 1].spaced
@@ -94,13 +94,13 @@ def _is_unary(tokens, i, first):
     return before.kind == "mark" and before.text not in (")", "]", "}", "++", "--")
 
 
-def _other_number(text):
+def _other_numbers(text):
     digits = text.replace("'", "")
     hexadecimal = digits[:2] in ("0x", "0X")
     is_float = "p" in digits.lower() if hexadecimal else re.search(r"[.eE]", digits)
     if not is_float:
-        return "1" + digits[1:] if re.fullmatch(r"0[uUlL]*", digits) else f"({text} + 1)"
-    return f"({text} + 1)" if re.fullmatch(r"[0.]+[fFlL]?", digits) else f"(2 * {text})"
+        return ("1" + digits[1:],) if re.fullmatch(r"0[uUlL]*", digits) else (f"({text} + 1)",)
+    return (f"({text} + 1)",) if re.fullmatch(r"[0.]+[fFlL]?", digits) else (f"(2 * {text})", f"(-{text})")
 
 
 def _other_word(tokens, i):

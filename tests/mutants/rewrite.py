@@ -62,8 +62,8 @@ def _mutated(tokens, index, replacement):
 
 
 def rewrite(text, path, dropped, first_slot, first_number):
-    """The rewritten source, its mutants (less those whose identity is in `dropped`), its arms, and how many numbers
-    that takes."""
+    """The rewritten source, its mutants (less those whose identity, or (file, function), is in `dropped`), its arms,
+    and how many numbers that takes."""
     finder, by_slot = mutants_of(text, path)
     pieces, mutants, arms = [], [], []
     position = length = 0
@@ -71,7 +71,7 @@ def rewrite(text, path, dropped, first_slot, first_number):
     for slot_number, (slot, made) in enumerate(by_slot, first_slot):
         made = [m._replace(slot=slot_number, number=k) for k, m in enumerate(made, number)]
         number += len(made)
-        made = [m for m in made if m.identity not in dropped]
+        made = [m for m in made if m.identity not in dropped and (path, m.function) not in dropped]
         if not made:
             continue
         start, end = finder.tokens[slot.first].start, finder.tokens[slot.last - 1].end
