@@ -68,6 +68,15 @@ void expect_smallest(Points points) {
   EXPECT_LE(farthest(original, ball.center), expected + 1e-12 * (1 + expected));
 }
 
+TEST(SmallBall, FromABallOfNoPointsIsThatFromNone) {
+  const Points points = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+  const SmallBall none = smallest_ball(points.data(), 0);
+  const SmallBall ball = smallest_ball(points.data(), points.size(), &none);
+  EXPECT_EQ(ball.center, Eigen::Vector3d(1, 0.5, 0));
+  EXPECT_EQ(ball.squared_radius, 1.25);
+  EXPECT_EQ(ball.support_size, 2);
+}
+
 TEST(SmallBall, EqualsTheBestOfAllSubsetsOnRandomPoints) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -55,6 +55,26 @@ TEST(AnyVolume, ForwardsToTheVolumeHeld) {
   }
 }
 
+template <typename Volume>
+void expect_unequal(const Volume& a, const Volume& b) {
+  EXPECT_TRUE(a == a && b == b && !(a == b));
+  EXPECT_TRUE(a != b && !(a != a) && !(b != b));
+}
+
+TEST(AnyVolume, OfAnyShapeIsUnequalToAnotherOneOnly) {
+  const Vector3d o(0, 0, 0), a(1, 0, 0), b(0, 2, 0);
+  expect_unequal(Aabb(o, a), Aabb(o, b));
+  expect_unequal(Kdop().extend(a), Kdop().extend(b));
+  expect_unequal(*KdopSet::dop14(), *KdopSet::dop18());
+  expect_unequal(Sphere(a, 1), Sphere(b, 1));
+  expect_unequal(Obb(Aabb(o, a)), Obb(Aabb(o, b)));
+  expect_unequal(Cylinder(o, a, 1, 2), Cylinder(o, b, 1, 2));
+  expect_unequal(Capsule(o, a, 1), Capsule(o, b, 1));
+  expect_unequal(Ellipsoid(o, Eigen::Matrix3d::Identity(), {1, 2, 3}),
+                 Ellipsoid(o, Eigen::Matrix3d::Identity(), {1, 2, 4}));
+  expect_unequal(Hull({a}, {}, {{a, 1}}, 0), Hull({b}, {}, {{b, 2}}, 0));
+}
+
 TEST(AnyVolume, IsAnEmptyBoxAtFirst) {
   EXPECT_TRUE(empty(AnyVolume()));
   EXPECT_EQ(shape_name(AnyVolume()), "aabb");
