@@ -52,6 +52,24 @@ TEST(Verify, DecidesSpheresThatRoundingCannotTell) {
       << "only the second has x = 0 and moves outward";
 }
 
+TEST(Verify, SaysHowFarOutsideThePointsAre) {
+  const auto worst = [](const AnyVolume& volume, const Eigen::Vector3d& point) {
+    return verify(volume, PointView::of(point.data(), 24, 1)).worst;
+  };
+  const Capsule capsule({0, 0, 0}, {0, 0, 4}, 1);
+  EXPECT_DOUBLE_EQ(worst(capsule, {3, 0, 0.5}), 2);
+  EXPECT_DOUBLE_EQ(worst(capsule, {0, 3, -4}), 4);
+  EXPECT_DOUBLE_EQ(worst(capsule, {3, 0, 8}), 4);
+  EXPECT_DOUBLE_EQ(worst(Capsule({1, 0, 0}, {1, 0, 0}, 1), {1, 5, 0}), 4);
+  const Cylinder cylinder({0, 0, 1}, {0, 0, 1}, 1, 2);
+  EXPECT_DOUBLE_EQ(worst(cylinder, {3, 0, 1}), 2);
+  EXPECT_DOUBLE_EQ(worst(cylinder, {0, 0.5, -4}), 3);
+  const Ellipsoid ellipsoid({1, 0, 0}, Eigen::Matrix3d::Identity(), {1, 2, 3});
+  EXPECT_DOUBLE_EQ(worst(ellipsoid, {5, 0, 0}), 3);
+  EXPECT_DOUBLE_EQ(worst(Sphere({1, 0, 0}, 2), {1, 0, 5}), 3);
+  EXPECT_DOUBLE_EQ(worst(Obb(Aabb({0, 0, 0}, {1, 2, 3})), {0.5, 1, -4}), 4);
+}
+
 TEST(Verify, EverythingIsOutsideAnEmptyVolume) {
   const float p[] = {1, 2, 3};
   EXPECT_EQ(verify(Aabb(), PointView::of(p, 12, 1)).outside, 1U);

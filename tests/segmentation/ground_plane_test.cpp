@@ -31,6 +31,18 @@ TEST(UpAxis, IsReadFromItsSixNamesOnly) {
   }
 }
 
+TEST(GroundPlane, SettingsAreThoseOfTheDocumentationAtFirst) {
+  const GroundPlaneSettings settings;
+  EXPECT_EQ(settings.up, UpAxis::z);
+  EXPECT_EQ(settings.distance, 0.2);
+  EXPECT_EQ(settings.max_slope_degrees, 15);
+  EXPECT_FALSE(settings.sensor_height);
+  EXPECT_EQ(settings.seed, 1U);
+  EXPECT_EQ(settings.iterations, 1000U);
+  EXPECT_FALSE(GroundSplit().found);
+  EXPECT_EQ(GroundSplit().offset, 0);
+}
+
 TEST(GroundPlane, SplitsAFloorFromWhatStandsOnIt) {
   Cloud<float> cloud;
   add_plane<float>(cloud, 3000, 10, 0, 0, -1.5F, 0.1F, 0.02F);

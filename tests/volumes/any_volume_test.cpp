@@ -64,7 +64,11 @@ void expect_unequal(const Volume& a, const Volume& b) {
 TEST(AnyVolume, OfAnyShapeIsUnequalToAnotherOneOnly) {
   const Vector3d o(0, 0, 0), a(1, 0, 0), b(0, 2, 0);
   expect_unequal(Aabb(o, a), Aabb(o, b));
+  expect_unequal(Aabb(o, b), Aabb(b, b));
   expect_unequal(Kdop().extend(a), Kdop().extend(b));
+  const SlabVector zero = SlabVector::Zero(7), one = SlabVector::Ones(7), two = 2 * one;
+  expect_unequal(Kdop(KdopSet::dop14(), zero, one), Kdop(KdopSet::dop14(), zero, two));
+  expect_unequal(Kdop(KdopSet::dop14(), zero, two), Kdop(KdopSet::dop14(), one, two));
   expect_unequal(*KdopSet::dop14(), *KdopSet::dop18());
   expect_unequal(Sphere(a, 1), Sphere(b, 1));
   expect_unequal(Obb(Aabb(o, a)), Obb(Aabb(o, b)));

@@ -125,6 +125,19 @@ TEST(Kdop, ExtendHoldsEveryPointByExactArithmetic) {
   }
 }
 
+TEST(Kdop, ExtendHoldsPointsThatPlainArithmeticPutsOnTheSurface) {
+  Random random(29);
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d p = Vector3d(1, 1, 1) + random.vector(0.5);
+    Vector3d q = p;  // at most some units in the last place away
+    for (int axis = 0; axis < 3; ++axis)
+      q[axis] += std::floor(random.uniform(-2, 3)) * 0x1p-53;
+    const Kdop kdop = Kdop().extend(p).extend(q);
+    ASSERT_TRUE(inside(kdop, exact(p)) && inside(kdop, exact(q)))
+        << p.transpose() << " and " << q.transpose();
+  }
+}
+
 TEST(Kdop, ContainsErrsOnlyTowardsTrueAtTheSurface) {
   // A point whose plain projection x + y + z is off by more than a unit in the last place of the result.
   Random random(23);

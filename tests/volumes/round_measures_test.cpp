@@ -75,6 +75,38 @@ TEST(RoundVolumes, HaveTheirKnownMeasures) {
   EXPECT_EQ(hull.support({1, -1, 2}), Vector3d(3, 2, 5));
 }
 
+TEST(RoundVolumes, AnEllipsoidOfRevolutionHasTheSurfaceOfItsFormula) {
+  const auto surface = [](double equator, double pole) {
+    const double q = equator * equator, p = pole * pole;
+    const double e = std::sqrt(pole < equator ? 1 - p / q : 1 - q / p);
+    if (pole < equator) return 2 * kPi * q * (1 + (1 - e * e) / e * std::atanh(e));
+    return 2 * kPi * q * (1 + pole / (equator * e) * std::asin(e));
+  };
+  for (double pole = 0.01; pole < 100; pole *= 1.03) {
+    if (std::abs(pole - 1) < 0.1) continue;  // where the formula cancels
+    const Ellipsoid ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {1, pole, 1});
+    EXPECT_NEAR(ellipsoid.surface_area() / surface(1, pole), 1, 1e-13) << pole;
+  }
+}
+
+TEST(RoundVolumes, PlanesOfAMovedHullTouchItsFacesAtRightAngles) {
+  Random random(8);
+  for (int i = 0; i < 20; ++i) {
+    const Hull hull = cube({1, 2, 3}, 2);
+    const Eigen::Isometry3d transform = random.isometry(5);
+    const Hull moved = hull.transformed(transform);
+    ASSERT_EQ(moved.planes().size(), hull.planes().size());
+    for (std::size_t k = 0; k < hull.planes().size(); ++k) {
+      const HullPlane& plane = moved.planes()[k];
+      EXPECT_LE((plane.normal - transform.linear() * hull.planes()[k].normal).norm(), 1e-15);
+      double reach = -1e9;
+      for (const Vector3d& v : moved.vertices())
+        reach = std::max(reach, plane.normal.dot(v));
+      EXPECT_NEAR(plane.offset, reach, 1e-13);
+    }
+  }
+}
+
 TEST(RoundVolumes, NearestPointOfAnEllipsoidIsOnIt) {
   Random random(7);
   for (int i = 0; i < 200; ++i) {

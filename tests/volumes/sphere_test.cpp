@@ -32,6 +32,22 @@ double exact_radius(const Vector3d& center, const Vector3d& point) {
   return r;
 }
 
+TEST(Sphere, MeshHasVerticesOnTheSphereAndEdgesOfNearlyOneLength) {
+  const Mesh mesh = Sphere({0, 0, 0}, 1).mesh();
+  double shortest = infinity, longest = 0;
+  for (const Vector3d& v : mesh.vertices)
+    EXPECT_NEAR(v.norm(), 1, 1e-15);
+  for (const auto& face : mesh.faces) {
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Vector3d& from = mesh.vertices[static_cast<std::size_t>(face[i])];
+      const Vector3d& to = mesh.vertices[static_cast<std::size_t>(face[(i + 1) % face.size()])];
+      shortest = std::min(shortest, (to - from).norm());
+      longest = std::max(longest, (to - from).norm());
+    }
+  }
+  EXPECT_LT(longest, 1.2 * shortest);
+}
+
 TEST(Sphere, DefaultIsEmptyAndHoldsNothing) {
   const Sphere s;
   EXPECT_TRUE(s.empty());

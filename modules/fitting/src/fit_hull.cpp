@@ -41,8 +41,9 @@ Normals normals_of(const LocalHull& hull) {
     add_both(hull.axes.col(k), normals);
   if (hull.rank == 1) add_both(hull.axes.col(0), normals);
   if (hull.rank == 2) {
-    for (const auto& [from, to] : hull.edges())
-      add_unit((at(to) - at(from)).cross(hull.axes.col(2)), normals);
+    const auto corners = static_cast<std::int32_t>(hull.vertices.size());
+    for (std::int32_t i = 0; i < corners; ++i)
+      add_unit((at((i + 1) % corners) - at(i)).cross(hull.axes.col(2)), normals);
   }
   return normals;
 }

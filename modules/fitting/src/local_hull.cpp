@@ -152,20 +152,6 @@ void find_solid(LocalHull& hull) {
 
 }  // namespace
 
-std::vector<std::array<std::int32_t, 2>> LocalHull::edges() const {
-  std::vector<std::array<std::int32_t, 2>> result;
-  for (const Triangle& t : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (t[i] < t[(i + 1) % 3]) result.push_back({t[i], t[(i + 1) % 3]});
-    }
-  }
-  if (rank == 1) result.push_back({0, 1});
-  const auto corners = static_cast<std::int32_t>(vertices.size());
-  for (std::int32_t i = 0; i < corners && rank == 2; ++i)
-    result.push_back({i, (i + 1) % corners});
-  return result;
-}
-
 LocalHull local_hull(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
                      const Execution& execution) {
   LocalHull hull;

@@ -42,10 +42,6 @@ struct LocalHull {
   /// is, by exact arithmetic, in the hull of these: a convex set that holds them holds the cloud, and a
   /// convex function is greatest on one of them. Ascending by position in the view.
   std::vector<HullPoint> candidates;
-
-  /// Each edge once, as numbers of vertices; of rank 3 with triangles that share a plane, their diagonals,
-  /// too.
-  std::vector<std::array<std::int32_t, 2>> edges() const;
 };
 
 /// For a cloud with at least one valid point; `extremes` are those along dop26, with points. The same bits
