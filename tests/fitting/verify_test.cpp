@@ -52,6 +52,18 @@ TEST(Verify, DecidesSpheresThatRoundingCannotTell) {
       << "only the second has x = 0 and moves outward";
 }
 
+TEST(Verify, DecidesPlanesThatRoundingCannotTell) {
+  constexpr double odd = 1 + 0x1p-52;  // squared it is more than the double nearest to that
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d point = 0x1p20 * odd * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d normal = odd * Eigen::Vector3d::Unit(axis);
+    const double offset = 0x1p20 * (odd * odd);
+    const PointView points = PointView::of(point.data(), 24, 1);
+    EXPECT_EQ(verify(Hull({point}, {}, {{normal, offset}}, 0), points).outside, 1U) << axis;
+    EXPECT_EQ(verify(Hull({point}, {}, {{normal, offset * odd}}, 0), points).outside, 0U) << axis;
+  }
+}
+
 TEST(Verify, SaysHowFarOutsideThePointsAre) {
   const auto worst = [](const AnyVolume& volume, const Eigen::Vector3d& point) {
     return verify(volume, PointView::of(point.data(), 24, 1)).worst;

@@ -71,7 +71,7 @@ class Results:
 
 
 def heading(mutant):
-    return f"{mutant.file}: {mutant.function}"
+    return f"{mutant.file}: {mutant.function}" + (f" #{mutant.ordinal + 1}" if mutant.ordinal else "")
 
 
 def explained_in(text):

@@ -17,6 +17,7 @@ class Mutant(NamedTuple):
     original: str  # the slot's text
     mutated: str
     change: str
+    ordinal: int  # among equal slots of a function
     slot: int = -1
     number: int = -1
 
@@ -49,7 +50,7 @@ def mutants_of(text, path):
             identity = hashlib.sha256(f"{place}|{replacement}".encode()).hexdigest()[:16]
             mutated = _mutated(tokens, point.index - slot.first, replacement)
             change = f"{finder.tokens[point.index].text} to {replacement or 'nothing'}"
-            made.append(Mutant(identity, path, line, slot.function, original, mutated, change))
+            made.append(Mutant(identity, path, line, slot.function, original, mutated, change, ordinal))
         if made:
             result.append((slot, made))
     return finder, result
