@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "clouds.h"
 #include "executions.h"
@@ -61,6 +63,14 @@ TEST(Verify, DecidesPlanesThatRoundingCannotTell) {
     const PointView points = PointView::of(point.data(), 24, 1);
     EXPECT_EQ(verify(Hull({point}, {}, {{normal, offset}}, 0), points).outside, 1U) << axis;
     EXPECT_EQ(verify(Hull({point}, {}, {{normal, offset * odd}}, 0), points).outside, 0U) << axis;
+    std::vector<Eigen::Vector3d> directions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    directions[static_cast<std::size_t>(axis)] = normal;
+    const auto set = std::make_shared<const KdopSet>(directions);
+    SlabVector low = SlabVector::Zero(3), high = SlabVector::Zero(3);
+    high[axis] = offset;
+    EXPECT_EQ(verify(Kdop(set, low, high), points).outside, 1U) << axis;
+    high[axis] *= odd;
+    EXPECT_EQ(verify(Kdop(set, low, high), points).outside, 0U) << axis;
   }
 }
 
@@ -79,7 +89,23 @@ TEST(Verify, SaysHowFarOutsideThePointsAre) {
   const Ellipsoid ellipsoid({1, 0, 0}, Eigen::Matrix3d::Identity(), {1, 2, 3});
   EXPECT_DOUBLE_EQ(worst(ellipsoid, {5, 0, 0}), 3);
   EXPECT_DOUBLE_EQ(worst(Sphere({1, 0, 0}, 2), {1, 0, 5}), 3);
-  EXPECT_DOUBLE_EQ(worst(Obb(Aabb({0, 0, 0}, {1, 2, 3})), {0.5, 1, -4}), 4);
+  const Aabb box({0, 0, 0}, {1, 2, 3});
+  EXPECT_DOUBLE_EQ(worst(box, {0.5, 1, -4}), 4);
+  EXPECT_DOUBLE_EQ(worst(box, {0.5, 5, 1}), 3);
+  EXPECT_DOUBLE_EQ(worst(Obb(box), {0.5, 1, -4}), 4);
+  EXPECT_DOUBLE_EQ(worst(Obb(box), {5, 1, 1}), 4);
+  std::vector<HullPlane> planes;
+  for (int axis = 0; axis < 3; ++axis) {
+    planes.push_back({Eigen::Vector3d::Unit(axis), box.max()[axis]});
+    planes.push_back({-Eigen::Vector3d::Unit(axis), -box.min()[axis]});
+  }
+  const auto corners = box.corners();
+  const Hull hull({corners.begin(), corners.end()}, {}, planes, 3);
+  EXPECT_EQ(worst(hull, {0.5, 1, 1}), 0);
+  EXPECT_DOUBLE_EQ(worst(hull, {5, 1, 1}), 4);
+  EXPECT_DOUBLE_EQ(worst(hull, {0.5, 5, 1}), 3);
+  EXPECT_DOUBLE_EQ(worst(hull, {0.5, 1, 5}), 2);
+  EXPECT_DOUBLE_EQ(worst(hull, {0.5, 1, -4}), 4);
 }
 
 TEST(Verify, EverythingIsOutsideAnEmptyVolume) {

@@ -151,6 +151,18 @@ TEST_P(Projections, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
   }
 }
 
+TEST_P(Projections, OfTheOnlyValidPointAreItsOwn) {
+  const Directions directions = test::random_directions(3, 5);
+  for (const std::size_t n : {1, 15, 40}) {
+    for (std::size_t i = 0; i < n; ++i) {
+      TestCloud<float> cloud{"", std::vector<float>(3 * n, std::numeric_limits<float>::quiet_NaN())};
+      std::fill_n(&cloud.xyz[3 * i], 3, 1.5F);
+      SCOPED_TRACE(testing::Message() << n << " points, valid " << i);
+      expect_definition(cloud.view(), directions);
+    }
+  }
+}
+
 TEST_P(Projections, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
   const TestCloud<float> cloud = test::gaussian<float>(4000, 3);
   std::vector<std::int32_t> indices(4000);

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "exact.h"
@@ -58,6 +59,17 @@ TEST(ObbOrientation, CanonicalIsOneForAllNamesOfABox) {
 }
 
 // Cubes, square bars and tiles, some at 45 degrees, whose sizes and axes differ by rounding.
+TEST(ObbOrientation, CanonicalOfASquareOnItsCornerBeginsWithTheDiagonalUpward) {
+  const double r = std::sqrt(0.5);
+  Matrix3d axes;
+  axes << r, r, 0, r, -r, 0, 0, 0, -1;
+  for (const Obb& name : all_names(Obb({0, 0, 0}, axes, {2, 2, 1}))) {
+    const Matrix3d canonical = name.canonical().axes();
+    EXPECT_LE((canonical.col(0) - Vector3d(r, r, 0)).norm(), 1e-15);
+    EXPECT_LE((canonical.col(1) - Vector3d(r, -r, 0)).norm(), 1e-15);
+  }
+}
+
 TEST(ObbOrientation, CanonicalDoesNotFlipWhereSizesAgree) {
   Random random(22);
   for (const Vector3d& size : {Vector3d(1, 1, 1), Vector3d(2, 2, 1), Vector3d(1, 3, 3)}) {
