@@ -88,6 +88,8 @@ TEST(Verify, SaysHowFarOutsideThePointsAre) {
   EXPECT_DOUBLE_EQ(worst(cylinder, {0, 0.5, -4}), 3);
   const Ellipsoid ellipsoid({1, 0, 0}, Eigen::Matrix3d::Identity(), {1, 2, 3});
   EXPECT_DOUBLE_EQ(worst(ellipsoid, {5, 0, 0}), 3);
+  EXPECT_DOUBLE_EQ(worst(ellipsoid, {1, 2.25, 0}), 0.25);
+  EXPECT_EQ(worst(ellipsoid, {1, 0, 2.75}), 0);
   EXPECT_DOUBLE_EQ(worst(Sphere({1, 0, 0}, 2), {1, 0, 5}), 3);
   const Aabb box({0, 0, 0}, {1, 2, 3});
   EXPECT_DOUBLE_EQ(worst(box, {0.5, 1, -4}), 4);

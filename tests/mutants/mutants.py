@@ -55,7 +55,7 @@ def try_all(mutants, cases, results, options):
         nonlocal tried
         with lock:
             over = time.monotonic() > deadline or (options.count and tried >= options.count)
-            if over or results.get(mutant) is not None:
+            if over or results.is_settled(mutant):
                 return
             tried += 1
         reaching = covering.get(mutant.slot, [])
@@ -105,7 +105,7 @@ def main():
     cases = cases_of(programs, build.BUILD / "cases.json", options.jobs, say)
     say(f"{len(cases)} cases, {sum(c.seconds for c in cases):.0f} s; {len(mutants)} mutants")
     results = Results(options.results)
-    say(f"{try_all(mutants, cases, results, options)} mutants tried in this run")
+    say(f"{try_all(results.with_unsettled_first(mutants), cases, results, options)} mutants tried in this run")
     return 0 if report(mutants, results) else 1
 
 

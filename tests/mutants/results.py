@@ -49,11 +49,17 @@ class Results:
         return self._sources[mutant.file]
 
     def get(self, mutant):
-        """None if it has not been tried as things are."""
+        """None if it has not been tried with the source as it is."""
         known = self._by_identity.get(mutant.identity)
-        if known is None or known["source"] != self._source(mutant):
-            return None
-        return known if known["noticed_by"] or known["tests"] == self._tests else None
+        return known if known is not None and known["source"] == self._source(mutant) else None
+
+    def is_settled(self, mutant):
+        known = self.get(mutant)
+        return known is not None and (known["noticed_by"] is not None or known["tests"] == self._tests)
+
+    def with_unsettled_first(self, mutants):
+        """Those first that tests did not notice before the tests changed: to pass them over would flatter."""
+        return sorted(mutants, key=lambda m: self.get(m) is None or self.is_settled(m))
 
     def put(self, mutant, noticed_by, reached):
         self._by_identity[mutant.identity] = {

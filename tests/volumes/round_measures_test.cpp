@@ -107,6 +107,22 @@ TEST(RoundVolumes, PlanesOfAMovedHullTouchItsFacesAtRightAngles) {
   }
 }
 
+TEST(RoundVolumes, StoreNoNegativeZero) {
+  const Vector3d zero(-0.0, -0.0, -0.0), up(0, 0, 1);
+  const Capsule capsule(zero, zero, -0.0);
+  const Cylinder cylinder(zero, up, -0.0, -0.0);
+  const Ellipsoid ellipsoid(zero, Eigen::Matrix3d::Identity(), zero);
+  const Hull hull({zero}, {}, {{up, -0.0}}, 0);
+  for (int k = 0; k < 3; ++k) {
+    for (const double stored : {capsule.a()[k], capsule.b()[k], cylinder.center()[k], ellipsoid.center()[k],
+                                ellipsoid.radii()[k], hull.vertices()[0][k]})
+      EXPECT_FALSE(std::signbit(stored)) << k;
+  }
+  for (const double stored :
+       {capsule.radius(), cylinder.radius(), cylinder.half_height(), hull.planes()[0].offset})
+    EXPECT_FALSE(std::signbit(stored));
+}
+
 TEST(RoundVolumes, NearestPointOfAnEllipsoidIsOnIt) {
   Random random(7);
   for (int i = 0; i < 200; ++i) {
