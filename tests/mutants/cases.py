@@ -103,7 +103,8 @@ def who_notices(mutant, cases):
         for program in dict.fromkeys(c.program for c in group):
             own = [c for c in group if c.program == program]
             command = [program, "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + ":".join(c.name for c in own)]
-            status, said = run(command, variables, 10 + 10 * sum(c.seconds for c in own))
+            seconds = sum(c.seconds for c in own)
+            status, said = run(command, variables, min(10 + 10 * seconds, 60 + 3 * seconds))
             if status is None:
                 return f"out of time in {Path(program).name}"
             if status != 0:
