@@ -13,6 +13,7 @@ option(PCL_BV_INSTALL "Install the libraries, the commands and the CMake package
 option(PCL_BV_NODES_PCL "Build what needs more of PCL than its common library: grabbers, a live window" OFF)
 option(PCL_BV_LARGE_TESTS "Build the tests that write files of gigabytes" OFF)
 option(PCL_BV_FUZZ "Build only the fuzzers of the readers; needs clang" OFF)
+option(PCL_BV_UNITY "Compile the sources of a library together: a build from nothing is faster, one after a change slower" OFF)
 option(PCL_BV_WERROR "Treat warnings as errors" OFF)
 set(PCL_BV_SANITIZE "" CACHE STRING "Sanitizers for all targets, as for -fsanitize=")
 set(PCL_BV_GTEST_SOURCE "" CACHE PATH "GoogleTest's sources, to build it with the tests instead of finding it")

@@ -28,13 +28,25 @@ function(pcl_bv_precompile target header kind)
     target_precompile_headers(${target} PRIVATE ${path})
   endif()
   # What g++ 12 inlines from a precompiled std::string it takes for ours, and warns of.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-array-bounds>)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-stringop-overread
+                                                                         -Wno-array-bounds>)
+endfunction()
+
+# pcl_bv_unity(target): with PCL_BV_UNITY, eight of its sources at a time are one: most of what each would cost is the
+# parsing of Eigen. All at once would leave the other processors idle.
+function(pcl_bv_unity target)
+  if(PCL_BV_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    # g++ takes an included source for a header, where members of types in an anonymous namespace would be a mistake.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
 endfunction()
 
 # pcl_bv_library(name [COMPONENT component] SOURCES ... PUBLIC ... PRIVATE ...): the layer `name`, as pcl_bv::name,
 # installed with this component of the package (`name`). PRECOMPILED: its sources begin with cmake/precompiled.h.
+# NO_UNITY: each source is compiled on its own whatever PCL_BV_UNITY says.
 function(pcl_bv_library name)
-  cmake_parse_arguments(arg "PRECOMPILED" "COMPONENT" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "PRECOMPILED;NO_UNITY" "COMPONENT" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target pcl_bv_${name})
   if(arg_SOURCES)
     add_library(${target} ${arg_SOURCES})
@@ -45,6 +57,9 @@ function(pcl_bv_library name)
       DEFINE_SYMBOL "" VERSION ${pcl_bv_VERSION} SOVERSION ${pcl_bv_VERSION_MAJOR}.${pcl_bv_VERSION_MINOR})
     if(arg_PRECOMPILED)
       pcl_bv_precompile(${target} cmake/precompiled.h library)
+    endif()
+    if(NOT arg_NO_UNITY)
+      pcl_bv_unity(${target})
     endif()
     set(scope PUBLIC)
   else()

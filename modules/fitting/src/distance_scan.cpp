@@ -9,6 +9,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "pcl_bv/kernels/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
@@ -18,7 +19,6 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::size_t kBlocksPerChunk = 32;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // With so few blocks, each is likely to hold a point on the sphere, which float arithmetic cannot reject.
 constexpr std::size_t kFewBlocks = 4;
@@ -137,7 +137,7 @@ class DistanceScan::SharedOctants {
   }
 
   double least() const {
-    double least = kInfinity;
+    double least = std::numeric_limits<double>::infinity();
     for (const std::atomic<double>& b : best_)
       least = std::min(least, b.load(std::memory_order_relaxed));
     return least;

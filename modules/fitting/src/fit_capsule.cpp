@@ -15,8 +15,6 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kU = 0x1p-53;
-
 // The points seen along an axis: their squared distances from it and how far along they are.
 struct Seen {
   Eigen::Vector3d foot;  // of the axis, on the plane through the origin across it
@@ -79,8 +77,8 @@ Candidate widened(const Seen& seen) {
 }
 
 // Everything within 20 U |q|_1 + 20 U |ends apart|: feet, differences and lengths together.
-Capsule measured(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& a,
-                 const Eigen::Vector3d& b) {
+Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& a,
+                         const Eigen::Vector3d& b) {
   const Eigen::Vector3d e = (b - a) * frame.scale();
   const double length = norm3(e);
   const Eigen::Vector3d axis = length > 0 ? Eigen::Vector3d(e / length) : Eigen::Vector3d::Zero();
@@ -111,10 +109,10 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
   const SmallBall ball = smallest_ball(vertices.data(), vertices.size());
   if (ball.squared_radius * std::sqrt(ball.squared_radius) * 4 / 3 <= best.volume()) {
     const Eigen::Vector3d center = frame.global(ball.center);
-    return measured(hull, frame, center, center);
+    return measured_capsule(hull, frame, center, center);
   }
-  return measured(hull, frame, frame.global(seen.foot + best.low * axis),
-                  frame.global(seen.foot + best.high * axis));
+  return measured_capsule(hull, frame, frame.global(seen.foot + best.low * axis),
+                          frame.global(seen.foot + best.high * axis));
 }
 
 }  // namespace

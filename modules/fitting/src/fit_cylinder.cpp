@@ -16,8 +16,6 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kU = 0x1p-53;
-
 // Around an axis, in local coordinates: the smallest circle of the projections, and from where to where.
 struct Around {
   Eigen::Vector3d middle;
@@ -52,8 +50,8 @@ Eigen::Vector3d find_axis(const LocalHull& hull, const std::vector<Eigen::Vector
 
 // With q off by U = 2^-53 of itself, q . axis is off by 5 U |q|_1, |q x axis| by 15 U |q|_1, and 1 / |axis|
 // by 4 U.
-Cylinder measured(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& center,
-                  const Eigen::Vector3d& axis) {
+Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& center,
+                           const Eigen::Vector3d& axis) {
   double radius = 0, half_height = 0;
   for (const HullPoint& candidate : hull.candidates) {
     const Eigen::Vector3d q = frame.seen_from(center, candidate.point);
@@ -73,7 +71,7 @@ EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const
     std::vector<Eigen::Vector3d> all, flat;
     for (const HullPoint& v : hull.vertices)
       all.push_back(v.local);
-    cylinder = measured(hull, frame, frame.global(around(axis, all, flat).middle), axis);
+    cylinder = measured_cylinder(hull, frame, frame.global(around(axis, all, flat).middle), axis);
   });
 }
 

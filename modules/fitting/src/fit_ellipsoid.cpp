@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "pcl_bv/fitting/fit.h"
 #include "round_fit.h"
@@ -16,13 +17,11 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kU = 0x1p-53;
 constexpr double kTolerance = 1e-6;  // of kappa; the volume exceeds the bound by twice that
 constexpr int kMostIterations = 300;
-constexpr double kPi = 3.14159265358979323846;
 
 // Radii below this part of the greatest are as good as flat, and would make quotients that say nothing.
-constexpr double kThin = 0x1p-30;
+constexpr double kThinRadius = 0x1p-30;
 
 // The points as the solver sees them: coordinates along the hull's axes, which its rank makes enough.
 std::vector<Eigen::Vector3d> along_axes(const LocalHull& hull) {
@@ -63,7 +62,7 @@ Axes scaled(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3
 void certify(const LocalHull& hull, const LocalFrame& frame, const WeightedEllipsoid& weighted,
              const Axes& body, EllipsoidCertificate& certificate) {
   const SymmetricEigen spread = symmetric_eigen(weighted.covariance);
-  double ratio = 1, bound = 4 * kPi / 3;
+  double ratio = 1, bound = 4 * std::numbers::pi / 3;
   for (int k = 0; k < hull.rank; ++k) {
     const double radius = std::sqrt(hull.rank * std::max(spread.values[k], 0.0));
     ratio *= body.radii[k] / radius;
@@ -104,7 +103,7 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
       body.radii[k] = std::sqrt(hull.rank * std::max(spread.values[k], 0.0));
       center += weighted.center[k] * hull.axes.col(k);
     }
-    body.radii = body.radii.cwiseMax(kThin * body.radii[0]);
+    body.radii = body.radii.cwiseMax(kThinRadius * body.radii[0]);
     center = frame.global(center);
     body = scaled(hull, frame, center, body);
     certificate.iterations = weighted.iterations;

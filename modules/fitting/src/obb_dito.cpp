@@ -17,9 +17,9 @@ namespace {
 constexpr double kThin = 1e-10;
 
 // Few points side by side: frames are compared in floats, all points at a time.
-class Lanes {
+class PointLanes {
  public:
-  explicit Lanes(const FewPoints& few) {
+  explicit PointLanes(const FewPoints& few) {
     for (std::size_t i = 0; i < kCount; ++i) {
       const Eigen::Vector3f p = few[std::min(i, few.size() - 1)].cast<float>();
       const auto lane = static_cast<Eigen::Index>(i);
@@ -66,7 +66,7 @@ struct Best {
     compete(a - c, n, thickness);
   }
 
-  Lanes lanes;
+  PointLanes lanes;
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   float half_area;
 };

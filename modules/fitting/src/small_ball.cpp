@@ -10,6 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "vector3.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -18,17 +20,8 @@ using Vector = Eigen::Vector3d;
 constexpr double kRounding = 1 + 0x1p-50;  // what a squared distance may differ by without meaning anything
 constexpr double kTie = 1 + 0x1p-46;       // and what that of two centres of one ball may
 
-// One stated order and no fused operations, where Eigen's reductions may differ between architectures.
-double dot(const Vector& a, const Vector& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
-
 double squared_distance(const Vector& a, const Vector& b) {
-  return dot(a - b, a - b);
-}
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
+  return dot3(a - b, a - b);
 }
 
 // x with rows[i] . x = right[i], by elimination with row pivoting: its residual is small even where the rows
@@ -73,7 +66,7 @@ class Step {
       : size_(size) {
     for (int i = 0; i < size; ++i) {
       spokes_[i] = points[support[i]] - points[pivot];
-      squared_[i] = dot(spokes_[i], spokes_[i]);
+      squared_[i] = dot3(spokes_[i], spokes_[i]);
     }
   }
 
@@ -91,7 +84,7 @@ class Step {
   // taken, since a support with a negative weight does not ask for its ball.
   template <typename LeastWeight>
   bool offer(unsigned members, const Vector& center, LeastWeight&& least_weight) {
-    const double squared_radius = dot(center, center);
+    const double squared_radius = dot3(center, center);
     double greatest = squared_radius;
     for (int i = 0; i < size_; ++i)
       greatest = std::max(greatest, squared_distance(spokes_[i], center));
@@ -116,11 +109,11 @@ class Step {
   bool try_triples() {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
-        const double product = dot(spokes_[i], spokes_[j]);
+        const double product = dot3(spokes_[i], spokes_[j]);
         // Of a triangle that is not acute, the longest side spans the ball.
         if (product <= 0 || product >= squared_[i] || product >= squared_[j]) continue;
         Vector center;
-        const std::array<Vector, 3> rows = {spokes_[i], spokes_[j], cross(spokes_[i], spokes_[j])};
+        const std::array<Vector, 3> rows = {spokes_[i], spokes_[j], cross3(spokes_[i], spokes_[j])};
         if (!pcl_bv::solve(rows, {squared_[i] / 2, squared_[j] / 2, 0}, center)) continue;
         if (offer(1U << i | 1U << j, center, [] { return 0.0; })) return true;
       }
@@ -165,7 +158,7 @@ void weigh(const Vector* points, SmallBall& ball) {
     spokes[i - 1] = points[ball.support[i]] - origin;
   Vector rest = Vector::Zero();
   if (ball.support_size == 2) rest = {0.5, 0, 0};
-  if (ball.support_size == 3) spokes[2] = cross(spokes[0], spokes[1]);
+  if (ball.support_size == 3) spokes[2] = cross3(spokes[0], spokes[1]);
   if (ball.support_size > 2) rest = weights(spokes, ball.center - origin);
   double sum = 0;
   for (int i = 1; i < ball.support_size; ++i)
@@ -183,10 +176,10 @@ double squared_lower_bound(const Vector* points, const SmallBall& ball) {
   Vector mean = Vector::Zero();
   for (int i = 0; i < ball.support_size; ++i) {
     const Vector q = points[ball.support[i]] - ball.center;
-    squares += ball.weights[i] * dot(q, q);
+    squares += ball.weights[i] * dot3(q, q);
     mean += ball.weights[i] * q;
   }
-  return squares - dot(mean, mean);
+  return squares - dot3(mean, mean);
 }
 
 std::size_t farthest(const Vector* points, std::size_t count, const Vector& center, double& greatest) {

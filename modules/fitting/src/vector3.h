@@ -17,6 +17,9 @@ inline double norm3(const Eigen::Vector3d& v) {
   return std::sqrt(dot3(v, v));
 }
 
+/// What one rounding to double is off by at most, relatively: the U of what is said about errors.
+inline constexpr double kU = 0x1p-53;
+
 /// |v|_1, what error bounds are in terms of.
 inline double taxicab3(const Eigen::Vector3d& v) {
   return (std::abs(v.x()) + std::abs(v.y())) + std::abs(v.z());

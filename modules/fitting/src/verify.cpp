@@ -16,13 +16,13 @@
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
+#include "vector3.h"
 
 namespace pcl_bv {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-constexpr double kU = 0x1p-53;
 constexpr double kTiny = std::numeric_limits<double>::min();  // covers what underflow may take from a product
 
 // How far p is outside, as a double: 0 only if it is inside by exact arithmetic.
@@ -103,10 +103,6 @@ double violation(const Hull& hull, const Eigen::Vector3d& p) {
   return worst;
 }
 
-double terms(const Eigen::Vector3d& q) {
-  return (std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z());
-}
-
 using ExactVector = std::array<Rational, 3>;
 
 ExactVector exact(const Eigen::Vector3d& v) {
@@ -127,7 +123,7 @@ double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - cylinder.center();
   const Eigen::Vector3d& axis = cylinder.axis();
   const double along = std::abs(q.dot(axis)), across = q.cross(axis).stableNorm();
-  const double doubt = 32 * kU * terms(q) + kTiny;
+  const double doubt = 32 * kU * taxicab3(q) + kTiny;
   const double r = cylinder.radius(), h = cylinder.half_height();
   if (along + doubt <= h && across + doubt <= r) return 0.0;
   const ExactVector exact_q = difference(exact(p), exact(cylinder.center())), a = exact(axis);
@@ -146,7 +142,7 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
   const double length = e.stableNorm();
   const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(e / length) : Eigen::Vector3d::Zero();
   const double far = (q - std::clamp(q.dot(unit), 0.0, length) * unit).stableNorm();
-  if (far + 64 * kU * (terms(q) + terms(e)) + kTiny <= r) return 0.0;
+  if (far + 64 * kU * (taxicab3(q) + taxicab3(e)) + kTiny <= r) return 0.0;
   const ExactVector a = exact(capsule.a()), edge = difference(exact(capsule.b()), a);
   const ExactVector from_a = difference(exact(p), a);
   const Rational squared_edge = dot(edge, edge);
@@ -162,7 +158,7 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
 double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - ellipsoid.center();
   const Eigen::Vector3d& radii = ellipsoid.radii();
-  const double doubt = 16 * kU * terms(q) + kTiny;
+  const double doubt = 16 * kU * taxicab3(q) + kTiny;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
     const double ratio = (std::abs(q.dot(ellipsoid.axes().col(i))) + doubt) / radii[i];

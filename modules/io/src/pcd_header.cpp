@@ -18,13 +18,13 @@
 namespace pcl_bv {
 namespace {
 
-using Lines = std::map<std::string_view, Words>;  // keyword -> the words after it
+using KeywordLines = std::map<std::string_view, Words>;  // keyword -> the words after it
 
 constexpr std::string_view keywords[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                          "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
 // Adds a line's words; returns its keyword, empty for a comment or an empty line.
-std::string_view add_line(std::string_view line, Lines& lines) {
+std::string_view add_line(std::string_view line, KeywordLines& lines) {
   Words words = split(line);
   if (words.empty() || words[0][0] == '#') return {};
   const std::string_view keyword = words[0] == "COLUMNS" ? std::string_view("FIELDS") : words[0];
@@ -38,8 +38,8 @@ std::string_view add_line(std::string_view line, Lines& lines) {
   return keyword;
 }
 
-Lines gather_lines(std::string_view start, std::size_t& data_offset) {
-  Lines lines;
+KeywordLines gather_lines(std::string_view start, std::size_t& data_offset) {
+  KeywordLines lines;
   std::size_t at = 0;
   while (at < start.size()) {
     const std::size_t newline = start.find('\n', at);
@@ -59,7 +59,7 @@ Lines gather_lines(std::string_view start, std::size_t& data_offset) {
   throw IoError("truncated header: no DATA line in the first " + std::to_string(start.size()) + " bytes");
 }
 
-const Words& words_of(const Lines& lines, std::string_view keyword, std::size_t count) {
+const Words& words_of(const KeywordLines& lines, std::string_view keyword, std::size_t count) {
   const auto line = lines.find(keyword);
   if (line == lines.end()) throw IoError("header: no " + std::string(keyword) + " line");
   if (line->second.size() != count) {
@@ -97,7 +97,7 @@ std::uint32_t element_count(std::string_view word) {
   return count;
 }
 
-void read_fields(const Lines& lines, RawCloud& cloud) {
+void read_fields(const KeywordLines& lines, RawCloud& cloud) {
   const auto names = lines.find("FIELDS");
   if (names == lines.end() || names->second.empty()) throw IoError("header: no FIELDS");
   const std::size_t n = names->second.size();
@@ -112,7 +112,7 @@ void read_fields(const Lines& lines, RawCloud& cloud) {
   }
 }
 
-void read_shape(const Lines& lines, RawCloud& cloud) {
+void read_shape(const KeywordLines& lines, RawCloud& cloud) {
   const auto value = [&](std::string_view keyword) {
     return number<std::size_t>(keyword, words_of(lines, keyword, 1)[0], "a number of points");
   };
@@ -130,14 +130,14 @@ void read_shape(const Lines& lines, RawCloud& cloud) {
   }
 }
 
-void read_viewpoint(const Lines& lines, RawCloud& cloud) {
+void read_viewpoint(const KeywordLines& lines, RawCloud& cloud) {
   if (!lines.count("VIEWPOINT")) return;
   const Words& words = words_of(lines, "VIEWPOINT", 7);
   std::transform(words.begin(), words.end(), cloud.viewpoint.begin(),
                  [](std::string_view word) { return number<double>("VIEWPOINT", word, "a number"); });
 }
 
-void check_version(const Lines& lines) {
+void check_version(const KeywordLines& lines) {
   if (!lines.count("VERSION")) return;
   const std::string_view version = words_of(lines, "VERSION", 1)[0];
   for (const char* known : {".7", "0.7", ".6", "0.6", ".5", "0.5"}) {
@@ -146,7 +146,7 @@ void check_version(const Lines& lines) {
   throw IoError("header: VERSION " + in_quotes(version) + " is not supported, only up to 0.7");
 }
 
-PcdEncoding read_encoding(const Lines& lines) {
+PcdEncoding read_encoding(const KeywordLines& lines) {
   const std::string_view word = words_of(lines, "DATA", 1)[0];
   if (word == "ascii") return PcdEncoding::ascii;
   if (word == "binary") return PcdEncoding::binary;
@@ -158,7 +158,7 @@ PcdEncoding read_encoding(const Lines& lines) {
 
 PcdHeader parse_pcd_header(std::string_view start) {
   PcdHeader header;
-  const Lines lines = gather_lines(start, header.data_offset);
+  const KeywordLines lines = gather_lines(start, header.data_offset);
   check_version(lines);
   header.encoding = read_encoding(lines);
   read_fields(lines, header.cloud);

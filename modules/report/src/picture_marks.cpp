@@ -15,7 +15,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double margin = 30, axis_length = 44, letter_width = 6.4, letter_height = 9.6;
+constexpr double margin_pixels = 30, axis_length = 44, letter_width = 6.4, letter_height = 9.6;
 
 // Lines from point to point, "xy" with x from 0 to 4 and y from 0, above, to 6; a bar begins a new one.
 struct Letter {
@@ -115,8 +115,8 @@ void draw_scale(cairo_t* cairo, const View& view, double x, double y) {
 
 void draw_marks(cairo_t* cairo, const View& view) {
   if (view.width < 480 || view.height < 320) return;
-  const double bottom = view.height - margin;
-  const double axes_x = margin + axis_length, axes_y = bottom - axis_length;
+  const double bottom = view.height - margin_pixels;
+  const double axes_x = margin_pixels + axis_length, axes_y = bottom - axis_length;
   draw_axes(cairo, view, axes_x, axes_y);
   draw_scale(cairo, view, axes_x + axis_length + 46, bottom);
 }

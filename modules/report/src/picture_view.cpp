@@ -20,7 +20,7 @@ constexpr double degree = 0.017453292519943295;
 // or y in most clouds, and would go straight into a corner of the picture, which is wider than high.
 constexpr double elevation = 35 * degree;
 constexpr double azimuth = -114 * degree;
-constexpr double margin = 0.04;  // of each side
+constexpr double margin_part = 0.04;  // of each side
 
 /// The interval [low, high] along one axis that something covers.
 struct Interval {
@@ -147,7 +147,7 @@ View fit_view(const Picture& picture) {
     size[k] = covered.high - covered.low;
   }
   const double fill = std::max(size[0] / picture.width, size[1] / picture.height);
-  if (fill > 0) view.scale = (1 - 2 * margin) / fill;
+  if (fill > 0) view.scale = (1 - 2 * margin_part) / fill;
   return view;
 }
 

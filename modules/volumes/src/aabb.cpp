@@ -4,20 +4,17 @@
 // Aabb's arithmetic, compiled here so that the user's compiler flags cannot change it.
 #include "pcl_bv/volumes/aabb.h"
 
-#include <limits>
 #include <stdexcept>
 
 #include "directed.h"
 #include "ray_clip.h"
+#include "special_values.h"
 
 namespace pcl_bv {
 
 using namespace volumes_internal;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Vector3d without_negative_zero(const Eigen::Vector3d& v) {
   return v.array() + 0.0;

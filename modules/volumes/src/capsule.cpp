@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "directed.h"
@@ -14,22 +14,15 @@
 #include "pcl_bv/volumes/cylinder.h"
 #include "pcl_bv/volumes/sphere.h"
 #include "ring_mesh.h"
+#include "special_values.h"
 #include "triad.h"
+#include "vector3.h"
 
 namespace pcl_bv {
 
 using namespace volumes_internal;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double tiny = std::numeric_limits<double>::min();
-constexpr double pi = 3.14159265358979323846;
-
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
 
 // Of a point q seen from the end a; the foot of the perpendicular is on the segment to the end e seen from
 // there. An error of the foot lengthens the distance, by less than itself.
@@ -67,15 +60,15 @@ bool Capsule::contains(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d q = point - a_, e = b_ - a_;
   const double size = ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) +
                       ((std::abs(e.x()) + std::abs(e.y())) + std::abs(e.z()));
-  return distance_to_segment(q, e) <= radius_ + (0x1p-48 * (size + radius_) + tiny);
+  return distance_to_segment(q, e) <= radius_ + (0x1p-48 * (size + radius_) + smallest_normal);
 }
 
 double Capsule::volume() const {
-  return empty() ? 0 : pi * radius_ * radius_ * ((b_ - a_).stableNorm() + 4 * radius_ / 3);
+  return empty() ? 0 : std::numbers::pi * radius_ * radius_ * ((b_ - a_).stableNorm() + 4 * radius_ / 3);
 }
 
 double Capsule::surface_area() const {
-  return empty() ? 0 : 2 * pi * radius_ * ((b_ - a_).stableNorm() + 2 * radius_);
+  return empty() ? 0 : 2 * std::numbers::pi * radius_ * ((b_ - a_).stableNorm() + 2 * radius_);
 }
 
 Eigen::Vector3d Capsule::center() const {
@@ -100,7 +93,7 @@ std::optional<RayInterval> Capsule::intersect(const Eigen::Vector3d& origin,
   if (empty()) return std::nullopt;
   // Grown by the rounding of the axis; contains() is as generous.
   const double size = (b_ - a_).lpNorm<1>() + radius_;
-  const double grown = radius_ + 0x1p-46 * size + tiny;
+  const double grown = radius_ + 0x1p-46 * size + smallest_normal;
   std::optional<RayInterval> all;
   unite(Sphere(a_, grown).intersect(origin, direction), all);
   unite(Sphere(b_, grown).intersect(origin, direction), all);
@@ -125,7 +118,7 @@ Mesh Capsule::mesh() const {
                               : Eigen::Vector3d((b_ - a_).stableNormalized()));
   std::vector<Ring> rings;
   for (int i = 1 - steps; i < steps; ++i) {
-    const double angle = pi / 2 * std::abs(i) / steps;
+    const double angle = std::numbers::pi / 2 * std::abs(i) / steps;
     const Eigen::Vector3d rise = (i < 0 ? -1 : 1) * std::sin(angle) * radius_ * triad.axis;
     if (i <= 0) rings.push_back({a_ + rise, radius_ * std::cos(angle)});
     if (i > 0 || (i == 0 && !is_sphere)) rings.push_back({b_ + rise, radius_ * std::cos(angle)});

@@ -6,14 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "directed.h"
 #include "motion.h"
 #include "ray_clip.h"
 #include "ring_mesh.h"
+#include "special_values.h"
 #include "triad.h"
+#include "vector3.h"
 
 namespace pcl_bv {
 
@@ -21,15 +23,7 @@ using namespace volumes_internal;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double tiny = std::numeric_limits<double>::min();
-constexpr double pi = 3.14159265358979323846;
 constexpr int mesh_sides = 48;
-
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
 
 // Of q seen from the centre: how far along the axis, and how far from it.
 struct Seen {
@@ -72,16 +66,16 @@ bool Cylinder::contains(const Eigen::Vector3d& point) const {
   if (empty()) return false;
   const Eigen::Vector3d q = point - center_;
   const auto [along, across] = see(axis_, q);
-  const double doubt = 0x1p-48 * ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) + tiny;
+  const double doubt = 0x1p-48 * ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) + smallest_normal;
   return std::abs(along) <= half_height_ + doubt && across.stableNorm() <= radius_ + doubt;
 }
 
 double Cylinder::volume() const {
-  return empty() ? 0 : 2 * pi * radius_ * radius_ * half_height_;
+  return empty() ? 0 : 2 * std::numbers::pi * radius_ * radius_ * half_height_;
 }
 
 double Cylinder::surface_area() const {
-  return empty() ? 0 : 2 * pi * radius_ * (radius_ + 2 * half_height_);
+  return empty() ? 0 : 2 * std::numbers::pi * radius_ * (radius_ + 2 * half_height_);
 }
 
 Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
@@ -110,7 +104,7 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
     const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
     const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
     const Eigen::Vector3d q = origin - center_;
-    const double doubt = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + tiny;
+    const double doubt = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + smallest_normal;
     const bool held = contains(origin);
     const auto [along, across] = see(axis_, q);
     const auto [step, turn] = see(axis_, u);
@@ -143,7 +137,7 @@ Aabb Cylinder::aabb() const {
   for (int i = 0; i < 3; ++i) {
     const double a = axis_[i], b = axis_[(i + 1) % 3], c = axis_[(i + 2) % 3];
     const double half = half_height_ * std::abs(a) + radius_ * std::sqrt(b * b + c * c);
-    const double grown = half + 0x1p-47 * (half_height_ + radius_) + tiny;
+    const double grown = half + 0x1p-47 * (half_height_ + radius_) + smallest_normal;
     lower[i] = -add_up(-center_[i], grown);
     upper[i] = add_up(center_[i], grown);
   }

@@ -9,11 +9,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "special_values.h"
+
 namespace pcl_bv::volumes_internal {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double smallest_normal = std::numeric_limits<double>::min();
 
 // Below this the error of a product may fall under the smallest denormal, 2^-1074.
 constexpr double lossy_product = 0x1p-960;

@@ -7,30 +7,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "directed.h"
 #include "motion.h"
 #include "ray_clip.h"
+#include "special_values.h"
+#include "vector3.h"
 
 namespace pcl_bv {
 
 using namespace volumes_internal;
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double tiny = std::numeric_limits<double>::min();
-constexpr double pi = 3.14159265358979323846;
-
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
-
-double taxicab(const Eigen::Vector3d& q) {
-  return (std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z());
-}
 
 // How far the axes are from orthonormal: the greatest entry of axes' axes - 1.
 double skew(const Eigen::Matrix3d& axes) {
@@ -65,7 +55,7 @@ Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes,
 // Each axis . q is off by at most 5 U |q|_1 (U = 2^-53), the quotients, squares and sums by 6 U more.
 bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d q = point - center_;
-  const double doubt = 0x1p-49 * taxicab(q) + tiny;
+  const double doubt = 0x1p-49 * taxicab(q) + smallest_normal;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
     const double along = std::max(0.0, std::abs(dot(axes_.col(i), q)) - doubt);
@@ -77,7 +67,7 @@ bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
 }
 
 double Ellipsoid::volume() const {
-  return empty() ? 0 : 4 * pi / 3 * radii_[0] * radii_[1] * radii_[2];
+  return empty() ? 0 : 4 * std::numbers::pi / 3 * radii_[0] * radii_[1] * radii_[2];
 }
 
 Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
@@ -98,7 +88,7 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
     const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
     const Eigen::Vector3d q = origin - center_;
     const double greatest = radii_.maxCoeff();
-    const double doubt = 0x1p-45 * (taxicab(q) + greatest) + tiny;
+    const double doubt = 0x1p-45 * (taxicab(q) + greatest) + smallest_normal;
     Eigen::Vector3d at, step;
     for (int i = 0; i < 3; ++i) {
       const double radius = std::max(radii_[i], doubt);  // a flat one gets room for the rounding
@@ -120,7 +110,7 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
 // less than 4 skew in each row.
 Aabb Ellipsoid::aabb() const {
   if (empty()) return {};
-  const double room = (4 * skew(axes_) + 0x1p-48) * radii_.maxCoeff() + tiny;
+  const double room = (4 * skew(axes_) + 0x1p-48) * radii_.maxCoeff() + smallest_normal;
   Eigen::Vector3d lower, upper;
   for (int i = 0; i < 3; ++i) {
     const double half = Eigen::Vector3d(axes_.row(i).transpose().cwiseProduct(radii_)).stableNorm() + room;

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "pcl_bv/volumes/ellipsoid.h"
 #include "ring_mesh.h"
 
 namespace pcl_bv {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Carlson's symmetric integrals R_F and R_D by duplication (Carlson 1995). All arguments not negative, z > 0,
 // at most one of the others 0.
@@ -79,13 +78,13 @@ double Ellipsoid::surface_area() const {
   Eigen::Vector3d r = radii_;
   std::sort(r.begin(), r.end());  // r[2] is the greatest
   if (r[1] == 0) return 0;
-  if (r[0] == 0) return 2 * pi * r[1] * r[2];
+  if (r[0] == 0) return 2 * std::numbers::pi * r[1] * r[2];
   const double unit = r[2], a = r[0] / unit, b = r[1] / unit;
   // 4 pi R_G(b^2, a^2, a^2 b^2), with the greatest radius 1 and R_G in terms of the other two integrals.
   const double x = b * b, y = a * a, z = a * a * b * b;
   const double lost = x == z || y == z ? 0 : (x - z) * (y - z) * carlson_rd(x, y, z) / 3;
   const double rg = (z * carlson_rf(x, y, z) - lost + 1) / 2;  // sqrt(x y / z) = 1
-  return 4 * pi * rg * unit * unit;
+  return 4 * std::numbers::pi * rg * unit * unit;
 }
 
 double Ellipsoid::distance(const Eigen::Vector3d& point) const {
@@ -108,7 +107,7 @@ Mesh Ellipsoid::mesh() const {
   constexpr int sides = 24, steps = 7;
   std::vector<volumes_internal::Ring> rings;
   for (int i = 1 - steps; i < steps; ++i) {
-    const double angle = pi / 2 * i / steps;
+    const double angle = std::numbers::pi / 2 * i / steps;
     rings.push_back({Eigen::Vector3d(0, 0, std::sin(angle)), std::cos(angle)});
   }
   Mesh mesh = volumes_internal::ring_mesh(rings, volumes_internal::Triad(Eigen::Vector3d::UnitZ()), sides);

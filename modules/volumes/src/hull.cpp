@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -14,15 +13,13 @@
 #include "polytope.h"
 #include "projection.h"
 #include "ray_clip.h"
+#include "special_values.h"
 
 namespace pcl_bv {
 
 using namespace volumes_internal;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("Hull: ") + what);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,14 +13,13 @@
 #include "directed.h"
 #include "projection.h"
 #include "ray_clip.h"
+#include "special_values.h"
 
 namespace pcl_bv {
 
 using namespace volumes_internal;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void require_equal_sets(const Kdop& a, const Kdop& b, const char* verb) {
   if (a.set() != b.set() && *a.set() != *b.set()) {

@@ -3,22 +3,19 @@
 
 // The verbs of Kdop that look at the polytope as a whole.
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "directed.h"
 #include "kdop_support.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "polytope.h"
+#include "special_values.h"
 
 namespace pcl_bv {
 
 using namespace volumes_internal;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // The first slab along axis k, or size().
 std::size_t axis_slab(const KdopSet& set, int k) {

@@ -12,6 +12,8 @@
 
 #include "directed.h"
 #include "ray_clip.h"
+#include "special_values.h"
+#include "vector3.h"
 
 namespace pcl_bv {
 
@@ -19,27 +21,16 @@ using namespace volumes_internal;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double smallest_normal = std::numeric_limits<double>::min();
 constexpr double orthonormal_to = 1e-12;
-
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
-
-double sum_of_magnitudes(const Eigen::Vector3d& v) {
-  return (std::abs(v.x()) + std::abs(v.y())) + std::abs(v.z());
-}
 
 // axis . q in double. q is itself a rounded difference: with it, three products and two sums, the value is
 // off by at most 4.01 2^-53 of |q|_1; the bound is twice that, and covers its own addition.
-struct Projection {
+struct Component {
   double value, error;
 };
 
-Projection project(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
-  return {dot(axis, q), 0x1p-50 * sum_of_magnitudes(q) + smallest_normal};
+Component component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
+  return {dot(axis, q), 0x1p-50 * taxicab(q) + smallest_normal};
 }
 
 // a . b exactly, and with c: a . (b - c).
@@ -135,7 +126,7 @@ Eigen::Quaterniond Obb::quaternion() const {
 bool Obb::contains(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d q = point - center_;
   for (int i = 0; i < 3; ++i) {
-    const auto [s, error] = project(axes_.col(i), q);
+    const auto [s, error] = component(axes_.col(i), q);
     if (!(std::abs(s) <= half_extents_[i] + error)) return false;  // an empty one is nowhere: NaN
   }
   return true;
@@ -173,7 +164,7 @@ std::optional<RayInterval> Obb::intersect(const Eigen::Vector3d& origin,
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     const Eigen::Vector3d q = origin - center_;
     for (int i = 0; i < 3; ++i) {
-      const Projection start = project(axes_.col(i), q), step = project(axes_.col(i), direction);
+      const Component start = component(axes_.col(i), q), step = component(axes_.col(i), direction);
       ray.keep(step.value - 2 * step.error, half_extents_[i] - (start.value - 2 * start.error));
       ray.keep(-(step.value + 2 * step.error), half_extents_[i] + (start.value + 2 * start.error));
     }

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "directed.h"
 #include "pcl_bv/volumes/obb.h"
+#include "special_values.h"
+#include "vector3.h"
 
 namespace pcl_bv {
 
@@ -41,17 +42,13 @@ double along_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, const Ei
   return sum.up();
 }
 
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
-
 }  // namespace
 
 bool Obb::overlaps(const Obb& other) const {
   if (empty() || other.empty()) return false;
   const Eigen::Vector3d between = other.center_ - center_;
-  const double size = (between.lpNorm<1>() + half_extents_.sum() + other.half_extents_.sum()) +
-                      std::numeric_limits<double>::min();
+  const double size =
+      (between.lpNorm<1>() + half_extents_.sum() + other.half_extents_.sum()) + smallest_normal;
   const auto apart = [&](const Eigen::Vector3d& direction) {
     double reach = 4e-12 * size;
     for (int i = 0; i < 3; ++i) {

@@ -8,14 +8,13 @@
 #include <cmath>
 
 #include "pcl_bv/volumes/obb.h"
+#include "vector3.h"
 
 namespace pcl_bv {
-namespace {
 
-// Written out, not left to Eigen, which fuses or vectorises as it is compiled: fits must give the same bits.
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
+using namespace volumes_internal;
+
+namespace {
 
 Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};

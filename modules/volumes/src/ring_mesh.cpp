@@ -6,15 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace pcl_bv::volumes_internal {
 
 Mesh ring_mesh(const std::vector<Ring>& rings, const Triad& triad, int sides) {
-  constexpr double pi = 3.14159265358979323846;
   Mesh mesh;
   for (const Ring& ring : rings) {
     for (int i = 0; i < sides; ++i) {
-      const double angle = 2 * pi * i / sides;
+      const double angle = 2 * std::numbers::pi * i / sides;
       mesh.vertices.push_back(ring.center +
                               ring.radius * (std::cos(angle) * triad.u + std::sin(angle) * triad.v));
     }

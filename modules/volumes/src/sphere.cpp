@@ -7,21 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "directed.h"
 #include "motion.h"
 #include "ray_clip.h"
+#include "special_values.h"
 
 namespace pcl_bv {
 
 using namespace volumes_internal;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double pi = 3.14159265358979323846;
 
 // An order of spheres in which the bigger comes first, total so that merge() is commutative.
 bool precedes(const Sphere& a, const Sphere& b) {
@@ -47,7 +45,7 @@ Sphere around(const Sphere& big, const Sphere& small) {
 bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r) {
   const double qx = a.x() - b.x(), qy = a.y() - b.y(), qz = a.z() - b.z();
   const double d2 = (qx * qx + qy * qy) + qz * qz;
-  return d2 <= r * r * (1 + 0x1p-49) + std::numeric_limits<double>::min();
+  return d2 <= r * r * (1 + 0x1p-49) + smallest_normal;
 }
 
 // Around the point of the line that is nearest the centre, as computed. With q = origin - center, its place
@@ -61,7 +59,7 @@ void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& o
   const Eigen::Vector3d q = origin - sphere.center();
   const double nearest = -q.dot(u) / u.squaredNorm();
   const double h = (q + nearest * u).stableNorm();
-  const double doubt = 0x1p-47 * q.lpNorm<1>() + std::numeric_limits<double>::min();
+  const double doubt = 0x1p-47 * q.lpNorm<1>() + smallest_normal;
   const double held = sphere.contains(origin) ? q.stableNorm() : 0;
   const double radius = std::max(sphere.radius(), held) + doubt;
   if (h > radius) return ray.keep(0, -1);
@@ -88,11 +86,11 @@ bool Sphere::contains(const Eigen::Vector3d& point) const {
 }
 
 double Sphere::volume() const {
-  return empty() ? 0 : 4 * pi / 3 * radius_ * radius_ * radius_;
+  return empty() ? 0 : 4 * std::numbers::pi / 3 * radius_ * radius_ * radius_;
 }
 
 double Sphere::surface_area() const {
-  return empty() ? 0 : 4 * pi * radius_ * radius_;
+  return empty() ? 0 : 4 * std::numbers::pi * radius_ * radius_;
 }
 
 Eigen::Vector3d Sphere::support(const Eigen::Vector3d& direction) const {
