@@ -10,8 +10,7 @@
 
 namespace pcl_bv::test {
 
-/// An exact fraction: Boost.Multiprecision's cpp_rational, behind functions that are compiled once. Its templates took
-/// a third of the time in which the tests were built.
+/// An exact fraction: Boost.Multiprecision's cpp_rational, behind functions that are compiled once.
 class Rational {
  public:
   Rational();

@@ -23,8 +23,8 @@ inline CsvShape box_of(const Aabb& box) {
   return {box.max() - box.min(), {}, {}};
 }
 
-/// A round shape of this whole height along its axis, whichever way that points: upwards the turn from z is well
-/// conditioned, and Eigen's FromTwoVectors(), for all cases, takes 5 s to compile.
+/// A round shape of this whole height along its axis, whichever way that points: upwards the turn from z is
+/// well conditioned, and needs no singular value decomposition as Eigen's FromTwoVectors() does.
 inline CsvShape round_shape(const Eigen::Vector3d& axis, double radius, double height) {
   const Eigen::Vector3d up = (axis.z() < 0 ? Eigen::Vector3d(-axis) : axis).stableNormalized();
   return {Eigen::Vector3d(2 * radius, 2 * radius, height),

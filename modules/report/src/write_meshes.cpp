@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "pcl_bv/io/atomic_file.h"
-#include "pcl_bv/report/meshes.h"
-#include "shortest.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/report/meshes.h"
+#include "shortest.h"
 
 namespace pcl_bv {
 namespace {
