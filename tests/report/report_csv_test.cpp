@@ -162,6 +162,12 @@ TEST(CsvShape, OfRoundShapesTurnsZToTheAxis) {
   EXPECT_EQ(*pill.size, Eigen::Vector3d(1, 1, 4));
   EXPECT_TRUE((*pill.rotation * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitY(), 1e-15));
   EXPECT_EQ(csv_shape(Pill{{0, 0, 1}}).rotation->coeffs(), Eigen::Vector4d(0, 0, 0, 1));
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1e-9, 2e-9, -1), Eigen::Vector3d(3, -4, -12)}) {
+    const Eigen::Vector3d turned = *round_shape(axis, 1, 2).rotation * Eigen::Vector3d::UnitZ();
+    EXPECT_TRUE(turned.isApprox(-axis.normalized(), 1e-15))
+        << axis.transpose() << " is turned to " << turned.transpose();
+  }
 }
 
 }  // namespace
