@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -102,6 +105,26 @@ TEST(Extremes, OfTwoBlocksTheOneThatIsOnlyRoundedToMoreDoesNotWin) {
     for (const std::size_t i : {std::size_t{7}, kBlockPoints + 7}) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         cloud.xyz[3 * i + axis] = 5e6F + 0.5F * static_cast<float>(random() % 4);
+    }
+    expect_exact(cloud.view(), find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::bounds, {}));
+  }
+}
+
+TEST(Extremes, OfTwoChunksTheOneThatReachesFartherByALastBitWins) {
+  // Far from the origin along one axis; the second chunk is the first, each point a last bit farther out
+  // along the other two, which double sums cannot tell.
+  const TestCloud<double> offsets = test::gaussian<double>(kChunkPoints, 15);
+  for (int far = 0; far < 6; ++far) {
+    SCOPED_TRACE(testing::Message() << "seed 15, far along " << far);
+    std::array<double, 3> center = {3, -5, 7};
+    center[far / 2] = far % 2 == 0 ? 1e6 : -1e6;
+    TestCloud<double> cloud{"two chunks", {}};
+    for (const double out : {0.0, std::numeric_limits<double>::infinity()}) {
+      for (std::size_t i = 0; i < offsets.xyz.size(); ++i) {
+        const double value = center[i % 3] + offsets.xyz[i];
+        const bool same = out == 0 || i % 3 == static_cast<std::size_t>(far / 2);
+        cloud.xyz.push_back(same ? value : std::nextafter(value, std::copysign(out, offsets.xyz[i])));
+      }
     }
     expect_exact(cloud.view(), find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::bounds, {}));
   }

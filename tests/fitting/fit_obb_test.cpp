@@ -45,6 +45,23 @@ TEST(Obb, OfEightCornersIsFoundByDito14) {
   }
 }
 
+TEST(Obb, Dito14OfARodIsAlongItThoughOtherDirectionsSeeLittleOfIt) {
+  // Across (1, -1, -1), whose ends are then any points; the farthest pair is seen by other directions.
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 50; ++i) {
+    const Vector3d along = Vector3d(1, -1, -1).cross(Vector3d(unit(random), unit(random), unit(random)));
+    const Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), along).toRotationMatrix();
+    TestCloud<double> cloud{"rod", {}};
+    for (int k = 0; k < 300; ++k) {
+      const Vector3d p = turn * Vector3d(10 * unit(random), 0.5 * unit(random), 0.3 * unit(random));
+      cloud.xyz.insert(cloud.xyz.end(), p.begin(), p.end());
+    }
+    const Obb box = fit(cloud, ObbMethod::dito14);
+    EXPECT_LT(box.axes().col(0).cross(along.normalized()).norm(), 0.1) << "seed 9, " << i;
+  }
+}
+
 TEST(Obb, OfAGaussianCloudHasThePrincipalAxes) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
@@ -131,6 +148,30 @@ TEST(Obb, MinimalIsNoGreaterThanTheOthers) {
       EXPECT_LE(fit(cloud, ObbMethod::yaw).volume(), fit(cloud, ObbMethod::lshape).volume() * rounding);
     }
   }
+}
+
+// A box of 6 x 4 x 2 whose faces bulge, so that all its 2 400 points are vertices of the hull.
+TestCloud<double> pillow(const Matrix3d& turn) {
+  TestCloud<double> cloud{"pillow", {}};
+  for (int face = 0; face < 6; ++face) {
+    for (int i = 0; i < 400; ++i) {
+      Vector3d p;
+      const double u = (i % 20 - 9.5) / 10, v = (i / 20 - 9.5) / 10;
+      p[face / 2] = (face % 2 == 0 ? 1 : -1) * (1 - 0.01 * (u * u + v * v));
+      p[(face / 2 + 1) % 3] = u;
+      p[(face / 2 + 2) % 3] = v;
+      for (const double c : Vector3d(turn * p.cwiseProduct(Vector3d(3, 2, 1))))
+        cloud.xyz.push_back(c);
+    }
+  }
+  return cloud;
+}
+
+TEST(Obb, MinimalOfManyVerticesIsTheBoxTheyWereMadeIn) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 10; ++i)
+    EXPECT_LE(fit(pillow(random_turn(random)), ObbMethod::minimal).volume(), 48 * (1 + 1e-6))
+        << "seed 7, " << i;
 }
 
 // A regular tetrahedron's smallest box is the cube around it: a third of which it fills.

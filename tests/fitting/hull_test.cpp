@@ -7,7 +7,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <random>
 #include <set>
 
 #include "clouds.h"
@@ -178,6 +180,23 @@ TEST(PlanarHull, KeepsNoCollinearPointAndNoDuplicate) {
   EXPECT_EQ(planar_hull({{1, 1}, {0, 0}, {2, 2}, {2, 2}}), (std::vector<std::size_t>{1, 2}));
 }
 
+TEST(PlanarHull, TurnsAreExactInAnyUnit) {
+  // From lattices, whose points are often in a row, down to where products of differences vanish.
+  std::mt19937_64 random(22);
+  const auto coordinate = [&] { return static_cast<double>(random() % 9) - 4; };
+  for (const int exponent : {0, 400, -400, -450, -500, -530, -560, -1072}) {
+    for (int i = 0; i < 500; ++i) {
+      Eigen::Vector2d p[3];
+      for (Eigen::Vector2d& corner : p)
+        corner = {std::ldexp(coordinate(), exponent), std::ldexp(coordinate(), exponent)};
+      if (i % 2 == 0) p[i % 3].x() = std::nextafter(p[i % 3].x(), 1e300);
+      const auto between = [&](int to, int k) { return Rational(p[to][k]) - Rational(p[0][k]); };
+      const Rational exact = between(1, 0) * between(2, 1) - between(1, 1) * between(2, 0);
+      ASSERT_EQ(turn(p[0], p[1], p[2]), exact.sign()) << "seed 22, unit 2^" << exponent << ", " << i;
+    }
+  }
+}
+
 TEST(PlanarHull, TurnsAreExact) {
   // 2^-60 above the line, which plain double cannot tell.
   EXPECT_EQ(turn({0, 0}, {1, 1}, {0.5, 0.5}), 0);
@@ -275,6 +294,7 @@ TEST(Hull, PlanesTouchTheirFaces) {
     for (const Eigen::Vector3d& v : hull.vertices())
       greatest = std::max(greatest, test::exact_dot(plane.normal, Coordinates{v.x(), v.y(), v.z()}));
     EXPECT_EQ(plane.offset, test::least_double_above(greatest));
+    EXPECT_NEAR(plane.normal.norm(), 1, 1e-15);
   }
 }
 

@@ -52,6 +52,17 @@ TEST(Methods, EachGivesTheShapeItSays) {
   }
 }
 
+TEST(Methods, OfNothingHaveNoRank) {
+  const float nan[] = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
+  for (const Method& method : methods()) {
+    AnyVolume volume;
+    const EstimationResult result = method.fit(PointView::of(nan, 12, 1), volume, {});
+    EXPECT_EQ(result.status, EstimationStatus::no_valid_points) << method.name;
+    EXPECT_EQ(result.rank, 0) << method.name;
+    EXPECT_TRUE(empty(volume)) << method.name;
+  }
+}
+
 TEST(Methods, BestIsTheSmallestOfItsCandidates) {
   for (const double stretch : {0.1, 1.0, 20.0}) {
     test::TestCloud<float> cloud = test::gaussian<float>(500, 3);

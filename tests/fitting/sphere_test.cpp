@@ -7,7 +7,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
+#include <set>
 
 #include "allocations.h"
 #include "clouds.h"
@@ -317,6 +320,57 @@ TEST(Epos, OfNoMorePointsThanEndsIsTheSmallestSphere) {
     }
     if (n <= 6) {
       EXPECT_NEAR(fit(cloud.view(), SphereMethod::epos6).radius(), optimum, 1e-13) << n;
+    }
+  }
+}
+
+// In all places and signs, opposite ones too.
+std::vector<Eigen::Vector3d> turns_of(const Eigen::Vector3d& numbers) {
+  std::set<std::array<double, 3>> all;
+  std::array<double, 3> d = {numbers.x(), numbers.y(), numbers.z()};
+  std::sort(d.begin(), d.end());
+  do {
+    for (int signs = 0; signs < 8; ++signs)
+      all.insert({signs & 1 ? -d[0] : d[0], signs & 2 ? -d[1] : d[1], signs & 4 ? -d[2] : d[2]});
+  } while (std::next_permutation(d.begin(), d.end()));
+  std::vector<Eigen::Vector3d> turns;
+  for (const auto& [x, y, z] : all)
+    turns.emplace_back(x + 0.0, y + 0.0, z + 0.0);
+  turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
+  return turns;
+}
+
+// Points that are farthest along the cube's directions, but that one, and one farther out between these.
+TestCloud<double> spiked(const Eigen::Vector3d& spike, const Eigen::Vector3d& left_out) {
+  TestCloud<double> cloud{"spiked", {}};
+  const auto add = [&](const Eigen::Vector3d& p) { cloud.xyz.insert(cloud.xyz.end(), p.begin(), p.end()); };
+  for (const Eigen::Vector3d& numbers :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 1), Eigen::Vector3d(1, 1, 1)}) {
+    for (const Eigen::Vector3d& d : turns_of(numbers))
+      if (!(d.cwiseAbs() == left_out)) add(0.97 * d.normalized());
+  }
+  add(spike.normalized());
+  return cloud;
+}
+
+TEST(Epos, OfAsManyPointsAsEndsIsTheSmallestSphereThoughOneIsNoEnd) {
+  TestCloud<double> cloud = spiked({0, 1, 2}, {1, 0, 0});
+  cloud.xyz.insert(cloud.xyz.end(), 3, 0.0);
+  ASSERT_EQ(cloud.size(), 26U);
+  const double optimum = fit(cloud.view(), SphereMethod::exact).radius();
+  EXPECT_NEAR(fit(cloud.view(), SphereMethod::epos26).radius(), optimum, 1e-13);
+  cloud.xyz.insert(cloud.xyz.end(), 3, 0.0);
+  EXPECT_GT(fit(cloud.view(), SphereMethod::epos26).radius(), optimum * (1 + 1e-4)) << "the case is too easy";
+}
+
+TEST(Epos, With49DirectionsSeesWhatIsFarthestAlongAnyOfThem) {
+  for (const Eigen::Vector3d& numbers :
+       {Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(1, 1, 2), Eigen::Vector3d(1, 2, 2)}) {
+    for (const Eigen::Vector3d& spike : turns_of(numbers)) {
+      TestCloud<double> cloud = spiked(spike, {0, 0, 0});
+      cloud.xyz.resize(3 * 120, 0.0);
+      const double optimum = fit(cloud.view(), SphereMethod::exact).radius();
+      EXPECT_NEAR(fit(cloud.view(), SphereMethod::epos98).radius(), optimum, 1e-13) << spike.transpose();
     }
   }
 }

@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "clouds.h"
+#include "exact.h"
 #include "executions.h"
 
 namespace pcl_bv {
@@ -52,6 +55,37 @@ TEST(Verify, DecidesSpheresThatRoundingCannotTell) {
   EXPECT_EQ(verify(Sphere({0, 0, 0}, std::nextafter(5.0, 0.0)), points).outside, 2U);
   EXPECT_EQ(verify(Sphere({0x1p-80, 0, 0}, 5), points).outside, 1U)
       << "only the second has x = 0 and moves outward";
+}
+
+// The least double with a square of at least this.
+double root_up(const test::Rational& square) {
+  double root = std::sqrt(static_cast<double>(square));
+  while (test::Rational(root) * test::Rational(root) < square)
+    root = std::nextafter(root, 2 * root);
+  while (test::Rational(std::nextafter(root, 0)) * test::Rational(std::nextafter(root, 0)) >= square)
+    root = std::nextafter(root, 0);
+  return root;
+}
+
+TEST(Verify, DecidesCylindersByTheAxisAsStored) {
+  // Never exactly of length 1: for one point half height and radius are the least doubles that hold it.
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&] { return Eigen::Vector3d(unit(random), unit(random), unit(random)); };
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d center = vector(), point = vector(), up = vector();
+    const Eigen::Vector3d axis = Cylinder(center, up, 1, 1).axis();
+    const test::ExactAlong q(center, axis, {point.x(), point.y(), point.z()});
+    const double half = root_up(q.along * q.along / q.squared_axis);
+    const double radius = root_up(q.squared - q.along * q.along / q.squared_axis);
+    const PointView points = PointView::of(point.data(), 24, 1);
+    const auto outside = [&](double r, double h) {
+      return verify(Cylinder(center, up, r, h), points).outside;
+    };
+    ASSERT_EQ(outside(radius, half), 0U) << "seed 8, " << i;
+    ASSERT_EQ(outside(radius, std::nextafter(half, 0)), 1U) << "seed 8, " << i;
+    ASSERT_EQ(outside(std::nextafter(radius, 0), half), 1U) << "seed 8, " << i;
+  }
 }
 
 TEST(Verify, DecidesPlanesThatRoundingCannotTell) {
@@ -108,6 +142,16 @@ TEST(Verify, SaysHowFarOutsideThePointsAre) {
   EXPECT_DOUBLE_EQ(worst(hull, {0.5, 5, 1}), 3);
   EXPECT_DOUBLE_EQ(worst(hull, {0.5, 1, 5}), 2);
   EXPECT_DOUBLE_EQ(worst(hull, {0.5, 1, -4}), 4);
+}
+
+TEST(Verify, APointOnAnySideOfABoxIsOutside) {
+  const Aabb box({-1, -1, -1}, {1, 1, 1});
+  for (int side = 0; side < 27; ++side) {
+    const Eigen::Vector3d point(2 * (side % 3 - 1), 2 * (side / 3 % 3 - 1), 2 * (side / 9 - 1));
+    const PointView points = PointView::of(point.data(), 24, 1);
+    EXPECT_EQ(verify(box, points).outside, point.isZero() ? 0U : 1U) << point.transpose();
+    EXPECT_EQ(verify(Obb(box), points).outside, point.isZero() ? 0U : 1U) << point.transpose();
+  }
 }
 
 TEST(Verify, EverythingIsOutsideAnEmptyVolume) {

@@ -238,13 +238,18 @@ TEST_P(Extremes, DoublesBeyondTheLimitAreDropped) {
 }
 
 TEST_P(Extremes, OfPointsOnOneSideOfTheirMeanInAFlatDirection) {
-  // The plane x + y = 1, tilted to the axes: its points' mean, rounded, may lie on either side of it.
+  // Planes x + y = 1 near the origin and x + y = 0.5 far from it: the mean, rounded, may lie on either side
+  // of them, and far from the origin so far that all points are clearly on one.
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    TestCloud<float> cloud = test::gaussian<float>(300, seed);
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      cloud.xyz[3 * i + 1] = 1 - cloud.xyz[3 * i];
+    TestCloud<float> near = test::gaussian<float>(300, seed), far = near;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      near.xyz[3 * i + 1] = 1 - near.xyz[3 * i];
+      far.xyz[3 * i] = 4e6F + 0.5F * std::round(2 * far.xyz[3 * i]);
+      far.xyz[3 * i + 1] = 0.5F - far.xyz[3 * i];
+    }
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    expect_definition<float>(cloud.view());
+    expect_definition<float>(near.view());
+    expect_definition<float>(far.view());
   }
 }
 

@@ -33,10 +33,11 @@ HalfSpaces box(double half, double ball) {
 }
 
 template <typename T>
-void expect_like_the_definition() {
+void expect_like_the_definition(std::size_t planes) {
   for (const std::size_t n : {0, 1, 3, 7, 8, 15, 16, 17, 31, 33, 100, 1000, 5003}) {
     const test::TestCloud<T> cloud = test::gaussian<T>(n, n + 1);
-    const HalfSpaces inside = box(0.75, 0.25);
+    HalfSpaces inside = box(0.75, planes == 8 ? 0.25 : 0);
+    inside.count = planes;
     std::vector<std::uint32_t> expected;
     for (std::size_t i = 0; i < n; ++i) {
       const T x = cloud.xyz[3 * i] - T(0.25), y = cloud.xyz[3 * i + 1] + T(0.5),
@@ -59,10 +60,12 @@ void expect_like_the_definition() {
 }
 
 TEST(HalfSpaces, FloatPointsAreListedAsDefined) {
-  expect_like_the_definition<float>();
+  for (const std::size_t planes : {1, 2, 8})
+    expect_like_the_definition<float>(planes);
 }
 TEST(HalfSpaces, DoublePointsAreListedAsDefined) {
-  expect_like_the_definition<double>();
+  for (const std::size_t planes : {1, 2, 8})
+    expect_like_the_definition<double>(planes);
 }
 
 TEST(HalfSpaces, WhatIsNotFiniteIsOutsideAndWithoutPlanesAllIs) {

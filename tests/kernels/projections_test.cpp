@@ -7,11 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "clouds.h"
 #include "directions.h"
+#include "exact.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/point_groups.h"
 
@@ -19,6 +22,7 @@ namespace pcl_bv {
 namespace {
 
 using test::Directions;
+using test::Rational;
 using test::Records;
 using test::TestCloud;
 
@@ -237,28 +241,63 @@ TEST_P(Projections, AreRightWherePartialSumsOverflow) {
 }
 
 template <typename T>
-TestCloud<T> circle_across_x() {
-  TestCloud<T> cloud{"circle", {}};
-  for (int i = 0; i < 3000; ++i) {
-    cloud.xyz.insert(cloud.xyz.end(),
-                     {T(0), static_cast<T>(1e30 * std::cos(i)), static_cast<T>(1e30 * std::sin(i))});
+TestCloud<T> circle_across(std::size_t axis) {
+  TestCloud<T> cloud{"circle", std::vector<T>(3 * 3000)};
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud.xyz[3 * i + (axis + 1) % 3] = static_cast<T>(1e30 * std::cos(i));
+    cloud.xyz[3 * i + (axis + 2) % 3] = static_cast<T>(1e30 * std::sin(i));
   }
   return cloud;
 }
 
+// By that many axes: x becomes y, y becomes z, z becomes x if by one.
+Direction turned(const Direction& d, std::size_t by) {
+  return {d[(3 - by) % 3], d[(4 - by) % 3], d[(5 - by) % 3]};
+}
+
+constexpr Direction kTinyComponents[] = {
+    {1, 1e-42, 3e-43},      {1, 1e-44, 1.2e-44},      {1, 1e-46, 3e-46},      {1, 7e-319, 2e-318},
+    {1e30, 1e-288, 3e-289}, {1e30, 1e-293, 1.3e-293}, {1e30, 1e-305, -2e-306}};
+
 TEST_P(Projections, AreRightWhereOnlyTinyComponentsOfTheDirectionMatter) {
   // As floats the components keep a few bits or none, as scaled doubles too: the rounded ones point
   // elsewhere.
-  for (const Direction& n :
-       {Direction{1, 1e-42, 3e-43}, Direction{1, 1e-44, 1.2e-44}, Direction{1, 1e-46, 3e-46},
-        Direction{1, 7e-319, 2e-318}, Direction{1e30, 1e-288, 3e-289}, Direction{1e30, 1e-293, 1.3e-293},
-        Direction{1e30, 1e-305, -2e-306}}) {
-    SCOPED_TRACE(testing::Message() << n[0] << ' ' << n[1] << ' ' << n[2]);
-    expect_definition(circle_across_x<float>().view(), {n});
-    expect_definition(circle_across_x<double>().view(), {n});
+  for (const Direction& tiny : kTinyComponents) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Direction n = turned(tiny, axis);
+      SCOPED_TRACE(testing::Message() << n[0] << ' ' << n[1] << ' ' << n[2]);
+      expect_definition(circle_across<float>(axis).view(), {n});
+      expect_definition(circle_across<double>(axis).view(), {n});
+    }
   }
 }
 
+TEST(ProjectionSet, WhatIsSurelyReachedIsReachedInExactArithmetic) {
+  Directions directions = test::nasty_directions();
+  directions.insert(directions.end(), std::begin(kTinyComponents), std::end(kTinyComponents));
+  std::mt19937_64 random(21);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (std::size_t by = 0; by < 3; ++by) {
+    for (const Direction& d : directions) {
+      const Direction direction = turned(d, by);
+      const ProjectionSet set = set_of({direction});
+      const double greatest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+      const Rational scale(std::ldexp(1, -std::ilogb(greatest)));
+      for (int i = 0; i < 2000; ++i) {
+        // Magnitudes from 1e-300 to 1e100, alike or not; and zeros, so that tiny products decide.
+        const double size = std::pow(10, 200 * unit(random) - 100);
+        double p[3];
+        for (double& c : p)
+          c = random() % 3 == 0 ? 0 : size * unit(random) * (random() % 4 == 0 ? 1e-20 : 1);
+        const Coordinates point = {p[0], p[1], p[2]};
+        const Rational exact = test::exact_dot(direction, point) * scale;
+        ASSERT_TRUE(Rational(surely_reached(set, 1, point)) <= exact) << "seed 21, " << i << ", along " << by;
+        ASSERT_TRUE(Rational(surely_reached(set, 0, point)) <= -exact)
+            << "seed 21, " << i << ", along " << by;
+      }
+    }
+  }
+}
 TEST_P(Projections, DoublesBeyondTheLimitAreDropped) {
   TestCloud<double> cloud{"limit", {1e100, 0, 0, 0, -1.01e100, 0, 1, 2, 3, 0, 0, 1e200}};
   for (int i = 0; i < 50; ++i)

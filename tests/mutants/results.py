@@ -34,10 +34,11 @@ def hash_of(names):
 
 class Results:
     """By the mutants' identities. A result holds while its source is the same and, of a mutant that no test
-    noticed, while the tests are."""
+    noticed and that has no explanation, while the tests are."""
 
-    def __init__(self, file):
+    def __init__(self, file, reasons):
         self._file = file
+        self._reasons = reasons
         self._by_identity = json.loads(file.read_text()) if file.exists() else {}
         folders = tuple(f"tests/{folder}/" for folder in (*TEST_FOLDERS, "support"))
         self._tests = hash_of(n for n in tracked_files() if n.startswith(folders))
@@ -55,7 +56,9 @@ class Results:
 
     def is_settled(self, mutant):
         known = self.get(mutant)
-        return known is not None and (known["noticed_by"] is not None or known["tests"] == self._tests)
+        if known is None:
+            return False
+        return known["noticed_by"] is not None or known["tests"] == self._tests or key_of(mutant) in self._reasons
 
     def with_unsettled_first(self, mutants):
         """Those first that tests did not notice before the tests changed: to pass them over would flatter."""

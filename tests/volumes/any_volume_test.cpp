@@ -79,6 +79,18 @@ TEST(AnyVolume, OfAnyShapeIsUnequalToAnotherOneOnly) {
   expect_unequal(Hull({a}, {}, {{a, 1}}, 0), Hull({b}, {}, {{b, 2}}, 0));
 }
 
+TEST(AnyVolume, AnEmptyOneIsUnequalToOthers) {
+  const Vector3d o(0, 0, 0), a(1, 0, 0);
+  expect_unequal(Aabb(), Aabb(o, a));
+  expect_unequal(Kdop(), Kdop().extend(a));
+  expect_unequal(Sphere(), Sphere(a, 1));
+  expect_unequal(Obb(), Obb(Aabb(o, a)));
+  expect_unequal(Cylinder(), Cylinder(o, a, 1, 2));
+  expect_unequal(Capsule(), Capsule(o, a, 1));
+  expect_unequal(Ellipsoid(), Ellipsoid(o, Eigen::Matrix3d::Identity(), {1, 2, 3}));
+  expect_unequal(Hull(), Hull({a}, {}, {{a, 1}}, 0));
+}
+
 TEST(AnyVolume, IsAnEmptyBoxAtFirst) {
   EXPECT_TRUE(empty(AnyVolume()));
   EXPECT_EQ(shape_name(AnyVolume()), "aabb");

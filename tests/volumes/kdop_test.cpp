@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "exact.h"
 #include "kdop_sets.h"
@@ -121,6 +123,18 @@ TEST(Kdop, ExtendHoldsEveryPointByExactArithmetic) {
         }
         EXPECT_EQ(around(kdop, points), kdop) << "all are inside: no change";
       }
+    }
+  }
+}
+
+TEST(Kdop, ExtendHoldsPointsWhoseOnlyProductLosesItsLastBits) {
+  const auto set =
+      std::make_shared<const KdopSet>(std::vector<Vector3d>{{0.1, 0, 0}, {0, 0.7, 0}, {0, 0, 1.0 / 3}});
+  Random random(30);
+  for (const double size : {1e-290, 1e-305, 1e-310, 1e-315, 1e-322}) {
+    for (int i = 0; i < 100; ++i) {
+      const Vector3d p = random.vector(size);
+      ASSERT_TRUE(inside(Kdop(set).extend(p), exact(p))) << "seed 30, " << size << ", " << i;
     }
   }
 }

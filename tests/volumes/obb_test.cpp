@@ -175,6 +175,10 @@ TEST(Obb, AabbAndTransformedAndFloatCopyHoldItByExactArithmetic) {
           ASSERT_TRUE(inside(small, corner)) << i;
         }
       }
+      if (scale.extent > 1e-30 && scale.extent < 1e37) {
+        const Vector3d added = small.half_extents.cast<double>() - box.half_extents();
+        EXPECT_LE(added.maxCoeff(), 1e-6 * (size + far)) << i;
+      }
       const Vector3d reach = box.aabb().max() - box.aabb().min();
       const Vector3d expected = 2 * box.axes().cwiseAbs() * box.half_extents();
       EXPECT_LE((reach - expected).maxCoeff(), 1e-14 * size + 4e-16 * far);

@@ -75,6 +75,19 @@ TEST(RoundVolumes, HaveTheirKnownMeasures) {
   EXPECT_EQ(hull.support({1, -1, 2}), Vector3d(3, 2, 5));
 }
 
+TEST(RoundVolumes, AnAxisIsMadeAUnitOnceAndThenStays) {
+  for (int k = 0; k < 3; ++k) {
+    for (const double length : {1e-300, 0.5, 2.0, 1e100})
+      EXPECT_EQ(Cylinder({0, 0, 0}, length * Vector3d::Unit(k), 1, 1).axis(), Vector3d::Unit(k)) << length;
+  }
+  Random random(9);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d axis = Cylinder({0, 0, 0}, random.vector(1), 1, 1).axis();
+    EXPECT_NEAR(axis.norm(), 1, 1e-15);
+    EXPECT_EQ(Cylinder({0, 0, 0}, axis, 1, 1).axis(), axis) << "seed 9, " << i;
+  }
+}
+
 TEST(RoundVolumes, AnEllipsoidOfRevolutionHasTheSurfaceOfItsFormula) {
   const auto surface = [](double equator, double pole) {
     const double q = equator * equator, p = pole * pole;
@@ -112,10 +125,10 @@ TEST(RoundVolumes, StoreNoNegativeZero) {
   const Capsule capsule(zero, zero, -0.0);
   const Cylinder cylinder(zero, up, -0.0, -0.0);
   const Ellipsoid ellipsoid(zero, Eigen::Matrix3d::Identity(), zero);
-  const Hull hull({zero}, {}, {{up, -0.0}}, 0);
+  const Hull hull({zero}, {}, {{Vector3d(-0.0, -0.0, 1), -0.0}}, 0);
   for (int k = 0; k < 3; ++k) {
     for (const double stored : {capsule.a()[k], capsule.b()[k], cylinder.center()[k], ellipsoid.center()[k],
-                                ellipsoid.radii()[k], hull.vertices()[0][k]})
+                                ellipsoid.radii()[k], hull.vertices()[0][k], hull.planes()[0].normal[k]})
       EXPECT_FALSE(std::signbit(stored)) << k;
   }
   for (const double stored :

@@ -87,7 +87,9 @@ inline std::vector<AnyVolume> volumes(Random& random, const Scale& scale) {
   const Vector3d a = random.point(scale);
   return {Cylinder(random.point(scale), random.vector(1), 0.5 * s, 0.7 * s),
           Capsule(a, a + random.vector(s), 0.3 * s),
-          Ellipsoid(random.point(scale), axes, Vector3d(s, 0.5 * s, 0.1 * s)), cube(random.point(scale), s)};
+          Ellipsoid(random.point(scale), axes, Vector3d(s, 0.5 * s, 0.1 * s)),
+          Ellipsoid(random.point(scale), axes, Vector3d(s, 1e-3 * s, 1e-6 * s)),
+          cube(random.point(scale), s)};
 }
 
 }  // namespace pcl_bv::testing

@@ -171,6 +171,20 @@ TEST(Sphere, MergeWithAnEnclosedSphereReturnsTheBiggerUnchanged) {
   EXPECT_TRUE(encloses(next, Sphere({std::nextafter(2, 3), 0, 0}, 1)));
 }
 
+TEST(Sphere, MergeWithASphereThatTouchesFromInsideChangesNothing) {
+  // (2, -1, 2) is 3 long: the distance of the centres is exactly the difference of the radii.
+  Random random(14);
+  for (int i = 0; i < 500; ++i) {
+    const double apart = std::round(random.uniform(1, 1e6)), least = std::round(random.uniform(0, 1e6));
+    const Vector3d center = random.vector(1e6).array().round();
+    const double unit = std::ldexp(1.0 / 8, i % 9 - 4);
+    const Sphere big(center * unit, (3 * apart + least) * unit);
+    const Sphere small((center + apart * Vector3d(2, -1, 2)) * unit, least * unit);
+    ASSERT_EQ(Sphere(big).merge(small), big) << "seed 14, " << i;
+    ASSERT_EQ(Sphere(small).merge(big), big) << "seed 14, " << i;
+  }
+}
+
 TEST(Sphere, ExtendHoldsEveryPointByExactArithmetic) {
   Random random(13);
   for (const Scale& scale : scales()) {

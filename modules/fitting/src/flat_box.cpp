@@ -58,10 +58,9 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
     points[kept++] = next;
   };
   for (int run = 0; run < 4; ++run) {
-    const bool to_the_right = run < 2;
-    std::sort(begin[run], begin[run + 1], [&](const auto& a, const auto& b) {
-      return to_the_right ? a.x() < b.x() || (a.x() == b.x() && (run == 0 ? a.y() > b.y() : a.y() < b.y()))
-                          : a.x() > b.x() || (a.x() == b.x() && (run == 2 ? a.y() < b.y() : a.y() > b.y()));
+    // Of points with one x only the outermost stays, in whatever order they come.
+    std::sort(begin[run], begin[run + 1], [to_the_right = run < 2](const auto& a, const auto& b) {
+      return to_the_right ? a.x() < b.x() : a.x() > b.x();
     });
     const bool is_new = kept == 0 || (points[kept - 1] != corner[run] && points[0] != corner[run]);
     if (is_new) points[kept++] = corner[run];
@@ -91,9 +90,7 @@ FlatBox least_rectangle(const Eigen::Vector2d* corners, std::size_t count) {
         at = next(at);
       }
     };
-    if (i == 0) right = next(0);
     advance(right, u);
-    if (i == 0) top = right;
     advance(top, v);
     if (i == 0) left = top;
     advance(left, -u);

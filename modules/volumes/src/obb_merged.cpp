@@ -4,7 +4,6 @@
 // What takes two boxes: whether they overlap, and a box around both. There is no smallest one to be had
 // cheaply, so it is the best of three frames.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "directed.h"
@@ -21,13 +20,12 @@ namespace {
 // A total order, so that merging is commutative.
 bool precedes(const Obb& a, const Obb& b) {
   const auto numbers = [](const Obb& box) {
-    std::array<double, 15> all;
-    std::copy_n(box.half_extents().data(), 3, all.begin());
-    std::copy_n(box.center().data(), 3, all.begin() + 3);
-    std::copy_n(box.axes().data(), 9, all.begin() + 6);
+    Eigen::Matrix<double, 15, 1> all;
+    all << box.half_extents(), box.center(), box.axes().reshaped();
     return all;
   };
-  return numbers(a) > numbers(b);
+  const auto of_a = numbers(a), of_b = numbers(b);
+  return std::lexicographical_compare(of_b.begin(), of_b.end(), of_a.begin(), of_a.end());
 }
 
 bool is_smaller(const Obb& a, const Obb& b) {

@@ -92,10 +92,8 @@ void compact(const ClippedCube& cube, std::vector<Eigen::Vector3d>& vertices, st
 
 double distance_to_edge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d edge = b - a;
-  const double length = edge.stableNorm();
-  if (length == 0) return (p - a).stableNorm();
-  const Eigen::Vector3d unit = edge / length;
-  const double along = std::clamp(unit.dot(p - a), 0.0, length);
+  const Eigen::Vector3d unit = edge.stableNormalized();  // zero if the edge is
+  const double along = std::clamp(unit.dot(p - a), 0.0, edge.stableNorm());
   return (p - a - along * unit).stableNorm();
 }
 
