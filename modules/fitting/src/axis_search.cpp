@@ -95,10 +95,12 @@ std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull) {
 Eigen::Vector3d search_axis(const LocalHull& hull,
                             const std::function<double(const Eigen::Vector3d&)>& size) {
   constexpr std::size_t kStarts = 4;
+  const std::vector<Eigen::Vector3d> spread = hemisphere();
   std::vector<Rated> rated;
+  rated.reserve(3 + spread.size());
   for (int k = 0; k < 3; ++k)
     rated.push_back({size(hull.axes.col(k)), hull.axes.col(k)});
-  for (const Eigen::Vector3d& axis : hemisphere())
+  for (const Eigen::Vector3d& axis : spread)
     rated.push_back({size(axis), axis});
   std::stable_sort(rated.begin(), rated.end(),
                    [](const Rated& a, const Rated& b) { return a.size < b.size; });

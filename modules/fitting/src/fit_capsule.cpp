@@ -64,8 +64,9 @@ Candidate shortest(const Seen& seen, double squared_radius) {
 // Wider ones can be so much shorter that they are smaller.
 Candidate widened(const Seen& seen) {
   Candidate best = shortest(seen, seen.squared_radius);
-  double width = 1;
-  for (double step = 0.25; step > 1e-6; step /= 2) {
+  constexpr int kHalvings = 18;  // down to 2e-6 of the radius
+  double width = 1, step = 0.25;
+  for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
     for (const double next : {width * (1 + step), std::max(1.0, width / (1 + step))}) {
       const Candidate candidate = shortest(seen, seen.squared_radius * (next * next));
       if (!(candidate.volume() < best.volume())) continue;

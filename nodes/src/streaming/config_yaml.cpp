@@ -97,7 +97,9 @@ class Reader {
     if (!node.IsMap()) fail(name_, line(node), "'" + prefix + "' holds no keys");
     for (const auto& item : node) {
       const std::string name = item.first.as<std::string>();
-      const std::string key = (prefix.empty() ? "" : prefix + ".") + name;
+      std::string key = prefix;
+      if (!prefix.empty()) key += '.';
+      key += name;
       if (name.find('.') != std::string::npos) fail(name_, line(item.first), "unknown key '" + key + "'");
       if (prefix.empty() && item.second.IsMap()) {
         if (!maps_.emplace(key, line(item.first)).second)
