@@ -80,7 +80,7 @@ class Results:
 
 
 def heading(mutant):
-    return f"{mutant.file}: {mutant.function}" + (f" #{mutant.ordinal + 1}" if mutant.ordinal else "")
+    return (f"{mutant.file}: {mutant.function}" + (f" #{mutant.ordinal + 1}" if mutant.ordinal else "")).strip()
 
 
 def explained_in(text):
