@@ -153,7 +153,9 @@ TEST(Fit, SameBitsForEveryInstructionSetAndThreadCount) {
 template <typename T>
 void expect_same_of_groups() {
   PointGroups groups;
-  for (const TestCloud<T>& cloud : test::nasty_clouds<T>()) {
+  const std::vector<TestCloud<T>> clouds = test::nasty_clouds<T>();
+  for (std::size_t c = 0; c < clouds.size(); c += test::kEmulated ? 4 : 1) {
+    const TestCloud<T>& cloud = clouds[c];
     groups.assign(cloud.view());
     for (const Method& method : methods()) {
       AnyVolume expected;
