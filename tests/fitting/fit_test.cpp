@@ -99,7 +99,8 @@ bool holds(const Hull& hull, const Coordinates& p) {
   return !hull.empty();
 }
 
-// An emulator would take minutes for all; fit_bits shows there that the volumes are those of other processors.
+// An emulator would take minutes for all; fit_bits shows there that the volumes are those of other
+// processors.
 constexpr std::size_t kEvery = test::kEmulated ? 10 : 1;
 
 void expect_encloses(const AnyVolume& volume, const PointView& points) {
