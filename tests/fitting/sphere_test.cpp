@@ -336,7 +336,6 @@ std::vector<Eigen::Vector3d> turns_of(const Eigen::Vector3d& numbers) {
   std::vector<Eigen::Vector3d> turns;
   for (const auto& [x, y, z] : all)
     turns.emplace_back(x + 0.0, y + 0.0, z + 0.0);
-  turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
   return turns;
 }
 

@@ -57,16 +57,6 @@ TEST(Verify, DecidesSpheresThatRoundingCannotTell) {
       << "only the second has x = 0 and moves outward";
 }
 
-// The least double with a square of at least this.
-double root_up(const test::Rational& square) {
-  double root = std::sqrt(static_cast<double>(square));
-  while (test::Rational(root) * test::Rational(root) < square)
-    root = std::nextafter(root, 2 * root);
-  while (test::Rational(std::nextafter(root, 0)) * test::Rational(std::nextafter(root, 0)) >= square)
-    root = std::nextafter(root, 0);
-  return root;
-}
-
 TEST(Verify, DecidesCylindersByTheAxisAsStored) {
   // Never exactly of length 1: for one point half height and radius are the least doubles that hold it.
   std::mt19937_64 random(8);
@@ -76,8 +66,9 @@ TEST(Verify, DecidesCylindersByTheAxisAsStored) {
     const Eigen::Vector3d center = vector(), point = vector(), up = vector();
     const Eigen::Vector3d axis = Cylinder(center, up, 1, 1).axis();
     const test::ExactAlong q(center, axis, {point.x(), point.y(), point.z()});
-    const double half = root_up(q.along * q.along / q.squared_axis);
-    const double radius = root_up(q.squared - q.along * q.along / q.squared_axis);
+    const test::Rational along = q.along * q.along / q.squared_axis, across = q.squared - along;
+    const double half = test::least_root_above(along, std::sqrt(static_cast<double>(along)));
+    const double radius = test::least_root_above(across, std::sqrt(static_cast<double>(across)));
     const PointView points = PointView::of(point.data(), 24, 1);
     const auto outside = [&](double r, double h) {
       return verify(Cylinder(center, up, r, h), points).outside;

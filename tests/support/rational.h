@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <cmath>
 #include <compare>
 #include <concepts>
 #include <iosfwd>
+#include <limits>
 #include <memory>
 
 namespace pcl_bv::test {
@@ -59,5 +61,16 @@ class Rational {
 
   std::unique_ptr<Value> value_;
 };
+
+/// The least double >= 0 with a square of at least this; `near` is where to look for it.
+inline double least_root_above(const Rational& square, double near) {
+  double root = near;
+  const auto is_enough = [&](double r) { return Rational(r) * Rational(r) >= square; };
+  while (!is_enough(root))
+    root = std::nextafter(root, std::numeric_limits<double>::infinity());
+  while (root > 0 && is_enough(std::nextafter(root, 0)))
+    root = std::nextafter(root, 0);
+  return root;
+}
 
 }  // namespace pcl_bv::test

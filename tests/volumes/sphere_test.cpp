@@ -23,13 +23,7 @@ constexpr double pi = 3.14159265358979323846;
 
 // The smallest double radius that holds the point by exact arithmetic.
 double exact_radius(const Vector3d& center, const Vector3d& point) {
-  const Rational d2 = squared_distance(exact(center), exact(point));
-  double r = (point - center).stableNorm();
-  while (Rational(r) * Rational(r) < d2)
-    r = std::nextafter(r, infinity);
-  while (r > 0 && Rational(std::nextafter(r, 0)) * Rational(std::nextafter(r, 0)) >= d2)
-    r = std::nextafter(r, 0);
-  return r;
+  return test::least_root_above(squared_distance(exact(center), exact(point)), (point - center).stableNorm());
 }
 
 TEST(Sphere, MeshHasVerticesOnTheSphereAndEdgesOfNearlyOneLength) {
@@ -171,17 +165,20 @@ TEST(Sphere, MergeWithAnEnclosedSphereReturnsTheBiggerUnchanged) {
   EXPECT_TRUE(encloses(next, Sphere({std::nextafter(2, 3), 0, 0}, 1)));
 }
 
-TEST(Sphere, MergeWithASphereThatTouchesFromInsideChangesNothing) {
-  // (2, -1, 2) is 3 long: the distance of the centres is exactly the difference of the radii.
-  Random random(14);
+TEST(Sphere, MergeWithASphereThatReachesTheSurfaceButForRoundingChangesNothing) {
+  // The bigger radius is the least double with which it holds the smaller sphere.
+  Random random(15);
   for (int i = 0; i < 500; ++i) {
-    const double apart = std::round(random.uniform(1, 1e6)), least = std::round(random.uniform(0, 1e6));
-    const Vector3d center = random.vector(1e6).array().round();
-    const double unit = std::ldexp(1.0 / 8, i % 9 - 4);
-    const Sphere big(center * unit, (3 * apart + least) * unit);
-    const Sphere small((center + apart * Vector3d(2, -1, 2)) * unit, least * unit);
-    ASSERT_EQ(Sphere(big).merge(small), big) << "seed 14, " << i;
-    ASSERT_EQ(Sphere(small).merge(big), big) << "seed 14, " << i;
+    const Sphere small(random.vector(1), std::ldexp(std::floor(random.uniform(0, 1 << 20)), -20));
+    const Vector3d center = random.vector(1);
+    double radius = (small.center() - center).norm() + small.radius();
+    while (!encloses(Sphere(center, radius), small))
+      radius = std::nextafter(radius, infinity);
+    while (encloses(Sphere(center, std::nextafter(radius, 0)), small))
+      radius = std::nextafter(radius, 0);
+    const Sphere big(center, radius);
+    ASSERT_EQ(Sphere(big).merge(small), big) << "seed 15, " << i;
+    ASSERT_EQ(Sphere(small).merge(big), big) << "seed 15, " << i;
   }
 }
 

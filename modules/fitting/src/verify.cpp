@@ -73,7 +73,7 @@ double violation(const Sphere& sphere, const Eigen::Vector3d& p) {
 
 double violation(const Obb& box, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - box.center();
-  const double bound = 8 * kU * ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) + kTiny;
+  const double bound = 8 * kU * taxicab3(q) + kTiny;
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d a = box.axis(i);

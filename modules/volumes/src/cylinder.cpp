@@ -66,7 +66,7 @@ bool Cylinder::contains(const Eigen::Vector3d& point) const {
   if (empty()) return false;
   const Eigen::Vector3d q = point - center_;
   const auto [along, across] = see(axis_, q);
-  const double doubt = 0x1p-48 * ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) + smallest_normal;
+  const double doubt = 0x1p-48 * taxicab(q) + smallest_normal;
   return std::abs(along) <= half_height_ + doubt && across.stableNorm() <= radius_ + doubt;
 }
 
