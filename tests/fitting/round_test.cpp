@@ -28,8 +28,10 @@ class Random {
   explicit Random(std::uint64_t seed) : engine_(seed) {}
   double uniform() { return std::uniform_real_distribution<double>(-1, 1)(engine_); }
   Eigen::Vector3d direction() {
+    // One after another: which argument is evaluated first is the compiler's choice, another one on Arm.
     std::normal_distribution<double> normal;
-    return Eigen::Vector3d(normal(engine_), normal(engine_), normal(engine_)).normalized();
+    const double z = normal(engine_), y = normal(engine_), x = normal(engine_);
+    return Eigen::Vector3d(x, y, z).normalized();
   }
   Eigen::Matrix3d rotation() {
     const Eigen::Vector3d a = direction(), b = a.cross(direction()).normalized();
@@ -89,8 +91,7 @@ TEST(Capsule, OfATurnedCapsuleIsNoGreater) {
     Capsule capsule;
     EXPECT_EQ(fit_capsule(cloud.view(), capsule).status, EstimationStatus::ok);
     EXPECT_EQ(verify(capsule, cloud.view()).outside, 0u);
-    EXPECT_LE(capsule.volume(), (4 + 4.0 / 3) * kPi * 1.01)
-        << "seed " << seed;  // of 300 seeds 1.005 at worst
+    EXPECT_LE(capsule.volume(), (4 + 4.0 / 3) * kPi * 1.001) << "seed " << seed;
     EXPECT_GE(capsule.volume(), (4 + 4.0 / 3) * kPi * 0.95) << "seed " << seed;
   }
 }
