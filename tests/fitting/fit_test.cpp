@@ -99,12 +99,8 @@ bool holds(const Hull& hull, const Coordinates& p) {
   return !hull.empty();
 }
 
-// An emulator would take minutes for all; fit_bits shows there that the volumes are those of other
-// processors.
-constexpr std::size_t kEvery = test::kEmulated ? 10 : 1;
-
 void expect_encloses(const AnyVolume& volume, const PointView& points) {
-  for (std::size_t i = 0; i < points.count; i += kEvery) {
+  for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);
     if (!is_valid(p)) continue;
     ASSERT_TRUE(std::visit([&p](const auto& shape) { return holds(shape, p); }, volume)) << "point " << i;
@@ -134,18 +130,8 @@ TEST(Fit, EveryMethodEnclosesEveryDoublePointInExactArithmetic) {
   expect_every_method_encloses<double>();
 }
 
-// All, but under an emulator, where each set would take minutes for them, every fourth.
-template <typename T>
-std::vector<TestCloud<T>> some_nasty_clouds() {
-  const std::vector<TestCloud<T>> all = test::nasty_clouds<T>();
-  std::vector<TestCloud<T>> some;
-  for (std::size_t c = 0; c < all.size(); c += test::kEmulated ? 4 : 1)
-    some.push_back(all[c]);
-  return some;
-}
-
 TEST(Fit, SameBitsForEveryInstructionSetAndThreadCount) {
-  std::vector<TestCloud<float>> clouds = some_nasty_clouds<float>();
+  std::vector<TestCloud<float>> clouds = test::nasty_clouds<float>();
   clouds.push_back(test::gaussian<float>(std::min<std::size_t>(400'000, test::kThreadedPoints), 78));
   for (const Method& method : methods()) {
     for (const TestCloud<float>& cloud : clouds) {
@@ -164,7 +150,7 @@ TEST(Fit, SameBitsForEveryInstructionSetAndThreadCount) {
 template <typename T>
 void expect_same_of_groups() {
   PointGroups groups;
-  for (const TestCloud<T>& cloud : some_nasty_clouds<T>()) {
+  for (const TestCloud<T>& cloud : test::nasty_clouds<T>()) {
     groups.assign(cloud.view());
     for (const Method& method : methods()) {
       AnyVolume expected;

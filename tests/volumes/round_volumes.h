@@ -88,7 +88,7 @@ inline std::vector<AnyVolume> volumes(Random& random, const Scale& scale) {
   return {Cylinder(random.point(scale), random.vector(1), 0.5 * s, 0.7 * s),
           Capsule(a, a + random.vector(s), 0.3 * s),
           Ellipsoid(random.point(scale), axes, Vector3d(s, 0.5 * s, 0.1 * s)),
-          Ellipsoid(random.point(scale), axes, Vector3d(s, 1e-3 * s, 1e-6 * s)),
+          Ellipsoid(random.point(scale), axes, Vector3d(s, 1e-3 * s, 1e-5 * s)),
           cube(random.point(scale), s)};
 }
 
