@@ -250,6 +250,14 @@ TestCloud<T> circle_across(std::size_t axis) {
   return cloud;
 }
 
+template <typename T>
+TestCloud<T> line_along(std::size_t axis) {
+  TestCloud<T> cloud{"line", std::vector<T>(3 * 3000)};
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    cloud.xyz[3 * i + axis] = static_cast<T>(1e30 * std::cos(i));
+  return cloud;
+}
+
 // By that many axes: x becomes y, y becomes z, z becomes x if by one.
 Direction turned(const Direction& d, std::size_t by) {
   return {d[(3 - by) % 3], d[(4 - by) % 3], d[(5 - by) % 3]};
@@ -268,6 +276,10 @@ TEST_P(Projections, AreRightWhereOnlyTinyComponentsOfTheDirectionMatter) {
       SCOPED_TRACE(testing::Message() << n[0] << ' ' << n[1] << ' ' << n[2]);
       expect_definition(circle_across<float>(axis).view(), {n});
       expect_definition(circle_across<double>(axis).view(), {n});
+      for (std::size_t other = 1; other < 3; ++other) {
+        expect_definition(line_along<float>((axis + other) % 3).view(), {n});
+        expect_definition(line_along<double>((axis + other) % 3).view(), {n});
+      }
     }
   }
 }
