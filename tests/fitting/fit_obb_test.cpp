@@ -62,6 +62,54 @@ TEST(Obb, Dito14OfARodIsAlongItThoughOtherDirectionsSeeLittleOfIt) {
   }
 }
 
+// Half the area of the least of the three boxes on the edges of DiTO's base triangle: the two extreme points
+// of a direction that are farthest apart, and the point farthest from their line.
+double least_half_area_on_base_triangle(const std::vector<Vector3d>& points) {
+  const auto farthest = [&](const auto& measure) {
+    return *std::max_element(points.begin(), points.end(),
+                             [&](const Vector3d& a, const Vector3d& b) { return measure(a) < measure(b); });
+  };
+  Vector3d p0 = points[0], p1 = p0;
+  for (const Vector3d& d : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1), Vector3d(1, 1, 1),
+                            Vector3d(1, 1, -1), Vector3d(1, -1, 1), Vector3d(1, -1, -1)}) {
+    const Vector3d low = farthest([&](const Vector3d& p) { return -p.dot(d); });
+    const Vector3d high = farthest([&](const Vector3d& p) { return p.dot(d); });
+    if ((high - low).norm() > (p1 - p0).norm()) p0 = low, p1 = high;
+  }
+  const Vector3d p2 = farthest([&](const Vector3d& p) { return (p - p0).cross(p1 - p0).norm(); });
+  const Vector3d normal = (p1 - p0).cross(p2 - p0).normalized();
+  const auto extent = [&](const Vector3d& d) {
+    return farthest([&](const Vector3d& p) { return p.dot(d); }).dot(d) +
+           farthest([&](const Vector3d& p) { return -p.dot(d); }).dot(-d);
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector3d& edge : {Vector3d(p1 - p0), Vector3d(p2 - p1), Vector3d(p0 - p2)}) {
+    const Vector3d e = edge.normalized();
+    const double x = extent(e), y = extent(normal), z = extent(e.cross(normal));
+    least = std::min(least, x * y + y * z + z * x);
+  }
+  return least;
+}
+
+TEST(Obb, Dito14IsNoGreaterThanTheBoxesOnItsBaseTriangle) {
+  // As many points as all of them take part in each step.
+  std::mt19937_64 random(10);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 200; ++i) {
+    const Matrix3d turn = random_turn(random);
+    TestCloud<double> cloud{"", {}};
+    std::vector<Vector3d> points;
+    for (int k = 0; k < 14; ++k) {
+      const double x = normal(random), y = normal(random), z = normal(random);
+      points.emplace_back(turn * Vector3d(3 * x, y, 0.5 * z));
+      cloud.xyz.insert(cloud.xyz.end(), points.back().begin(), points.back().end());
+    }
+    EXPECT_LT(fit(cloud, ObbMethod::dito14).surface_area() / 2,
+              least_half_area_on_base_triangle(points) * (1 + 1e-5))
+        << "seed 10, " << i;
+  }
+}
+
 TEST(Obb, OfAGaussianCloudHasThePrincipalAxes) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;

@@ -98,6 +98,22 @@ class Extremes : public testing::TestWithParam<Isa> {
       expect_same(run(GetParam(), points, set), by_definition(points, set), set);
     }
   }
+
+  template <typename T>
+  void expect_found_unless_beyond(const TestCloud<T>& cloud) {
+    SCOPED_TRACE(cloud.name);
+    const ChunkExtremes all = run(GetParam(), cloud.view(), DirectionSet::dop26);
+    ReachedEnds same = nothing_reached();
+    ReachedEnds beyond = nothing_reached();
+    for (std::size_t end = 0; end < kMaxEnds; ++end) {
+      same[end] = round_down(all.ends[end].projection);
+      beyond[end] = same[end] + 1;
+    }
+    expect_same(run(GetParam(), cloud.view(), DirectionSet::dop26, same), all, DirectionSet::dop26);
+    for (const ExtremePoint& end : run(GetParam(), cloud.view(), DirectionSet::dop26, beyond).ends) {
+      EXPECT_FALSE(end.found);
+    }
+  }
 };
 
 TEST_P(Extremes, AreThoseOfTheDefinitionForFloat) {
@@ -253,19 +269,21 @@ TEST_P(Extremes, OfPointsOnOneSideOfTheirMeanInAFlatDirection) {
   }
 }
 
+TEST_P(Extremes, OfAFlatChunkAreFoundWhereItsRoundedMeanLiesBeside) {
+  // x + y = 2^21 for both; their mean is rounded in x alone, and then its sum is 2^-4 less. Mirrored, more.
+  for (const float sign : {1.0F, -1.0F}) {
+    const TestCloud<float> cloud{
+        "", {sign * 0x1p20F, sign * 0x1p20F, 0, sign * (0x1p20F + 0.125F), sign * (0x1p20F - 0.125F), 0}};
+    expect_definition<float>(cloud.view());
+  }
+}
+
 TEST_P(Extremes, AreFoundUnlessTheyCannotReachWhatIsKnown) {
-  const TestCloud<float> cloud = test::gaussian<float>(20'000, 11, 3, 1e3);
-  const ChunkExtremes all = run(GetParam(), cloud.view(), DirectionSet::dop26);
-  ReachedEnds same = nothing_reached();
-  ReachedEnds beyond = nothing_reached();
-  for (std::size_t end = 0; end < kMaxEnds; ++end) {
-    same[end] = round_down(all.ends[end].projection);
-    beyond[end] = same[end] + 1;
-  }
-  expect_same(run(GetParam(), cloud.view(), DirectionSet::dop26, same), all, DirectionSet::dop26);
-  for (const ExtremePoint& end : run(GetParam(), cloud.view(), DirectionSet::dop26, beyond).ends) {
-    EXPECT_FALSE(end.found);
-  }
+  // Doubles at UTM size too: there the sums along a direction are rounded to more than the points' extent
+  // needs.
+  expect_found_unless_beyond(test::gaussian<float>(20'000, 11, 3, 1e3));
+  for (std::uint64_t seed = 12; seed < 20; ++seed)
+    expect_found_unless_beyond(test::gaussian<double>(500, seed, 3, 5e6));
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryUsableSet, Extremes, testing::ValuesIn(usable_isas()),

@@ -97,5 +97,15 @@ TEST(SlabExtents, NeverFuses) {
   }
 }
 
+TEST(SlabExtents, AZeroOfNegativeProductsHasNoSign) {
+  const FloatEnvironment environment;
+  const test::TestCloud<double> cloud{"", std::vector<double>(3 * 40, 0.0)};
+  for (const Isa isa : usable_isas()) {
+    const SlabExtents found =
+        slab_extents(isa, cloud.view(), {0, 0, 0}, {{{-1, -1, -1}, {-1, -2, -3}, {-3, -2, -1}}});
+    expect_equal(found, SlabExtents{{0, 0, 0}, {0, 0, 0}});
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv

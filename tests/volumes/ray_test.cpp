@@ -125,6 +125,19 @@ TEST(Ray, FromAContainedPointEntersAtZero) {
   EXPECT_EQ(hit->enter, 0);
 }
 
+TEST(Ray, FromAPointThatATinyEllipsoidContainsIsAHit) {
+  // Of radii near the smallest normal number; contains() allows for as much in each coordinate.
+  const double least = std::numeric_limits<double>::min();
+  const Ellipsoid tiny({0, 0, 0}, Eigen::Matrix3d::Identity(), Vector3d::Constant(0.9 * least));
+  const Vector3d point = least * Vector3d(1.8, 1, 1);
+  ASSERT_TRUE(tiny.contains(point));
+  for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(1, 1, 1)}) {
+    const auto hit = tiny.intersect(point, direction);
+    ASSERT_TRUE(hit) << direction.transpose();
+    EXPECT_EQ(hit->enter, 0);
+  }
+}
+
 TEST(Ray, InTheFaceOfAFlatKdopRunsTheWholeWay) {
   const Kdop triangle = Kdop(KdopSet::dop14()).extend({1, 0, 0}).extend({0, 1, 0}).extend({0, 0, 1});
   const auto edge = triangle.intersect({2, -1, 0}, {-1, 1, 0});

@@ -17,7 +17,7 @@ SlabExtents slab_extents_reference(const PointView& points, const Coordinates& o
     if (!is_valid(p)) continue;
     const double x = p.x - origin.x, y = p.y - origin.y, z = p.z - origin.z;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double s = ((axes[k][0] * x + axes[k][1] * y) + axes[k][2] * z) + 0.0;
+      const double s = (axes[k][0] * x + axes[k][1] * y) + axes[k][2] * z;
       result.low[k] = std::min(result.low[k], s);
       result.high[k] = std::max(result.high[k], s);
     }
