@@ -47,7 +47,8 @@ void expect_accurate(const PointView& points) {
   ASSERT_EQ(summary.extremes.used, brute.valid.size());
   ASSERT_EQ(summary.extremes.used + summary.extremes.dropped, points.count);
   if (brute.valid.empty()) return;
-  const long double errors = (chunk_count(points.count) + 175) * 0x1p-53L;
+  const double blocks = static_cast<double>(points.count) / kBlockPoints;
+  const long double errors = (175 + 30 * std::ceil(std::log2(std::max(blocks, 1.0)))) * 0x1p-53L;
   long double extent[3];
   for (int i = 0; i < 3; ++i) {
     extent[i] = static_cast<long double>(summary.extremes.high[i]) - summary.extremes.low[i];

@@ -22,51 +22,61 @@ using test::Rational;
 using test::Records;
 using test::TestCloud;
 
-Coordinates first_valid(const PointView& points) {
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (is_valid(p)) return p;
+// As the header defines them, from loads to lanes; `term` is one of x y z xx xy xz yy yz zz.
+double by_definition(const PointView& points, const Moments& about, std::size_t term) {
+  double total = 0;
+  for (std::size_t lane = 0; lane < 8; ++lane) {
+    double sum = 0;
+    for (std::size_t i = lane; i < points.count; i += 8) {
+      const Coordinates p = load_point(points, i);
+      if (!is_valid(p)) continue;
+      const Coordinates& o = about.origin;
+      const double v[3] = {std::ldexp(p.x - o.x, about.exponent), std::ldexp(p.y - o.y, about.exponent),
+                           std::ldexp(p.z - o.z, about.exponent)};
+      constexpr std::size_t a[] = {0, 1, 2, 0, 0, 0, 1, 1, 2};
+      constexpr std::size_t b[] = {0, 0, 0, 0, 1, 2, 1, 2, 2};
+      const volatile double value = term < 3 ? v[a[term]] : v[a[term]] * v[b[term]];
+      sum += value;
+    }
+    total += sum;
   }
-  return {0, 0, 0};
+  return total;
 }
 
-// As the header defines them, from loads to lanes; `term` is one of x y z xx xy xz yy yz zz.
-double by_definition(const PointView& points, const Coordinates& origin, std::size_t term) {
-  double total[8] = {};
-  for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
-    for (std::size_t lane = 0; lane < 8; ++lane) {
-      double sum = 0;
-      for (std::size_t i = begin + lane; i < std::min(begin + kBlockPoints, points.count); i += 8) {
-        const Coordinates p = load_point(points, i);
-        if (!is_valid(p)) continue;
-        const double v[3] = {p.x - origin.x, p.y - origin.y, p.z - origin.z};
-        constexpr std::size_t a[] = {0, 1, 2, 0, 0, 0, 1, 1, 2};
-        constexpr std::size_t b[] = {0, 0, 0, 0, 1, 2, 1, 2, 2};
-        const volatile double value = term < 3 ? v[a[term]] : v[a[term]] * v[b[term]];
-        sum += value;
-      }
-      total[lane] += sum;
-    }
-  }
-  return std::accumulate(std::begin(total), std::end(total), 0.0);
+double squares_by_definition(const PointView& points, Moments about, int exponent) {
+  about.exponent = exponent;
+  return by_definition(points, about, 3) + by_definition(points, about, 6) + by_definition(points, about, 8);
 }
 
 class MomentsTest : public testing::TestWithParam<Isa> {
  protected:
   void expect_definition(const PointView& points) {
-    const Coordinates origin = first_valid(points);
-    Moments moments;
-    chunk_moments(GetParam(), points, origin, moments);
-    std::size_t valid = 0;
-    for (std::size_t i = 0; i < points.count; ++i)
-      valid += is_valid(load_point(points, i)) ? 1 : 0;
-    EXPECT_EQ(moments.count, valid);
+    for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints)
+      expect_definition_of_block(points.slice(begin, std::min(kBlockPoints, points.count - begin)));
+  }
+
+  void expect_definition_of_block(const PointView& points) {
+    const Moments moments = block_moments(GetParam(), points);
+    std::vector<Coordinates> valid;
+    for (std::size_t i = 0; i < points.count; ++i) {
+      if (is_valid(load_point(points, i))) valid.push_back(load_point(points, i));
+    }
+    ASSERT_EQ(moments.count, valid.size());
+    EXPECT_TRUE(valid.empty() || moments.origin == valid[0]);
     for (std::size_t term = 0; term < 9; ++term) {
       const double found = term < 3 ? moments.sum[term] : moments.product[term - 3];
-      const double expected = by_definition(points, origin, term);
+      const double expected = by_definition(points, moments, term);
       EXPECT_EQ(std::memcmp(&found, &expected, sizeof found), 0)
           << "term " << term << ": " << found << " and " << expected;
     }
+    if (points.scalar == ScalarType::float32 || valid.empty()) {
+      EXPECT_EQ(moments.exponent, 0);
+      return;
+    }
+    EXPECT_TRUE(moments.exponent == 1000 ||
+                squares_by_definition(points, moments, moments.exponent) >= 0x1p-660);
+    for (int exponent = 0; exponent < moments.exponent; exponent += 500)
+      EXPECT_LT(squares_by_definition(points, moments, exponent), 0x1p-660);
   }
 };
 
@@ -115,21 +125,19 @@ TEST_P(MomentsTest, HaveTheBitsOfTheDefinitionForIndexListsAndWholeChunks) {
 
 TEST_P(MomentsTest, ProductsAreRoundedBeforeTheyAreAdded) {
   // In one lane: -(1 + 2^-29), then the square of 1 + 2^-30, whose last term, 2^-60, a fused sum would keep.
-  TestCloud<double> cloud{"fma", std::vector<double>(3 * 9, 0.0)};
-  cloud.xyz[0] = -(1 + 0x1p-29);
-  cloud.xyz[1] = 1;
-  cloud.xyz[3 * 8] = cloud.xyz[3 * 8 + 1] = 1 + 0x1p-30;
-  Moments moments;
-  chunk_moments(GetParam(), cloud.view(), {0, 0, 0}, moments);
-  EXPECT_EQ(moments.product[1], 0.0);
+  // The first point is the origin.
+  TestCloud<double> cloud{"fma", std::vector<double>(3 * 10, 0.0)};
+  cloud.xyz[3] = -(1 + 0x1p-29);
+  cloud.xyz[4] = 1;
+  cloud.xyz[3 * 9] = cloud.xyz[3 * 9 + 1] = 1 + 0x1p-30;
+  EXPECT_EQ(block_moments(GetParam(), cloud.view()).product[1], 0.0);
 }
 
 TEST_P(MomentsTest, AreWithinTheStatedBoundOfTheExactSums) {
   for (const double offset : {0.0, 5e6}) {
-    const TestCloud<float> cloud = test::gaussian<float>(3000, 5, 20, offset);
+    const TestCloud<float> cloud = test::gaussian<float>(kBlockPoints, 5, 20, offset);
     const Coordinates origin = load_point(cloud.view(), 0);
-    Moments moments;
-    chunk_moments(GetParam(), cloud.view(), origin, moments);
+    const Moments moments = block_moments(GetParam(), cloud.view());
     Rational x = 0, xy = 0, x_magnitude = 0, xy_magnitude = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const Coordinates p = load_point(cloud.view(), i);
@@ -140,8 +148,23 @@ TEST_P(MomentsTest, AreWithinTheStatedBoundOfTheExactSums) {
       x_magnitude += abs(dx);
       xy_magnitude += abs(product);
     }
-    EXPECT_LE(abs(Rational(moments.sum[0]) - x), Rational(171 * 0x1p-53) * x_magnitude);
-    EXPECT_LE(abs(Rational(moments.product[1]) - xy), Rational(171 * 0x1p-53) * xy_magnitude);
+    EXPECT_LE(abs(Rational(moments.sum[0]) - x), Rational(140 * 0x1p-53) * x_magnitude);
+    EXPECT_LE(abs(Rational(moments.product[1]) - xy), Rational(140 * 0x1p-53) * xy_magnitude);
+  }
+}
+
+TEST_P(MomentsTest, OfDoublesWhoseSquaresVanishAreScaledByTheLeastPowerThatHelps) {
+  for (const auto& [scale, exponent] : {std::pair{1.0, 0},
+                                        {1e-90, 0},
+                                        {1e-110, 500},
+                                        {1e-240, 500},
+                                        {1e-260, 1000},
+                                        {1e-320, 1000},
+                                        {0.0, 1000}}) {
+    const TestCloud<double> cloud = test::gaussian<double>(100, 6, scale);
+    SCOPED_TRACE(cloud.name);
+    EXPECT_EQ(block_moments(GetParam(), cloud.view()).exponent, exponent);
+    expect_definition(cloud.view());
   }
 }
 

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <vector>
 
 #include "extreme_search.h"
 #include "map_chunks.h"
+#include "moment_tree.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/point_source.h"
@@ -26,7 +26,7 @@ namespace {
 template <typename Found>
 struct Part {
   Found extremes;
-  Moments moments;
+  MomentTree moments;
 };
 
 void merge_bounds(const AxisExtents& part, Extremes& all) {
@@ -38,46 +38,22 @@ void merge_bounds(const AxisExtents& part, Extremes& all) {
   }
 }
 
-void merge_moments(const Moments& part, Moments& all) {
-  all.count += part.count;
-  for (std::size_t k = 0; k < 3; ++k)
-    all.sum[k] += part.sum[k];
-  for (std::size_t k = 0; k < 6; ++k)
-    all.product[k] += part.product[k];
+MomentTree moments_of(Isa isa, const PointView& chunk) {
+  MomentTree tree;
+  for (std::size_t block = 0; block * kBlockPoints < chunk.count; ++block)
+    tree.append(block, block_moments(isa, block_of(chunk, block)));
+  return tree;
 }
 
-// 1, or for tiny extents the power of two that brings the greatest to about 1 (2^1000 is far enough, and
-// finite).
-double scale_for(const Extremes& extremes) {
+void finish(Moments moments, CloudSummary& summary) {
+  if (moments.count == 0) return;
   double extent = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    extent = std::max(extent, extremes.high[axis] - extremes.low[axis]);
-  return extent == 0 || extent >= 1e-100 ? 1 : std::ldexp(1.0, std::min(-std::ilogb(extent), 1000));
-}
-
-// A second pass for such clouds, on a copy: (p - origin) scale is as exact as p - origin. A point that is not
-// valid differs from a valid one by 1e84 at least, so it stays one that is not.
-Moments scaled_moments(const PointView& points, const Coordinates& origin, double scale, Isa isa) {
-  Moments all;
-  std::vector<double> xyz;
-  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
-    const LoadedPoints loaded = load_chunk(points, chunk);
-    const PointView& part = loaded.view();
-    xyz.clear();
-    for (std::size_t i = 0; i < part.count; ++i) {
-      const Coordinates p = load_point(part, i);
-      xyz.insert(xyz.end(), {(p.x - origin.x) * scale, (p.y - origin.y) * scale, (p.z - origin.z) * scale});
-    }
-    Moments moments;
-    chunk_moments(isa, PointView::of(xyz.data(), 3 * sizeof(double), part.count), {0, 0, 0}, moments);
-    merge_moments(moments, all);
-  }
-  return all;
-}
-
-void finish(const Moments& moments, const Coordinates& origin, CloudSummary& summary) {
+    extent = std::max(extent, summary.extremes.high[axis] - summary.extremes.low[axis]);
+  if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
+  summary.scale = std::ldexp(1.0, moments.exponent);
   const double n = static_cast<double>(moments.count);
-  const double from[3] = {origin.x, origin.y, origin.z};
+  const double from[3] = {moments.origin.x, moments.origin.y, moments.origin.z};
   double mean[3];
   for (int axis = 0; axis < 3; ++axis) {
     mean[axis] = moments.sum[axis] / n;
@@ -94,32 +70,24 @@ void finish(const Moments& moments, const Coordinates& origin, CloudSummary& sum
   }
 }
 
-// One pass: search(chunk) and the moments of the chunk, merge(found, extremes) in order.
+// One pass: search(chunk) and the moments of the chunk, merge(found) in order.
 template <typename Found, typename Search, typename Merge>
-Moments pass(const PointView& points, const Execution& execution, double seconds, const Coordinates& origin,
-             Search&& search, const Merge& merge) {
+Moments pass(const PointView& points, const Execution& execution, double seconds, Search&& search,
+             const Merge& merge) {
   const Isa isa = resolve_isa(execution.isa);
-  Moments moments;
+  MomentTree moments;
+  std::size_t blocks = 0;
   map_chunks<Part<Found>>(
       points, worthwhile(execution.parallel, seconds),
       [&](const PointView& chunk) {
-        Part<Found> part;
-        part.extremes = search(chunk);
-        chunk_moments(isa, chunk, origin, part.moments);
-        return part;
+        return Part<Found>{search(chunk), moments_of(isa, chunk)};
       },
       [&](const Part<Found>& part) {
         merge(part.extremes);
-        merge_moments(part.moments, moments);
+        moments.append(blocks, part.moments);
+        blocks += kChunkPoints / kBlockPoints;
       });
-  return moments;
-}
-
-void finish(const PointView& points, const Execution& execution, const Coordinates& origin, Moments moments,
-            CloudSummary& summary) {
-  summary.scale = scale_for(summary.extremes);
-  if (summary.scale != 1) moments = scaled_moments(points, origin, summary.scale, resolve_isa(execution.isa));
-  finish(moments, origin, summary);
+  return moments.total();
 }
 
 }  // namespace
@@ -140,19 +108,14 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
   const Isa isa = resolve_isa(execution.isa);
   CloudSummary summary;
   summary.extremes.set = DirectionSet::dop26;
-  const std::optional<Coordinates> origin = first_valid(points);
-  if (!origin) {
-    summary.extremes.dropped = points.count;
-    return summary;
-  }
   ExtremeSearch search(isa, DirectionSet::dop26, points.count);
   // Moments cost about as much again as the extremes.
   const double seconds = 2 * search_seconds(isa, DirectionSet::dop26, points.count);
   const Moments moments =
-      pass<ChunkExtremes>(points, execution, seconds, *origin, search,
+      pass<ChunkExtremes>(points, execution, seconds, search,
                           [&](const ChunkExtremes& found) { merge_extremes(found, summary.extremes); });
   finish_extremes(points.count, summary.extremes);
-  finish(points, execution, *origin, moments, summary);
+  finish(moments, summary);
   return summary;
 }
 
@@ -160,20 +123,16 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
   const Isa isa = resolve_isa(execution.isa);
   CloudSummary summary;
   summary.extremes.set = DirectionSet::dop6;
-  const std::optional<Coordinates> origin = first_valid(points);
-  if (!origin) {
-    summary.extremes.dropped = points.count;
-    return summary;
-  }
   summary.extremes.low.fill(std::numeric_limits<double>::infinity());
   summary.extremes.high.fill(-std::numeric_limits<double>::infinity());
   // Moments cost about as much as a 26-DOP, the box next to nothing.
   const double seconds = search_seconds(isa, DirectionSet::dop26, points.count);
   const Moments moments = pass<AxisExtents>(
-      points, execution, seconds, *origin, [isa](const PointView& chunk) { return axis_extents(isa, chunk); },
+      points, execution, seconds, [isa](const PointView& chunk) { return axis_extents(isa, chunk); },
       [&](const AxisExtents& found) { merge_bounds(found, summary.extremes); });
-  summary.extremes.used = points.count - summary.extremes.dropped;
-  finish(points, execution, *origin, moments, summary);
+  summary.extremes.used = moments.count;
+  if (moments.count == 0) summary.extremes.low = summary.extremes.high = {};
+  finish(moments, summary);
   return summary;
 }
 

@@ -7,6 +7,8 @@
 
 #include "pcl_bv/kernels/moments.h"
 
+#include <cmath>
+
 #include "moments_reference.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "targets.h"
@@ -24,42 +26,49 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-void chunk_moments(const PointView& chunk, const Coordinates& origin, Moments& out) {
-  chunk_moments_reference(chunk, origin, out);
+Moments block_moments(const PointView& block) {
+  return block_moments_reference(block);
 }
 
 #else
 
 constexpr std::size_t kLanes = 8;
 
-#define PCL_BV_EACH_TERM(DO)                                                                               \
-  DO(0, x)                                                                                                 \
-  DO(1, y)                                                                                                 \
-  DO(2, z)                                                                                                 \
-  DO(3, hn::Mul(x, x)) DO(4, hn::Mul(x, y)) DO(5, hn::Mul(x, z)) DO(6, hn::Mul(y, y)) DO(7, hn::Mul(y, z)) \
-      DO(8, hn::Mul(z, z))
+#define PCL_BV_EACH_TERM(DO) \
+  DO(0, x)                   \
+  DO(1, y)                   \
+  DO(2, z)                   \
+  DO(3, hn::Mul(x, x))       \
+  DO(4, hn::Mul(x, y)) DO(5, hn::Mul(x, z)) DO(6, hn::Mul(y, y)) DO(7, hn::Mul(y, z)) DO(8, hn::Mul(z, z))
 #define PCL_BV_DECLARE(k, term) auto sum##k = hn::Zero(d);
 #define PCL_BV_STEP(k, term) sum##k = hn::Add(sum##k, term);
-#define PCL_BV_KEEP(k, term) \
-  hn::Store(hn::Add(hn::Load(d, sums + k * kLanes + lane), sum##k), d, sums + k * kLanes + lane);
+#define PCL_BV_KEEP(k, term) hn::Store(sum##k, d, sums + k * kLanes + lane);
 
-// Adds the sums over a block's groups to those of the chunk, 8 lanes for each of the 9 terms.
+// Only doubles may be scaled.
+template <typename T, class D>
+HWY_INLINE V<D> relative(D d, const T* from, V<D> origin, V<D> scale) {
+  const auto q = hn::Sub(load_as_double(d, from), origin);
+  return sizeof(T) == 8 ? hn::Mul(q, scale) : q;
+}
+
+// The sums over a block's groups: 8 lanes for each of the 9 terms.
 template <typename T>
-void add_block(const T* groups, std::size_t points, const Coordinates& origin, double* sums) {
+void sum_groups(const T* groups, std::size_t points, const Moments& about, double* sums) {
   constexpr std::size_t per_group = kGroupBytes / sizeof(T);
   const Tag<double> d;
-  const auto origin_x = hn::Set(d, origin.x);
-  const auto origin_y = hn::Set(d, origin.y);
-  const auto origin_z = hn::Set(d, origin.z);
+  const auto scale = hn::Set(d, std::ldexp(1.0, about.exponent));
+  const auto origin_x = hn::Set(d, about.origin.x);
+  const auto origin_y = hn::Set(d, about.origin.y);
+  const auto origin_z = hn::Set(d, about.origin.z);
   const std::size_t group_count = (points + per_group - 1) / per_group;
   for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
     PCL_BV_EACH_TERM(PCL_BV_DECLARE)
     const T* group = groups + lane;
     for (std::size_t g = 0; g < group_count; ++g, group += 3 * per_group) {
       for (std::size_t first = 0; first < per_group; first += kLanes) {
-        const auto x = hn::Sub(load_as_double(d, group + first), origin_x);
-        const auto y = hn::Sub(load_as_double(d, group + per_group + first), origin_y);
-        const auto z = hn::Sub(load_as_double(d, group + 2 * per_group + first), origin_z);
+        const auto x = relative(d, group + first, origin_x, scale);
+        const auto y = relative(d, group + per_group + first, origin_y, scale);
+        const auto z = relative(d, group + 2 * per_group + first, origin_z, scale);
         PCL_BV_EACH_TERM(PCL_BV_STEP)
       }
     }
@@ -72,35 +81,44 @@ void add_block(const T* groups, std::size_t points, const Coordinates& origin, d
 #undef PCL_BV_STEP
 #undef PCL_BV_KEEP
 
-template <Layout layout, typename T>
-void moments_of_chunk(const PointView& chunk, const Coordinates& origin, Moments& out) {
-  HWY_ALIGN T groups[3 * kBlockPoints];
-  HWY_ALIGN double sums[9 * kLanes] = {};
-  const T pad[3] = {static_cast<T>(origin.x), static_cast<T>(origin.y), static_cast<T>(origin.z)};
-  out = Moments();
-  for (std::size_t begin = 0; begin < chunk.count; begin += kBlockPoints) {
-    const PointView block = chunk.slice(begin, HWY_MIN(kBlockPoints, chunk.count - begin));
-    out.count += gather<layout, true>(block, pad, groups);
-    add_block(groups, block.count, origin, sums);
-  }
+template <typename T>
+void add_lanes(const T* groups, std::size_t points, Moments& out) {
+  HWY_ALIGN double sums[9 * kLanes];
+  sum_groups(groups, points, out, sums);
+  out.sum = {};
+  out.product = {};
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    for (std::size_t k = 0; k < 3; ++k)
-      out.sum[k] += sums[k * kLanes + lane];
-    for (std::size_t k = 0; k < 6; ++k)
-      out.product[k] += sums[(3 + k) * kLanes + lane];
+    for (std::size_t k = 0; k < 9; ++k)
+      (k < 3 ? out.sum[k] : out.product[k - 3]) += sums[k * kLanes + lane];
   }
+}
+
+template <Layout layout, typename T>
+Moments moments_of_layout(const PointView& block) {
+  HWY_ALIGN T groups[3 * kBlockPoints];
+  Moments out;
+  std::size_t first = 0;
+  while (first < block.count && !is_valid(load_point(block, first)))
+    ++first;
+  if (first == block.count) return out;
+  out.origin = load_point(block, first);
+  const T pad[3] = {static_cast<T>(out.origin.x), static_cast<T>(out.origin.y), static_cast<T>(out.origin.z)};
+  out.count = gather<layout, true>(block, pad, groups);
+  sum_with_room(block.scalar, out, [&](Moments& moments) { add_lanes(groups, block.count, moments); });
+  return out;
 }
 
 template <typename T>
-void moments_of(const PointView& chunk, const Coordinates& origin, Moments& out) {
-#define PCL_BV_CALL(layout) moments_of_chunk<layout, T>(chunk, origin, out)
-  PCL_BV_FOR_LAYOUT(T, chunk, PCL_BV_CALL)
+Moments moments_of(const PointView& block) {
+  Moments out;
+#define PCL_BV_CALL(layout) out = moments_of_layout<layout, T>(block)
+  PCL_BV_FOR_LAYOUT(T, block, PCL_BV_CALL)
 #undef PCL_BV_CALL
+  return out;
 }
 
-void chunk_moments(const PointView& chunk, const Coordinates& origin, Moments& out) {
-  if (chunk.scalar == ScalarType::float64) return moments_of<double>(chunk, origin, out);
-  moments_of<float>(chunk, origin, out);
+Moments block_moments(const PointView& block) {
+  return block.scalar == ScalarType::float64 ? moments_of<double>(block) : moments_of<float>(block);
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR
@@ -112,10 +130,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void chunk_moments(Isa isa, const PointView& chunk, const Coordinates& origin, Moments& out) {
-  static constexpr KernelTable<void(const PointView&, const Coordinates&, Moments&)> kTable =
-      PCL_BV_KERNEL_TABLE(chunk_moments, &chunk_moments_reference);
-  kTable[isa](chunk, origin, out);
+Moments block_moments(Isa isa, const PointView& block) {
+  static constexpr KernelTable<Moments(const PointView&)> kTable =
+      PCL_BV_KERNEL_TABLE(block_moments, &block_moments_reference);
+  return kTable[isa](block);
 }
 
 }  // namespace pcl_bv

@@ -21,17 +21,17 @@ struct CloudSummary {
   /// Along the 26 directions, with points; `used` and `dropped` are in here.
   Extremes extremes;
 
-  /// The mean of the valid points, inside their box. With c chunks of 32768 points, off by at most
-  /// (c + 175) 2^-53 of the extent and a rounding of the coordinate itself.
+  /// The mean of the valid points, inside their box. Of at most 2^b blocks of 1024 points, off by at most
+  /// (175 + 30 b) 2^-53 of the extent and a rounding of the coordinate itself.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
 
   /// Of the valid points about their centroid, as a population (divided by n, not n - 1), symmetric, times
-  /// scale². Entry (i, j) is off by at most 3 (c + 175) 2^-53 of the product of the extents along i and j:
-  /// 6e-14 in one chunk, 4e-13 for 30 million points (and by 2^-1073, where it underflows). Exactly 0 along
+  /// scale². Entry (i, j) is off by at most 3 (175 + 30 b) 2^-53 of the product of the extents along i and j:
+  /// 6e-14 in one block, 2e-13 for 30 million points (and by 2^-1073, where it underflows). Exactly 0 along
   /// an axis on which all points agree.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
-  /// 1, except for doubles whose greatest extent is below 1e-100, whose squares could vanish: a power of two
+  /// 1, except for doubles whose greatest extent is below 1e-99, whose squares could vanish: a power of two
   /// by which the points were multiplied for the covariance. Its eigenvectors do not depend on it.
   double scale = 1;
 
@@ -46,8 +46,9 @@ struct CloudSummary {
 /// still in the cache when the moments follow the extremes. The same bits for every execution; another order
 /// of the points may round centroid and covariance otherwise.
 ///
-/// Covariance by the shifted formula, sum of squares about the first valid point minus that point's share, in
-/// double (Chan, Golub, LeVeque 1983). Throws std::invalid_argument for an unusable instruction set.
+/// Covariance by the shifted formula in blocks of 1024 points, sums of squares about a point of the block,
+/// which are added up pair by pair (Chan, Golub, LeVeque 1983). Throws std::invalid_argument for an unusable
+/// instruction set.
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv
