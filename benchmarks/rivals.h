@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "pcl_bv/kernels/directions.h"
+#include "pcl_bv/numeric/directions.h"
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
 
