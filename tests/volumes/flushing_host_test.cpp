@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -31,6 +32,7 @@ constexpr unsigned kSeed = 1;
 // What verbs gave: only copied, so that the recorder computes nothing in the flushing host.
 class Record {
  public:
+  void begin(std::string_view shape) { shape_ = shape; }
   void add(const char* verb, bool value) { put(verb, value ? 1 : 0); }
   void add(const char* verb, double value) { put(verb, std::bit_cast<std::uint64_t>(value)); }
   void add(const char* verb, float value) { put(verb, std::bit_cast<std::uint32_t>(value)); }
@@ -64,8 +66,9 @@ class Record {
   const std::vector<std::pair<std::string, std::uint64_t>>& bits() const { return bits_; }
 
  private:
-  void put(const char* verb, std::uint64_t bits) { bits_.emplace_back(verb, bits); }
+  void put(const char* verb, std::uint64_t bits) { bits_.emplace_back(shape_ + ' ' + verb, bits); }
 
+  std::string shape_;
   std::vector<std::pair<std::string, std::uint64_t>> bits_;
 };
 
@@ -90,6 +93,7 @@ struct Numbers {
 
 template <typename Volume>
 void record_common(const Volume& volume, const Volume& other, const Numbers& n, Record& record) {
+  record.begin(shape_name(volume));
   record.add("construct", volume);
   for (const Vector3d& p : n.points) {
     record.add("contains", volume.contains(p));

@@ -60,8 +60,8 @@ inline pcl::ModelCoefficients to_model_coefficients(const Cylinder& cylinder) {
   const double moved = (center.cast<double>() - c).norm();
   const double turned = 2 * (axis.cast<double>() - cylinder.axis()).norm();
   const double grown = (cylinder.radius() + moved + turned * cylinder.half_height()) * (1 + 1e-12);
-  return estimation_internal::as_floats({center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(),
-                                         float_up(grown)});
+  return estimation_internal::as_floats(
+      {center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(), float_up(grown)});
 }
 
 }  // namespace pcl_bv
