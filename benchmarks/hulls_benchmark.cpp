@@ -13,7 +13,7 @@
 #include <algorithm>
 
 #include "hull_triangles.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "rows.h"
 
 namespace pcl_bv::bench {

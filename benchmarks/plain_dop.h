@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "pcl_bv/kernels/directions.h"
+#include "pcl_bv/numeric/directions.h"
 
 namespace pcl_bv::bench {
 

@@ -12,7 +12,7 @@
 #include "exact.h"
 #include "executions.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/kernels/directions.h"
+#include "pcl_bv/numeric/directions.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,9 +9,8 @@
 #include <cstdint>
 
 #include "clouds.h"
-#include "exact.h"
+#include "encloses.h"
 #include "executions.h"
-#include "flush_to_zero.h"
 #include "numbers.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/small_ball.h"
@@ -21,92 +20,9 @@ namespace pcl_bv {
 namespace {
 
 using test::bits;
+using test::expect_encloses;
 using test::numbers;
-using test::Rational;
 using test::TestCloud;
-
-// The predicates of the documentation, in rationals and independent of verify().
-bool holds(const Aabb& box, const Coordinates& p) {
-  return box.min().x() <= p.x && p.x <= box.max().x() && box.min().y() <= p.y && p.y <= box.max().y() &&
-         box.min().z() <= p.z && p.z <= box.max().z();
-}
-
-bool holds(const Kdop& kdop, const Coordinates& p) {
-  for (std::size_t k = 0; k < kdop.size(); ++k) {
-    if (!test::exactly_between(kdop.min(k), kdop.set()->direction(k), p, kdop.max(k))) return false;
-  }
-  return true;
-}
-
-bool holds(const Sphere& sphere, const Coordinates& p) {
-  return test::exactly_within(sphere.center(), sphere.radius(), p);
-}
-
-bool holds(const Obb& box, const Coordinates& p) {
-  const Eigen::Vector3d& c = box.center();
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d a = box.axis(i);
-    const double x = a.x() * (p.x - c.x()), y = a.y() * (p.y - c.y()), z = a.z() * (p.z - c.z());
-    const double terms = std::abs(x) + std::abs(y) + std::abs(z);
-    if (std::abs(x + y + z) + test::kClearly * terms + test::kUnderflow < box.half_extents()[i]) continue;
-    const test::Rational exact = test::exact_dot(a, p) - test::exact_dot(a, Coordinates{c.x(), c.y(), c.z()});
-    if (abs(exact) > test::Rational(box.half_extents()[i])) return false;
-  }
-  return true;
-}
-
-bool holds(const Cylinder& cylinder, const Coordinates& p) {
-  const test::ExactAlong q(cylinder.center(), cylinder.axis(), p);
-  const Rational r(cylinder.radius()), h(cylinder.half_height());
-  return q.along * q.along <= h * h * q.squared_axis &&
-         q.squared * q.squared_axis - q.along * q.along <= r * r * q.squared_axis;
-}
-
-bool holds(const Capsule& capsule, const Coordinates& p) {
-  using ExactEdge = std::array<Rational, 3>;
-  ExactEdge edge;
-  for (int k = 0; k < 3; ++k)
-    edge[static_cast<std::size_t>(k)] = Rational(capsule.b()[k]) - Rational(capsule.a()[k]);
-  const Rational r2 = Rational(capsule.radius()) * Rational(capsule.radius());
-  Rational along = 0, squared_edge = 0;
-  const double coordinates[] = {p.x, p.y, p.z};
-  for (int k = 0; k < 3; ++k) {
-    const Rational& e = edge[static_cast<std::size_t>(k)];
-    along += (Rational(coordinates[k]) - Rational(capsule.a()[k])) * e;
-    squared_edge += e * e;
-  }
-  if (along <= 0) return test::exact_squared_distance(capsule.a(), p) <= r2;
-  if (along >= squared_edge) return test::exact_squared_distance(capsule.b(), p) <= r2;
-  return test::exact_squared_distance(capsule.a(), p) * squared_edge - along * along <= r2 * squared_edge;
-}
-
-bool holds(const Ellipsoid& ellipsoid, const Coordinates& p) {
-  Rational sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3d axis = ellipsoid.axes().col(k);
-    const Rational along = test::ExactAlong(ellipsoid.center(), axis, p).along;
-    const Rational radius(ellipsoid.radii()[k]);
-    if (radius == 0 && along != 0) return false;
-    if (radius != 0) sum += along * along / (radius * radius);
-  }
-  return sum <= 1;
-}
-
-bool holds(const Hull& hull, const Coordinates& p) {
-  for (const HullPlane& plane : hull.planes()) {
-    if (!test::exactly_at_most(plane.normal, p, plane.offset)) return false;
-  }
-  return !hull.empty();
-}
-
-void expect_encloses(const AnyVolume& volume, const PointView& points) {
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (!is_valid(p)) continue;
-    ASSERT_TRUE(std::visit([&p](const auto& shape) { return holds(shape, p); }, volume)) << "point " << i;
-    ASSERT_TRUE(contains(volume, {p.x, p.y, p.z})) << "contains() denies point " << i;
-  }
-}
 
 template <typename T>
 void expect_every_method_encloses() {
@@ -174,21 +90,6 @@ TEST(Fit, OfFloatGroupsHasTheBitsOfThatOfTheRecordsOnEveryInstructionSet) {
 }
 TEST(Fit, OfDoubleGroupsHasTheBitsOfThatOfTheRecordsOnEveryInstructionSet) {
   expect_same_of_groups<double>();
-}
-
-TEST(Fit, SurvivesAHostThatFlushesDenormals) {
-  const TestCloud<float> cloud = test::gaussian<float>(700, 7, 1e-41);
-  for (const Method& method : methods()) {
-    SCOPED_TRACE(method.name);
-    AnyVolume expected, volume;
-    method.fit(cloud.view(), expected, {});
-    {
-      const test::FlushToZero host;
-      method.fit(cloud.view(), volume, {});
-    }
-    EXPECT_EQ(numbers(volume), numbers(expected));
-    expect_encloses(volume, cloud.view());
-  }
 }
 
 TEST(Fit, ScalesExactlyByPowersOfTwo) {

@@ -19,7 +19,7 @@
 #include "local_hull.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "planar_hull.h"
 #include "reach_tree.h"
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "clouds.h"
-#include "pcl_bv/kernels/directions.h"
+#include "pcl_bv/numeric/directions.h"
 
 namespace pcl_bv {
 namespace {

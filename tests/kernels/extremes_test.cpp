@@ -22,7 +22,6 @@ using test::TestCloud;
 
 constexpr DirectionSet kSets[] = {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18,
                                   DirectionSet::dop26};
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 ChunkExtremes run(Isa isa, const PointView& points, DirectionSet set,
                   const ReachedEnds& reached = nothing_reached()) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/numeric/coordinates.h"
 #include "rational.h"
 
 namespace pcl_bv::test {

@@ -7,9 +7,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 
-#include "vector3.h"
+#include "across.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,9 +9,9 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <limits>
 
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 
@@ -137,7 +137,7 @@ class DistanceScan::SharedOctants {
   }
 
   double least() const {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const std::atomic<double>& b : best_)
       least = std::min(least, b.load(std::memory_order_relaxed));
     return least;

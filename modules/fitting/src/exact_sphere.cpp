@@ -8,7 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "pcl_bv/numeric/directed.h"
 
 namespace pcl_bv {
 namespace {
@@ -55,8 +56,7 @@ Sphere exact_sphere(DistanceScan& scan, const LocalFrame& frame, SeedPoints cand
     const Eigen::Vector3d center = frame.global(ball.center);
     const double limit = candidates.greatest_distance(frame.center(center)) * kNotOutside;
     OctantPoints found;
-    const bool outside = scan.farthest(frame.center(center),
-                                       std::nextafter(limit, std::numeric_limits<double>::infinity()), found);
+    const bool outside = scan.farthest(frame.center(center), next_up(limit), found);
     ++certificate.passes;
     double distance = limit;
     for (const FarPoint& far : found)

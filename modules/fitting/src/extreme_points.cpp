@@ -11,7 +11,7 @@
 #include <string>
 
 #include "map_chunks.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "projection_search.h"
 #include "schedule.h"
 #include "shared_reach.h"
@@ -60,7 +60,6 @@ DirectionExtremes ProjectionSearch::along(std::size_t k) const {
 
 ProjectionSearch search_projections(const PointView& points, const Direction* directions, std::size_t count,
                                     const Execution& execution) {
-  const FloatEnvironment environment;
   const Isa isa = resolve_isa(execution.isa);
   ProjectionSearch search{checked(directions, count), {}};
   const ProjectionSet& set = search.set;

@@ -6,19 +6,17 @@
 #include "pcl_bv/fitting/extremes.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "extreme_search.h"
 #include "map_chunks.h"
 #include "pcl_bv/kernels/axis_extents.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "schedule.h"
 #include "span.h"
 
 namespace pcl_bv {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // What a point costs from the third-level cache, measured; it decides whether threads are worth starting.
 struct PointCost {
@@ -62,20 +60,6 @@ void find_points(const PointView& points, const Execution& execution, Isa isa, E
       points, worthwhile(execution.parallel, search_seconds(isa, out.set, points.count)),
       [&](const PointView& chunk) { return search(chunk); },
       [&](const ChunkExtremes& part) { merge_extremes(part, out); });
-}
-
-const std::shared_ptr<const KdopSet>& kdop_set(DirectionSet set) {
-  switch (set) {
-    case DirectionSet::dop6:
-      return KdopSet::dop6();
-    case DirectionSet::dop14:
-      return KdopSet::dop14();
-    case DirectionSet::dop18:
-      return KdopSet::dop18();
-    case DirectionSet::dop26:
-      break;
-  }
-  return KdopSet::dop26();
 }
 
 // Whether all directions of a set are among those that were searched, with what is asked of them.
@@ -168,7 +152,7 @@ Aabb aabb_of(const Extremes& extremes) {
 }
 
 Kdop kdop_of(const Extremes& extremes) {
-  const std::shared_ptr<const KdopSet>& set = kdop_set(extremes.set);
+  const std::shared_ptr<const KdopSet>& set = KdopSet::of(extremes.set);
   if (extremes.used == 0) return Kdop(set);
   const auto size = static_cast<Eigen::Index>(set->size());
   return {set, Eigen::Map<const Eigen::VectorXd>(extremes.low.data(), size),

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "across.h"
 #include "axis_search.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/small_ball.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "round_fit.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 namespace {

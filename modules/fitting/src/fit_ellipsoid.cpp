@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "round_fit.h"
 #include "smallest_ellipsoid.h"
 #include "symmetric_eigen.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 namespace {

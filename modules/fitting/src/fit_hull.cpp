@@ -10,7 +10,8 @@
 
 #include "local_hull.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "reach_tree.h"
 #include "schedule.h"
@@ -22,7 +23,7 @@ using Normals = std::vector<Eigen::Vector3d>;
 
 // Nothing for vectors that have no direction.
 void add_unit(const Eigen::Vector3d& v, Normals& normals) {
-  const double length = std::sqrt((v.x() * v.x() + v.y() * v.y()) + v.z() * v.z());
+  const double length = norm3(v);
   if (length > 0) normals.push_back((v / length).array() + 0.0);
 }
 

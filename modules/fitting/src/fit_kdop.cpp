@@ -8,16 +8,17 @@
 #include "pcl_bv/fitting/extreme_points.h"
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "span.h"
 
 namespace pcl_bv {
 namespace {
 
 std::optional<DirectionSet> direction_set(const std::shared_ptr<const KdopSet>& set) {
-  if (set == KdopSet::dop6()) return DirectionSet::dop6;
-  if (set == KdopSet::dop14()) return DirectionSet::dop14;
-  if (set == KdopSet::dop18()) return DirectionSet::dop18;
-  if (set == KdopSet::dop26()) return DirectionSet::dop26;
+  for (const auto built_in :
+       {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18, DirectionSet::dop26}) {
+    if (set == KdopSet::of(built_in)) return built_in;
+  }
   return std::nullopt;
 }
 
@@ -57,6 +58,7 @@ EstimationResult fit_own(const PointView& points, const std::shared_ptr<const Kd
 
 EstimationResult fit(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                      SlabPoints* touching, const Execution& execution) {
+  const FloatEnvironment environment;
   kdop = Kdop(set);
   const std::optional<DirectionSet> directions = direction_set(set);
   return directions ? fit_built_in(points, *directions, set, kdop, touching, execution)

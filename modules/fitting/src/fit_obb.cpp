@@ -7,13 +7,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "obb_axes.h"
-#include "pcl_bv/kernels/exact_sum.h"
-#include "pcl_bv/kernels/float_environment.h"
 #include "pcl_bv/kernels/slab_extents.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/exact_sum.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "projection_search.h"
 #include "summarize_bounds.h"
 
@@ -86,7 +86,7 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Aabb
   const SlabExtents found = slab_extents(
       isa, points, origin, {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))});
   const Eigen::Vector3d size = around.max() - around.min(), from(origin.x, origin.y, origin.z);
-  const double rounding = 0x1p-50 * ((size.x() + size.y()) + size.z()) + std::numeric_limits<double>::min();
+  const double rounding = 0x1p-50 * ((size.x() + size.y()) + size.z()) + kSmallestNormal;
   Eigen::Vector3d low, high;
   for (int i = 0; i < 3; ++i) {
     low[i] = found.low[static_cast<std::size_t>(i)] - rounding;

@@ -14,7 +14,7 @@
 #include "pcl_bv/fitting/extreme_points.h"
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "sphere_seed.h"
 
 namespace pcl_bv {

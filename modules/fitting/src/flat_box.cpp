@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "pcl_bv/numeric/constants.h"
 
 namespace pcl_bv {
 namespace {
@@ -76,7 +77,7 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
 FlatBox least_rectangle(const Eigen::Vector2d* corners, std::size_t count) {
   FlatBox best;
   if (count < 2) return best;
-  best.area = std::numeric_limits<double>::infinity();
+  best.area = kInfinity;
   std::size_t right = 1, top = 1, left = 1;
   const auto next = [count](std::size_t i) { return i + 1 < count ? i + 1 : 0; };
   for (std::size_t i = 0; i < count; ++i) {

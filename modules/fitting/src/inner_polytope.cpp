@@ -10,10 +10,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "hull_triangles.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace {
@@ -41,17 +42,13 @@ struct Scalar {
   explicit Scalar(ScalarType type) : is_float(type == ScalarType::float32) {}
 
   bool is_float;
-  double unit() const { return is_float ? 0x1p-24 : 0x1p-53; }
+  double unit() const { return is_float ? 0x1p-24 : kU; }
   double least() const {
     return is_float ? 0x1p-140 : 0x1p-1000;
   }  // more than what products may underflow by
 
   double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }
-  double down(double x) const {
-    if (!is_float) return x;
-    const float f = static_cast<float>(x);
-    return f <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-  }
+  double down(double x) const { return is_float ? static_cast<double>(float_down(x)) : x; }
 
   // Where squares of lengths of a cloud neither over- nor underflow.
   bool squares(double extent) const {
@@ -75,7 +72,7 @@ HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinate
                      const Scalar& scalar) {
   const auto at = [&](std::size_t i) { return corners.local[static_cast<std::size_t>(t[i])]; };
   const Eigen::Vector3d m = (at(1) - at(0)).cross(at(2) - at(0));
-  const double length = std::sqrt((m.x() * m.x() + m.y() * m.y()) + m.z() * m.z());
+  const double length = norm3(m);
   HalfSpace h{scalar.nearest(m.x() / length), scalar.nearest(m.y() / length), scalar.nearest(m.z() / length),
               0};
   const Coordinates& a = corners.points[static_cast<std::size_t>(t[0])];
@@ -95,7 +92,7 @@ HalfSpaces inner_polytope(const PointView& points, const Extremes& extremes, con
   if (triangles.empty() || triangles.size() > kMaxHalfSpaces) return result;
   const Scalar scalar(points.scalar);
   result.center = middle(corners, frame, scalar);
-  double ball = std::numeric_limits<double>::infinity();
+  double ball = kInfinity;
   for (const Triangle& t : triangles) {
     const HalfSpace h = half_space(corners, t, result.center, frame.extent(), scalar);
     if (!(h.limit > 0)) return {};  // too flat for the centre to be inside: it would pay little

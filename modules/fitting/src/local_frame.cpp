@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pcl_bv {
 
@@ -17,23 +16,6 @@ LocalFrame::LocalFrame(const PointView& points, const Extremes& extremes)
     extent_ = std::max(extent_, extremes.high[axis] - extremes.low[axis]);
   scale_ = extent_ > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(extent_), -1000, 1000)) : 1.0;
   kernel_scale_ = points.scalar == ScalarType::float64 ? scale_ : 1.0;
-}
-
-double LocalFrame::length_down(double local) const {
-  const double length = local / scale_;
-  return length * scale_ > local ? std::nextafter(length, 0.0) : length;
-}
-
-double LocalFrame::length_up(double local) const {
-  const double length = local / scale_;
-  return length * scale_ < local ? std::nextafter(length, std::numeric_limits<double>::infinity()) : length;
-}
-
-double LocalFrame::radius(double distance) const {
-  // Dividing by a power of two is inexact only among denormals.
-  const double radius = distance / kernel_scale_;
-  return radius * kernel_scale_ < distance ? std::nextafter(radius, std::numeric_limits<double>::infinity())
-                                           : radius;
 }
 
 }  // namespace pcl_bv

@@ -8,6 +8,7 @@
 
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/kernels/distances.h"
+#include "pcl_bv/numeric/directed.h"
 
 namespace pcl_bv {
 
@@ -37,8 +38,8 @@ class LocalFrame {
   }
 
   /// A local length in the unit of the points, not greater, and not smaller.
-  double length_down(double local) const;
-  double length_up(double local) const;
+  double length_down(double local) const { return divide_down(local, scale_); }
+  double length_up(double local) const { return divide_up(local, scale_); }
 
   /// Local units per unit of the points: a power of two.
   double scale() const { return scale_; }
@@ -49,7 +50,7 @@ class LocalFrame {
   }
 
   /// A kernel's distance as a radius in the unit of the points, not smaller.
-  double radius(double distance) const;
+  double radius(double distance) const { return divide_up(distance, kernel_scale_); }
 
  private:
   Eigen::Vector3d origin_;

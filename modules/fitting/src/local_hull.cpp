@@ -13,9 +13,9 @@
 
 #include "inner_polytope.h"
 #include "map_chunks.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "planar_hull.h"
 #include "schedule.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 namespace {

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "pcl_bv/numeric/float_environment.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -135,6 +137,7 @@ const std::vector<const Method*>& methods_of_all() {
 EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
                               AnyVolume& volume, const Execution& execution, const MethodOptions& options,
                               const Method** winner) {
+  const FloatEnvironment environment;
   if (among.empty()) throw std::invalid_argument("fit_smallest: among must name at least one method");
   EstimationResult result;
   const Method* found = nullptr;

@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -17,7 +16,9 @@
 #include "flat_box.h"
 #include "local_hull.h"
 #include "obb_axes.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
 
@@ -32,11 +33,11 @@ struct Frame {
 };
 
 Eigen::Vector3d extents(const Eigen::Vector3d* points, std::size_t count, const Eigen::Matrix3d& axes) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity), high = -low;
   for (std::size_t n = 0; n < count; ++n) {
     const Eigen::Vector3d& p = points[n];
     for (int i = 0; i < 3; ++i) {
-      const double along = (axes(0, i) * p.x() + axes(1, i) * p.y()) + axes(2, i) * p.z();
+      const double along = dot3(axes.col(i), p);
       low[i] = std::min(low[i], along);
       high[i] = std::max(high[i], along);
     }
@@ -88,7 +89,7 @@ std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
 void add_triangle_frames(const FewPoints& few, std::vector<Eigen::Matrix3d>& frames) {
   constexpr std::size_t kBest = 5;
   std::array<Frame, kBest> best;
-  best.fill({Eigen::Matrix3d::Identity(), std::numeric_limits<double>::infinity()});
+  best.fill({Eigen::Matrix3d::Identity(), kInfinity});
   const auto compete = [&](const Eigen::Vector3d& edge, const Eigen::Vector3d& normal) {
     Frame frame{};
     frame.axes << edge, normal, edge.cross(normal);
@@ -111,8 +112,7 @@ void add_triangle_frames(const FewPoints& few, std::vector<Eigen::Matrix3d>& fra
     }
   }
   for (const Frame& frame : best)
-    if (frame.volume < std::numeric_limits<double>::infinity())
-      frames.push_back(orthonormal_axes(frame.axes));
+    if (frame.volume < kInfinity) frames.push_back(orthonormal_axes(frame.axes));
 }
 
 // The first of the starts: what the box must not be greater than.

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "flat_box.h"
 #include "obb_axes.h"
 #include "outline.h"
 #include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/numeric/constants.h"
 
 namespace pcl_bv {
 namespace {
@@ -86,8 +86,7 @@ class Closeness {
   };
 
   Sides sides_along(const Eigen::Vector2d& side) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double left = infinity, right = -infinity, bottom = infinity, top = -infinity;
+    double left = kInfinity, right = -kInfinity, bottom = kInfinity, top = -kInfinity;
     for (const Eigen::Vector2d& corner : outline_) {
       const Eigen::Vector2d p = corner - origin_;
       const double u = side.x() * p.x() + side.y() * p.y(), v = side.x() * p.y() - side.y() * p.x();

@@ -8,8 +8,9 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "pcl_bv/numeric/constants.h"
 
 namespace pcl_bv {
 namespace {
@@ -39,7 +40,7 @@ int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector
   const double left = (b.x() - a.x()) * (c.y() - a.y());
   const double right = (b.y() - a.y()) * (c.x() - a.x());
   // Three roundings of each product and one of the difference: 8 2^-53 is more than that.
-  const double doubt = 0x1p-50 * (std::abs(left) + std::abs(right)) + std::numeric_limits<double>::min();
+  const double doubt = 0x1p-50 * (std::abs(left) + std::abs(right)) + kSmallestNormal;
   if (std::abs(left - right) > doubt) return left > right ? 1 : -1;
   // Lattices have many points in a row, and differences that are doubles: then each product is one and its rounding
   // error, and the rounded ones decide unless they are equal.

@@ -8,11 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
-#include "pcl_bv/kernels/exact_dot.h"
-#include "vector3.h"
+#include "across.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/exact_dot.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace {
@@ -123,16 +124,15 @@ void ReachTree::reach_up(const Eigen::Vector3d& normal, double least, std::uint3
     if (dot3(normal, point(i).local) < least) continue;
     const Coordinates& p = point(i).point;
     const double x = normal.x() * p.x, y = normal.y() * p.y, z = normal.z() * p.z;
-    const double doubt =
-        0x1p-50 * (std::abs(x) + std::abs(y) + std::abs(z)) + std::numeric_limits<double>::min();
+    const double doubt = 0x1p-50 * (std::abs(x) + std::abs(y) + std::abs(z)) + kSmallestNormal;
     if (((x + y) + z) + doubt <= reach) continue;
     reach = std::max(reach, project_up(direction, p));
   }
 }
 
 double ReachTree::reach_up(const Eigen::Vector3d& normal) const {
-  const double known = greatest(normal, -std::numeric_limits<double>::infinity(), 0);
-  double reach = -std::numeric_limits<double>::infinity();
+  const double known = greatest(normal, -kInfinity, 0);
+  double reach = -kInfinity;
   reach_up(normal, known - 2 * kDoubt, 0, reach);
   return reach;
 }

@@ -6,7 +6,7 @@
 
 #include "local_hull.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {
 

@@ -7,7 +7,8 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
-#include <limits>
+
+#include "pcl_bv/numeric/constants.h"
 
 namespace pcl_bv {
 
@@ -18,7 +19,7 @@ class SharedReach {
  public:
   SharedReach() {
     for (std::atomic<double>& r : reached_)
-      r.store(-std::numeric_limits<double>::infinity(), std::memory_order_relaxed);
+      r.store(-kInfinity, std::memory_order_relaxed);
   }
 
   std::array<double, ends> snapshot() const {

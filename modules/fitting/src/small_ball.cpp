@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "vector3.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace {
@@ -55,7 +55,7 @@ Vector weights(const std::array<Vector, 3>& spokes, const Vector& x) {
   for (int axis = 0; axis < 3; ++axis)
     rows[axis] = {spokes[0][axis], spokes[1][axis], spokes[2][axis]};
   Vector result;
-  return solve(rows, x, result) ? result : Vector::Constant(std::numeric_limits<double>::quiet_NaN());
+  return solve(rows, x, result) ? result : Vector::Constant(kNan);
 }
 
 // The best ball of a support of up to four points and one new point, which must be on its boundary. All is
@@ -143,8 +143,8 @@ class Step {
   int size_;
   std::array<Vector, 4> spokes_;
   std::array<double, 4> squared_{};
-  double greatest_ = std::numeric_limits<double>::infinity();
-  double least_weight_ = -std::numeric_limits<double>::infinity();
+  double greatest_ = kInfinity;
+  double least_weight_ = -kInfinity;
   unsigned members_ = 0;
   Vector center_ = Vector::Zero();
 };

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "extreme_search.h"
@@ -16,6 +15,8 @@
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "schedule.h"
 #include "summarize_bounds.h"
 
@@ -123,8 +124,8 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
   const Isa isa = resolve_isa(execution.isa);
   CloudSummary summary;
   summary.extremes.set = DirectionSet::dop6;
-  summary.extremes.low.fill(std::numeric_limits<double>::infinity());
-  summary.extremes.high.fill(-std::numeric_limits<double>::infinity());
+  summary.extremes.low.fill(kInfinity);
+  summary.extremes.high.fill(-kInfinity);
   // Moments cost about as much as a 26-DOP, the box next to nothing.
   const double seconds = search_seconds(isa, DirectionSet::dop26, points.count);
   const Moments moments = pass<AxisExtents>(

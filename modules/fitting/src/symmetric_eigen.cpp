@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "vector3.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace {

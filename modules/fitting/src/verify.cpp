@@ -12,18 +12,27 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/kernels/float_environment.h"
 #include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-constexpr double kTiny = std::numeric_limits<double>::min();  // covers what underflow may take from a product
+using ExactVector = std::array<Rational, 3>;
+
+ExactVector exact(const Eigen::Vector3d& v) {
+  return {Rational(v.x()), Rational(v.y()), Rational(v.z())};
+}
+
+ExactVector difference(const ExactVector& a, const ExactVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 
 // How far p is outside, as a double: 0 only if it is inside by exact arithmetic.
 double positive(const Rational& excess, double scale) {
@@ -41,27 +50,29 @@ double violation(const Aabb& box, const Eigen::Vector3d& p) {
   return worst;
 }
 
+// What n . p in double may be off by, and more.
+double dot_error(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
+  return 8 * kU * dot3(n.cwiseAbs(), p.cwiseAbs()) + kSmallestNormal;
+}
+
 double violation(const Kdop& kdop, const Eigen::Vector3d& p) {
   double worst = 0;
   for (std::size_t k = 0; k < kdop.size(); ++k) {
     const Eigen::Vector3d& n = kdop.set()->direction(k);
-    const double rounded = (n.x() * p.x() + n.y() * p.y()) + n.z() * p.z();
-    const double bound =
-        8 * kU * ((std::abs(n.x() * p.x()) + std::abs(n.y() * p.y())) + std::abs(n.z() * p.z())) + kTiny;
+    const double rounded = dot3(n, p), bound = dot_error(n, p);
     if (rounded - bound >= kdop.min(k) && rounded + bound <= kdop.max(k)) continue;
-    const Rational exact = Rational(n.x()) * Rational(p.x()) + Rational(n.y()) * Rational(p.y()) +
-                           Rational(n.z()) * Rational(p.z());
-    worst = std::max(worst, positive(Rational(kdop.min(k)) - exact, n.norm()));
-    worst = std::max(worst, positive(exact - Rational(kdop.max(k)), n.norm()));
+    const Rational along = dot3(exact(n), exact(p));
+    worst = std::max(worst, positive(Rational(kdop.min(k)) - along, n.norm()));
+    worst = std::max(worst, positive(along - Rational(kdop.max(k)), n.norm()));
   }
   return worst;
 }
 
 double violation(const Sphere& sphere, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - sphere.center();
-  const double squared = (q.x() * q.x() + q.y() * q.y()) + q.z() * q.z();
+  const double squared = dot3(q, q);
   const double r = sphere.radius();
-  if (squared * (1 + 16 * kU) + kTiny <= r * r * (1 - 16 * kU)) return 0.0;
+  if (squared * (1 + 16 * kU) + kSmallestNormal <= r * r * (1 - 16 * kU)) return 0.0;
   Rational excess = -Rational(r) * Rational(r);
   for (int axis = 0; axis < 3; ++axis) {
     const Rational difference = Rational(p[axis]) - Rational(sphere.center()[axis]);
@@ -73,11 +84,11 @@ double violation(const Sphere& sphere, const Eigen::Vector3d& p) {
 
 double violation(const Obb& box, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - box.center();
-  const double bound = 8 * kU * taxicab3(q) + kTiny;
+  const double bound = 8 * kU * taxicab3(q) + kSmallestNormal;
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d a = box.axis(i);
-    const double rounded = (a.x() * q.x() + a.y() * q.y()) + a.z() * q.z();
+    const double rounded = dot3(a, q);
     if (std::abs(rounded) + bound <= box.half_extents()[i]) continue;
     Rational exact = 0;
     for (int k = 0; k < 3; ++k)
@@ -92,29 +103,12 @@ double violation(const Hull& hull, const Eigen::Vector3d& p) {
   double worst = 0;
   for (const HullPlane& plane : hull.planes()) {
     const Eigen::Vector3d& n = plane.normal;
-    const double rounded = (n.x() * p.x() + n.y() * p.y()) + n.z() * p.z();
-    const double bound =
-        8 * kU * ((std::abs(n.x() * p.x()) + std::abs(n.y() * p.y())) + std::abs(n.z() * p.z())) + kTiny;
+    const double rounded = dot3(n, p), bound = dot_error(n, p);
     if (rounded + bound <= plane.offset) continue;
-    const Rational exact = Rational(n.x()) * Rational(p.x()) + Rational(n.y()) * Rational(p.y()) +
-                           Rational(n.z()) * Rational(p.z());
-    worst = std::max(worst, positive(exact - Rational(plane.offset), n.norm()));
+    const Rational along = dot3(exact(n), exact(p));
+    worst = std::max(worst, positive(along - Rational(plane.offset), n.norm()));
   }
   return worst;
-}
-
-using ExactVector = std::array<Rational, 3>;
-
-ExactVector exact(const Eigen::Vector3d& v) {
-  return {Rational(v.x()), Rational(v.y()), Rational(v.z())};
-}
-
-ExactVector difference(const ExactVector& a, const ExactVector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Rational dot(const ExactVector& a, const ExactVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // With q = p - center, off by U of itself, and an axis of about length 1, q . axis and |q x axis| are off by
@@ -123,15 +117,15 @@ double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - cylinder.center();
   const Eigen::Vector3d& axis = cylinder.axis();
   const double along = std::abs(q.dot(axis)), across = q.cross(axis).stableNorm();
-  const double doubt = 32 * kU * taxicab3(q) + kTiny;
+  const double doubt = 32 * kU * taxicab3(q) + kSmallestNormal;
   const double r = cylinder.radius(), h = cylinder.half_height();
   if (along + doubt <= h && across + doubt <= r) return 0.0;
   const ExactVector exact_q = difference(exact(p), exact(cylinder.center())), a = exact(axis);
-  const Rational squared_axis = dot(a, a), projection = dot(exact_q, a), squared = projection * projection;
+  const Rational squared_axis = dot3(a, a), projection = dot3(exact_q, a), squared = projection * projection;
   const bool too_far = squared > Rational(h) * Rational(h) * squared_axis;
   // |q x a|^2 = |q|^2 |a|^2 - (q . a)^2
   const bool too_wide =
-      dot(exact_q, exact_q) * squared_axis - squared > Rational(r) * Rational(r) * squared_axis;
+      dot3(exact_q, exact_q) * squared_axis - squared > Rational(r) * Rational(r) * squared_axis;
   if (!too_far && !too_wide) return 0.0;
   return std::max({along - h, across - r, std::numeric_limits<double>::denorm_min()});
 }
@@ -142,23 +136,23 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
   const double length = e.stableNorm();
   const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(e / length) : Eigen::Vector3d::Zero();
   const double far = (q - std::clamp(q.dot(unit), 0.0, length) * unit).stableNorm();
-  if (far + 64 * kU * (taxicab3(q) + taxicab3(e)) + kTiny <= r) return 0.0;
+  if (far + 64 * kU * (taxicab3(q) + taxicab3(e)) + kSmallestNormal <= r) return 0.0;
   const ExactVector a = exact(capsule.a()), edge = difference(exact(capsule.b()), a);
   const ExactVector from_a = difference(exact(p), a);
-  const Rational squared_edge = dot(edge, edge);
-  Rational foot = squared_edge > 0 ? Rational(dot(from_a, edge) / squared_edge) : Rational(0);
+  const Rational squared_edge = dot3(edge, edge);
+  Rational foot = squared_edge > 0 ? Rational(dot3(from_a, edge) / squared_edge) : Rational(0);
   foot = foot < 0 ? Rational(0) : foot > 1 ? Rational(1) : foot;
   ExactVector away;
   for (std::size_t i = 0; i < 3; ++i)
     away[i] = from_a[i] - foot * edge[i];
-  if (dot(away, away) <= Rational(r) * Rational(r)) return 0.0;
+  if (dot3(away, away) <= Rational(r) * Rational(r)) return 0.0;
   return std::max(far - r, std::numeric_limits<double>::denorm_min());
 }
 
 double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - ellipsoid.center();
   const Eigen::Vector3d& radii = ellipsoid.radii();
-  const double doubt = 16 * kU * taxicab3(q) + kTiny;
+  const double doubt = 16 * kU * taxicab3(q) + kSmallestNormal;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
     const double ratio = (std::abs(q.dot(ellipsoid.axes().col(i))) + doubt) / radii[i];
@@ -169,7 +163,7 @@ double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
   Rational exact_sum = 0;
   bool off_plane = false;
   for (int i = 0; i < 3; ++i) {
-    const Rational along = dot(exact_q, exact(ellipsoid.axes().col(i)));
+    const Rational along = dot3(exact_q, exact(ellipsoid.axes().col(i)));
     if (radii[i] == 0) {
       off_plane = off_plane || along != 0;
     } else {
@@ -195,8 +189,7 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
     const Coordinates p = load_point(points, i);
     if (!is_valid(p)) continue;
     ++result.checked;
-    const double out = volume.empty() ? std::numeric_limits<double>::infinity()
-                                      : violation(volume, Eigen::Vector3d(p.x, p.y, p.z));
+    const double out = volume.empty() ? kInfinity : violation(volume, Eigen::Vector3d(p.x, p.y, p.z));
     if (out > 0) ++result.outside;
     result.worst = std::max(result.worst, out);
   }
@@ -206,6 +199,7 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
 }  // namespace
 
 Verification verify(const AnyVolume& volume, const PointView& points, const Execution& execution) {
+  const FloatEnvironment environment;
   constexpr std::size_t chunk_points = 4096;  // a chunk may be all rationals: a microsecond each
   const double serial_seconds = 50e-9 * static_cast<double>(points.count);
   const auto check = [&](std::size_t chunk) {

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/vector3.h"
+
 namespace pcl_bv {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The rounded difference of two points' rounded projections may be off by this many u times the sum of the
 // magnitudes: for each point the subtraction of the centre and one or two additions; for doubles also the
@@ -44,10 +46,6 @@ class SampleMean {
 
 }  // namespace
 
-double not_above_in_float(double value) {
-  return static_cast<float>(value - std::abs(value) * 0x1p-23 - 0x1p-149);
-}
-
 bool chunk_center(const PointView& chunk, Coordinates& center) {
   constexpr std::size_t samples = 16;
   SampleMean mean;
@@ -69,14 +67,14 @@ SearchPlan::SearchPlan(DirectionSet set, const RoundedEnds& top, const Coordinat
   for (std::size_t axis = 0; axis < 3; ++axis)
     magnitude_ += std::max(top[2 * axis], top[2 * axis + 1]);
   // Of the rounded projections, then of adding the centre's.
-  const double unit = is_float_ ? 0x1p-24 : 0x1p-53;
-  const double far = std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + magnitude_;
+  const double unit = is_float_ ? 0x1p-24 : kU;
+  const double far = taxicab3(center) + magnitude_;
   offset_error_ = 4 * unit * magnitude_ + 0x1p-49 * far;
 }
 
 EndSearch SearchPlan::of(std::size_t end, double reached) const {
   const CubeDirection d = end_direction(set_, end);
-  const double offset = (d[0] * center_.x + d[1] * center_.y) + d[2] * center_.z;
+  const double offset = dot3(d, center_);
   if (top_[end] + offset + offset_error_ < reached) return {EndSearch::Kind::none, 0};
   const int terms = term_count(d);
   // x - c is 0 only if x is c; so are sums of such.
@@ -87,8 +85,8 @@ EndSearch SearchPlan::of(std::size_t end, double reached) const {
   // Rounded, the centre may lie beyond all points of a flat chunk (never along an axis).
   const bool beyond = top_[end] == 0 && terms > 1;
   if (overflow || beyond) return {EndSearch::Kind::some, -kInfinity};
-  const double threshold = top_[end] - doubt(terms) * (is_float_ ? 0x1p-24 : 0x1p-53) * magnitude_;
-  return {EndSearch::Kind::some, is_float_ ? not_above_in_float(threshold) : threshold};
+  const double threshold = top_[end] - doubt(terms) * (is_float_ ? 0x1p-24 : kU) * magnitude_;
+  return {EndSearch::Kind::some, is_float_ ? float_down(threshold) : threshold};
 }
 
 bool first_valid_point(const PointView& points, Coordinates& point, std::size_t& index) {

@@ -46,9 +46,6 @@ class SearchPlan {
   double offset_error_;
 };
 
-/// A threshold for float sums: a float that is not above the value, nor far below.
-double not_above_in_float(double value);
-
 /// The valid point with the smallest index: what competes for an end at which all are equal. False without
 /// one.
 bool first_valid_point(const PointView& points, Coordinates& point, std::size_t& index);

@@ -31,7 +31,7 @@ using Tag = hn::CappedTag<T, kGroupBytes / sizeof(T)>;
 template <class D>
 using V = hn::Vec<D>;
 
-/// What is_valid() (point_view.h) allows.
+/// What is_valid() allows.
 template <typename T>
 constexpr T coordinate_limit() {
   return sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max()) : static_cast<T>(kMaxCoordinate);

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstring>
 
-#include "pcl_bv/kernels/exact_dot.h"
 #include "pcl_bv/kernels/extreme_point.h"
+#include "pcl_bv/numeric/exact_dot.h"
 
 namespace pcl_bv {
 

@@ -10,18 +10,16 @@
 #include <limits>
 
 #include "passing_points.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double dot(const Direction& a, const Direction& b) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
-Direction magnitudes(const Direction& d) {
-  return {std::abs(d[0]), std::abs(d[1]), std::abs(d[2])};
+template <typename Vector>
+Direction magnitudes(const Vector& v) {
+  return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2])};
 }
 
 Direction opposite_if(bool negative, const Direction& d) {
@@ -30,10 +28,8 @@ Direction opposite_if(bool negative, const Direction& d) {
 
 // How far the double dot product of a scaled direction and a point may be off: its own rounding, that of the
 // direction's tiny components, underflow.
-double double_doubt(const Direction& scaled, const Direction& point) {
-  const Direction p = magnitudes(point);
-  return (0x1p-50 * dot(magnitudes(scaled), p) + 0x1p-1074 * (p[0] + p[1] + p[2])) +
-         std::numeric_limits<double>::min();
+double double_doubt(const Direction& scaled, const Coordinates& p) {
+  return (0x1p-50 * dot3(magnitudes(scaled), magnitudes(p)) + 0x1p-1074 * taxicab3(p)) + kSmallestNormal;
 }
 
 }  // namespace
@@ -66,8 +62,7 @@ void keep_farthest(const Direction& direction, const FarthestPoint& other, Farth
 
 double surely_reached(const ProjectionSet& set, std::size_t end, const Coordinates& point) {
   const Direction scaled = set.scaled_end_direction(end);
-  const Direction p = {point.x, point.y, point.z};
-  return dot(scaled, p) - double_doubt(scaled, p);
+  return dot3(scaled, point) - double_doubt(scaled, point);
 }
 
 bool central_point(const PointView& points, Coordinates& center) {
@@ -95,7 +90,7 @@ bool central_point(const PointView& points, Coordinates& center) {
 ProjectionPlan::ProjectionPlan(const ProjectionSet& set, std::size_t direction, const Relief& relief,
                                ScalarType scalar)
     : is_float_(scalar == ScalarType::float32) {
-  const double unit = is_float_ ? 0x1p-24 : 0x1p-53;
+  const double unit = is_float_ ? 0x1p-24 : kU;
   const double least = is_float_ ? 0x1p-149 : 0x1p-1074;
   const double greatest = is_float_ ? static_cast<double>(std::numeric_limits<float>::max()) : 1e300;
   const Direction& exact = set.exact[direction];
@@ -103,13 +98,12 @@ ProjectionPlan::ProjectionPlan(const ProjectionSet& set, std::size_t direction, 
   const auto& s = relief.spread;
   const auto flat = [&](std::size_t axis) { return exact[axis] == 0 || s[axis] == 0; };
   constant_ = flat(0) && flat(1) && flat(2);  // p - c is 0 only if p is c
-  const double size = dot(magnitudes(scaled), s);
+  const double size = dot3(magnitudes(scaled), s);
   overflow_ = !(size <= 0.99 * greatest);  // of infinite spreads it may be NaN
   const double doubt = 5.1 * unit * size + least * ((s[0] + s[1]) + s[2] + 4);
   band_ = 2 * doubt + unit * size;
-  const Direction center = {relief.center.x, relief.center.y, relief.center.z};
-  offset_ = dot(scaled, center);
-  offset_doubt_ = doubt + 0x1p-49 * size + double_doubt(scaled, center);
+  offset_ = dot3(scaled, relief.center);
+  offset_doubt_ = doubt + 0x1p-49 * size + double_doubt(scaled, relief.center);
 }
 
 EndSearch ProjectionPlan::of(bool high, double top, double reached) const {
@@ -117,7 +111,7 @@ EndSearch ProjectionPlan::of(bool high, double top, double reached) const {
   if (overflow_) return {EndSearch::Kind::some, -kInfinity};  // sums say nothing
   if (top + (high ? offset_ : -offset_) + offset_doubt_ < reached) return {EndSearch::Kind::none, 0};
   const double threshold = top - band_;
-  return {EndSearch::Kind::some, is_float_ ? not_above_in_float(threshold) : threshold};
+  return {EndSearch::Kind::some, is_float_ ? float_down(threshold) : threshold};
 }
 
 void find_farthest(const PointView& points, std::size_t first, std::size_t step, std::size_t end,

@@ -20,7 +20,7 @@
 #include <limits>
 
 #include "load-inl.h"
-#include "pcl_bv/kernels/directions.h"
+#include "pcl_bv/numeric/directions.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {

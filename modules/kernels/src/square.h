@@ -5,6 +5,7 @@
 #pragma once
 
 #include "pcl_bv/kernels/distances.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 
@@ -16,10 +17,9 @@ inline Coordinates load_as(const PointView& points, std::size_t i) {
 }
 
 inline double square(const Coordinates& p, const DistanceCenter& center) {
-  const double x = (p.x - center.x) * center.scale;
-  const double y = (p.y - center.y) * center.scale;
-  const double z = (p.z - center.z) * center.scale;
-  return (x * x + y * y) + z * z;
+  const Coordinates q = {(p.x - center.x) * center.scale, (p.y - center.y) * center.scale,
+                         (p.z - center.z) * center.scale};
+  return dot3(q, q);
 }
 
 }  // namespace pcl_bv

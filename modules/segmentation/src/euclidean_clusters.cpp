@@ -14,7 +14,7 @@
 #include "cells.h"
 #include "gather.h"
 #include "join_cells.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {
 namespace {

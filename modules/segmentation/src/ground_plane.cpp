@@ -11,7 +11,8 @@
 
 #include "ground_checks.h"
 #include "ground_sample.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "plane_search.h"
 
 namespace pcl_bv {
@@ -69,7 +70,7 @@ void split_ground(const PointView& points, const GroundPlaneSettings& settings, 
   const std::optional<Plane> plane = find_ground_plane(split.scratch, -origin, settings);
   split.found = plane.has_value();
   split.normal = plane ? plane->normal : Eigen::Vector3d::Zero();
-  split.offset = plane ? plane->offset + dot(plane->normal, origin) : 0;
+  split.offset = plane ? plane->offset + dot3(plane->normal, origin) : 0;
   classify(points, settings.distance, split);
 }
 

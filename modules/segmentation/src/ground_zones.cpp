@@ -15,7 +15,8 @@
 #include "ground_checks.h"
 #include "ground_sample.h"
 #include "patch_fit.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "plane_search.h"
 #include "zones.h"
 
@@ -169,7 +170,7 @@ std::optional<Plane> GroundZones::Scratch::central_plane(const PointView& view,
     const Vector3d origin = sample_ground(near, settings.up, settings.seed, sample);
     std::optional<Plane> plane = find_ground_plane(sample, settings.sensor - origin, search);
     if (!plane) continue;
-    plane->offset += dot(plane->normal, origin);
+    plane->offset += dot3(plane->normal, origin);
     return plane;
   }
   return {};

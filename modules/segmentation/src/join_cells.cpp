@@ -10,7 +10,7 @@
 #include <bit>
 
 #include "neighbours.h"
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {

@@ -25,7 +25,7 @@ constexpr unsigned refinements = 3;
 constexpr double min_width_ratio = 0.02;
 
 Vector3d normalized(const Vector3d& v) {
-  const double norm2 = dot(v, v);
+  const double norm2 = dot3(v, v);
   return norm2 > 0 ? Vector3d(v / std::sqrt(norm2)) : v;
 }
 
@@ -37,7 +37,7 @@ struct Limits {
   std::optional<double> sensor_height;
 
   bool allow(const Plane& plane) const {
-    const double cosine = dot(plane.normal, up);
+    const double cosine = dot3(plane.normal, up);
     if (!(cosine >= min_cosine)) return false;
     return !sensor_height ||
            std::abs(height_above(plane, sensor) / cosine - *sensor_height) <= ground_height_tolerance;
@@ -46,8 +46,8 @@ struct Limits {
 
 // Through `point`, turned to the upper side.
 Plane plane_at(const Vector3d& point, const Vector3d& unit_normal, const Vector3d& up) {
-  const Vector3d normal = dot(unit_normal, up) < 0 ? Vector3d(-unit_normal) : unit_normal;
-  return {normal, dot(normal, point)};
+  const Vector3d normal = dot3(unit_normal, up) < 0 ? Vector3d(-unit_normal) : unit_normal;
+  return {normal, dot3(normal, point)};
 }
 
 std::optional<Plane> plane_through(const Vector3d& a, const Vector3d& b, const Vector3d& c,
@@ -73,7 +73,7 @@ double cost_of(const Plane& plane, const Points& points, double distance, double
     const std::size_t n = std::min(4 * groups, points.size() - begin);
     std::array<double, 4 * groups> heights{};
     for (std::size_t i = 0; i < n; ++i)
-      heights[i] = dot(normal, points[begin + i]) - offset;
+      heights[i] = dot3(normal, points[begin + i]) - offset;
     Lanes sums = Lanes::Zero();
     for (std::size_t i = 0; i < 4 * groups; i += 4)
       sums += Eigen::Map<const Lanes>(heights.data() + i).min(max_above).max(-max_below).square();

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 
 namespace pcl_bv {
@@ -17,14 +18,9 @@ struct Plane {
   double offset;
 };
 
-/// a.b, added from the left: Eigen leaves the order to the instruction set.
-inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
-
 /// Signed distance of p from the plane.
 inline double height_above(const Plane& plane, const Eigen::Vector3d& p) {
-  return dot(plane.normal, p) - plane.offset;
+  return dot3(plane.normal, p) - plane.offset;
 }
 
 /// The ground of the points sampled by sample_ground(), in their frame, as split_ground() says. `sensor` is

@@ -6,9 +6,11 @@
 
 #include <stdexcept>
 
-#include "directed.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "ray_clip.h"
-#include "special_values.h"
 
 namespace pcl_bv {
 
@@ -22,9 +24,10 @@ Eigen::Vector3d without_negative_zero(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-Aabb::Aabb() : min_(Eigen::Vector3d::Constant(infinity)), max_(Eigen::Vector3d::Constant(-infinity)) {}
+Aabb::Aabb() : min_(Eigen::Vector3d::Constant(kInfinity)), max_(Eigen::Vector3d::Constant(-kInfinity)) {}
 
 Aabb::Aabb(const Eigen::Vector3d& min, const Eigen::Vector3d& max) : Aabb() {
+  const FloatEnvironment environment;
   if ((min.array() > max.array()).any()) return;
   if (!min.allFinite() || !max.allFinite()) {
     throw std::invalid_argument(
@@ -39,40 +42,47 @@ bool Aabb::empty() const {
 }
 
 bool Aabb::contains(const Eigen::Vector3d& p) const {
+  const FloatEnvironment environment;
   return min_.x() <= p.x() && p.x() <= max_.x() && min_.y() <= p.y() && p.y() <= max_.y() &&
          min_.z() <= p.z() && p.z() <= max_.z();
 }
 
 double Aabb::volume() const {
+  const FloatEnvironment environment;
   if (empty()) return 0;
   return (max_ - min_).prod();
 }
 
 double Aabb::surface_area() const {
+  const FloatEnvironment environment;
   if (empty()) return 0;
   const Eigen::Vector3d size = max_ - min_;
   return 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
 }
 
 Eigen::Vector3d Aabb::center() const {
-  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const FloatEnvironment environment;
+  if (empty()) return Eigen::Vector3d::Constant(kNan);
   return 0.5 * (min_ + max_);
 }
 
 Eigen::Vector3d Aabb::support(const Eigen::Vector3d& direction) const {
-  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const FloatEnvironment environment;
+  if (empty()) return Eigen::Vector3d::Constant(kNan);
   return (direction.array() < 0).select(min_, max_);
 }
 
 double Aabb::distance(const Eigen::Vector3d& point) const {
-  if (point.hasNaN()) return nan;
-  if (empty()) return infinity;
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (empty()) return kInfinity;
   const Eigen::Vector3d excess = (min_ - point).cwiseMax(point - max_).cwiseMax(0.0);
   return excess.stableNorm();
 }
 
 std::optional<RayInterval> Aabb::intersect(const Eigen::Vector3d& origin,
                                            const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     for (int k = 0; k < 3; ++k) {
       ray.keep(direction[k], max_[k] - origin[k]);
@@ -82,6 +92,7 @@ std::optional<RayInterval> Aabb::intersect(const Eigen::Vector3d& origin,
 }
 
 bool Aabb::overlaps(const Aabb& other) const {
+  const FloatEnvironment environment;
   return (min_.array() <= other.max_.array()).all() && (other.min_.array() <= max_.array()).all();
 }
 
@@ -101,10 +112,11 @@ Mesh Aabb::mesh() const {
 }
 
 Aabb Aabb::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   Eigen::Vector3d lower, upper;
   for (int i = 0; i < 3; ++i) {
-    ExactSum low, high;
+    Expansion low, high;
     low.add(transform(i, 3));
     high.add(transform(i, 3));
     for (int j = 0; j < 3; ++j) {
@@ -123,17 +135,20 @@ Aabb& Aabb::extend(const Eigen::Vector3d& point) {
 }
 
 Aabb& Aabb::merge(const Aabb& other) {
+  const FloatEnvironment environment;
   min_ = min_.cwiseMin(other.min_);
   max_ = max_.cwiseMax(other.max_);
   return *this;
 }
 
 FloatAabb Aabb::cast_float() const {
+  const FloatEnvironment environment;
   return {min_.unaryExpr([](double x) { return float_down(x); }),
           max_.unaryExpr([](double x) { return float_up(x); })};
 }
 
 bool operator==(const Aabb& a, const Aabb& b) {
+  const FloatEnvironment environment;
   return a.min() == b.min() && a.max() == b.max();
 }
 

@@ -9,14 +9,15 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "directed.h"
 #include "motion.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/cylinder.h"
 #include "pcl_bv/volumes/sphere.h"
 #include "ring_mesh.h"
-#include "special_values.h"
 #include "triad.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 
@@ -30,7 +31,7 @@ double distance_to_segment(const Eigen::Vector3d& q, const Eigen::Vector3d& e) {
   const double length = e.stableNorm();
   if (length == 0) return q.stableNorm();
   const Eigen::Vector3d unit = e / length;
-  return (q - std::clamp(dot(q, unit), 0.0, length) * unit).stableNorm();
+  return (q - std::clamp(dot3(q, unit), 0.0, length) * unit).stableNorm();
 }
 
 void unite(const std::optional<RayInterval>& part, std::optional<RayInterval>& all) {
@@ -40,9 +41,10 @@ void unite(const std::optional<RayInterval>& part, std::optional<RayInterval>& a
 
 }  // namespace
 
-Capsule::Capsule() : a_(Eigen::Vector3d::Constant(nan)), b_(a_), radius_(-1) {}
+Capsule::Capsule() : a_(Eigen::Vector3d::Constant(kNan)), b_(a_), radius_(-1) {}
 
 Capsule::Capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) : Capsule() {
+  const FloatEnvironment environment;
   if (radius < 0) return;
   if (!a.allFinite() || !b.allFinite() || !std::isfinite(radius)) {
     throw std::invalid_argument(
@@ -56,44 +58,50 @@ Capsule::Capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radi
 // Rounding moves q and e by U = 2^-53 of themselves, the foot by less than 12 U (|q| + |e|), the distance by
 // that and 6 U of itself. Where it matters, |q| is at most |e| + radius: 2^-47 of all three is more.
 bool Capsule::contains(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
   if (empty()) return false;
   const Eigen::Vector3d q = point - a_, e = b_ - a_;
-  const double size = ((std::abs(q.x()) + std::abs(q.y())) + std::abs(q.z())) +
-                      ((std::abs(e.x()) + std::abs(e.y())) + std::abs(e.z()));
-  return distance_to_segment(q, e) <= radius_ + (0x1p-48 * (size + radius_) + smallest_normal);
+  const double size = taxicab3(q) + taxicab3(e);
+  return distance_to_segment(q, e) <= radius_ + (0x1p-48 * (size + radius_) + kSmallestNormal);
 }
 
 double Capsule::volume() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : std::numbers::pi * radius_ * radius_ * ((b_ - a_).stableNorm() + 4 * radius_ / 3);
 }
 
 double Capsule::surface_area() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : 2 * std::numbers::pi * radius_ * ((b_ - a_).stableNorm() + 2 * radius_);
 }
 
 Eigen::Vector3d Capsule::center() const {
+  const FloatEnvironment environment;
   return a_ + (b_ - a_) / 2;
 }
 
 Eigen::Vector3d Capsule::support(const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
-  const double ahead = dot(d, b_ - a_);
+  const double ahead = dot3(d, b_ - a_);
   return (ahead == 0 ? center() : ahead > 0 ? b_ : a_) + radius_ * d;
 }
 
 double Capsule::distance(const Eigen::Vector3d& point) const {
-  if (point.hasNaN()) return nan;
-  if (empty()) return infinity;
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (empty()) return kInfinity;
   if (contains(point)) return 0;
   return std::max(0.0, distance_to_segment(point - a_, b_ - a_) - radius_);
 }
 
 std::optional<RayInterval> Capsule::intersect(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   if (empty()) return std::nullopt;
   // Grown by the rounding of the axis; contains() is as generous.
   const double size = (b_ - a_).lpNorm<1>() + radius_;
-  const double grown = radius_ + 0x1p-46 * size + smallest_normal;
+  const double grown = radius_ + 0x1p-46 * size + kSmallestNormal;
   std::optional<RayInterval> all;
   unite(Sphere(a_, grown).intersect(origin, direction), all);
   unite(Sphere(b_, grown).intersect(origin, direction), all);
@@ -111,6 +119,7 @@ Aabb Capsule::aabb() const {
 }
 
 Mesh Capsule::mesh() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   constexpr int sides = 24, steps = 6;  // from the equator of a half sphere to near its pole
   const bool is_sphere = a_ == b_;
@@ -127,6 +136,7 @@ Mesh Capsule::mesh() const {
 }
 
 Capsule Capsule::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   const MovedPoint a = move_point(transform, a_), b = move_point(transform, b_);
   const double radius =
@@ -135,6 +145,7 @@ Capsule Capsule::transformed(const Eigen::Isometry3d& transform) const {
 }
 
 bool operator==(const Capsule& a, const Capsule& b) {
+  const FloatEnvironment environment;
   if (a.empty() || b.empty()) return a.empty() && b.empty();
   return a.a() == b.a() && a.b() == b.b() && a.radius() == b.radius();
 }

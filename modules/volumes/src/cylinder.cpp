@@ -9,13 +9,14 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "directed.h"
 #include "motion.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "ray_clip.h"
 #include "ring_mesh.h"
-#include "special_values.h"
 #include "triad.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 
@@ -32,13 +33,13 @@ struct Seen {
 };
 
 Seen see(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
-  return {dot(q, axis), q.cross(axis)};
+  return {dot3(q, axis), q.cross(axis)};
 }
 
 }  // namespace
 
 Cylinder::Cylinder()
-    : center_(Eigen::Vector3d::Constant(nan)),
+    : center_(Eigen::Vector3d::Constant(kNan)),
       axis_(Eigen::Vector3d::UnitZ()),
       radius_(-1),
       half_height_(-1) {}
@@ -46,6 +47,7 @@ Cylinder::Cylinder()
 Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, double radius,
                    double half_height)
     : Cylinder() {
+  const FloatEnvironment environment;
   if (radius < 0 || half_height < 0) return;
   if (!center.allFinite() || !axis.allFinite() || axis.isZero(0) || !std::isfinite(radius) ||
       !std::isfinite(half_height)) {
@@ -63,31 +65,36 @@ Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, d
 // component, 11 in length, the length's own rounding is 4 U of it and that of |axis| another 4: 32 U |q|_1 is
 // more than each.
 bool Cylinder::contains(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
   if (empty()) return false;
   const Eigen::Vector3d q = point - center_;
   const auto [along, across] = see(axis_, q);
-  const double doubt = 0x1p-48 * taxicab(q) + smallest_normal;
+  const double doubt = 0x1p-48 * taxicab3(q) + kSmallestNormal;
   return std::abs(along) <= half_height_ + doubt && across.stableNorm() <= radius_ + doubt;
 }
 
 double Cylinder::volume() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : 2 * std::numbers::pi * radius_ * radius_ * half_height_;
 }
 
 double Cylinder::surface_area() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : 2 * std::numbers::pi * radius_ * (radius_ + 2 * half_height_);
 }
 
 Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
-  const Eigen::Vector3d across = d - dot(d, axis_) * axis_;
-  return center_ + (dot(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
+  const Eigen::Vector3d across = d - dot3(d, axis_) * axis_;
+  return center_ + (dot3(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
          radius_ * across.stableNormalized();
 }
 
 double Cylinder::distance(const Eigen::Vector3d& point) const {
-  if (point.hasNaN()) return nan;
-  if (empty()) return infinity;
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (empty()) return kInfinity;
   if (contains(point)) return 0;
   const auto [along, across] = see(axis_, point - center_);
   return Eigen::Vector2d(std::max(0.0, std::abs(along) - half_height_),
@@ -100,11 +107,12 @@ double Cylinder::distance(const Eigen::Vector3d& point) const {
 // (Half of it covers the positions, half the roots.)
 std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
     const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
     const Eigen::Vector3d q = origin - center_;
-    const double doubt = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + smallest_normal;
+    const double doubt = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + kSmallestNormal;
     const bool held = contains(origin);
     const auto [along, across] = see(axis_, q);
     const auto [step, turn] = see(axis_, u);
@@ -116,7 +124,7 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
     const double radius = std::max(radius_, held ? across.stableNorm() : 0) + doubt;
     const double speed = turn.stableNorm();
     if (speed > 0) {
-      const double nearest = -dot(across / speed, turn / speed);
+      const double nearest = -dot3(across / speed, turn / speed);
       const double h = (across + nearest * turn).stableNorm();
       if (h > radius) return ray.keep(0, -1);
       const double half = std::sqrt(radius - h) * std::sqrt(radius + h) / speed * (1 + 0x1p-49);
@@ -132,12 +140,13 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
 
 // |axis| is 1 to 2^-50, so each half extent is off by no more than 2^-49 of the sum of sizes.
 Aabb Cylinder::aabb() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   Eigen::Vector3d lower, upper;
   for (int i = 0; i < 3; ++i) {
     const double a = axis_[i], b = axis_[(i + 1) % 3], c = axis_[(i + 2) % 3];
     const double half = half_height_ * std::abs(a) + radius_ * std::sqrt(b * b + c * c);
-    const double grown = half + 0x1p-47 * (half_height_ + radius_) + smallest_normal;
+    const double grown = half + 0x1p-47 * (half_height_ + radius_) + kSmallestNormal;
     lower[i] = -add_up(-center_[i], grown);
     upper[i] = add_up(center_[i], grown);
   }
@@ -145,6 +154,7 @@ Aabb Cylinder::aabb() const {
 }
 
 Mesh Cylinder::mesh() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   const Triad triad(axis_);
   return ring_mesh({{center_ - half_height_ * axis_, radius_}, {center_ + half_height_ * axis_, radius_}},
@@ -155,6 +165,7 @@ Mesh Cylinder::mesh() const {
 // small, what the rounding of it leaves; M v reaches along w as far as v along M' w, which is the old axis
 // and, again, little else.
 Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
   const MovedPoint center = move_point(transform, center_);
@@ -170,6 +181,7 @@ Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
 }
 
 bool operator==(const Cylinder& a, const Cylinder& b) {
+  const FloatEnvironment environment;
   if (a.empty() || b.empty()) return a.empty() && b.empty();
   return a.center() == b.center() && a.axis() == b.axis() && a.radius() == b.radius() &&
          a.half_height() == b.half_height();

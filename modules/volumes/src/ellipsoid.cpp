@@ -10,11 +10,12 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "directed.h"
 #include "motion.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "ray_clip.h"
-#include "special_values.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 
@@ -27,7 +28,7 @@ double skew(const Eigen::Matrix3d& axes) {
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j)
-      worst = std::max(worst, std::abs(dot(axes.col(i), axes.col(j)) - (i == j ? 1 : 0)));
+      worst = std::max(worst, std::abs(dot3(axes.col(i), axes.col(j)) - (i == j ? 1 : 0)));
   }
   return worst;
 }
@@ -35,12 +36,13 @@ double skew(const Eigen::Matrix3d& axes) {
 }  // namespace
 
 Ellipsoid::Ellipsoid()
-    : center_(Eigen::Vector3d::Constant(nan)),
+    : center_(Eigen::Vector3d::Constant(kNan)),
       axes_(Eigen::Matrix3d::Identity()),
       radii_(Eigen::Vector3d::Constant(-1)) {}
 
 Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen::Vector3d& radii)
     : Ellipsoid() {
+  const FloatEnvironment environment;
   if ((radii.array() < 0).any()) return;
   if (!center.allFinite() || !radii.allFinite() || !axes.allFinite() || skew(axes) > 1e-12) {
     throw std::invalid_argument(
@@ -54,11 +56,12 @@ Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes,
 
 // Each axis . q is off by at most 5 U |q|_1 (U = 2^-53), the quotients, squares and sums by 6 U more.
 bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
   const Eigen::Vector3d q = point - center_;
-  const double doubt = 0x1p-49 * taxicab(q) + smallest_normal;
+  const double doubt = 0x1p-49 * taxicab3(q) + kSmallestNormal;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double along = std::max(0.0, std::abs(dot(axes_.col(i), q)) - doubt);
+    const double along = std::max(0.0, std::abs(dot3(axes_.col(i), q)) - doubt);
     if (!(along <= radii_[i] * (1 + 0x1p-48))) return false;  // also where all is NaN
     const double ratio = along > 0 ? along / radii_[i] : 0;
     sum += ratio * ratio;
@@ -67,14 +70,16 @@ bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
 }
 
 double Ellipsoid::volume() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : 4 * std::numbers::pi / 3 * radii_[0] * radii_[1] * radii_[2];
 }
 
 Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
   Eigen::Vector3d stretched;
   for (int i = 0; i < 3; ++i)
-    stretched[i] = radii_[i] * dot(axes_.col(i), d);
+    stretched[i] = radii_[i] * dot3(axes_.col(i), d);
   const Eigen::Vector3d unit = stretched.stableNormalized();
   return center_ + axes_ * radii_.cwiseProduct(unit);
 }
@@ -83,22 +88,23 @@ Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
 // less than `doubt` / least radius: the sphere grows by that.
 std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
                                                 const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
     const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
     const Eigen::Vector3d q = origin - center_;
     const double greatest = radii_.maxCoeff();
-    const double doubt = 0x1p-45 * (taxicab(q) + greatest) + smallest_normal;
+    const double doubt = 0x1p-45 * (taxicab3(q) + greatest) + kSmallestNormal;
     Eigen::Vector3d at, step;
     for (int i = 0; i < 3; ++i) {
       const double radius = std::max(radii_[i], doubt);  // a flat one gets room for the rounding
-      at[i] = dot(axes_.col(i), q) / radius;
-      step[i] = dot(axes_.col(i), u) / radius;
+      at[i] = dot3(axes_.col(i), q) / radius;
+      step[i] = dot3(axes_.col(i), u) / radius;
     }
     const double radius = 1 + doubt / std::max(radii_.minCoeff(), doubt) +
                           (contains(origin) ? std::max(0.0, at.stableNorm() - 1) : 0.0);
     const double speed = step.stableNorm();
-    const double nearest = -dot(at, step / speed) / speed;
+    const double nearest = -dot3(at, step / speed) / speed;
     const double h = (at + nearest * step).stableNorm();
     if (h > radius) return ray.keep(0, -1);
     const double half = std::sqrt(radius - h) * std::sqrt(radius + h) / speed * (1 + 0x1p-49);
@@ -109,8 +115,9 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
 // With N = axes' the body is the image of the unit ball under N^-1 diag(radii); N^-1 differs from the axes by
 // less than 4 skew in each row.
 Aabb Ellipsoid::aabb() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
-  const double room = (4 * skew(axes_) + 0x1p-48) * radii_.maxCoeff() + smallest_normal;
+  const double room = (4 * skew(axes_) + 0x1p-48) * radii_.maxCoeff() + kSmallestNormal;
   Eigen::Vector3d lower, upper;
   for (int i = 0; i < 3; ++i) {
     const double half = Eigen::Vector3d(axes_.row(i).transpose().cwiseProduct(radii_)).stableNorm() + room;
@@ -124,6 +131,7 @@ Aabb Ellipsoid::aabb() const {
 // M' a'_i - a_i. The last two are at most `extra` together, and the radii grow by the length of these in
 // units of theirs.
 Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
   const MovedPoint center = move_point(transform, center_);
@@ -131,7 +139,7 @@ Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   Eigen::Matrix3d axes;
   axes.col(0) = (m * axes_.col(0)).stableNormalized();
   axes.col(1) = m * axes_.col(1);
-  axes.col(1) = (axes.col(1) - dot(axes.col(0), axes.col(1)) * axes.col(0)).stableNormalized();
+  axes.col(1) = (axes.col(1) - dot3(axes.col(0), axes.col(1)) * axes.col(0)).stableNormalized();
   axes.col(2) = axes.col(0).cross(axes.col(1)) * (m.determinant() * axes_.determinant() < 0 ? -1 : 1);
   Eigen::Vector3d extra;
   for (int i = 0; i < 3; ++i) {
@@ -146,6 +154,7 @@ Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
 }
 
 bool operator==(const Ellipsoid& a, const Ellipsoid& b) {
+  const FloatEnvironment environment;
   if (a.empty() || b.empty()) return a.empty() && b.empty();
   return a.center() == b.center() && a.axes() == b.axes() && a.radii() == b.radii();
 }

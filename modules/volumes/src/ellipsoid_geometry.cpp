@@ -4,9 +4,10 @@
 // Area and distance of ellipsoids, for which there is no closed form; and their mesh.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/ellipsoid.h"
 #include "ring_mesh.h"
 
@@ -74,6 +75,7 @@ double nearest_parameter(const Eigen::Vector3d& r, const Eigen::Vector3d& y) {
 }  // namespace
 
 double Ellipsoid::surface_area() const {
+  const FloatEnvironment environment;
   if (empty()) return 0;
   Eigen::Vector3d r = radii_;
   std::sort(r.begin(), r.end());  // r[2] is the greatest
@@ -88,8 +90,9 @@ double Ellipsoid::surface_area() const {
 }
 
 double Ellipsoid::distance(const Eigen::Vector3d& point) const {
-  if (point.hasNaN()) return std::numeric_limits<double>::quiet_NaN();
-  if (empty()) return std::numeric_limits<double>::infinity();
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (empty()) return kInfinity;
   if (contains(point)) return 0;
   const Eigen::Vector3d q = point - center_;
   const double unit = radii_.maxCoeff();
@@ -103,6 +106,7 @@ double Ellipsoid::distance(const Eigen::Vector3d& point) const {
 }
 
 Mesh Ellipsoid::mesh() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   constexpr int sides = 24, steps = 7;
   std::vector<volumes_internal::Ring> rings;

@@ -9,11 +9,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "directed.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "polytope.h"
 #include "projection.h"
 #include "ray_clip.h"
-#include "special_values.h"
 
 namespace pcl_bv {
 
@@ -67,14 +69,12 @@ Body body_of(const Hull& hull) {
 // normal . shift, and d . p is d . middle and at most |d| . reach more.
 double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const Eigen::Isometry3d& transform,
                     const Eigen::Vector3d& middle, const Eigen::Vector3d& reach) {
-  ExactSum sum;
+  Expansion sum;
   sum.add(plane.offset);
   double spread = 0;
   for (int k = 0; k < 3; ++k) {
-    ExactSum tilt;
-    tilt.add(-plane.normal[k]);
-    for (int i = 0; i < 3; ++i)
-      tilt.add_product(transform(i, k), normal[i]);
+    Expansion tilt;
+    tilt.add(-plane.normal[k]).add_dot(transform.linear().col(k), normal);
     const double low = tilt.down(), high = tilt.up();
     spread = add_up(spread, multiply_up(std::max(-low, high), reach[k]));
     sum.add_product(middle[k] > 0 ? high : low, middle[k]);
@@ -91,6 +91,7 @@ Hull::Hull(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangle
       triangles_(std::move(triangles)),
       planes_(std::move(planes)),
       rank_(rank) {
+  const FloatEnvironment environment;
   require(rank >= 0 && rank <= 3, "rank must be 0 to 3");
   require(vertices_.empty() == planes_.empty(), "there must be vertices and planes, or neither");
   for (Eigen::Vector3d& v : vertices_) {
@@ -110,6 +111,7 @@ Hull::Hull(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangle
 }
 
 bool Hull::contains(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
   for (const HullPlane& plane : planes_) {
     const auto [s, error] = project(plane.normal, point);
     if (!(s - error <= plane.offset)) return false;
@@ -118,19 +120,22 @@ bool Hull::contains(const Eigen::Vector3d& point) const {
 }
 
 double Hull::volume() const {
+  const FloatEnvironment environment;
   if (rank_ < 3) return 0;
   const auto [body, unit] = body_of(*this);
   return measure(body.vertices, body.faces, 3).size * unit * unit * unit;
 }
 
 double Hull::surface_area() const {
+  const FloatEnvironment environment;
   if (empty()) return 0;
   const auto [body, unit] = body_of(*this);
   return volumes_internal::surface_area(body) * unit * unit;
 }
 
 Eigen::Vector3d Hull::center() const {
-  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const FloatEnvironment environment;
+  if (empty()) return Eigen::Vector3d::Constant(kNan);
   const auto [body, unit] = body_of(*this);
   if (rank_ >= 2) {
     const Measure m = measure(body.vertices, body.faces, rank_);
@@ -143,7 +148,8 @@ Eigen::Vector3d Hull::center() const {
 }
 
 Eigen::Vector3d Hull::support(const Eigen::Vector3d& direction) const {
-  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const FloatEnvironment environment;
+  if (empty()) return Eigen::Vector3d::Constant(kNan);
   const Eigen::Vector3d* best = &vertices_.front();
   const Eigen::Vector3d unit = direction.stableNormalized();
   double greatest = 0;  // of v - front, so that coordinates of UTM size do not eat up the digits
@@ -157,8 +163,9 @@ Eigen::Vector3d Hull::support(const Eigen::Vector3d& direction) const {
 }
 
 double Hull::distance(const Eigen::Vector3d& point) const {
-  if (point.hasNaN()) return nan;
-  if (empty()) return infinity;
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (empty()) return kInfinity;
   if (contains(point)) return 0;
   const auto [body, unit] = body_of(*this);
   return volumes_internal::distance(body, (point - body.origin) / unit) * unit;
@@ -166,6 +173,7 @@ double Hull::distance(const Eigen::Vector3d& point) const {
 
 std::optional<RayInterval> Hull::intersect(const Eigen::Vector3d& origin,
                                            const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     for (const HullPlane& plane : planes_) {
       const Enclosed start = enclose(plane.normal, origin), step = enclose(plane.normal, direction);
@@ -187,6 +195,7 @@ Mesh Hull::mesh() const {
 }
 
 Hull Hull::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
   Hull moved = *this;
   if (empty()) return moved;
   for (Eigen::Vector3d& v : moved.vertices_)
@@ -204,6 +213,7 @@ Hull Hull::transformed(const Eigen::Isometry3d& transform) const {
 }
 
 bool operator==(const Hull& a, const Hull& b) {
+  const FloatEnvironment environment;
   const auto same = [](const HullPlane& p, const HullPlane& q) {
     return p.normal == q.normal && p.offset == q.offset;
   };

@@ -10,10 +10,12 @@
 #include <string>
 #include <utility>
 
-#include "directed.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "projection.h"
 #include "ray_clip.h"
-#include "special_values.h"
 
 namespace pcl_bv {
 
@@ -32,12 +34,13 @@ void require_equal_sets(const Kdop& a, const Kdop& b, const char* verb) {
 Kdop::Kdop(std::shared_ptr<const KdopSet> set) : set_(std::move(set)) {
   if (!set_) throw std::invalid_argument("Kdop: the set must not be null");
   const auto n = static_cast<Eigen::Index>(set_->size());
-  min_.setConstant(n, infinity);
-  max_.setConstant(n, -infinity);
+  min_.setConstant(n, kInfinity);
+  max_.setConstant(n, -kInfinity);
 }
 
 Kdop::Kdop(std::shared_ptr<const KdopSet> set, const SlabVector& min, const SlabVector& max)
     : Kdop(std::move(set)) {
+  const FloatEnvironment environment;
   if (min.size() != min_.size() || max.size() != min_.size()) {
     throw std::invalid_argument("Kdop: min and max must have " + std::to_string(min_.size()) + " slabs");
   }
@@ -51,6 +54,7 @@ Kdop::Kdop(std::shared_ptr<const KdopSet> set, const SlabVector& min, const Slab
 }
 
 double Kdop::width(std::size_t i) const {
+  const FloatEnvironment environment;
   return empty() ? 0 : (max(i) - min(i)) / set_->direction(i).norm();
 }
 
@@ -59,6 +63,7 @@ bool Kdop::empty() const {
 }
 
 bool Kdop::contains(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
   for (std::size_t i = 0; i < size(); ++i) {
     const auto [s, error] = project(set_->direction(i), point);
     if (!(s - error <= max(i) && s + error >= min(i))) return false;
@@ -68,6 +73,7 @@ bool Kdop::contains(const Eigen::Vector3d& point) const {
 
 std::optional<RayInterval> Kdop::intersect(const Eigen::Vector3d& origin,
                                            const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     for (std::size_t i = 0; i < size(); ++i) {
       const Enclosed start = enclose(set_->direction(i), origin);
@@ -79,19 +85,20 @@ std::optional<RayInterval> Kdop::intersect(const Eigen::Vector3d& origin,
 }
 
 bool Kdop::overlaps(const Kdop& other) const {
+  const FloatEnvironment environment;
   require_equal_sets(*this, other, "Kdop::overlaps");
   return (min_.array() <= other.max_.array()).all() && (other.min_.array() <= max_.array()).all();
 }
 
 Kdop& Kdop::extend(const Eigen::Vector3d& point) {
+  const FloatEnvironment environment;
   if (!point.allFinite()) return *this;
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
     const auto [s, error] = project(n, point);
     if (s - error >= min(i) && s + error <= max(i)) continue;
-    ExactSum exact;
-    for (int k = 0; k < 3; ++k)
-      exact.add_product(n[k], point[k]);
+    Expansion exact;
+    exact.add_dot(n, point);
     const auto slab = static_cast<Eigen::Index>(i);
     min_[slab] = std::min(min_[slab], exact.down() + 0.0);
     max_[slab] = std::max(max_[slab], exact.up() + 0.0);
@@ -100,6 +107,7 @@ Kdop& Kdop::extend(const Eigen::Vector3d& point) {
 }
 
 Kdop& Kdop::merge(const Kdop& other) {
+  const FloatEnvironment environment;
   require_equal_sets(*this, other, "Kdop::merge");
   min_ = min_.cwiseMin(other.min_);
   max_ = max_.cwiseMax(other.max_);
@@ -107,11 +115,13 @@ Kdop& Kdop::merge(const Kdop& other) {
 }
 
 FloatKdop Kdop::cast_float() const {
+  const FloatEnvironment environment;
   return {set_, min_.unaryExpr([](double x) { return float_down(x); }),
           max_.unaryExpr([](double x) { return float_up(x); })};
 }
 
 bool operator==(const Kdop& a, const Kdop& b) {
+  const FloatEnvironment environment;
   return (a.set() == b.set() || *a.set() == *b.set()) && a.min() == b.min() && a.max() == b.max();
 }
 

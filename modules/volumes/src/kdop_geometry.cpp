@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "directed.h"
 #include "kdop_support.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/kdop.h"
 #include "polytope.h"
-#include "special_values.h"
 
 namespace pcl_bv {
 
@@ -28,34 +29,40 @@ std::size_t axis_slab(const KdopSet& set, int k) {
 }  // namespace
 
 double Kdop::volume() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : intersect_slabs(*this).volume;
 }
 
 double Kdop::surface_area() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : volumes_internal::surface_area(intersect_slabs(*this));
 }
 
 Eigen::Vector3d Kdop::center() const {
-  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const FloatEnvironment environment;
+  if (empty()) return Eigen::Vector3d::Constant(kNan);
   const Polytope polytope = intersect_slabs(*this);
   return polytope.origin + polytope.centroid;
 }
 
 Eigen::Vector3d Kdop::support(const Eigen::Vector3d& direction) const {
-  if (empty()) return Eigen::Vector3d::Constant(nan);
+  const FloatEnvironment environment;
+  if (empty()) return Eigen::Vector3d::Constant(kNan);
   const LocalSlabs slabs = local_slabs(*this);
   return slabs.origin + farthest(slabs, direction).corner;
 }
 
 double Kdop::distance(const Eigen::Vector3d& point) const {
-  if (point.hasNaN()) return nan;
-  if (empty()) return infinity;
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (empty()) return kInfinity;
   if (contains(point)) return 0;
   const Polytope polytope = intersect_slabs(*this);
   return volumes_internal::distance(polytope, point - polytope.origin);
 }
 
 Aabb Kdop::aabb() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   Eigen::Vector3d lower, upper;
@@ -77,6 +84,7 @@ std::vector<Eigen::Vector3d> Kdop::corners() const {
 }
 
 Mesh Kdop::mesh() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   Polytope polytope = intersect_slabs(*this);
   for (Eigen::Vector3d& v : polytope.vertices)
@@ -85,6 +93,7 @@ Mesh Kdop::mesh() const {
 }
 
 Kdop Kdop::tightened() const {
+  const FloatEnvironment environment;
   if (empty()) return *this;
   const LocalSlabs slabs = local_slabs(*this);
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
@@ -101,17 +110,15 @@ Kdop Kdop::tightened() const {
 }
 
 Kdop Kdop::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
   if (empty()) return Kdop(set_);
   const LocalSlabs slabs = local_slabs(*this);
   SlabVector lower(min_.size()), upper(min_.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
     const auto reach = [&](const Eigen::Vector3d& direction) {
-      ExactSum sum;
-      sum.add(support_up(*this, slabs, transform.linear(), direction));
-      for (int k = 0; k < 3; ++k)
-        sum.add_product(direction[k], transform(k, 3));
-      return sum.up();
+      const double turned = support_up(*this, slabs, transform.linear(), direction);
+      return Expansion().add(turned).add_dot(direction, transform.translation()).up();
     };
     lower[static_cast<Eigen::Index>(i)] = -reach(-n);
     upper[static_cast<Eigen::Index>(i)] = reach(n);

@@ -10,30 +10,21 @@
 #include <string>
 #include <utility>
 
+#include "pcl_bv/numeric/float_environment.h"
+
 namespace pcl_bv {
 namespace {
 
 using Directions = std::vector<Eigen::Vector3d>;
 using Pointer = std::shared_ptr<const KdopSet>;
 
-Directions axes() {
-  return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-}
-Directions diagonals() {
-  return {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
-}
-Directions edges() {
-  return {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
-}
-
-Directions operator+(Directions a, const Directions& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-// Shares no ownership: the set is a static.
-Pointer unowned(const KdopSet& set) {
-  return {std::shared_ptr<void>(), &set};
+Directions directions_of(DirectionSet set) {
+  Directions directions;
+  for (std::size_t k = 0; k < direction_count(set); ++k) {
+    const CubeDirection& d = kCubeDirections[cube_direction(set, k)];
+    directions.emplace_back(d[0], d[1], d[2]);
+  }
+  return directions;
 }
 
 void check(const Directions& directions) {
@@ -82,35 +73,23 @@ std::array<std::size_t, 3> find_basis(const Directions& directions) {
 }  // namespace
 
 KdopSet::KdopSet(std::vector<Eigen::Vector3d> directions) : directions_(std::move(directions)) {
+  const FloatEnvironment environment;
   check(directions_);
   basis_ = find_basis(directions_);
 }
 
-const Pointer& KdopSet::dop6() {
-  static const KdopSet set(axes());
-  static const Pointer pointer = unowned(set);
-  return pointer;
-}
-
-const Pointer& KdopSet::dop14() {
-  static const KdopSet set(axes() + diagonals());
-  static const Pointer pointer = unowned(set);
-  return pointer;
-}
-
-const Pointer& KdopSet::dop18() {
-  static const KdopSet set(axes() + edges());
-  static const Pointer pointer = unowned(set);
-  return pointer;
-}
-
-const Pointer& KdopSet::dop26() {
-  static const KdopSet set(axes() + diagonals() + edges());
-  static const Pointer pointer = unowned(set);
-  return pointer;
+const Pointer& KdopSet::of(DirectionSet set) {
+  static const std::array<KdopSet, 4> sets{
+      KdopSet(directions_of(DirectionSet::dop6)), KdopSet(directions_of(DirectionSet::dop14)),
+      KdopSet(directions_of(DirectionSet::dop18)), KdopSet(directions_of(DirectionSet::dop26))};
+  const auto unowned = [](const KdopSet& s) { return Pointer(std::shared_ptr<void>(), &s); };
+  static const std::array<Pointer, 4> pointers{unowned(sets[0]), unowned(sets[1]), unowned(sets[2]),
+                                               unowned(sets[3])};
+  return pointers[static_cast<std::size_t>(set)];
 }
 
 bool operator==(const KdopSet& a, const KdopSet& b) {
+  const FloatEnvironment environment;
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a.direction(i) != b.direction(i)) return false;

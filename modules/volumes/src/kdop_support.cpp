@@ -9,7 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "directed.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
 
 namespace pcl_bv::volumes_internal {
 namespace {
@@ -98,11 +99,10 @@ LocalSlabs local_slabs(const Kdop& kdop) {
   LocalSlabs result{set, {}, basis.inverse(), {}, {}};
   result.origin = result.basis_inverse * low;
   for (std::size_t i = 0; i < set.size(); ++i) {
-    ExactSum shift;
-    for (int k = 0; k < 3; ++k)
-      shift.add_product(-set.direction(i)[k], result.origin[k]);
-    result.min.push_back(ExactSum(shift).add(kdop.min(i)).value());
-    result.max.push_back(ExactSum(shift).add(kdop.max(i)).value());
+    Expansion shift;
+    shift.add_dot(-set.direction(i), result.origin);
+    result.min.push_back(Expansion(shift).add(kdop.min(i)).value());
+    result.max.push_back(Expansion(shift).add(kdop.max(i)).value());
   }
   return result;
 }
@@ -130,12 +130,10 @@ Farthest farthest(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
 double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix3d& matrix,
                   const Eigen::Vector3d& direction) {
   const Farthest f = farthest(slabs, matrix.transpose() * direction);
-  ExactSum bound;
-  std::array<ExactSum, 3> residual;  // of direction' * matrix - sum of weights * normals
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (int l = 0; l < 3; ++l)
-      residual[k].add_product(matrix(l, static_cast<int>(k)), direction[l]);
-  }
+  Expansion bound;
+  std::array<Expansion, 3> residual;  // of direction' * matrix - sum of weights * normals
+  for (std::size_t k = 0; k < 3; ++k)
+    residual[k].add_dot(matrix.col(static_cast<int>(k)), direction);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto [slab, sign] = f.sides[i];
     const double weight = f.weights[static_cast<int>(i)];
@@ -146,8 +144,7 @@ double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix
   }
   const Eigen::Vector3d coordinates = reach(kdop, slabs);
   for (std::size_t k = 0; k < 3; ++k) {
-    const double r = std::max(residual[k].up(), -residual[k].down());
-    bound.add(multiply_up(r, coordinates[static_cast<int>(k)]));
+    bound.add(multiply_up(residual[k].magnitude_up(), coordinates[static_cast<int>(k)]));
   }
   return bound.up();
 }

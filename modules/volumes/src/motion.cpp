@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
-#include "directed.h"
+#include "lengths.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
 
 namespace pcl_bv::volumes_internal {
 
@@ -14,12 +16,8 @@ double stretch_up(const Eigen::Matrix3d& m) {
   double result = 0;
   for (int i = 0; i < 3; ++i) {
     double row = 0;
-    for (int j = 0; j < 3; ++j) {
-      ExactSum dot;
-      for (int k = 0; k < 3; ++k)
-        dot.add_product(m(k, i), m(k, j));
-      row = add_up(row, std::max(dot.up(), -dot.down()));
-    }
+    for (int j = 0; j < 3; ++j)
+      row = add_up(row, Expansion().add_dot(m.col(i), m.col(j)).magnitude_up());
     result = std::max(result, row);
   }
   return sqrt_up(result);
@@ -29,11 +27,8 @@ MovedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d&
   const Eigen::Vector3d moved = transform * p;
   Eigen::Vector3d error;
   for (int i = 0; i < 3; ++i) {
-    ExactSum sum;
-    sum.add(transform(i, 3)).add(-moved[i]);
-    for (int j = 0; j < 3; ++j)
-      sum.add_product(transform(i, j), p[j]);
-    error[i] = std::max(sum.up(), -sum.down());
+    const Eigen::Vector3d row = transform.linear().row(i);
+    error[i] = Expansion().add(transform(i, 3)).add(-moved[i]).add_dot(row, p).magnitude_up();
   }
   return {moved, norm_up(error)};
 }
@@ -41,13 +36,8 @@ MovedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d&
 double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,
                      const Eigen::Vector3d& w) {
   Eigen::Vector3d error;
-  for (int i = 0; i < 3; ++i) {
-    ExactSum sum;
-    sum.add_product(-factor, w[i]);
-    for (int j = 0; j < 3; ++j)
-      sum.add_product(m(i, j), v[j]);
-    error[i] = std::max(sum.up(), -sum.down());
-  }
+  for (int i = 0; i < 3; ++i)
+    error[i] = Expansion().add_product(-factor, w[i]).add_dot(m.row(i), v).magnitude_up();
   return norm_up(error);
 }
 

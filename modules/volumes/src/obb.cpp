@@ -10,10 +10,13 @@
 #include <limits>
 #include <stdexcept>
 
-#include "directed.h"
+#include "lengths.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "ray_clip.h"
-#include "special_values.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 
@@ -30,25 +33,13 @@ struct Component {
 };
 
 Component component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
-  return {dot(axis, q), 0x1p-50 * taxicab(q) + smallest_normal};
-}
-
-// a . b exactly, and with c: a . (b - c).
-ExactSum exact_dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  ExactSum sum;
-  for (int k = 0; k < 3; ++k)
-    sum.add_product(a[k], b[k]);
-  return sum;
-}
-
-double greatest(const ExactSum& sum) {
-  return std::max(sum.up(), -sum.down());
+  return {dot3(axis, q), 0x1p-50 * taxicab3(q) + kSmallestNormal};
 }
 
 bool are_orthonormal(const Eigen::Matrix3d& axes) {
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) {
-      if (!(std::abs(dot(axes.col(i), axes.col(j)) - (i == j)) <= orthonormal_to)) return false;
+      if (!(std::abs(dot3(axes.col(i), axes.col(j)) - (i == j)) <= orthonormal_to)) return false;
     }
   }
   return true;
@@ -57,12 +48,13 @@ bool are_orthonormal(const Eigen::Matrix3d& axes) {
 }  // namespace
 
 Obb::Obb()
-    : center_(Eigen::Vector3d::Constant(nan)),
+    : center_(Eigen::Vector3d::Constant(kNan)),
       axes_(Eigen::Matrix3d::Identity()),
       half_extents_(Eigen::Vector3d::Constant(-1)) {}
 
 Obb::Obb(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen::Vector3d& half_extents)
     : Obb() {
+  const FloatEnvironment environment;
   if ((half_extents.array() < 0).any()) return;
   if (!center.allFinite() || !half_extents.allFinite() || !are_orthonormal(axes)) {
     throw std::invalid_argument(
@@ -71,7 +63,7 @@ Obb::Obb(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen
   }
   center_ = center.array() + 0.0;
   axes_ = axes;
-  if (dot(axes.col(0).cross(axes.col(1)), axes.col(2)) < 0) axes_.col(2) = -axes_.col(2);
+  if (dot3(axes.col(0).cross(axes.col(1)), axes.col(2)) < 0) axes_.col(2) = -axes_.col(2);
   axes_.array() += 0.0;
   half_extents_ = half_extents.array() + 0.0;
 }
@@ -84,6 +76,7 @@ Obb Obb::from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& low, con
 
 Obb Obb::from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin, const Eigen::Vector3d& low,
                     const Eigen::Vector3d& high) {
+  const FloatEnvironment environment;
   if ((low.array() > high.array()).any()) return {};
   const Eigen::Vector3d middle = low + 0.5 * (high - low);
   Eigen::Vector3d center = origin;
@@ -91,15 +84,14 @@ Obb Obb::from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin, 
   for (int round = 0; round < 2; ++round) {
     Eigen::Vector3d missing;
     for (int i = 0; i < 3; ++i)
-      missing[i] = middle[i] - dot(axes.col(i), center - origin);
+      missing[i] = middle[i] - dot3(axes.col(i), center - origin);
     center += (axes.col(0) * missing[0] + axes.col(1) * missing[1]) + axes.col(2) * missing[2];
   }
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
-    ExactSum at = exact_dot(axes.col(i), center);
-    for (int k = 0; k < 3; ++k)
-      at.add_product(-axes(k, i), origin[k]);
-    half_extents[i] = std::max({0.0, -ExactSum(at).add(-high[i]).down(), at.add(-low[i]).up()});
+    Expansion at;
+    at.add_dot(axes.col(i), center).add_dot(-axes.col(i), origin);
+    half_extents[i] = std::max({0.0, -Expansion(at).add(-high[i]).down(), at.add(-low[i]).up()});
   }
   return {center, axes, half_extents};
 }
@@ -112,6 +104,7 @@ Eigen::Isometry3d Obb::pose() const {
 }
 
 Eigen::Quaterniond Obb::quaternion() const {
+  const FloatEnvironment environment;
   Eigen::Quaterniond q(axes_);
   q.normalize();
   for (const double c : {q.w(), q.x(), q.y(), q.z()}) {
@@ -124,6 +117,7 @@ Eigen::Quaterniond Obb::quaternion() const {
 }
 
 bool Obb::contains(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
   const Eigen::Vector3d q = point - center_;
   for (int i = 0; i < 3; ++i) {
     const auto [s, error] = component(axes_.col(i), q);
@@ -133,34 +127,39 @@ bool Obb::contains(const Eigen::Vector3d& point) const {
 }
 
 double Obb::volume() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : (2 * half_extents_.x()) * (2 * half_extents_.y()) * (2 * half_extents_.z());
 }
 
 double Obb::surface_area() const {
+  const FloatEnvironment environment;
   const Eigen::Vector3d& h = half_extents_;
   return empty() ? 0 : 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
 }
 
 Eigen::Vector3d Obb::support(const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   Eigen::Vector3d corner = center_;
   for (int i = 0; i < 3; ++i)
-    corner += (dot(axes_.col(i), direction) < 0 ? -half_extents_[i] : half_extents_[i]) * axes_.col(i);
+    corner += (dot3(axes_.col(i), direction) < 0 ? -half_extents_[i] : half_extents_[i]) * axes_.col(i);
   return corner;
 }
 
 double Obb::distance(const Eigen::Vector3d& point) const {
-  if (point.hasNaN()) return nan;
-  if (empty()) return infinity;
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (empty()) return kInfinity;
   if (contains(point)) return 0;
   const Eigen::Vector3d q = point - center_;
   Eigen::Vector3d excess;
   for (int i = 0; i < 3; ++i)
-    excess[i] = std::max(0.0, std::abs(dot(axes_.col(i), q)) - half_extents_[i]);
+    excess[i] = std::max(0.0, std::abs(dot3(axes_.col(i), q)) - half_extents_[i]);
   return excess.stableNorm();
 }
 
 std::optional<RayInterval> Obb::intersect(const Eigen::Vector3d& origin,
                                           const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     const Eigen::Vector3d q = origin - center_;
     for (int i = 0; i < 3; ++i) {
@@ -172,12 +171,13 @@ std::optional<RayInterval> Obb::intersect(const Eigen::Vector3d& origin,
 }
 
 std::array<Eigen::Vector3d, 8> Obb::corners() const {
+  const FloatEnvironment environment;
   std::array<Eigen::Vector3d, 8> result;
   for (unsigned i = 0; i < 8; ++i) {
     result[i] = center_;
     for (int k = 0; k < 3; ++k)
       result[i] += (i >> k & 1 ? half_extents_[k] : -half_extents_[k]) * axes_.col(k);
-    if (empty()) result[i].setConstant(nan);
+    if (empty()) result[i].setConstant(kNan);
   }
   return result;
 }
@@ -188,22 +188,18 @@ double Obb::reach_up(const Eigen::Vector3d& direction) const {
   Eigen::Vector3d y;
   double reach = 0;
   for (int i = 0; i < 3; ++i) {
-    y[i] = dot(axes_.col(i), direction);
+    y[i] = dot3(axes_.col(i), direction);
     reach = add_up(reach, multiply_up(std::abs(y[i]), half_extents_[i]));
   }
   Eigen::Vector3d lacking;
-  for (int k = 0; k < 3; ++k) {
-    ExactSum sum;
-    sum.add(-direction[k]);
-    for (int i = 0; i < 3; ++i)
-      sum.add_product(axes_(k, i), y[i]);
-    lacking[k] = greatest(sum);
-  }
+  for (int k = 0; k < 3; ++k)
+    lacking[k] = Expansion().add(-direction[k]).add_dot(axes_.row(k), y).magnitude_up();
   if (lacking.isZero(0)) return reach;
   return add_up(reach, multiply_up(1.001 * half_extents_.sum(), norm_up(lacking)));
 }
 
 Aabb Obb::aabb() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   Eigen::Vector3d lower, upper;
   for (int k = 0; k < 3; ++k) {
@@ -224,20 +220,21 @@ Mesh Obb::mesh() const {
 
 // a' . (M p + t - c') = (M' a') . (p - c) + a' . (M c + t - c').
 Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
   const Eigen::Matrix3d axes = orthonormal_axes(m * axes_);
   const Eigen::Vector3d center = transform * center_;
   Eigen::Vector3d moved;
   for (int k = 0; k < 3; ++k)
-    moved[k] = greatest(exact_dot(m.row(k).transpose(), center_).add(transform(k, 3)).add(-center[k]));
+    moved[k] = Expansion().add_dot(m.row(k), center_).add(transform(k, 3)).add(-center[k]).magnitude_up();
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
     Eigen::Vector3d w, rounding;
     for (int k = 0; k < 3; ++k) {
-      const ExactSum exact = exact_dot(m.col(k), axes.col(i));
-      w[k] = exact.value();
-      rounding[k] = greatest(ExactSum(exact).add(-w[k]));
+      Expansion exact;
+      w[k] = exact.add_dot(m.col(k), axes.col(i)).value();
+      rounding[k] = exact.add(-w[k]).magnitude_up();
     }
     const double lost = add_up(multiply_up(1.001 * half_extents_.sum(), norm_up(rounding)),
                                multiply_up(1.001, norm_up(moved)));
@@ -247,26 +244,27 @@ Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
 }
 
 FloatObb Obb::cast_float() const {
+  const FloatEnvironment environment;
   FloatObb result;
   result.axes = axes_.cast<float>();
   constexpr double limit = std::numeric_limits<float>::max();
   result.center = center_.cwiseMax(-limit).cwiseMin(limit).cast<float>();
   result.half_extents.setConstant(-1);
   if (empty()) {
-    result.center.setConstant(static_cast<float>(nan));
+    result.center.setConstant(static_cast<float>(kNan));
     return result;
   }
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = result.axes.col(i).cast<double>();
-    ExactSum away;
-    for (int k = 0; k < 3; ++k)
-      away.add_product(axis[k], center_[k]).add_product(-axis[k], static_cast<double>(result.center[k]));
-    result.half_extents[i] = float_up(add_up(reach_up(axis), greatest(away)));
+    Expansion away;
+    away.add_dot(axis, center_).add_dot(-axis, result.center.cast<double>());
+    result.half_extents[i] = float_up(add_up(reach_up(axis), away.magnitude_up()));
   }
   return result;
 }
 
 bool operator==(const Obb& a, const Obb& b) {
+  const FloatEnvironment environment;
   if (a.empty() || b.empty()) return a.empty() && b.empty();
   return a.center() == b.center() && a.axes() == b.axes() && a.half_extents() == b.half_extents();
 }

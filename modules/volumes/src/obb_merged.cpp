@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "directed.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/obb.h"
-#include "special_values.h"
-#include "vector3.h"
 
 namespace pcl_bv {
-
-using namespace volumes_internal;
 
 namespace {
 
@@ -34,26 +34,24 @@ bool is_smaller(const Obb& a, const Obb& b) {
 
 // Upper bound of axis . (to - from).
 double along_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, const Eigen::Vector3d& from) {
-  ExactSum sum;
-  for (int k = 0; k < 3; ++k)
-    sum.add_product(axis[k], to[k]).add_product(-axis[k], from[k]);
-  return sum.up();
+  return Expansion().add_dot(axis, to).add_dot(-axis, from).up();
 }
 
 }  // namespace
 
 bool Obb::overlaps(const Obb& other) const {
+  const FloatEnvironment environment;
   if (empty() || other.empty()) return false;
   const Eigen::Vector3d between = other.center_ - center_;
   const double size =
-      (between.lpNorm<1>() + half_extents_.sum() + other.half_extents_.sum()) + smallest_normal;
+      (between.lpNorm<1>() + half_extents_.sum() + other.half_extents_.sum()) + kSmallestNormal;
   const auto apart = [&](const Eigen::Vector3d& direction) {
     double reach = 4e-12 * size;
     for (int i = 0; i < 3; ++i) {
-      reach += half_extents_[i] * std::abs(dot(axes_.col(i), direction));
-      reach += other.half_extents_[i] * std::abs(dot(other.axes_.col(i), direction));
+      reach += half_extents_[i] * std::abs(dot3(axes_.col(i), direction));
+      reach += other.half_extents_[i] * std::abs(dot3(other.axes_.col(i), direction));
     }
-    return std::abs(dot(between, direction)) > reach;
+    return std::abs(dot3(between, direction)) > reach;
   };
   for (int i = 0; i < 3; ++i) {
     if (apart(axes_.col(i)) || apart(other.axes_.col(i))) return false;
@@ -75,6 +73,7 @@ bool Obb::surely_holds(const Obb& other) const {
 }
 
 Obb Obb::merged(const Obb& other) const {
+  const FloatEnvironment environment;
   if (other.empty()) return *this;
   if (empty()) return other;
   const bool this_first = precedes(*this, other);

@@ -7,23 +7,13 @@
 #include <array>
 #include <cmath>
 
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/obb.h"
-#include "vector3.h"
 
 namespace pcl_bv {
 
-using namespace volumes_internal;
-
 namespace {
-
-Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
-}
-
-Eigen::Vector3d unit(const Eigen::Vector3d& v) {
-  const double length = std::sqrt(dot(v, v));
-  return {v.x() / length, v.y() / length, v.z() / length};
-}
 
 // What rounding may do to a component of an axis, and much less than a turn that anybody would notice.
 constexpr double same_component = 1e-9;
@@ -58,18 +48,20 @@ Obb named(const Obb& box, const Order& order, const Eigen::Matrix3d& axes) {
 }  // namespace
 
 Eigen::Matrix3d orthonormal_axes(const Eigen::Matrix3d& axes) {
-  const Eigen::Vector3d u = unit(axes.col(0));
+  const FloatEnvironment environment;
+  const Eigen::Vector3d u = unit3(axes.col(0));
   Eigen::Vector3d v = axes.col(1);
   for (int round = 0; round < 2; ++round) {  // the second takes away what the first one's rounding left
-    const double along = dot(u, v);
-    v = unit({v.x() - along * u.x(), v.y() - along * u.y(), v.z() - along * u.z()});
+    const double along = dot3(u, v);
+    v = unit3(v - along * u);
   }
   Eigen::Matrix3d result;
-  result << u, v, unit(cross(u, v));
+  result << u, v, unit3(cross3(u, v));
   return result;
 }
 
 Obb Obb::canonical() const {
+  const FloatEnvironment environment;
   if (empty()) return *this;
   const double same_size = 0x1p-40 * half_extents_.maxCoeff() +
                            0x1p-50 * center_.cwiseAbs().maxCoeff();  // and rounding of the centre
@@ -95,6 +87,7 @@ Obb Obb::canonical() const {
 }
 
 Obb Obb::oriented_as(const Obb& previous) const {
+  const FloatEnvironment environment;
   if (empty() || previous.empty()) return *this;
   Order order{0, 1, 2}, best = order;
   Eigen::Vector3d best_signs = Eigen::Vector3d::Ones();
@@ -103,7 +96,7 @@ Obb Obb::oriented_as(const Obb& previous) const {
     Eigen::Vector3d along, signs;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto k = static_cast<int>(i);
-      along[k] = dot(axes_.col(order[i]), previous.axes_.col(k));
+      along[k] = dot3(axes_.col(order[i]), previous.axes_.col(k));
       signs[k] = along[k] < 0 ? -1 : 1;
     }
     const bool even = (order[1] - order[0] + 3) % 3 == 1;  // 012, 120, 201
@@ -112,7 +105,7 @@ Obb Obb::oriented_as(const Obb& previous) const {
       along.cwiseAbs().minCoeff(&least);
       signs[least] = -signs[least];
     }
-    const double sum = dot(along, signs);
+    const double sum = dot3(along, signs);
     if (sum <= most) continue;
     most = sum;
     best = order;

@@ -8,11 +8,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "clipped_cube.h"
 #include "kdop_support.h"
+#include "pcl_bv/numeric/constants.h"
 
 namespace pcl_bv::volumes_internal {
 namespace {
@@ -111,7 +111,7 @@ Eigen::Vector3d twice_area(const Polytope& polytope, const Face& face) {
 double distance_to_face(const Polytope& polytope, const Face& face, const Eigen::Vector3d& p) {
   const Eigen::Vector3d normal = twice_area(polytope, face).stableNormalized();
   bool over_face = !normal.isZero(0);
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (std::size_t i = 0; i < face.size(); ++i) {
     const Eigen::Vector3d& a = polytope.vertices[static_cast<std::size_t>(face[i])];
     const Eigen::Vector3d& b = polytope.vertices[static_cast<std::size_t>(face[(i + 1) % face.size()])];
@@ -179,7 +179,7 @@ double surface_area(const Polytope& polytope) {
 }
 
 double distance(const Polytope& polytope, const Eigen::Vector3d& point) {
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (const Face& face : polytope.faces)
     nearest = std::min(nearest, distance_to_face(polytope, face, point));
   if (polytope.vertices.size() == 1) nearest = (point - polytope.vertices.front()).stableNorm();

@@ -6,7 +6,8 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <limits>
+
+#include "pcl_bv/numeric/constants.h"
 
 namespace pcl_bv::volumes_internal {
 
@@ -18,8 +19,7 @@ struct Projection {
 
 inline Projection project(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
   const double x = p.x() * n.x(), y = p.y() * n.y(), z = p.z() * n.z();
-  return {(x + y) + z,
-          0x1p-51 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + std::numeric_limits<double>::min()};
+  return {(x + y) + z, 0x1p-51 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + kSmallestNormal};
 }
 
 /// Twice the error, so that the ends hold the exact projection after their own rounding.

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
 namespace pcl_bv::volumes_internal {
@@ -49,7 +50,7 @@ class RayClip {
 
  private:
   double enter_ = 0;
-  double exit_ = std::numeric_limits<double>::infinity();
+  double exit_ = kInfinity;
 };
 
 /// A volume's intersect(): `clip(ray)` cuts a proper ray; this is the answer where there is none. A zero

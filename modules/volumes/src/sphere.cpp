@@ -10,10 +10,13 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "directed.h"
+#include "lengths.h"
 #include "motion.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "ray_clip.h"
-#include "special_values.h"
 
 namespace pcl_bv {
 
@@ -43,9 +46,8 @@ Sphere around(const Sphere& big, const Sphere& small) {
 // |a - b| <= r, or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2 by 5; the limit loses 3
 // at most, 5 where r is itself a rounded sum. 16 covers both.
 bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r) {
-  const double qx = a.x() - b.x(), qy = a.y() - b.y(), qz = a.z() - b.z();
-  const double d2 = (qx * qx + qy * qy) + qz * qz;
-  return d2 <= r * r * (1 + 0x1p-49) + smallest_normal;
+  const Eigen::Vector3d q = a - b;
+  return dot3(q, q) <= r * r * (1 + 0x1p-49) + kSmallestNormal;
 }
 
 // Around the point of the line that is nearest the centre, as computed. With q = origin - center, its place
@@ -59,7 +61,7 @@ void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& o
   const Eigen::Vector3d q = origin - sphere.center();
   const double nearest = -q.dot(u) / u.squaredNorm();
   const double h = (q + nearest * u).stableNorm();
-  const double doubt = 0x1p-47 * q.lpNorm<1>() + smallest_normal;
+  const double doubt = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
   const double held = sphere.contains(origin) ? q.stableNorm() : 0;
   const double radius = std::max(sphere.radius(), held) + doubt;
   if (h > radius) return ray.keep(0, -1);
@@ -69,9 +71,10 @@ void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& o
 
 }  // namespace
 
-Sphere::Sphere() : center_(Eigen::Vector3d::Constant(nan)), radius_(-1) {}
+Sphere::Sphere() : center_(Eigen::Vector3d::Constant(kNan)), radius_(-1) {}
 
 Sphere::Sphere(const Eigen::Vector3d& center, double radius) : Sphere() {
+  const FloatEnvironment environment;
   if (radius < 0) return;
   if (!center.allFinite() || !std::isfinite(radius)) {
     throw std::invalid_argument(
@@ -82,39 +85,47 @@ Sphere::Sphere(const Eigen::Vector3d& center, double radius) : Sphere() {
 }
 
 bool Sphere::contains(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
   return !empty() && within_rounding(point, center_, radius_);
 }
 
 double Sphere::volume() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : 4 * std::numbers::pi / 3 * radius_ * radius_ * radius_;
 }
 
 double Sphere::surface_area() const {
+  const FloatEnvironment environment;
   return empty() ? 0 : 4 * std::numbers::pi * radius_ * radius_;
 }
 
 Eigen::Vector3d Sphere::support(const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   return center_ + radius_ * direction.stableNormalized();
 }
 
 double Sphere::distance(const Eigen::Vector3d& point) const {
-  if (point.hasNaN()) return nan;
-  if (empty()) return infinity;
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (empty()) return kInfinity;
   if (contains(point)) return 0;
   return std::max(0.0, (point - center_).stableNorm() - radius_);
 }
 
 std::optional<RayInterval> Sphere::intersect(const Eigen::Vector3d& origin,
                                              const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction,
                        [&](RayClip& ray) { clip_by_sphere(ray, *this, origin, direction); });
 }
 
 bool Sphere::overlaps(const Sphere& other) const {
+  const FloatEnvironment environment;
   return within_rounding(center_, other.center_, radius_ + other.radius_);  // an empty one is nowhere: NaN
 }
 
 Aabb Sphere::aabb() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   Eigen::Vector3d lower, upper;
   for (int i = 0; i < 3; ++i) {
@@ -125,6 +136,7 @@ Aabb Sphere::aabb() const {
 }
 
 Sphere Sphere::transformed(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   const MovedPoint center = move_point(transform, center_);
   return {center.point, add_up(multiply_up(radius_, stretch_up(transform.linear())), center.error)};
@@ -135,6 +147,7 @@ Sphere& Sphere::extend(const Eigen::Vector3d& point) {
 }
 
 Sphere& Sphere::merge(const Sphere& other) {
+  const FloatEnvironment environment;
   if (other.empty()) return *this;
   if (empty()) return *this = other;
   const bool this_first = precedes(*this, other);
@@ -144,13 +157,15 @@ Sphere& Sphere::merge(const Sphere& other) {
 }
 
 FloatSphere Sphere::cast_float() const {
-  if (empty()) return {Eigen::Vector3f::Constant(static_cast<float>(nan)), -1.0f};
+  const FloatEnvironment environment;
+  if (empty()) return {Eigen::Vector3f::Constant(static_cast<float>(kNan)), -1.0f};
   constexpr double limit = std::numeric_limits<float>::max();
   const Eigen::Vector3f center = center_.cwiseMax(-limit).cwiseMin(limit).cast<float>();
   return {center, float_up(add_up(radius_, distance_up(center_, center.cast<double>())))};
 }
 
 bool operator==(const Sphere& a, const Sphere& b) {
+  const FloatEnvironment environment;
   if (a.empty() || b.empty()) return a.empty() && b.empty();
   return a.center() == b.center() && a.radius() == b.radius();
 }

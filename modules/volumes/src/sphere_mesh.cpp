@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/sphere.h"
 
 namespace pcl_bv {
@@ -53,6 +54,7 @@ Mesh split(const Mesh& mesh) {
 }  // namespace
 
 Mesh Sphere::mesh() const {
+  const FloatEnvironment environment;
   if (empty()) return {};
   static const Mesh unit = split(split(icosahedron()));
   Mesh mesh = unit;

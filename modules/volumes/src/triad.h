@@ -8,12 +8,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "pcl_bv/numeric/vector3.h"
+
 namespace pcl_bv::volumes_internal {
 
 /// The vector if it is of length 1 to 2^-50 already, else made so: what was normalised once stays as it is.
 inline Eigen::Vector3d unit_axis(const Eigen::Vector3d& v) {
-  const double squared = (v.x() * v.x() + v.y() * v.y()) + v.z() * v.z();
-  const Eigen::Vector3d unit = std::abs(squared - 1) <= 0x1p-50 ? v : v.stableNormalized();
+  const Eigen::Vector3d unit = std::abs(dot3(v, v) - 1) <= 0x1p-50 ? v : v.stableNormalized();
   return unit.array() + 0.0;
 }
 

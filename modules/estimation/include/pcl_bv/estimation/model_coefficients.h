@@ -7,10 +7,11 @@
 
 #include <pcl/ModelCoefficients.h>
 
-#include <cmath>
 #include <initializer_list>
-#include <limits>
 
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/cylinder.h"
 #include "pcl_bv/volumes/obb.h"
 #include "pcl_bv/volumes/sphere.h"
@@ -25,16 +26,12 @@ inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
   return result;
 }
 
-inline float float_above(double x) {
-  const float nearest = static_cast<float>(x);
-  return nearest < x ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
-}
-
 }  // namespace estimation_internal
 
 /// As PCLVisualizer::addCube() takes it: translation x y z, rotation as a quaternion x y z w, and the sizes
 /// along the box's axes 0, 1 and 2. Rounded to float, so not a bound.
 inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
+  const FloatEnvironment environment;
   const Eigen::Vector3d& c = box.center();
   const Eigen::Vector3d size = box.empty() ? c : Eigen::Vector3d(2 * box.half_extents());
   const Eigen::Vector4d q = box.empty() ? Eigen::Vector4d::Constant(c.x()) : box.quaternion().coeffs();
@@ -45,6 +42,7 @@ inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
 /// As PCLVisualizer::addSphere() and SACMODEL_SPHERE take it: centre and radius, as Sphere::cast_float()
 /// gives them; holds the sphere.
 inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
+  const FloatEnvironment environment;
   const Eigen::Vector3d& c = sphere.center();
   if (sphere.empty()) return estimation_internal::as_floats({c.x(), c.y(), c.z(), -1});
   const FloatSphere f = sphere.cast_float();
@@ -55,15 +53,15 @@ inline pcl::ModelCoefficients to_model_coefficients(const Sphere& sphere) {
 /// centre), the direction of the axis, the radius. It has grown by what the rounding of the others moves the
 /// axis between the ends, so the model holds the cylinder.
 inline pcl::ModelCoefficients to_model_coefficients(const Cylinder& cylinder) {
+  const FloatEnvironment environment;
   const Eigen::Vector3d& c = cylinder.center();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  if (cylinder.empty()) return estimation_internal::as_floats({nan, nan, nan, nan, nan, nan, -1});
+  if (cylinder.empty()) return estimation_internal::as_floats({kNan, kNan, kNan, kNan, kNan, kNan, -1});
   const Eigen::Vector3f center = c.cast<float>(), axis = cylinder.axis().cast<float>();
   const double moved = (center.cast<double>() - c).norm();
   const double turned = 2 * (axis.cast<double>() - cylinder.axis()).norm();
   const double grown = (cylinder.radius() + moved + turned * cylinder.half_height()) * (1 + 1e-12);
-  return estimation_internal::as_floats({center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(),
-                                         estimation_internal::float_above(grown)});
+  return estimation_internal::as_floats(
+      {center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(), float_up(grown)});
 }
 
 }  // namespace pcl_bv

@@ -29,7 +29,7 @@ struct DirectionExtremes {
 
 struct ExtremePoints {
   std::size_t used = 0;
-  std::size_t dropped = 0;               ///< Points that are not valid (is_valid() in point_view.h).
+  std::size_t dropped = 0;               ///< Points that are not valid (is_valid()).
   std::vector<DirectionExtremes> along;  ///< In the order of the directions; empty if no point is valid.
 };
 

@@ -10,9 +10,9 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/kernels/directions.h"
 #include "pcl_bv/kernels/extreme_point.h"
 #include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/numeric/directions.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 

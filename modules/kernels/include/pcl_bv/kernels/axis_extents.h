@@ -16,7 +16,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct AxisExtents {
   std::array<double, 3> low;
   std::array<double, 3> high;
-  std::size_t dropped;  ///< Points with a coordinate that is not valid (is_valid() in point_view.h).
+  std::size_t dropped;  ///< Points with a coordinate that is not valid (is_valid()).
 };
 
 /// The same bits for every `isa`, which must come from resolve_isa(). Never throws. O(n). Runs in the

@@ -6,9 +6,9 @@
 
 #include <cstddef>
 
-#include "pcl_bv/kernels/directions.h"
-#include "pcl_bv/kernels/exact_sum.h"
 #include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/numeric/directions.h"
+#include "pcl_bv/numeric/exact_sum.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

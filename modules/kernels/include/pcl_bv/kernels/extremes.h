@@ -8,10 +8,11 @@
 #include <array>
 #include <cstddef>
 
-#include "pcl_bv/kernels/directions.h"
 #include "pcl_bv/kernels/extreme_point.h"
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directions.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -22,14 +23,14 @@ using ReachedEnds = std::array<double, kMaxEnds>;
 inline constexpr ReachedEnds nothing_reached() {
   ReachedEnds reached{};
   for (double& r : reached)
-    r = -__builtin_huge_val();
+    r = -kInfinity;
   return reached;
 }
 
 /// The extreme points of a chunk. Only the first 2 direction_count() ends count.
 struct ChunkExtremes {
   std::array<ExtremePoint, kMaxEnds> ends{};  ///< Not found: no valid point, or none that reaches `reached`.
-  std::size_t dropped = 0;                    ///< Points that are not valid (is_valid() in point_view.h).
+  std::size_t dropped = 0;                    ///< Points that are not valid (is_valid()).
 };
 
 /// Finds the extreme points of at most kChunkPoints points: the exactly greatest projection; of equal ones

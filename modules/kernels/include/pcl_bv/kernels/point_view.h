@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "pcl_bv/numeric/coordinates.h"
+
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 enum class ScalarType : std::uint8_t { float32, float64 };
@@ -97,15 +99,6 @@ struct PointView {
   }
 };
 
-struct Coordinates {
-  double x, y, z;
-};
-
-/// The same place; -0 is 0, and a NaN is nowhere.
-inline bool operator==(const Coordinates& a, const Coordinates& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 /// The three coordinates of the i-th visited point; T is the view's scalar type.
 template <typename T>
 inline void load_point(const PointView& points, std::size_t i, T (&xyz)[3]) {
@@ -126,16 +119,6 @@ inline Coordinates load_point(const PointView& points, std::size_t i) {
   float v[3];
   load_point(points, i, v);
   return {v[0], v[1], v[2]};
-}
-
-/// The greatest magnitude of a coordinate that counts: beyond it squares would leave the range of double.
-inline constexpr double kMaxCoordinate = 1e100;
-
-/// Whether a point counts: all three coordinates finite, and at most kMaxCoordinate in magnitude (only a
-/// double can exceed that).
-inline bool is_valid(const Coordinates& p) {
-  constexpr double limit = kMaxCoordinate;
-  return p.x >= -limit && p.x <= limit && p.y >= -limit && p.y <= limit && p.z >= -limit && p.z <= limit;
 }
 
 }  // namespace pcl_bv

@@ -8,9 +8,9 @@
 #include <array>
 #include <cstddef>
 
-#include "pcl_bv/kernels/exact_dot.h"
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/numeric/exact_dot.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -10,6 +10,8 @@
 #include <memory>
 #include <vector>
 
+#include "pcl_bv/numeric/directions.h"
+
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An immutable list of directions, one per slab, of any length each (the built-in ones have components
@@ -25,15 +27,14 @@ class KdopSet {
   /// least 1e-6).
   explicit KdopSet(std::vector<Eigen::Vector3d> directions);
 
-  /// (1,0,0) (0,1,0) (0,0,1)
-  static const std::shared_ptr<const KdopSet>& dop6();
-  /// dop6, then (1,1,1) (1,1,-1) (1,-1,1) (1,-1,-1)
-  static const std::shared_ptr<const KdopSet>& dop14();
-  /// dop6, then (1,1,0) (1,-1,0) (1,0,1) (1,0,-1) (0,1,1) (0,1,-1)
-  static const std::shared_ptr<const KdopSet>& dop18();
-  /// dop14, then the last six of dop18. Copies of the built-in pointers count no references, so cost no
-  /// atomics.
-  static const std::shared_ptr<const KdopSet>& dop26();
+  /// The built-in one along the set's part of kCubeDirections. Copies of these pointers count no references,
+  /// so cost no atomics.
+  static const std::shared_ptr<const KdopSet>& of(DirectionSet set);
+
+  static const std::shared_ptr<const KdopSet>& dop6() { return of(DirectionSet::dop6); }
+  static const std::shared_ptr<const KdopSet>& dop14() { return of(DirectionSet::dop14); }
+  static const std::shared_ptr<const KdopSet>& dop18() { return of(DirectionSet::dop18); }
+  static const std::shared_ptr<const KdopSet>& dop26() { return of(DirectionSet::dop26); }
 
   std::size_t size() const { return directions_.size(); }
   const Eigen::Vector3d& direction(std::size_t i) const { return directions_[i]; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/kernels/exact_dot.h"
+#include "pcl_bv/numeric/exact_dot.h"
 
 #include <gtest/gtest.h>
 

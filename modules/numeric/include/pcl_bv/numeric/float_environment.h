@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Flush-to-zero set by a host program would turn coordinates of 1e-41 into 0: every public entry and every
-// worker thread runs under this guard.
+// Flush-to-zero set by a host program would turn coordinates of 1e-41 into 0: every public entry, every verb
+// of a volume and every worker thread runs under this guard.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,9 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// While it lives, this thread computes in the IEEE default environment: denormals kept (no FTZ, no DAZ),
-/// rounding to nearest, no traps. The previous environment returns at destruction.
+/// rounding to nearest, no traps. The previous environment returns at destruction. In a host that has the
+/// default already it costs two reads of a register; then flags of exceptions that its user's computations
+/// raise stay raised.
 class FloatEnvironment {
  public:
   FloatEnvironment();

@@ -5,7 +5,7 @@
 // without error. The words reach only from the least to the greatest of the terms at hand: four or so in
 // practice, 66 at worst. Expansions would lose products below 2^-1074, and double clouds have such.
 
-#include "pcl_bv/kernels/exact_dot.h"
+#include "pcl_bv/numeric/exact_dot.h"
 
 #include <algorithm>
 #include <bit>
@@ -13,7 +13,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "pcl_bv/kernels/exact_sum.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/exact_sum.h"
 
 namespace pcl_bv {
 namespace {
@@ -196,7 +197,7 @@ int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q
   const Rounded b(n, q);
   const double difference = a.value() - b.value();
   // The smallest normal covers products that underflow.
-  const double doubt = 0x1p-51 * (a.magnitude() + b.magnitude()) + std::numeric_limits<double>::min();
+  const double doubt = 0x1p-51 * (a.magnitude() + b.magnitude()) + kSmallestNormal;
   if (difference > doubt) return 1;
   if (difference < -doubt) return -1;
   // Floats times integers, or times powers of two: a tie takes 20 ns, not 48.

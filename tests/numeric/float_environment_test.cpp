@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/kernels/float_environment.h"
+#include "pcl_bv/numeric/float_environment.h"
 
 #include <gtest/gtest.h>
 
 #include <cfenv>
+#include <optional>
+#include <utility>
 
 #include "flush_to_zero.h"
 
@@ -41,6 +43,24 @@ TEST(FloatEnvironment, RoundsToNearestInAHostThatRoundsUp) {
   std::fesetround(FE_TONEAREST);
   EXPECT_EQ(inside, 1.0);
   EXPECT_GT(after, 1.0) << "the host's choice must come back";
+}
+
+TEST(FloatEnvironment, OneInsideAnotherLeavesItInPlace) {
+  const test::FlushToZero host;
+  const FloatEnvironment outer;
+  {
+    const FloatEnvironment inner;
+    EXPECT_GT(widen_denormal(), 0.0);
+  }
+  EXPECT_GT(widen_denormal(), 0.0);
+}
+
+TEST(FloatEnvironment, EndsWhatACalleeLeftSet) {
+  std::optional<FloatEnvironment> environment(std::in_place);
+  const test::FlushToZero callee;
+  ASSERT_EQ(widen_denormal(), 0.0);
+  environment.reset();
+  EXPECT_GT(widen_denormal(), 0.0);
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/kernels/exact_sum.h"
+#include "pcl_bv/numeric/exact_sum.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "exact.h"
-#include "pcl_bv/kernels/directions.h"
+#include "pcl_bv/numeric/directions.h"
 
 namespace pcl_bv {
 namespace {

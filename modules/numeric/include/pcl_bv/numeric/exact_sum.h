@@ -4,10 +4,8 @@
 // Exact values of c0 x + c1 y + c2 z for c in {-1, 0, 1}: what decides where a k-DOP's slab lies.
 #pragma once
 
-#include <array>
-#include <cstdint>
-
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/numeric/coordinates.h"
+#include "pcl_bv/numeric/directions.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -20,7 +18,7 @@ struct ExactSum {
 ExactSum exact_sum(double x, double y, double z);
 
 /// The exact projection of p onto a direction with coefficients in {-1, 0, 1}.
-ExactSum exact_projection(const std::array<std::int8_t, 3>& direction, const Coordinates& p);
+ExactSum exact_projection(const CubeDirection& direction, const Coordinates& p);
 
 /// The greatest double <= and the least double >= the exact value; equal if it is a double itself. Never -0.
 double round_down(const ExactSum& sum);

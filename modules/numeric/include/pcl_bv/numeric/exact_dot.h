@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/numeric/coordinates.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

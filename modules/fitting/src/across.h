@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A plane's two directions, given the one across it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv {
+
+/// Two unit vectors across a unit vector, right-handed with it.
+struct Across {
+  explicit Across(const Eigen::Vector3d& axis) {
+    Eigen::Vector3d least = Eigen::Vector3d::UnitX();
+    if (std::abs(axis.y()) < std::abs(axis.x())) least = Eigen::Vector3d::UnitY();
+    if (std::abs(axis.z()) < std::abs(axis.x()) && std::abs(axis.z()) < std::abs(axis.y()))
+      least = Eigen::Vector3d::UnitZ();
+    u = unit3(cross3(least, axis));
+    v = cross3(axis, u);
+  }
+  Eigen::Vector3d u, v;
+};
+
+}  // namespace pcl_bv

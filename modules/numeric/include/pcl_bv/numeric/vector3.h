@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Sums of three in one stated order, (x + y) + z: Eigen's own order differs, and may between processors.
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+// The functions below take whatever has three elements v[0], v[1], v[2]: Coordinates, std::array, Eigen's
+// vectors and expressions of them.
+namespace numeric_internal {
+
+template <typename Vector>
+using ScalarOf = std::decay_t<decltype(std::declval<Vector>()[0])>;
+
+// What can be returned of a Vector: of Eigen's expressions what they evaluate to.
+template <typename Vector, typename = void>
+struct Plain {
+  using Type = Vector;
+};
+template <typename Vector>
+struct Plain<Vector, std::void_t<typename Vector::PlainObject>> {
+  using Type = typename Vector::PlainObject;
+};
+template <typename Vector>
+using PlainOf = typename Plain<Vector>::Type;
+
+}  // namespace numeric_internal
+
+template <typename A, typename B>
+inline auto dot3(const A& a, const B& b) {
+  using Scalar = std::common_type_t<numeric_internal::ScalarOf<A>, numeric_internal::ScalarOf<B>>;
+  return Scalar((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]);
+}
+
+template <typename Vector>
+inline auto norm3(const Vector& v) {
+  return std::sqrt(dot3(v, v));
+}
+
+/// |v|_1, what error bounds are in terms of.
+template <typename Vector>
+inline auto taxicab3(const Vector& v) {
+  return (std::abs(v[0]) + std::abs(v[1])) + std::abs(v[2]);
+}
+
+template <typename A, typename B>
+inline numeric_internal::PlainOf<A> cross3(const A& a, const B& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Of a vector of about unit length or more.
+template <typename Vector>
+inline numeric_internal::PlainOf<Vector> unit3(const Vector& v) {
+  const auto length = norm3(v);
+  return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Directed rounding by error-free transformations, so that no rounding mode has to be switched.
+#include "pcl_bv/numeric/directed.h"
+
+#include <cmath>
+#include <limits>
+
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/expansion.h"
+
+namespace pcl_bv {
+
+double next_up(double x) {
+  return std::nextafter(x, kInfinity);
+}
+
+double next_down(double x) {
+  return std::nextafter(x, -kInfinity);
+}
+
+double add_up(double a, double b) {
+  return Expansion().add(a).add(b).up();
+}
+
+double multiply_up(double a, double b) {
+  return Expansion().add_product(a, b).up();
+}
+
+double sqrt_up(double a) {
+  const double root = std::sqrt(a);
+  return std::isfinite(root) && std::fma(root, root, -a) < 0 ? next_up(root) : root;
+}
+
+double divide_up(double a, double scale) {
+  const double quotient = a / scale;
+  return quotient * scale < a ? next_up(quotient) : quotient;
+}
+
+double divide_down(double a, double scale) {
+  return -divide_up(-a, scale);
+}
+
+float float_up(double x) {
+  const float nearest = static_cast<float>(x);
+  return nearest < x ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
+}
+
+float float_down(double x) {
+  return -float_up(-x);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The error-free transformation that all exact sums are made of (Knuth). Needs -ffp-contract=off and round to
+// nearest, so it is for sources only: public headers are compiled with their user's flags.
+#pragma once
+
+namespace pcl_bv {
+
+struct TwoSum {
+  double sum, error;  // sum + error is exactly a + b
+};
+
+inline TwoSum two_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  const double a_part = sum - b_part;
+  return {sum, (a - a_part) + (b - b_part)};
+}
+
+}  // namespace pcl_bv

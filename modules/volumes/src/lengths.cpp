@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "lengths.h"
+
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv::volumes_internal {
+namespace {
+
+// Squares of anything between 2^-400 and 2^400 are far from both ends of double; below, a factor of 2^600
+// lifts them.
+constexpr double kSmallExtent = 0x1p-400;
+constexpr double kLift = 0x1p600;
+
+// Adds sign * (a - b)^2, six terms. a - b = d + e exactly.
+void add_square_of_difference(Expansion& sum, double a, double b, double sign) {
+  const double d = a - b;
+  const double e = Expansion().add(a).add(-b).add(-d).value();
+  sum.add_product(sign * d, d).add_product(sign * 2 * d, e).add_product(sign * e, e);
+}
+
+}  // namespace
+
+double norm_up(const Eigen::Vector3d& v) {
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (largest == 0) return 0;
+  if (largest < kSmallExtent) return multiply_up(norm_up(v * kLift), 1 / kLift);
+  return sqrt_up(Expansion().add_dot(v, v).up());
+}
+
+double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  Eigen::Vector3d difference;
+  for (int i = 0; i < 3; ++i)
+    difference[i] = a[i] > b[i] ? add_up(a[i], -b[i]) : add_up(b[i], -a[i]);
+  return norm_up(difference);
+}
+
+bool within(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
+  const double slack = r - s;
+  const Eigen::Vector3d q = a - b;
+  const double d2 = dot3(q, q);
+  // d2 is off by at most 5 units of 2^-53 and slack^2 by 3; 2^-48 is 32 of them.
+  constexpr double doubt = 0x1p-48;
+  const double limit = slack * slack;
+  if (limit > kSmallExtent * kSmallExtent) {
+    if (d2 < limit * (1 - doubt)) return true;
+    if (d2 > limit * (1 + doubt)) return false;
+  } else if (q.cwiseAbs().maxCoeff() < kSmallExtent && r > 0 && r < kSmallExtent) {
+    return within(a * kLift, b * kLift, r * kLift, s * kLift);
+  }
+  Expansion excess;
+  for (int i = 0; i < 3; ++i)
+    add_square_of_difference(excess, a[i], b[i], 1);
+  add_square_of_difference(excess, r, s, -1);
+  return excess.sign() <= 0 && excess.certain();
+}
+
+}  // namespace pcl_bv::volumes_internal

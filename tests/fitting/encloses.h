@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The judge of fits: does a volume hold every point?
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <variant>
+
+#include "exact.h"
+#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace pcl_bv::test {
+
+// The predicates of the documentation, in rationals and independent of verify().
+inline bool holds(const Aabb& box, const Coordinates& p) {
+  return box.min().x() <= p.x && p.x <= box.max().x() && box.min().y() <= p.y && p.y <= box.max().y() &&
+         box.min().z() <= p.z && p.z <= box.max().z();
+}
+
+inline bool holds(const Kdop& kdop, const Coordinates& p) {
+  for (std::size_t k = 0; k < kdop.size(); ++k) {
+    if (!exactly_between(kdop.min(k), kdop.set()->direction(k), p, kdop.max(k))) return false;
+  }
+  return true;
+}
+
+inline bool holds(const Sphere& sphere, const Coordinates& p) {
+  return exactly_within(sphere.center(), sphere.radius(), p);
+}
+
+inline bool holds(const Obb& box, const Coordinates& p) {
+  const Eigen::Vector3d& c = box.center();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d a = box.axis(i);
+    const double x = a.x() * (p.x - c.x()), y = a.y() * (p.y - c.y()), z = a.z() * (p.z - c.z());
+    const double terms = std::abs(x) + std::abs(y) + std::abs(z);
+    if (std::abs(x + y + z) + kClearly * terms + kUnderflow < box.half_extents()[i]) continue;
+    const Rational exact = exact_dot(a, p) - exact_dot(a, Coordinates{c.x(), c.y(), c.z()});
+    if (abs(exact) > Rational(box.half_extents()[i])) return false;
+  }
+  return true;
+}
+
+inline bool holds(const Cylinder& cylinder, const Coordinates& p) {
+  const ExactAlong q(cylinder.center(), cylinder.axis(), p);
+  const Rational r(cylinder.radius()), h(cylinder.half_height());
+  return q.along * q.along <= h * h * q.squared_axis &&
+         q.squared * q.squared_axis - q.along * q.along <= r * r * q.squared_axis;
+}
+
+inline bool holds(const Capsule& capsule, const Coordinates& p) {
+  using ExactEdge = std::array<Rational, 3>;
+  ExactEdge edge;
+  for (int k = 0; k < 3; ++k)
+    edge[static_cast<std::size_t>(k)] = Rational(capsule.b()[k]) - Rational(capsule.a()[k]);
+  const Rational r2 = Rational(capsule.radius()) * Rational(capsule.radius());
+  Rational along = 0, squared_edge = 0;
+  const double coordinates[] = {p.x, p.y, p.z};
+  for (int k = 0; k < 3; ++k) {
+    const Rational& e = edge[static_cast<std::size_t>(k)];
+    along += (Rational(coordinates[k]) - Rational(capsule.a()[k])) * e;
+    squared_edge += e * e;
+  }
+  if (along <= 0) return exact_squared_distance(capsule.a(), p) <= r2;
+  if (along >= squared_edge) return exact_squared_distance(capsule.b(), p) <= r2;
+  return exact_squared_distance(capsule.a(), p) * squared_edge - along * along <= r2 * squared_edge;
+}
+
+inline bool holds(const Ellipsoid& ellipsoid, const Coordinates& p) {
+  Rational sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = ellipsoid.axes().col(k);
+    const Rational along = ExactAlong(ellipsoid.center(), axis, p).along;
+    const Rational radius(ellipsoid.radii()[k]);
+    if (radius == 0 && along != 0) return false;
+    if (radius != 0) sum += along * along / (radius * radius);
+  }
+  return sum <= 1;
+}
+
+inline bool holds(const Hull& hull, const Coordinates& p) {
+  for (const HullPlane& plane : hull.planes()) {
+    if (!exactly_at_most(plane.normal, p, plane.offset)) return false;
+  }
+  return !hull.empty();
+}
+
+inline void expect_encloses(const AnyVolume& volume, const PointView& points) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) continue;
+    ASSERT_TRUE(std::visit([&p](const auto& shape) { return holds(shape, p); }, volume)) << "point " << i;
+    ASSERT_TRUE(contains(volume, {p.x, p.y, p.z})) << "contains() denies point " << i;
+  }
+}
+
+}  // namespace pcl_bv::test

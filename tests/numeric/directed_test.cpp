@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/numeric/directed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "exact.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/expansion.h"
+
+namespace pcl_bv {
+namespace {
+
+using test::Rational;
+
+constexpr int kSeed = 1, kCases = 5000;
+
+// Of any sign, with many digits or few, between 2^least and 2^greatest.
+class Numbers {
+ public:
+  double operator()(int least, int greatest) {
+    const auto mantissa = static_cast<double>(random_() >> (random_() % 2 == 0 ? 11 : 60));
+    const int exponent = least + static_cast<int>(random_() % static_cast<unsigned>(greatest - least));
+    return std::ldexp(random_() % 2 == 0 ? mantissa : -mantissa, exponent);
+  }
+
+ private:
+  std::mt19937_64 random_{kSeed};
+};
+
+TEST(Directed, NextUpAndDownAreTheNeighbours) {
+  constexpr double least = std::numeric_limits<double>::denorm_min(),
+                   most = std::numeric_limits<double>::max();
+  EXPECT_EQ(next_up(1), 1 + 0x1p-52);
+  EXPECT_EQ(next_down(1), 1 - 0x1p-53);
+  EXPECT_EQ(next_up(0), least);
+  EXPECT_EQ(next_down(0), -least);
+  EXPECT_EQ(next_up(most), kInfinity);
+  EXPECT_EQ(next_down(kInfinity), most);
+}
+
+TEST(Directed, SumsAndProductsAreTheLeastDoublesAbove) {
+  Numbers number;
+  for (int i = 0; i < kCases; ++i) {
+    const double a = number(-100, 100), b = number(-100, 100);
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << i << ": " << a << ", " << b);
+    ASSERT_EQ(add_up(a, b), test::least_double_above(Rational(a) + Rational(b)));
+    ASSERT_EQ(multiply_up(a, b), test::least_double_above(Rational(a) * Rational(b)));
+  }
+}
+
+TEST(Directed, RootsAreTheLeastDoublesAbove) {
+  Numbers number;
+  for (int i = 0; i < kCases; ++i) {
+    const double a = std::abs(number(-100, 100));
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << i << ": " << a);
+    ASSERT_EQ(sqrt_up(a), test::least_root_above(Rational(a), std::sqrt(a)));
+  }
+}
+
+TEST(Directed, QuotientsByPowersOfTwoRoundOutwardAmongDenormals) {
+  Numbers number;
+  int inexact = 0;
+  for (int i = 0; i < kCases; ++i) {
+    const double a = number(-300, 0), scale = std::ldexp(1, i % 1020);
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << i << ": " << a << " / " << scale);
+    const Rational exact = Rational(a) / Rational(scale);
+    ASSERT_EQ(divide_up(a, scale), test::least_double_above(exact));
+    ASSERT_EQ(divide_down(a, scale), test::greatest_double_below(exact));
+    inexact += divide_up(a, scale) != divide_down(a, scale) ? 1 : 0;
+  }
+  EXPECT_GT(inexact, 100);
+}
+
+TEST(Directed, FloatsAreTheNearestOnTheirSide) {
+  Numbers number;
+  for (int i = 0; i < kCases; ++i) {
+    const double x = number(-210, 70);  // from below the least denormal float
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << i << ": " << x);
+    const float up = float_up(x), down = float_down(x);
+    ASSERT_GE(static_cast<double>(up), x);
+    ASSERT_LE(static_cast<double>(down), x);
+    ASSERT_LT(static_cast<double>(std::nextafter(up, -INFINITY)), x);
+    ASSERT_GT(static_cast<double>(std::nextafter(down, INFINITY)), x);
+  }
+  EXPECT_EQ(float_up(1e300), INFINITY);
+  EXPECT_EQ(float_down(1e300), std::numeric_limits<float>::max());
+}
+
+TEST(Expansion, RoundsSumsOfProductsOutwardToTheNextDouble) {
+  Numbers number;
+  for (int i = 0; i < kCases; ++i) {
+    Expansion sum;
+    Rational exact = 0;
+    for (int term = 0; term < 1 + i % 7; ++term) {
+      const double a = number(-100, 100), b = number(-100, 100);
+      sum.add_product(a, b).add(b).add(i % 3 == 0 ? -a * b : 0);
+      exact += Rational(a) * Rational(b) + Rational(b) + Rational(i % 3 == 0 ? -a * b : 0.0);
+    }
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << i);
+    ASSERT_EQ(sum.up(), test::least_double_above(exact));
+    ASSERT_EQ(sum.down(), test::greatest_double_below(exact));
+    ASSERT_EQ(sum.sign(), (exact > 0) - (exact < 0));
+    ASSERT_TRUE(sum.certain());
+  }
+}
+
+TEST(Expansion, IsUncertainAndAStepWiderWhereAProductMayBeLost) {
+  Expansion sum;
+  sum.add(1).add_product(0x1.8p-537, 0x1.8p-537);
+  EXPECT_FALSE(sum.certain());
+  EXPECT_GT(sum.up(), 1);
+  EXPECT_LE(sum.down(), 1);
+  EXPECT_TRUE(Expansion().add_product(1, 0x1p-1074).certain()) << "times 1 nothing is lost";
+}
+
+}  // namespace
+}  // namespace pcl_bv
