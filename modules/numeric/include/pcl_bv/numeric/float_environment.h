@@ -10,9 +10,8 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// While it lives, this thread computes in the IEEE default environment: denormals kept (no FTZ, no DAZ),
-/// rounding to nearest, no traps. The previous environment returns at destruction. In a host that has the
-/// default already it costs two reads of a register; then flags of exceptions that its user's computations
-/// raise stay raised.
+/// rounding to nearest, no traps. The previous environment returns at destruction. Where it is the default
+/// already, nothing is written, and flags of exceptions that are raised meanwhile stay raised.
 class FloatEnvironment {
  public:
   FloatEnvironment();
