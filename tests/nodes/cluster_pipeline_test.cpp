@@ -28,8 +28,9 @@ TEST(ClusterPipeline, TakesPclCloudsAsTheyAre) {
   expect_equal(result, expected);
   EXPECT_EQ(result.header.stamp_ns, 1'234'567'000);
   EXPECT_EQ(result.header.frame_id, "velodyne");
-  pipeline.process(nullptr, result);
-  EXPECT_EQ(result.clusters.size(), 0U);
+  EXPECT_THROW(pipeline.process(nullptr, result), std::invalid_argument);
+  EXPECT_THROW(pipeline.process(pcl::PointCloud<pcl::PointXYZI>::Ptr(), result), std::invalid_argument);
+  expect_equal(result, expected);
 }
 
 }  // namespace

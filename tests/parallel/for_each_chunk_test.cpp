@@ -6,12 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <latch>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
+
+#include "executors.h"
 
 namespace pcl_bv {
 namespace {
@@ -21,6 +22,8 @@ std::vector<ParallelPolicy> policies() {
   for (const unsigned threads : {0U, 1U, 2U, 3U, 7U}) {
     all.emplace_back(Threads{threads});
     all.emplace_back(OpenMP{threads});
+    all.emplace_back(Executor{threads, test::run_on_threads});
+    all.emplace_back(Executor{threads, test::run_one_after_another});
   }
   return all;
 }
@@ -101,18 +104,6 @@ TEST(ForEachChunk, ServesManyCallersAtATime) {
   for (std::thread& caller : callers)
     caller.join();
   EXPECT_EQ(calls, 8 * 200 * 5);
-}
-
-// A fork has the pool, but not its threads.
-TEST(ForEachChunk, WorksInAForkedProcess) {
-  for_each_chunk(Threads{3}, 10, [](std::size_t) {});
-  EXPECT_EXIT(
-      {
-        std::atomic<int> calls{0};
-        for_each_chunk(Threads{3}, 10, [&](std::size_t) { ++calls; });
-        std::exit(calls == 10 ? 0 : 1);
-      },
-      testing::ExitedWithCode(0), "");
 }
 
 TEST(ReduceChunks, SameOrderForAnyThreadCount) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The only OpenMP pragma of the repository, and its twin on std::thread.
+// The only OpenMP pragma of the repository, and its twins on our threads and on the host's.
 
 #include "pcl_bv/parallel/for_each_chunk.h"
 
@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <memory>
 #include <mutex>
+#include <shared_mutex>
 
 #include "worker_pool.h"
 
@@ -64,11 +66,46 @@ void work_with_openmp(ChunkQueue& queue, unsigned threads) {
   queue.work();
 }
 
+// What the tasks of an executor share with the call. They own it, since they may come when the call is over.
+class TaskQueue {
+ public:
+  explicit TaskQueue(ChunkQueue& queue) : queue_(&queue) {}
+
+  // A task. A body may wait for its thread's executor, which runs other tasks there meanwhile: those leave
+  // the work to others, since the body that waits may be using buffers of its thread.
+  void help() {
+    if (ParallelRegion::inside()) return;
+    const std::shared_lock working(mutex_, std::try_to_lock);
+    if (!working || queue_ == nullptr) return;
+    const ParallelRegion region;
+    queue_->work();
+  }
+
+  // Waits for the tasks that have begun, and lets none begin any more.
+  void close() {
+    const std::lock_guard lock(mutex_);
+    queue_ = nullptr;
+  }
+
+ private:
+  std::shared_mutex mutex_;
+  ChunkQueue* queue_;
+};
+
+void work_with_executor(ChunkQueue& queue, const Executor& executor, unsigned threads) {
+  const auto tasks = std::make_shared<TaskQueue>(queue);
+  const std::unique_ptr<TaskQueue, void (*)(TaskQueue*)> closed_at_end(
+      tasks.get(), [](TaskQueue* open) { open->close(); });
+  executor.run(threads, [tasks](std::size_t) { tasks->help(); });
+  const ParallelRegion region;
+  queue.work();
+}
+
 }  // namespace
 
 void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t),
                 void* body) {
-  const bool nested = WorkerPool::inside() || omp_in_parallel();
+  const bool nested = ParallelRegion::inside() || omp_in_parallel();
   const unsigned threads =
       nested || chunks <= 1 ? 1U : static_cast<unsigned>(std::min<std::size_t>(thread_count(policy), chunks));
   ChunkQueue queue(chunks, call, body);
@@ -76,6 +113,8 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(v
     queue.work();
   } else if (kOpenMpIsUnderstood && std::holds_alternative<OpenMP>(policy)) {
     work_with_openmp(queue, threads);
+  } else if (const auto* executor = std::get_if<Executor>(&policy)) {
+    work_with_executor(queue, *executor, threads);
   } else {
     WorkerPool::instance().run(
         threads - 1, [](void* all) { static_cast<ChunkQueue*>(all)->work(); }, &queue);

@@ -8,27 +8,32 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "pool_thread.h"
 
 namespace pcl_bv {
-namespace {
-
-// Follows the process's CPU affinity, unlike std::thread::hardware_concurrency.
-unsigned or_all(unsigned threads) {
-  return threads != 0 ? threads : static_cast<unsigned>(omp_get_num_procs());
-}
-
-}  // namespace
 
 unsigned thread_count(const ParallelPolicy& policy) {
-  if (const auto* openmp = std::get_if<OpenMP>(&policy)) return or_all(openmp->threads);
-  if (const auto* threads = std::get_if<Threads>(&policy)) return or_all(threads->threads);
-  return 1;
+  const auto or_all = [](unsigned threads, auto all) {
+    return threads != 0 ? threads : static_cast<unsigned>(all());
+  };
+  // OpenMP's threads are bound to what their caller is bound to.
+  if (const auto* openmp = std::get_if<OpenMP>(&policy)) return or_all(openmp->threads, omp_get_num_procs);
+  if (const auto* threads = std::get_if<Threads>(&policy))
+    return or_all(threads->threads, internal::process_processors);
+  const auto* executor = std::get_if<Executor>(&policy);
+  if (executor == nullptr) return 1;
+  if (!executor->run)
+    throw std::invalid_argument("Executor::run is empty; it must be a function that runs tasks");
+  return or_all(executor->threads, internal::process_processors);
 }
 
 ParallelPolicy limit_threads(const ParallelPolicy& policy, unsigned threads) {
   const unsigned limited = std::max(1U, std::min(threads, thread_count(policy)));
   if (limited == 1) return Serial{};
   if (std::holds_alternative<OpenMP>(policy)) return OpenMP{limited};
+  if (const auto* executor = std::get_if<Executor>(&policy)) return Executor{limited, executor->run};
   return Threads{limited};
 }
 

@@ -5,40 +5,67 @@
 
 #include "worker_pool.h"
 
-#include <unistd.h>
+#include <pthread.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <exception>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "pool_thread.h"
 
 namespace pcl_bv::internal {
 namespace {
 
-thread_local bool inside_pool = false;
+// The process's pool, null until it is wanted. The object stays to the end of the process: others may be in
+// run(), or call it, while objects are destroyed.
+std::atomic<WorkerPool*> current{nullptr};
+
+thread_local bool inside_region = false;
+
+// A child has none of the pool's threads, one of them may have held the lock, and its condition variables
+// count them as waiting. So the child leaves that pool untouched and makes its own when it wants one.
+void begin_anew_in_child() {
+  current = nullptr;
+  inside_region = false;
+}
+
+[[maybe_unused]] const int registered = ::pthread_atfork(nullptr, nullptr, begin_anew_in_child);
+
+void end_pool() {
+  if (WorkerPool* const pool = current) pool->end();
+}
 
 }  // namespace
 
-// The object stays to the end of the process: others may be in run(), or call it, while objects are
-// destroyed.
+ParallelRegion::ParallelRegion() {
+  inside_region = true;
+}
+
+ParallelRegion::~ParallelRegion() {
+  inside_region = false;
+}
+
+bool ParallelRegion::inside() {
+  return inside_region;
+}
+
 WorkerPool& WorkerPool::instance() {
-  static WorkerPool* const pool = new WorkerPool;
-  static const End end{*pool};
-  return *pool;
+  WorkerPool* pool = current;
+  if (pool != nullptr) return *pool;
+  auto fresh = std::make_unique<WorkerPool>();
+  if (!current.compare_exchange_strong(pool, fresh.get())) return *pool;
+  std::atexit(end_pool);  // a child has its parent's registration, too: end() may come twice
+  return *fresh.release();
 }
-
-WorkerPool::End::~End() {
-  if (::getpid() == pool.process_) pool.end();
-}
-
-bool WorkerPool::inside() {
-  return inside_pool;
-}
-
-WorkerPool::WorkerPool() : process_(::getpid()) {}
 
 void WorkerPool::end() {
   {
     const std::lock_guard lock(mutex_);
-    ended_ = true;
+    if (std::exchange(ended_, true)) return;
   }
   work_.notify_all();
   for (std::thread& thread : threads_)
@@ -47,6 +74,7 @@ void WorkerPool::end() {
 
 // The system may refuse a thread: then there are fewer.
 void WorkerPool::start(unsigned threads) {
+  const SignalsBlocked blocked;
   try {
     while (threads_.size() < threads)
       threads_.emplace_back([this] { serve(); });
@@ -61,7 +89,8 @@ WorkerPool::Task* WorkerPool::wanting() {
 }
 
 void WorkerPool::serve() {
-  inside_pool = true;
+  schedule_as_process();
+  const ParallelRegion region;
   std::unique_lock lock(mutex_);
   for (;;) {
     Task* task = nullptr;
@@ -71,14 +100,14 @@ void WorkerPool::serve() {
     ++task->active;
     lock.unlock();
     task->work(task->argument);
+    if (current != this) return;  // a child forked by work(), in which there is nobody to report to
     lock.lock();
     if (--task->active == 0) done_.notify_all();
   }
 }
 
 void WorkerPool::run(unsigned helpers, void (*work)(void*), void* argument) {
-  Task task{work, argument, inside_pool ? 0 : helpers, 0};
-  if (task.wanted == 0) return work(argument);
+  Task task{work, argument, helpers, 0};
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
@@ -86,9 +115,12 @@ void WorkerPool::run(unsigned helpers, void (*work)(void*), void* argument) {
   }
   for (unsigned i = 0; i < helpers; ++i)
     work_.notify_one();
-  inside_pool = true;
-  work(argument);
-  inside_pool = false;
+  {
+    const ParallelRegion region;
+    work(argument);
+  }
+  if (current != this)
+    throw std::logic_error("a child forked inside a parallel call cannot finish that call");
   std::unique_lock lock(mutex_);
   tasks_.erase(std::find(tasks_.begin(), tasks_.end(), &task));
   done_.wait(lock, [&] { return task.active == 0; });

@@ -13,21 +13,30 @@
 
 namespace pcl_bv::internal {
 
+/// While it lives, this thread is inside a parallel call. Regions do not nest. A forked child is outside.
+class ParallelRegion {
+ public:
+  ParallelRegion();
+  ~ParallelRegion();
+  ParallelRegion(const ParallelRegion&) = delete;
+  ParallelRegion& operator=(const ParallelRegion&) = delete;
+
+  static bool inside();
+};
+
 class WorkerPool {
  public:
   /// The process's pool. Threads are started when they are first wanted and joined at exit; from then on
-  /// calls do without. A fork has the pool but not its threads, and does without those.
+  /// calls do without. A forked child has a pool of its own.
   static WorkerPool& instance();
 
   /// Runs work(argument) here and on up to `helpers` other threads that find the time before it returns here;
-  /// then waits for those. Nested calls do without helpers.
+  /// then waits for those. Not inside a parallel region. Throws std::logic_error in a child that `work`
+  /// forked and that returns from it: what the other threads had begun is lost there.
   void run(unsigned helpers, void (*work)(void*), void* argument);
 
-  /// Whether this thread is inside run(), as caller or helper.
-  static bool inside();
-
-  WorkerPool(const WorkerPool&) = delete;
-  WorkerPool& operator=(const WorkerPool&) = delete;
+  /// Joins the threads; calls do without from then on.
+  void end();
 
  private:
   struct Task {
@@ -37,13 +46,6 @@ class WorkerPool {
     unsigned active;  // that have joined and not left
   };
 
-  struct End {
-    ~End();
-    WorkerPool& pool;
-  };
-
-  WorkerPool();
-  void end();
   void start(unsigned threads);
   Task* wanting();
   void serve();
@@ -53,7 +55,6 @@ class WorkerPool {
   std::vector<Task*> tasks_;
   std::vector<std::thread> threads_;
   bool ended_ = false;
-  const int process_;
 };
 
 }  // namespace pcl_bv::internal

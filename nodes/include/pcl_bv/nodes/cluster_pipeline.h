@@ -17,6 +17,7 @@ class ClusterPipeline : public FramePipeline {
   using FramePipeline::FramePipeline;
   using FramePipeline::process;
 
+  /// As FramePipeline's. Throws std::invalid_argument for a null pointer; `result` stays as it was.
   void process(const typename Cloud::ConstPtr& cloud, FrameResult& result) {
     process(make_frame<PointT>(cloud), result);
   }

@@ -7,6 +7,7 @@
 #include <pcl/point_cloud.h>
 
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 
 #include "pcl_bv/estimation/point_cloud_view.h"
@@ -14,12 +15,12 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The cloud as a frame that shares it: nothing is copied. PCL's stamps are microseconds. A null pointer
-/// gives a frame without points.
+/// The cloud as a frame that shares it: nothing is copied. PCL's stamps are microseconds. Throws
+/// std::invalid_argument for a null pointer.
 template <typename PointT>
 Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {
+  if (cloud == nullptr) throw std::invalid_argument("make_frame: the cloud is a null pointer");
   Frame frame;
-  if (cloud == nullptr) return frame;
   constexpr std::uint64_t most = INT64_MAX / 1000;
   const std::uint64_t microseconds = cloud->header.stamp < most ? cloud->header.stamp : most;
   frame.header = {cloud->header.seq, static_cast<std::int64_t>(microseconds) * 1000, cloud->header.frame_id};

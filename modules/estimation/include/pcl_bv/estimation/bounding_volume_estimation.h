@@ -30,6 +30,8 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   using Base = pcl::PCLBase<PointT>;
   using PointCloud = typename Base::PointCloud;
   using PointCloudConstPtr = typename Base::PointCloudConstPtr;
+  using Ptr = pcl::shared_ptr<BoundingVolumeEstimation>;
+  using ConstPtr = pcl::shared_ptr<const BoundingVolumeEstimation>;
 
   /// Restricts the fit to some points, or, with a null pointer, lifts the restriction.
   void setIndices(const pcl::IndicesPtr& indices) override;
@@ -76,40 +78,65 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
 /// The axis-aligned box. See fit_aabb().
 template <typename PointT>
 class AabbEstimation : public BoundingVolumeEstimation<PointT, Aabb> {
+ public:
+  using Ptr = pcl::shared_ptr<AabbEstimation>;
+  using ConstPtr = pcl::shared_ptr<const AabbEstimation>;
+
  protected:
   EstimationResult fit(const PointView& points, Aabb& box, const Execution& execution) const override {
     return fit_aabb(points, box, execution);
   }
 };
 
-/// The k-DOP along K / 2 directions, K = 6, 14, 18 or 26. See fit_kdop().
+/// The k-DOP along K / 2 directions, K = 6, 14, 18 or 26, or along your own. See fit_kdop().
 template <typename PointT, int K = 26>
 class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   static_assert(K == 6 || K == 14 || K == 18 || K == 26, "K is 6, 14, 18 or 26");
 
  public:
+  using Ptr = pcl::shared_ptr<KdopEstimation>;
+  using ConstPtr = pcl::shared_ptr<const KdopEstimation>;
   using BoundingVolumeEstimation<PointT, Kdop>::compute;
 
+  /// Other directions than those of K, which are the default. Throws std::invalid_argument for a null
+  /// pointer.
+  void setDirections(std::shared_ptr<const KdopSet> directions);
+  const std::shared_ptr<const KdopSet>& getDirections() const { return directions_; }
+
   /// The same, and for each slab which points of the input cloud touch it; empty if there is no valid point.
-  EstimationResult compute(Kdop& kdop, SlabPoints& touching) const;
+  EstimationResult compute(Kdop& kdop, SlabPoints& touching) const {
+    return fit_kdop(this->input(), directions_, kdop, touching, this->execution());
+  }
 
  protected:
-  EstimationResult fit(const PointView& points, Kdop& kdop, const Execution& execution) const override;
+  EstimationResult fit(const PointView& points, Kdop& kdop, const Execution& execution) const override {
+    return fit_kdop(points, directions_, kdop, execution);
+  }
 
  private:
-  static const std::shared_ptr<const KdopSet>& set();
+  static const std::shared_ptr<const KdopSet>& of_k();
+
+  std::shared_ptr<const KdopSet> directions_ = of_k();
 };
 
 /// A bounding sphere: the smallest one unless another method is set. See fit_sphere().
 template <typename PointT>
 class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
  public:
+  using Ptr = pcl::shared_ptr<SphereEstimation>;
+  using ConstPtr = pcl::shared_ptr<const SphereEstimation>;
+  using BoundingVolumeEstimation<PointT, Sphere>::compute;
+
   void setMethod(SphereMethod method) { options_.method = method; }
   SphereMethod getMethod() const { return options_.method; }
 
   /// How Ritter's and EPOS's spheres grow; SphereGrowth::deferred by default.
   void setGrowth(SphereGrowth growth) { options_.growth = growth; }
   SphereGrowth getGrowth() const { return options_.growth; }
+
+  /// The smallest sphere, and the proof that it is. See fit_smallest_sphere(). Throws as compute() does, and
+  /// std::invalid_argument if another method than SphereMethod::exact is set: no other has a proof.
+  EstimationResult compute(Sphere& sphere, SphereCertificate& certificate) const;
 
  protected:
   EstimationResult fit(const PointView& points, Sphere& sphere, const Execution& execution) const override {
@@ -124,6 +151,9 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
 template <typename PointT>
 class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
  public:
+  using Ptr = pcl::shared_ptr<ObbEstimation>;
+  using ConstPtr = pcl::shared_ptr<const ObbEstimation>;
+
   void setMethod(ObbMethod method) { options_.method = method; }
   ObbMethod getMethod() const { return options_.method; }
 
@@ -144,6 +174,10 @@ class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
 /// The convex hull. See fit_hull().
 template <typename PointT>
 class HullEstimation : public BoundingVolumeEstimation<PointT, Hull> {
+ public:
+  using Ptr = pcl::shared_ptr<HullEstimation>;
+  using ConstPtr = pcl::shared_ptr<const HullEstimation>;
+
  protected:
   EstimationResult fit(const PointView& points, Hull& hull, const Execution& execution) const override {
     return fit_hull(points, hull, execution);
@@ -153,6 +187,10 @@ class HullEstimation : public BoundingVolumeEstimation<PointT, Hull> {
 /// A small cylinder. See fit_cylinder().
 template <typename PointT>
 class CylinderEstimation : public BoundingVolumeEstimation<PointT, Cylinder> {
+ public:
+  using Ptr = pcl::shared_ptr<CylinderEstimation>;
+  using ConstPtr = pcl::shared_ptr<const CylinderEstimation>;
+
  protected:
   EstimationResult fit(const PointView& points, Cylinder& cylinder,
                        const Execution& execution) const override {
@@ -163,6 +201,10 @@ class CylinderEstimation : public BoundingVolumeEstimation<PointT, Cylinder> {
 /// A small capsule. See fit_capsule().
 template <typename PointT>
 class CapsuleEstimation : public BoundingVolumeEstimation<PointT, Capsule> {
+ public:
+  using Ptr = pcl::shared_ptr<CapsuleEstimation>;
+  using ConstPtr = pcl::shared_ptr<const CapsuleEstimation>;
+
  protected:
   EstimationResult fit(const PointView& points, Capsule& capsule, const Execution& execution) const override {
     return fit_capsule(points, capsule, execution);
@@ -173,6 +215,8 @@ class CapsuleEstimation : public BoundingVolumeEstimation<PointT, Capsule> {
 template <typename PointT>
 class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
  public:
+  using Ptr = pcl::shared_ptr<EllipsoidEstimation>;
+  using ConstPtr = pcl::shared_ptr<const EllipsoidEstimation>;
   using BoundingVolumeEstimation<PointT, Ellipsoid>::compute;
 
   /// The same, and how near it is to the smallest and why.
@@ -191,6 +235,9 @@ class EllipsoidEstimation : public BoundingVolumeEstimation<PointT, Ellipsoid> {
 template <typename PointT>
 class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
  public:
+  using Ptr = pcl::shared_ptr<BestEstimation>;
+  using ConstPtr = pcl::shared_ptr<const BestEstimation>;
+
   /// The methods to choose from; best_candidates() by default. Throws std::invalid_argument, naming it, for a
   /// name that is no method, for `best` itself and for no names.
   void setMethods(const std::vector<std::string>& names);

@@ -14,16 +14,23 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// Whether a struct has members x, y, z, all float or all double.
+template <typename Record, typename = void>
+struct has_xyz : std::false_type {};
+template <typename Record>
+struct has_xyz<Record, std::void_t<decltype(Record::x), decltype(Record::y), decltype(Record::z)>> {
+  using Scalar = std::remove_cv_t<decltype(Record::x)>;
+  static constexpr bool one_type = std::is_same_v<Scalar, std::remove_cv_t<decltype(Record::y)>> &&
+                                   std::is_same_v<Scalar, std::remove_cv_t<decltype(Record::z)>>;
+  static constexpr bool value = one_type && (std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>);
+};
+
 /// All of `count` records. Record is any struct with members x, y, z, all float or all double, that follow
 /// one another in memory in this order; throws std::invalid_argument for a struct in which they do not.
 template <typename Record>
 PointView view_records(const Record* records, std::size_t count) {
-  using Scalar = std::remove_cv_t<decltype(Record::x)>;
-  static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>,
-                "x, y, z are float or double");
-  static_assert(std::is_same_v<Scalar, std::remove_cv_t<decltype(Record::y)>> &&
-                    std::is_same_v<Scalar, std::remove_cv_t<decltype(Record::z)>>,
-                "x, y, z have one type");
+  static_assert(has_xyz<Record>::value,
+                "the point type must have members x, y and z, all float or all double");
   if (count == 0) return {};
   if (&records->y != &records->x + 1 || &records->z != &records->x + 2) {
     throw std::invalid_argument("the point type does not hold x, y, z one after another");

@@ -21,7 +21,7 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(v
 /// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads; returns
 /// when all are done. Serial if the policy has one thread, if there is one chunk, or inside another parallel
 /// region (no oversubscription). If bodies throw, every chunk is still tried and the exception of the lowest
-/// chunk is rethrown.
+/// chunk is rethrown. A child that a body forks may make calls of its own, but never returns from the body.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
   using Callable = std::remove_reference_t<Body>;

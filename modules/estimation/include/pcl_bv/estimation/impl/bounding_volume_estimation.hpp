@@ -74,7 +74,7 @@ std::vector<EstimationResult> BoundingVolumeEstimation<PointT, VolumeT>::compute
 }
 
 template <typename PointT, int K>
-const std::shared_ptr<const KdopSet>& KdopEstimation<PointT, K>::set() {
+const std::shared_ptr<const KdopSet>& KdopEstimation<PointT, K>::of_k() {
   return K == 6    ? KdopSet::dop6()
          : K == 14 ? KdopSet::dop14()
          : K == 18 ? KdopSet::dop18()
@@ -82,14 +82,16 @@ const std::shared_ptr<const KdopSet>& KdopEstimation<PointT, K>::set() {
 }
 
 template <typename PointT, int K>
-EstimationResult KdopEstimation<PointT, K>::compute(Kdop& kdop, SlabPoints& touching) const {
-  return fit_kdop(this->input(), set(), kdop, touching, this->execution());
+void KdopEstimation<PointT, K>::setDirections(std::shared_ptr<const KdopSet> directions) {
+  if (!directions) throw std::invalid_argument("KdopEstimation::setDirections: a null pointer");
+  directions_ = std::move(directions);
 }
 
-template <typename PointT, int K>
-EstimationResult KdopEstimation<PointT, K>::fit(const PointView& points, Kdop& kdop,
-                                                const Execution& execution) const {
-  return fit_kdop(points, set(), kdop, execution);
+template <typename PointT>
+EstimationResult SphereEstimation<PointT>::compute(Sphere& sphere, SphereCertificate& certificate) const {
+  if (options_.method != SphereMethod::exact)
+    throw std::invalid_argument("SphereEstimation: only the method exact has a certificate");
+  return fit_smallest_sphere(this->input(), sphere, certificate, this->execution());
 }
 
 template <typename PointT>

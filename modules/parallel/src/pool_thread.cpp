@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pool_thread.h"
+
+#include <omp.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <initializer_list>
+
+namespace pcl_bv::internal {
+namespace {
+
+// Of the main thread, whose number is the process's. False beyond 1024 processors, which the set cannot hold.
+bool main_thread_processors(cpu_set_t& set) {
+  return ::sched_getaffinity(::getpid(), sizeof set, &set) == 0;
+}
+
+}  // namespace
+
+unsigned process_processors() {
+  cpu_set_t set;
+  return static_cast<unsigned>(main_thread_processors(set) ? CPU_COUNT(&set) : omp_get_num_procs());
+}
+
+void schedule_as_process() {
+  cpu_set_t set;
+  if (main_thread_processors(set)) ::sched_setaffinity(0, sizeof set, &set);
+  const int policy = ::sched_getscheduler(::getpid()) & ~SCHED_RESET_ON_FORK;
+  const bool ordinary = policy == SCHED_BATCH || policy == SCHED_IDLE;
+  const sched_param none{};
+  ::sched_setscheduler(0, ordinary ? policy : SCHED_OTHER, &none);
+  // Linux keeps one nice value for each thread, and 0 is the calling one.
+  const id_t main_thread = static_cast<id_t>(::getpid());
+  ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, main_thread));
+}
+
+SignalsBlocked::SignalsBlocked() {
+  sigset_t all;
+  ::sigfillset(&all);
+  for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS})
+    ::sigdelset(&all, fault);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+}
+
+SignalsBlocked::~SignalsBlocked() {
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+}  // namespace pcl_bv::internal
