@@ -5,7 +5,6 @@
 
 #include "pcl_bv/fitting/fit_obb.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 #include "pcl_bv/kernels/slab_extents.h"
 #include "projection_search.h"
 #include "summarize_bounds.h"
+#include "symmetric_eigen.h"
 
 namespace pcl_bv {
 namespace {
@@ -124,10 +124,7 @@ Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Aab
 }
 
 Eigen::Matrix3d principal_axes(const CloudSummary& summary) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(summary.covariance);
-  Eigen::Matrix3d descending;
-  descending << solver.eigenvectors().col(2), solver.eigenvectors().col(1), solver.eigenvectors().col(0);
-  return orthonormal_axes(descending);
+  return symmetric_eigen(summary.covariance).vectors;
 }
 
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,

@@ -22,7 +22,7 @@ namespace pcl_bv {
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Aabb& around,
                  const Execution& execution);
 
-/// Eigenvectors of the covariance.
+/// Eigenvectors of the covariance, that of the greatest eigenvalue first.
 Eigen::Matrix3d principal_axes(const CloudSummary& summary);
 
 /// A few points in local coordinates.
