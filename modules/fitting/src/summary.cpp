@@ -16,6 +16,7 @@
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/point_source.h"
+#include "same_points.h"
 #include "schedule.h"
 #include "summarize_bounds.h"
 
@@ -57,7 +58,7 @@ double scale_for(const Extremes& extremes) {
 
 // A second pass for such clouds, on a copy: (p - origin) scale is as exact as p - origin. A point that is not
 // valid differs from a valid one by 1e84 at least, so it stays one that is not.
-Moments scaled_moments(const PointView& points, const Coordinates& origin, double scale, Isa isa) {
+Moments scaled_moments(const PointView& points, const Coordinates& origin, double scale, UsableIsa isa) {
   Moments all;
   std::vector<double> xyz;
   for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
@@ -98,14 +99,13 @@ void finish(const Moments& moments, const Coordinates& origin, CloudSummary& sum
 template <typename Found, typename Search, typename Merge>
 Moments pass(const PointView& points, const Execution& execution, double seconds, const Coordinates& origin,
              Search&& search, const Merge& merge) {
-  const Isa isa = resolve_isa(execution.isa);
   Moments moments;
   map_chunks<Part<Found>>(
       points, worthwhile(execution.parallel, seconds),
       [&](const PointView& chunk) {
         Part<Found> part;
         part.extremes = search(chunk);
-        chunk_moments(isa, chunk, origin, part.moments);
+        chunk_moments(execution.isa, chunk, origin, part.moments);
         return part;
       },
       [&](const Part<Found>& part) {
@@ -118,7 +118,8 @@ Moments pass(const PointView& points, const Execution& execution, double seconds
 void finish(const PointView& points, const Execution& execution, const Coordinates& origin, Moments moments,
             CloudSummary& summary) {
   summary.scale = scale_for(summary.extremes);
-  if (summary.scale != 1) moments = scaled_moments(points, origin, summary.scale, resolve_isa(execution.isa));
+  if (summary.scale != 1) moments = scaled_moments(points, origin, summary.scale, execution.isa);
+  require_same_points(moments.count > 0 && moments.count == summary.extremes.used);
   finish(moments, origin, summary);
 }
 
@@ -137,17 +138,18 @@ std::optional<Coordinates> first_valid(const PointView& points) {
 
 CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  const Isa isa = resolve_isa(execution.isa);
+  require_own_extremes(points, execution);
   CloudSummary summary;
   summary.extremes.set = DirectionSet::dop26;
+  summary.extremes.points = points;
   const std::optional<Coordinates> origin = first_valid(points);
   if (!origin) {
     summary.extremes.dropped = points.count;
     return summary;
   }
-  ExtremeSearch search(isa, DirectionSet::dop26, points.count);
+  ExtremeSearch search(execution.isa, DirectionSet::dop26, points.count);
   // Moments cost about as much again as the extremes.
-  const double seconds = 2 * search_seconds(isa, DirectionSet::dop26, points.count);
+  const double seconds = 2 * search_seconds(execution.isa, DirectionSet::dop26, points.count);
   const Moments moments =
       pass<ChunkExtremes>(points, execution, seconds, *origin, search,
                           [&](const ChunkExtremes& found) { merge_extremes(found, summary.extremes); });
@@ -157,9 +159,10 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
 }
 
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution) {
-  const Isa isa = resolve_isa(execution.isa);
+  require_own_extremes(points, execution);
   CloudSummary summary;
   summary.extremes.set = DirectionSet::dop6;
+  summary.extremes.points = points;
   const std::optional<Coordinates> origin = first_valid(points);
   if (!origin) {
     summary.extremes.dropped = points.count;
@@ -168,9 +171,10 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
   summary.extremes.low.fill(std::numeric_limits<double>::infinity());
   summary.extremes.high.fill(-std::numeric_limits<double>::infinity());
   // Moments cost about as much as a 26-DOP, the box next to nothing.
-  const double seconds = search_seconds(isa, DirectionSet::dop26, points.count);
+  const double seconds = search_seconds(execution.isa, DirectionSet::dop26, points.count);
   const Moments moments = pass<AxisExtents>(
-      points, execution, seconds, *origin, [isa](const PointView& chunk) { return axis_extents(isa, chunk); },
+      points, execution, seconds, *origin,
+      [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
       [&](const AxisExtents& found) { merge_bounds(found, summary.extremes); });
   summary.extremes.used = points.count - summary.extremes.dropped;
   finish(points, execution, *origin, moments, summary);

@@ -5,6 +5,7 @@
 
 #include "distances_reference.h"
 #include "pcl_bv/kernels/distances.h"
+#include "preconditions.h"
 #include "square.h"
 #include "targets.h"
 
@@ -140,19 +141,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-std::size_t list_reaching(Isa isa, const PointView& block, const KeptBounds& kept,
+std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBounds& kept,
                           const DistanceCenter& center, double limit, std::uint32_t* positions) {
   static constexpr KernelTable<std::size_t(const PointView&, const KeptBounds&, const DistanceCenter&, double,
                                            std::uint32_t*)>
       kTable = PCL_BV_KERNEL_TABLE(list_reaching, &list_reaching_reference);
+  require_distances(block, center, kBlockPoints);
+  require_bounds(block, kept);
   return kTable[isa](block, kept, center, limit, positions);
 }
 
-std::size_t list_distant(Isa isa, const PointView& points, const DistanceCenter& center, double limit,
+std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions) {
   static constexpr KernelTable<std::size_t(const PointView&, const DistanceCenter&, double, FloatFilter,
                                            std::uint32_t*)>
       kTable = PCL_BV_KERNEL_TABLE(list_distant, &list_distant_reference);
+  require_distances(points, center, kMostPositions);
   return kTable[isa](points, center, limit, filter, positions);
 }
 

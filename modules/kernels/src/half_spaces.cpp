@@ -6,6 +6,7 @@
 #include "pcl_bv/kernels/half_spaces.h"
 
 #include "half_spaces_reference.h"
+#include "preconditions.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -99,10 +100,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-std::size_t list_outside(Isa isa, const PointView& points, const HalfSpaces& inside,
+std::size_t list_outside(UsableIsa isa, const PointView& points, const HalfSpaces& inside,
                          std::uint32_t* positions) {
   static constexpr KernelTable<std::size_t(const PointView&, const HalfSpaces&, std::uint32_t*)> kTable =
       PCL_BV_KERNEL_TABLE(list_outside, &list_outside_reference);
+  require_in_memory(points, kMostPositions);
+  require_at_most(kMaxHalfSpaces, inside.count, "half-spaces");
   return kTable[isa](points, inside, positions);
 }
 

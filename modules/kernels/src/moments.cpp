@@ -9,6 +9,7 @@
 
 #include "moments_reference.h"
 #include "pcl_bv/kernels/chunks.h"
+#include "preconditions.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -112,9 +113,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void chunk_moments(Isa isa, const PointView& chunk, const Coordinates& origin, Moments& out) {
+void chunk_moments(UsableIsa isa, const PointView& chunk, const Coordinates& origin, Moments& out) {
   static constexpr KernelTable<void(const PointView&, const Coordinates&, Moments&)> kTable =
       PCL_BV_KERNEL_TABLE(chunk_moments, &chunk_moments_reference);
+  require_in_memory(chunk, kChunkPoints);
+  require_origin(chunk, origin);
   kTable[isa](chunk, origin, out);
 }
 

@@ -47,7 +47,7 @@ struct CloudSummary {
 /// of the points may round centroid and covariance otherwise.
 ///
 /// Covariance by the shifted formula, sum of squares about the first valid point minus that point's share, in
-/// double (Chan, Golub, LeVeque 1983). Throws std::invalid_argument for an unusable instruction set.
+/// double (Chan, Golub, LeVeque 1983).
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

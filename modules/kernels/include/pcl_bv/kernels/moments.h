@@ -24,9 +24,10 @@ struct Moments {
 /// rounding errors of the sum of magnitudes (128 points a lane, 32 blocks, 8 lanes, the subtraction and the
 /// product) in a chunk of kChunkPoints.
 ///
-/// `origin` must be a valid point of the cloud's scalar type: a point of the cloud, say. `isa` must come from
-/// resolve_isa() and changes no bit. Never throws. O(n). Runs in the caller's floating-point environment:
-/// hold a FloatEnvironment.
-void chunk_moments(Isa isa, const PointView& chunk, const Coordinates& origin, Moments& out);
+/// `origin` must be a valid point of the cloud's scalar type: a point of the cloud, say. `isa` changes no
+/// bit. O(n). Runs in the caller's floating-point environment: hold a FloatEnvironment. Throws
+/// std::invalid_argument for another origin, for more than kChunkPoints points, and unless they are in
+/// memory.
+void chunk_moments(UsableIsa isa, const PointView& chunk, const Coordinates& origin, Moments& out);
 
 }  // namespace pcl_bv
