@@ -22,7 +22,7 @@ template <typename T>
 std::vector<Moments> moments_of_blocks(const TestCloud<T>& cloud) {
   std::vector<Moments> all;
   for (std::size_t block = 0; block * kBlockPoints < cloud.size(); ++block)
-    all.push_back(block_moments(resolve_isa(Isa::automatic), block_of(cloud.view(), block)));
+    all.push_back(block_moments(Isa::automatic, block_of(cloud.view(), block)));
   return all;
 }
 
@@ -89,7 +89,7 @@ TEST(MomentTree, ChunksNumberTheirBlocksFromZero) {
 TEST(MomentTree, OfNoValidPointIsEmptyWhereverItStands) {
   EXPECT_EQ(MomentTree().total().count, 0U);
   const TestCloud<float> cloud = test::gaussian<float>(100, 3);
-  const Moments some = block_moments(resolve_isa(Isa::automatic), cloud.view());
+  const Moments some = block_moments(Isa::automatic, cloud.view());
   MomentTree tree;
   tree.append(0, Moments());
   tree.append(1, some);

@@ -7,52 +7,24 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "clouds.h"
 #include "executions.h"
+#include "numbers.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/summary.h"
 #include "pcl_bv/fitting/verify.h"
+#include "sources.h"
 
 namespace pcl_bv {
 namespace {
 
+using test::CopyingSource;
+
 // Two chunks and a piece of a third.
 constexpr std::size_t kCount = 2 * kChunkPoints + 777;
-
-// Copies what is asked for into the buffer, and spoils whatever else is in there.
-template <typename T>
-class CopyingSource : public PointSource {
- public:
-  explicit CopyingSource(const test::TestCloud<T>& cloud) : cloud_(cloud) {}
-
-  PointView view() const {
-    return view_of(*this, cloud_.size(), sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64);
-  }
-
-  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
-    if (count > kChunkPoints || first + count > cloud_.size()) throw std::logic_error("asked for too much");
-    ++loads;
-    if (fail_at && first <= *fail_at && *fail_at < first + count) throw std::runtime_error("cut");
-    buffer.assign(std::max(buffer.size(), count * 3 * sizeof(T) + 64), std::byte{0x7f});
-    std::copy_n(reinterpret_cast<const std::byte*>(&cloud_.xyz[3 * first]), count * 3 * sizeof(T),
-                buffer.data());
-    PointView view = PointView::of(reinterpret_cast<const T*>(buffer.data()), 3 * sizeof(T), count);
-    view.first = first;
-    return view;
-  }
-
-  mutable std::atomic<std::size_t> loads = 0;
-  std::optional<std::size_t> fail_at;
-
- private:
-  const test::TestCloud<T>& cloud_;
-};
 
 template <typename T>
 test::TestCloud<T> ball_surface() {
@@ -115,6 +87,36 @@ TEST(PointSource, EveryMethodGivesTheBitsOfPointsInMemory) {
 
 TEST(PointSource, EveryMethodGivesTheBitsOfDoublesInMemory) {
   expect_same_fits<double>();
+}
+
+// Few points take ways of their own: all of them, not only the extremal ones, are asked for at once.
+template <typename T>
+void expect_same_fits_of_few() {
+  for (const std::size_t n : {0, 1, 2, 5, 14, 28, 29, 98, 99, 300, 1000}) {
+    test::TestCloud<T> cloud = test::gaussian<T>(n + 10, n);
+    cloud.xyz[3 * 7 + 1] = std::numeric_limits<T>::quiet_NaN();
+    const CopyingSource<T> source(cloud);
+    for (const std::size_t begin : {0, 3}) {
+      const PointView passing_points = source.view().slice(begin, n), points = cloud.view().slice(begin, n);
+      for (const Method& method : methods()) {
+        SCOPED_TRACE(cloud.name + ", from " + std::to_string(begin) + ", " + std::string(method.name));
+        AnyVolume held, passing;
+        const EstimationResult expected = method.fit(points, held, {});
+        const EstimationResult result = method.fit(passing_points, passing, {});
+        EXPECT_EQ(test::bits(passing), test::bits(held));
+        EXPECT_EQ(result.used, expected.used);
+        EXPECT_EQ(result.dropped, expected.dropped);
+      }
+    }
+  }
+}
+
+TEST(PointSource, EveryMethodGivesTheBitsOfAFewPointsInMemory) {
+  expect_same_fits_of_few<float>();
+}
+
+TEST(PointSource, EveryMethodGivesTheBitsOfAFewDoublesInMemory) {
+  expect_same_fits_of_few<double>();
 }
 
 TEST(PointSource, TheMinimalBoxIsThatOfPointsInMemory) {

@@ -5,11 +5,13 @@
 #include "pcl_bv/io/cloud_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstring>
+#include <fstream>
 
-#include "files.h"
 #include "allocations.h"
+#include "files.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/read_cloud.h"
@@ -121,6 +123,59 @@ TEST_F(CloudInFile, ThatIsCutWhileItIsReadIsAnError) {
       EXPECT_STREQ(error.what(), "truncated: the file became shorter while it was read");
     }
   }
+}
+
+// Overwrites the last byte of a file, or appends one, until its status tells: the clock of files has ticks.
+void change_in_place(const std::filesystem::path& path, long from_end) {
+  const auto changed = [&path] {
+    struct stat status;
+    EXPECT_EQ(::stat(path.c_str(), &status), 0);
+    return std::pair(status.st_ctim.tv_sec, status.st_ctim.tv_nsec);
+  };
+  const auto before = changed();
+  while (changed() == before) {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(from_end, std::ios::end).put('x');
+  }
+}
+
+std::string reason_for_fit(const CloudFile& cloud) {
+  try {
+    AnyVolume box;
+    find_method("aabb")->fit(cloud.xyz(), box, {});
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(CloudInFile, ThatIsRewrittenWhileItIsReadIsAnError) {
+  const RawCloud cloud = sample_cloud(sample_layouts()[0], kPoints, 1, 1);
+  for (const long from_end : {-1, 0}) {
+    const std::filesystem::path path = write(cloud);
+    const auto opened = CloudFile::open(path);
+    EXPECT_EQ(reason_for_fit(*opened), "");
+    change_in_place(path, from_end);
+    EXPECT_EQ(reason_for_fit(*opened), "the file was changed while it was read");
+  }
+}
+
+TEST_F(CloudInFile, ThatIsRewrittenByOneWhoHidesItIsAnErrorToo) {
+  const std::filesystem::path path = write(sample_cloud(sample_layouts()[0], kPoints, 1, 1));
+  const auto written = std::filesystem::last_write_time(path);
+  const auto opened = CloudFile::open(path);
+  change_in_place(path, -1);
+  std::filesystem::last_write_time(path, written);
+  EXPECT_EQ(reason_for_fit(*opened), "the file was changed while it was read");
+}
+
+TEST_F(CloudInFile, ThatAnotherTakesThePlaceOfIsReadToItsEnd) {
+  const RawCloud cloud = sample_cloud(sample_layouts()[0], kPoints, 1, 1);
+  const std::filesystem::path path = write(cloud);
+  const auto opened = CloudFile::open(path);
+  write(sample_cloud(sample_layouts()[0], kPoints, 1, 2));
+  EXPECT_EQ(reason_for_fit(*opened), "");
+  expect_same_points(opened->xyz(), cloud.xyz());
 }
 
 TEST_F(CloudInFile, IsFittedInLittleMemory) {

@@ -79,8 +79,7 @@ TEST(Isa, SetsAreThoseThatHighwayFinds) {
 }
 
 TEST(Isa, SetsOfOtherProcessorsAreErrorsThatListTheUsableOnes) {
-  EXPECT_THAT(error_of([] { resolve_isa(Isa::neon); }),
-              HasSubstr("'neon' is not usable here (usable: scalar"));
+  EXPECT_THAT(error_of([] { UsableIsa{Isa::neon}; }), HasSubstr("'neon' is not usable here (usable: scalar"));
 }
 #endif
 
@@ -88,24 +87,36 @@ TEST(Isa, AutomaticIsTheBestUsableSet) {
   const Environment environment(nullptr);
   const std::vector<Isa> usable = usable_isas();
   const bool arm = std::find(usable.begin(), usable.end(), Isa::neon) != usable.end();
-  EXPECT_EQ(resolve_isa(Isa::automatic), arm ? Isa::neon : usable.back());
+  EXPECT_EQ(Isa{UsableIsa()}, arm ? Isa::neon : usable.back());
 }
 
 TEST(Isa, AutomaticObeysTheEnvironment) {
   for (const Isa isa : usable_isas()) {
     const Environment environment(std::string(isa_name(isa)).c_str());
-    EXPECT_EQ(resolve_isa(Isa::automatic), isa);
+    EXPECT_EQ(Isa{UsableIsa()}, isa);
   }
+}
+
+TEST(Isa, ACopyKeepsItsSetWhateverTheEnvironmentSaysByThen) {
+  const Environment environment("scalar");
+  const UsableIsa scalar;
+  setenv("PCL_BV_ISA", "foo", 1);
+  const UsableIsa copy = scalar;
+  EXPECT_EQ(Isa{copy}, Isa::scalar);
+}
+
+TEST(Isa, WhatIsNoSetAtAllIsAnError) {
+  EXPECT_THAT(error_of([] { UsableIsa{static_cast<Isa>(8)}; }), HasSubstr("'unknown' is not usable here"));
 }
 
 TEST(Isa, AnExplicitSetOverridesTheEnvironment) {
   const Environment environment("foo");
-  EXPECT_EQ(resolve_isa(Isa::scalar), Isa::scalar);
+  EXPECT_EQ(Isa{UsableIsa(Isa::scalar)}, Isa::scalar);
 }
 
 TEST(Isa, AnUnknownNameInTheEnvironmentIsAnError) {
   const Environment environment("foo");
-  EXPECT_THAT(error_of([] { resolve_isa(Isa::automatic); }), HasSubstr("unknown instruction set 'foo'"));
+  EXPECT_THAT(error_of([] { UsableIsa(); }), HasSubstr("unknown instruction set 'foo'"));
 }
 
 TEST(Isa, AnUnusableSetInTheEnvironmentIsAnError) {
@@ -114,7 +125,7 @@ TEST(Isa, AnUnusableSetInTheEnvironmentIsAnError) {
 #else
   const Environment environment("avx2");
 #endif
-  EXPECT_THAT(error_of([] { resolve_isa(Isa::automatic); }), HasSubstr("is not usable here"));
+  EXPECT_THAT(error_of([] { UsableIsa(); }), HasSubstr("is not usable here"));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "same_points.h"
 #include "schedule.h"
 
 namespace pcl_bv {
@@ -42,7 +43,7 @@ bool beats(const FarPoint& a, const FarPoint& b) {
 }
 
 // The block's points of that octant and distance compete for `best`.
-void find_in_block(Isa isa, const PointView& block, const DistanceCenter& center, std::size_t in_octant,
+void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& center, std::size_t in_octant,
                    double squared, FloatFilter filter, FarPoint& best) {
   std::array<std::uint32_t, kBlockPoints> positions;
   const std::size_t count = list_distant(isa, block, center, squared, filter, positions.data());
@@ -59,7 +60,7 @@ void find_in_block(Isa isa, const PointView& block, const DistanceCenter& center
 DistanceScan::DistanceScan(const PointView& points, const Execution& execution)
     : points_(points),
       parallel_(execution.parallel),
-      isa_(resolve_isa(execution.isa)),
+      isa_(execution.isa),
       filter_(FloatFilter::off),
       blocks_(block_count(points.count)) {
   if (points.scalar == ScalarType::float32 && blocks_ > kFewBlocks) filter_ = FloatFilter::reject;
@@ -194,6 +195,7 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
       if (chunks[block / kBlocksPerChunk].blocks[block % kBlocksPerChunk][o] != best[o]) continue;
       find_in_block(isa_, blocks(block, 1).view(), center, o, best[o], filter_, found[o]);
     }
+    require_same_points(found[o].squared_distance == best[o]);
   }
   const auto filtered =
       std::count_if(chunks.begin(), chunks.end(), [](const ChunkOctants& c) { return c.filtered; });

@@ -36,7 +36,7 @@ using BlockNumbers = SmallVector<double, 16>;
 /// All squared distances are squared_distance() of the kernels. No result depends on the execution.
 class DistanceScan {
  public:
-  /// Keeps the view, and the execution, whose set must be usable.
+  /// Keeps the view and the execution.
   DistanceScan(const PointView& points, const Execution& execution);
 
   const PointView& points() const { return points_; }
@@ -87,7 +87,7 @@ class DistanceScan {
 
   PointView points_;
   ParallelPolicy parallel_;
-  Isa isa_;
+  UsableIsa isa_;
   FloatFilter filter_;
   std::size_t blocks_;
 

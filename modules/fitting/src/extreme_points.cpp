@@ -5,11 +5,9 @@
 
 #include "pcl_bv/fitting/extreme_points.h"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
-#include <string>
 
+#include "extreme_search.h"
 #include "map_chunks.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "projection_search.h"
@@ -29,21 +27,10 @@ double serial_seconds(Isa isa, std::size_t directions, std::size_t points) {
 }
 
 ProjectionSet checked(const Direction* directions, std::size_t count) {
-  if (count == 0 || count > kMaxProjections) {
-    throw std::invalid_argument("find_extreme_points: " + std::to_string(count) +
-                                " directions, must be 1 to " + std::to_string(kMaxProjections));
-  }
+  if (count == 0) throw std::invalid_argument("find_extreme_points: no directions");
   ProjectionSet set;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Direction& d = directions[k];
-    const double largest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
-    const bool finite = std::isfinite(d[0]) && std::isfinite(d[1]) && std::isfinite(d[2]);
-    if (!finite || largest < 1e-30 || largest > 1e30) {
-      throw std::invalid_argument("find_extreme_points: direction " + std::to_string(set.count) +
-                                  " must be finite with its largest component from 1e-30 to 1e30");
-    }
-    set.add(d);
-  }
+  for (std::size_t k = 0; k < count; ++k)
+    set.add(directions[k]);
   return set;
 }
 
@@ -60,14 +47,14 @@ DirectionExtremes ProjectionSearch::along(std::size_t k) const {
 
 ProjectionSearch search_projections(const PointView& points, const Direction* directions, std::size_t count,
                                     const Execution& execution) {
-  const Isa isa = resolve_isa(execution.isa);
+  require_own_extremes(points, execution);
   ProjectionSearch search{checked(directions, count), {}};
   const ProjectionSet& set = search.set;
   SharedReach<kMaxProjectionEnds> reach;
   const bool shared = chunk_count(points.count) > 1;
   const auto find = [&](const PointView& chunk) {
     ChunkFarthest farthest;
-    chunk_farthest(isa, chunk, set, reach.snapshot(), farthest);
+    chunk_farthest(execution.isa, chunk, set, reach.snapshot(), farthest);
     for (std::size_t end = 0; end < 2 * set.count && shared; ++end) {
       const FarthestPoint& point = farthest.ends[end];
       if (point.found) reach.raise(end, surely_reached(set, end, point.point));
@@ -79,7 +66,7 @@ ProjectionSearch search_projections(const PointView& points, const Direction* di
     for (std::size_t end = 0; end < 2 * set.count; ++end)
       keep_farthest(set.end_direction(end), part.ends[end], search.farthest.ends[end]);
   };
-  const double seconds = serial_seconds(isa, set.count, points.count);
+  const double seconds = serial_seconds(execution.isa, set.count, points.count);
   map_chunks<ChunkFarthest>(points, worthwhile(execution.parallel, seconds), find, merge);
   return search;
 }

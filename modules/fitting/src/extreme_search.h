@@ -12,6 +12,10 @@
 
 namespace pcl_bv {
 
+/// Throws std::invalid_argument if the execution has extremes, but not those of these points. For every fit,
+/// also where it does not use them.
+void require_own_extremes(const PointView& points, const Execution& execution);
+
 /// What one thread needs for the search, about; it decides whether threads are worth starting.
 double search_seconds(Isa isa, DirectionSet set, std::size_t points);
 
@@ -20,13 +24,13 @@ double search_seconds(Isa isa, DirectionSet set, std::size_t points);
 class ExtremeSearch {
  public:
   /// `points` is the size of the whole cloud: a single chunk has nobody to tell.
-  ExtremeSearch(Isa isa, DirectionSet set, std::size_t points);
+  ExtremeSearch(UsableIsa isa, DirectionSet set, std::size_t points);
 
   /// Needs a FloatEnvironment.
   ChunkExtremes operator()(const PointView& chunk);
 
  private:
-  Isa isa_;
+  UsableIsa isa_;
   DirectionSet set_;
   bool shared_;
   SharedReach<kMaxEnds> reach_;

@@ -6,6 +6,7 @@
 #include "pcl_bv/fitting/extremes.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "extreme_search.h"
 #include "map_chunks.h"
@@ -36,13 +37,13 @@ PointCost point_cost(Isa isa) {
   }
 }
 
-void find_bounds(const PointView& points, const Execution& execution, Isa isa, Extremes& out) {
+void find_bounds(const PointView& points, const Execution& execution, Extremes& out) {
   out.low.fill(kInfinity);
   out.high.fill(-kInfinity);
-  const ParallelPolicy policy =
-      worthwhile(execution.parallel, point_cost(isa).box * 1e-9 * static_cast<double>(points.count));
+  const ParallelPolicy policy = worthwhile(
+      execution.parallel, point_cost(execution.isa).box * 1e-9 * static_cast<double>(points.count));
   map_chunks<AxisExtents>(
-      points, policy, [&](const PointView& chunk) { return axis_extents(isa, chunk); },
+      points, policy, [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
       [&](const AxisExtents& part) {
         out.dropped += part.dropped;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -54,10 +55,10 @@ void find_bounds(const PointView& points, const Execution& execution, Isa isa, E
     out.constant[axis] = out.low[axis] == out.high[axis];
 }
 
-void find_points(const PointView& points, const Execution& execution, Isa isa, Extremes& out) {
-  ExtremeSearch search(isa, out.set, points.count);
+void find_points(const PointView& points, const Execution& execution, Extremes& out) {
+  ExtremeSearch search(execution.isa, out.set, points.count);
   map_chunks<ChunkExtremes>(
-      points, worthwhile(execution.parallel, search_seconds(isa, out.set, points.count)),
+      points, worthwhile(execution.parallel, search_seconds(execution.isa, out.set, points.count)),
       [&](const PointView& chunk) { return search(chunk); },
       [&](const ChunkExtremes& part) { merge_extremes(part, out); });
 }
@@ -75,6 +76,7 @@ Extremes part_of(const Extremes& known, DirectionSet set) {
   part.detail = known.detail;
   part.used = known.used;
   part.dropped = known.dropped;
+  part.points = known.points;
   const bool of_all = known.set == DirectionSet::dop26;
   for (std::size_t k = 0; k < direction_count(set); ++k) {
     const std::size_t from = of_all ? cube_direction(set, k) : k;
@@ -89,12 +91,17 @@ Extremes part_of(const Extremes& known, DirectionSet set) {
 
 }  // namespace
 
+void require_own_extremes(const PointView& points, const Execution& execution) {
+  if (execution.extremes != nullptr && !same_places(execution.extremes->points, points))
+    throw std::invalid_argument("Execution::extremes are those of other points");
+}
+
 double search_seconds(Isa isa, DirectionSet set, std::size_t points) {
   const double per_direction = point_cost(isa).dop26 * 1e-9 / 13.0;
   return per_direction * static_cast<double>(direction_count(set)) * static_cast<double>(points);
 }
 
-ExtremeSearch::ExtremeSearch(Isa isa, DirectionSet set, std::size_t points)
+ExtremeSearch::ExtremeSearch(UsableIsa isa, DirectionSet set, std::size_t points)
     : isa_(isa), set_(set), shared_(chunk_count(points) > 1) {}
 
 ChunkExtremes ExtremeSearch::operator()(const PointView& chunk) {
@@ -128,18 +135,19 @@ void finish_extremes(std::size_t points, Extremes& extremes) {
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,
                        const Execution& execution) {
   const FloatEnvironment environment;
-  const Isa isa = resolve_isa(execution.isa);
+  require_own_extremes(points, execution);
   if (execution.extremes != nullptr && holds(*execution.extremes, set, detail))
     return part_of(*execution.extremes, set);
   Extremes extremes;
   extremes.set = set;
   extremes.detail = detail;
+  extremes.points = points;
   if (set == DirectionSet::dop6 && detail == ExtremeDetail::bounds) {
-    find_bounds(points, execution, isa, extremes);
+    find_bounds(points, execution, extremes);
     extremes.used = points.count - extremes.dropped;
     if (extremes.used == 0) extremes.low = extremes.high = {};
   } else {
-    find_points(points, execution, isa, extremes);
+    find_points(points, execution, extremes);
     finish_extremes(points.count, extremes);
   }
   return extremes;

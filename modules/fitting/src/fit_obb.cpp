@@ -5,7 +5,6 @@
 
 #include "pcl_bv/fitting/fit_obb.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,7 +14,9 @@
 #include "pcl_bv/numeric/exact_sum.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "projection_search.h"
+#include "same_points.h"
 #include "summarize_bounds.h"
+#include "symmetric_eigen.h"
 
 namespace pcl_bv {
 namespace {
@@ -32,7 +33,7 @@ Eigen::Vector3d unit_up(const Eigen::Vector3d& up) {
 EstimationResult fit_pca(const PointView& points, Obb& box, const Execution& execution) {
   const CloudSummary summary = summarize_bounds(points, execution);
   if (summary.extremes.used > 0)
-    box = measured_box(principal_axes(summary), points, summary.aabb(), execution);
+    box = measured_box(principal_axes(summary), points, summary.extremes, execution);
   return summary.result();
 }
 
@@ -42,7 +43,7 @@ EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& 
     const LocalFrame frame(points, extremes);
     const Eigen::Matrix3d axes = dito_axes(few_points(points, extremes, frame), extremes, frame);
     const Aabb upright = aabb_of(extremes);
-    if (!axes.isIdentity(0)) box = measured_box(axes, points, upright, execution);
+    if (!axes.isIdentity(0)) box = measured_box(axes, points, extremes, execution);
     if (box.empty() || !(box.surface_area() < upright.surface_area())) box = Obb(upright).canonical();
   }
   return result_of(extremes);
@@ -52,7 +53,7 @@ EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution&
   const CloudSummary summary = summarize(points, execution);
   if (summary.extremes.used > 0) {
     const LocalFrame frame(points, summary.extremes);
-    box = measured_box(minimal_axes(points, summary, frame, execution), points, summary.aabb(), execution);
+    box = measured_box(minimal_axes(points, summary, frame, execution), points, summary.extremes, execution);
   }
   return summary.result();
 }
@@ -64,7 +65,7 @@ EstimationResult fit_upright(const PointView& points, const ObbOptions& options,
   if (extremes.used > 0) {
     const LocalFrame frame(points, extremes);
     const auto axes = options.method == ObbMethod::yaw ? yaw_axes : lshape_axes;
-    box = measured_box(axes(points, extremes, frame, up, execution), points, aabb_of(extremes), execution);
+    box = measured_box(axes(points, extremes, frame, up, execution), points, extremes, execution);
   }
   return result_of(extremes);
 }
@@ -81,29 +82,35 @@ Direction direction(const Eigen::Vector3d& axis) {
 // |q|_1 at most, twice what it can be (obb.cpp); the sides of the points' box add up to no less than any
 // |q|_1, and the smallest normal covers products that underflow. Coordinate axes need none of that: the box
 // says exactly how far the points reach.
-Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Aabb& around, Isa isa) {
-  const Coordinates origin = *first_valid(points);
+Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Extremes& extremes,
+                UsableIsa isa) {
+  const LoadedPoints loaded(points, 0, points.count);
+  const std::optional<Coordinates> origin = first_valid(loaded.view());
+  require_same_points(origin && within(extremes, *origin));
   const SlabExtents found = slab_extents(
-      isa, points, origin, {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))});
-  const Eigen::Vector3d size = around.max() - around.min(), from(origin.x, origin.y, origin.z);
-  const double rounding = 0x1p-50 * ((size.x() + size.y()) + size.z()) + kSmallestNormal;
+      isa, loaded.view(), *origin, {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))});
+  const Eigen::Vector3d from = vector(*origin);
+  const auto side = [&](std::size_t axis) { return extremes.high[axis] - extremes.low[axis]; };
+  const double rounding = 0x1p-50 * ((side(0) + side(1)) + side(2)) + kSmallestNormal;
   Eigen::Vector3d low, high;
-  for (int i = 0; i < 3; ++i) {
-    low[i] = found.low[static_cast<std::size_t>(i)] - rounding;
-    high[i] = found.high[static_cast<std::size_t>(i)] + rounding;
-    for (int k = 0; k < 3; ++k) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    low[i] = found.low[i] - rounding;
+    high[i] = found.high[i] + rounding;
+    for (std::size_t k = 0; k < 3; ++k) {
       if (axes.col(i) != Eigen::Vector3d::Unit(k)) continue;
-      low[i] = round_down(exact_sum(around.min()[k], -from[k], 0));
-      high[i] = round_up(exact_sum(around.max()[k], -from[k], 0));
+      low[i] = round_down(exact_sum(extremes.low[k], -from[k], 0));
+      high[i] = round_up(exact_sum(extremes.high[k], -from[k], 0));
     }
   }
   return Obb::from_slabs(axes, from, low, high);
 }
 
 // Many points: floats reject nearly all of them, and the extremes are exact.
-Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Execution& execution) {
+Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Extremes& extremes,
+                 const Execution& execution) {
   const Direction directions[] = {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))};
   const ProjectionSearch found = search_projections(points, directions, 3, execution);
+  require_same_points(found.farthest.dropped == extremes.dropped);
   Eigen::Vector3d low, high;
   for (int i = 0; i < 3; ++i) {
     const DirectionExtremes along = found.along(static_cast<std::size_t>(i));
@@ -115,19 +122,16 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Exe
 
 }  // namespace
 
-Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Aabb& around,
+Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Extremes& extremes,
                  const Execution& execution) {
   constexpr std::size_t few_points = 2048;
-  const Obb box = points.count <= few_points ? measure_few(axes, points, around, resolve_isa(execution.isa))
-                                             : measure_many(axes, points, execution);
+  const Obb box = points.count <= few_points ? measure_few(axes, points, extremes, execution.isa)
+                                             : measure_many(axes, points, extremes, execution);
   return box.canonical();
 }
 
 Eigen::Matrix3d principal_axes(const CloudSummary& summary) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(summary.covariance);
-  Eigen::Matrix3d descending;
-  descending << solver.eigenvectors().col(2), solver.eigenvectors().col(1), solver.eigenvectors().col(0);
-  return orthonormal_axes(descending);
+  return symmetric_eigen(summary.covariance).vectors;
 }
 
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,

@@ -74,7 +74,7 @@ FirstBall epos_ball(const PointView& points, SphereMethod method, const Extremes
                     const LocalFrame& frame, const Execution& execution) {
   const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(extremes.set);
   const bool few = points.count <= ends;
-  SeedPoints seeds = few ? SeedPoints(points) : SeedPoints(extremes);
+  SeedPoints seeds = few ? SeedPoints(points, extremes) : SeedPoints(extremes);
   if (method == SphereMethod::epos98 && !few) {
     static const std::vector<std::array<double, 3>> directions = epos98_directions();
     for (const DirectionExtremes& along : find_extreme_points(points, directions, execution).along) {

@@ -15,6 +15,7 @@
 #include "map_chunks.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "planar_hull.h"
+#include "same_points.h"
 #include "schedule.h"
 
 namespace pcl_bv {
@@ -34,11 +35,10 @@ double seconds_per_point(Isa isa) {
 
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
                                        const LocalFrame& frame, const Execution& execution) {
-  const Isa isa = resolve_isa(execution.isa);
   std::vector<HullPoint> all;
   const auto list = [&](const PointView& chunk) {
     std::vector<std::uint32_t> positions(chunk.count);
-    positions.resize(list_outside(isa, chunk, inside, positions.data()));
+    positions.resize(list_outside(execution.isa, chunk, inside, positions.data()));
     std::vector<HullPoint> found;
     for (const std::uint32_t i : positions) {
       const Coordinates p = load_point(chunk, i);
@@ -53,9 +53,17 @@ std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces
       all.insert(all.end(), part.begin(), part.end());
     }
   };
-  const double seconds = seconds_per_point(isa) * static_cast<double>(points.count);
+  const double seconds = seconds_per_point(execution.isa) * static_cast<double>(points.count);
   map_chunks<std::vector<HullPoint>>(points, worthwhile(execution.parallel, seconds), list, append);
   return all;
+}
+
+// That of all points: no point strictly inside a hull is on a side of its box.
+Aabb box_of(const std::vector<HullPoint>& candidates) {
+  Aabb box;
+  for (const HullPoint& candidate : candidates)
+    box.extend(vector(candidate.point));
+  return box;
 }
 
 // The candidate that is farthest from the origin's line along col(0) of `axes`, or from the plane of its
@@ -158,6 +166,7 @@ LocalHull local_hull(const PointView& points, const Extremes& extremes, const Lo
   HalfSpaces inside;
   if (extremes.used > kFewPoints) inside = inner_polytope(points, extremes, frame);
   hull.candidates = find_candidates(points, inside, frame, execution);
+  require_same_points(box_of(hull.candidates) == aabb_of(extremes));
   find_rank(frame.local(extremes.low_point[0].point), hull);
   switch (hull.rank) {
     case 3:

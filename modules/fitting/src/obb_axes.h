@@ -18,11 +18,11 @@ namespace pcl_bv {
 
 /// A canonical box along the axes around all valid points, of which there must be one: by exact arithmetic,
 /// and tight to a few units in the last place of the extents and of the centre. Columns unit and orthogonal
-/// to 1e-12; `around` is the points' axis-aligned box. Needs a FloatEnvironment.
-Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Aabb& around,
+/// to 1e-12; `extremes` along any set. Needs a FloatEnvironment.
+Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Extremes& extremes,
                  const Execution& execution);
 
-/// Eigenvectors of the covariance.
+/// Eigenvectors of the covariance, that of the greatest eigenvalue first.
 Eigen::Matrix3d principal_axes(const CloudSummary& summary);
 
 /// A few points in local coordinates.

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "obb_axes.h"
+#include "same_points.h"
 
 namespace pcl_bv {
 namespace {
@@ -105,11 +106,12 @@ Eigen::Matrix3d along_line(const Eigen::Vector3d& e) {
 FewPoints few_points(const PointView& points, const Extremes& extremes, const LocalFrame& frame) {
   FewPoints few;
   const std::size_t directions = direction_count(extremes.set);
-  for (std::size_t i = 0; i < points.count && points.count <= 2 * directions; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (is_valid(p)) few.push_back(frame.local(p));
+  if (points.count <= 2 * directions) {
+    for_each_valid(points, extremes,
+                   [&](std::size_t, const Coordinates& p) { few.push_back(frame.local(p)); });
+    return few;
   }
-  for (std::size_t k = 0; k < directions && points.count > 2 * directions; ++k) {
+  for (std::size_t k = 0; k < directions; ++k) {
     few.push_back(frame.local(extremes.low_point[k].point));
     few.push_back(frame.local(extremes.high_point[k].point));
   }

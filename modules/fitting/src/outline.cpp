@@ -13,6 +13,7 @@
 #include "map_chunks.h"
 #include "obb_axes.h"
 #include "pcl_bv/kernels/half_spaces.h"
+#include "same_points.h"
 #include "schedule.h"
 
 namespace pcl_bv {
@@ -50,8 +51,8 @@ HalfSpaces walls(const PointView& points, const FewPoints& few, const LocalFrame
   return result;
 }
 
-Outline chunk_outline(Isa isa, const PointView& chunk, const HalfSpaces& inside, const LocalFrame& frame,
-                      const Ground& ground) {
+Outline chunk_outline(UsableIsa isa, const PointView& chunk, const Extremes& extremes,
+                      const HalfSpaces& inside, const LocalFrame& frame, const Ground& ground) {
   std::array<std::uint32_t, kBlockPoints> positions;
   Outline outline;
   for (std::size_t k = 0; k * kBlockPoints < chunk.count; ++k) {
@@ -59,7 +60,9 @@ Outline chunk_outline(Isa isa, const PointView& chunk, const HalfSpaces& inside,
     const std::size_t count = list_outside(isa, block, inside, positions.data());
     for (std::size_t i = 0; i < count; ++i) {
       const Coordinates p = load_point(block, positions[i]);
-      if (is_valid(p)) outline.push_back(ground.flat(frame.local(p)));
+      if (!is_valid(p)) continue;
+      require_same_points(within(extremes, p));
+      outline.push_back(ground.flat(frame.local(p)));
     }
   }
   outline.resize(to_convex_chain(outline.data(), outline.size()));
@@ -86,17 +89,19 @@ Eigen::Matrix3d Ground::axes_along(const Eigen::Vector2d& side) const {
 
 Outline outline_from_above(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
                            const Ground& ground, const Execution& execution) {
-  const Isa isa = resolve_isa(execution.isa);
   const HalfSpaces inside = walls(points, few_points(points, extremes, frame), frame, ground);
   constexpr double seconds_per_point = 5e-9;  // between 1 ns, all inside, and 50 ns, none
   Outline outline;
   map_chunks<Outline>(
       points, worthwhile(execution.parallel, seconds_per_point * static_cast<double>(points.count)),
-      [&](const PointView& chunk) { return chunk_outline(isa, chunk, inside, frame, ground); },
+      [&](const PointView& chunk) {
+        return chunk_outline(execution.isa, chunk, extremes, inside, frame, ground);
+      },
       [&](const Outline& part) {
         for (const Eigen::Vector2d& corner : part)
           outline.push_back(corner);
       });
+  require_same_points(outline.size() > 0);
   if (chunk_count(points.count) > 1) outline.resize(to_convex_chain(outline.data(), outline.size()));
   return outline;
 }

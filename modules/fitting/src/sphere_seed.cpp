@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "same_points.h"
+
 namespace pcl_bv {
 
 SeedPoints::SeedPoints(const Extremes& extremes) {
@@ -17,11 +19,10 @@ SeedPoints::SeedPoints(const Extremes& extremes) {
   make_unique();
 }
 
-SeedPoints::SeedPoints(const PointView& points) {
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (is_valid(p)) seeds_.push_back({points.index(i), p});
-  }
+SeedPoints::SeedPoints(const PointView& points, const Extremes& extremes) {
+  for_each_valid(points, extremes, [&](std::size_t index, const Coordinates& p) {
+    seeds_.push_back({index, p});
+  });
   make_unique();
 }
 

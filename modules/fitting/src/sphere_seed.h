@@ -22,8 +22,8 @@ class SeedPoints {
   /// The points of both ends of all of the extremes' directions, which must have been asked for.
   explicit SeedPoints(const Extremes& extremes);
 
-  /// All valid points.
-  explicit SeedPoints(const PointView& points);
+  /// All valid points, with their extremes.
+  SeedPoints(const PointView& points, const Extremes& extremes);
 
   std::size_t size() const { return seeds_.size(); }
   const Seed& operator[](std::size_t i) const { return seeds_[i]; }

@@ -39,7 +39,7 @@ void merge_bounds(const AxisExtents& part, Extremes& all) {
   }
 }
 
-MomentTree moments_of(Isa isa, const PointView& chunk) {
+MomentTree moments_of(UsableIsa isa, const PointView& chunk) {
   MomentTree tree;
   for (std::size_t block = 0; block * kBlockPoints < chunk.count; ++block)
     tree.append(block, block_moments(isa, block_of(chunk, block)));
@@ -75,13 +75,12 @@ void finish(Moments moments, CloudSummary& summary) {
 template <typename Found, typename Search, typename Merge>
 Moments pass(const PointView& points, const Execution& execution, double seconds, Search&& search,
              const Merge& merge) {
-  const Isa isa = resolve_isa(execution.isa);
   MomentTree moments;
   std::size_t blocks = 0;
   map_chunks<Part<Found>>(
       points, worthwhile(execution.parallel, seconds),
       [&](const PointView& chunk) {
-        return Part<Found>{search(chunk), moments_of(isa, chunk)};
+        return Part<Found>{search(chunk), moments_of(execution.isa, chunk)};
       },
       [&](const Part<Found>& part) {
         merge(part.extremes);
@@ -106,12 +105,13 @@ std::optional<Coordinates> first_valid(const PointView& points) {
 
 CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  const Isa isa = resolve_isa(execution.isa);
+  require_own_extremes(points, execution);
   CloudSummary summary;
   summary.extremes.set = DirectionSet::dop26;
-  ExtremeSearch search(isa, DirectionSet::dop26, points.count);
+  summary.extremes.points = points;
+  ExtremeSearch search(execution.isa, DirectionSet::dop26, points.count);
   // Moments cost about as much again as the extremes.
-  const double seconds = 2 * search_seconds(isa, DirectionSet::dop26, points.count);
+  const double seconds = 2 * search_seconds(execution.isa, DirectionSet::dop26, points.count);
   const Moments moments =
       pass<ChunkExtremes>(points, execution, seconds, search,
                           [&](const ChunkExtremes& found) { merge_extremes(found, summary.extremes); });
@@ -121,15 +121,16 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
 }
 
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution) {
-  const Isa isa = resolve_isa(execution.isa);
+  require_own_extremes(points, execution);
   CloudSummary summary;
   summary.extremes.set = DirectionSet::dop6;
+  summary.extremes.points = points;
   summary.extremes.low.fill(kInfinity);
   summary.extremes.high.fill(-kInfinity);
   // Moments cost about as much as a 26-DOP, the box next to nothing.
-  const double seconds = search_seconds(isa, DirectionSet::dop26, points.count);
+  const double seconds = search_seconds(execution.isa, DirectionSet::dop26, points.count);
   const Moments moments = pass<AxisExtents>(
-      points, execution, seconds, [isa](const PointView& chunk) { return axis_extents(isa, chunk); },
+      points, execution, seconds, [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
       [&](const AxisExtents& found) { merge_bounds(found, summary.extremes); });
   summary.extremes.used = moments.count;
   if (moments.count == 0) summary.extremes.low = summary.extremes.high = {};

@@ -11,15 +11,29 @@
 #include <cerrno>
 
 namespace pcl_bv {
+namespace {
+
+constexpr char kCut[] = "truncated: the file became shorter while it was read";
+
+struct stat status_of(const FileDescriptor& file) {
+  struct stat status;
+  if (::fstat(file.get(), &status) != 0) throw IoError(system_reason(errno));
+  return status;
+}
+
+bool same(const timespec& a, const timespec& b) {
+  return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
+}
+
+}  // namespace
 
 // O_NONBLOCK: a pipe without a writer must be refused, not waited for. Regular files ignore it.
 InputFile::InputFile(const std::filesystem::path& path) : file_(path, O_RDONLY | O_NONBLOCK, 0, "") {
-  struct stat status;
-  if (::fstat(file_.get(), &status) != 0) throw IoError(system_reason(errno));
-  if (S_ISDIR(status.st_mode)) throw IoError(system_reason(EISDIR));
-  if (!S_ISREG(status.st_mode)) throw IoError("not a regular file");
-  if (status.st_size == 0) throw IoError("empty file");
-  size_ = static_cast<std::size_t>(status.st_size);
+  opened_ = status_of(file_);
+  if (S_ISDIR(opened_.st_mode)) throw IoError(system_reason(EISDIR));
+  if (!S_ISREG(opened_.st_mode)) throw IoError("not a regular file");
+  if (opened_.st_size == 0) throw IoError("empty file");
+  size_ = static_cast<std::size_t>(opened_.st_size);
 }
 
 void InputFile::read(std::size_t offset, void* to, std::size_t bytes) const {
@@ -28,11 +42,26 @@ void InputFile::read(std::size_t offset, void* to, std::size_t bytes) const {
     const ssize_t got = ::pread(file_.get(), at, bytes, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw IoError(system_reason(errno));
-    if (got == 0) throw IoError("truncated: the file became shorter while it was read");
+    if (got == 0) throw IoError(kCut);
     at += got;
     offset += static_cast<std::size_t>(got);
     bytes -= static_cast<std::size_t>(got);
   }
+  require_unchanged();
+}
+
+// The status is of the open file, whatever its name has come to mean: one that takes this one's place changes
+// the number of links and with it st_ctim, but nothing that is read here. st_ctim also tells of writers that
+// put st_mtim back. What is written within a tick of the system's clock (4 ms) of the opening stays
+// unnoticed.
+void InputFile::require_unchanged() const {
+  const struct stat now = status_of(file_);
+  if (now.st_size < opened_.st_size) throw IoError(kCut);
+  const bool relinked = now.st_nlink != opened_.st_nlink;
+  if (now.st_size == opened_.st_size && same(now.st_mtim, opened_.st_mtim) &&
+      (relinked || same(now.st_ctim, opened_.st_ctim)))
+    return;
+  throw IoError("the file was changed while it was read");
 }
 
 void InputFile::expect(std::size_t offset, std::size_t bytes) const {

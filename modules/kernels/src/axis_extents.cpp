@@ -12,6 +12,7 @@
 
 #include "extremes_reference.h"
 #include "pcl_bv/kernels/chunks.h"
+#include "preconditions.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -277,9 +278,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-AxisExtents axis_extents(Isa isa, const PointView& points) {
+AxisExtents axis_extents(UsableIsa isa, const PointView& points) {
   static constexpr KernelTable<AxisExtents(const PointView&)> kTable =
       PCL_BV_KERNEL_TABLE(axis_extents, &axis_extents_reference);
+  require_in_memory(points);
   return kTable[isa](points);
 }
 

@@ -37,18 +37,6 @@ HWY_INLINE V<D> max_or_keep(D, V<D> candidate, V<D> running) {
 #endif
 }
 
-// The packet from `first` on; the last one is filled with the view's first point.
-template <Layout layout, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void load_some(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y, V<D>& z) {
-  if (first + hn::Lanes(d) <= points.count) {
-    load_packet<layout>(d, points, first, x, y, z);
-    return;
-  }
-  T pad[3];
-  load_point(points, 0, pad);
-  load_few(d, points, first, points.count - first, pad, x, y, z);
-}
-
 // Differences from the centre. `scaled`: in units of its scale, which is 1 for float points.
 template <bool scaled, class D>
 HWY_INLINE void subtract(D d, const DistanceCenter& center, V<D>& x, V<D>& y, V<D>& z) {

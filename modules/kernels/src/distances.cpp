@@ -7,6 +7,7 @@
 #include "pcl_bv/kernels/distances.h"
 
 #include "distances_reference.h"
+#include "preconditions.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -122,10 +123,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void block_distances(Isa isa, const PointView& points, const DistanceCenter& center, double limit,
+void block_distances(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                      FloatFilter filter, double* greatest) {
   static constexpr KernelTable<void(const PointView&, const DistanceCenter&, double, FloatFilter, double*)>
       kTable = PCL_BV_KERNEL_TABLE(block_distances, &block_distances_reference);
+  require_distances(points, center);
   kTable[isa](points, center, limit, filter, greatest);
 }
 

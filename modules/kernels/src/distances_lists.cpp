@@ -5,6 +5,7 @@
 
 #include "distances_reference.h"
 #include "pcl_bv/kernels/distances.h"
+#include "preconditions.h"
 #include "square.h"
 #include "targets.h"
 
@@ -58,7 +59,6 @@ std::size_t reaching(const PointView& block, const KeptBounds& kept, const Dista
   return count;
 }
 
-// SIMD finds the packets that hold such points; inside a packet each is looked at again.
 template <Layout layout, typename T>
 std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& center, double limit,
                         std::uint32_t* positions) {
@@ -69,19 +69,20 @@ std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& 
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
     load_some<layout>(d, points, i, x, y, z);
-    bool any = false;
-#define PCL_BV_STEP(x, y, z)                     \
-  subtract<sizeof(T) == 8>(dd, center, x, y, z); \
-  any |= !hn::AllFalse(dd, hn::Ge(sum_of_squares(x, y, z), least));
+    bool any = false, far[kGroupBytes / sizeof(T)] = {};
+    bool* next = far;
+#define PCL_BV_STEP(x, y, z)                                                   \
+  const auto counts = valid_lanes(dd, x, y, z);                                \
+  subtract<sizeof(T) == 8>(dd, center, x, y, z);                               \
+  const auto is_far = hn::And(counts, hn::Ge(sum_of_squares(x, y, z), least)); \
+  if (!hn::AllFalse(dd, is_far)) {                                             \
+    store_mask(dd, is_far, next);                                              \
+    any = true;                                                                \
+  }                                                                            \
+  next += hn::Lanes(dd);
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
-    if (!any) continue;
-    const PointView packet = points.slice(i, HWY_MIN(hn::Lanes(d), points.count - i));
-    std::uint32_t* const found = positions + count;
-    const std::size_t n = list_distant_reference(packet, center, limit, FloatFilter::off, found);
-    for (std::size_t k = 0; k < n; ++k)
-      found[k] += static_cast<std::uint32_t>(i);
-    count += n;
+    if (any) count = append_marked<layout>(d, far, points, i, positions, count);
   }
   return count;
 }
@@ -140,19 +141,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-std::size_t list_reaching(Isa isa, const PointView& block, const KeptBounds& kept,
+std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBounds& kept,
                           const DistanceCenter& center, double limit, std::uint32_t* positions) {
   static constexpr KernelTable<std::size_t(const PointView&, const KeptBounds&, const DistanceCenter&, double,
                                            std::uint32_t*)>
       kTable = PCL_BV_KERNEL_TABLE(list_reaching, &list_reaching_reference);
+  require_distances(block, center, kBlockPoints);
+  require_bounds(block, kept);
   return kTable[isa](block, kept, center, limit, positions);
 }
 
-std::size_t list_distant(Isa isa, const PointView& points, const DistanceCenter& center, double limit,
+std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions) {
   static constexpr KernelTable<std::size_t(const PointView&, const DistanceCenter&, double, FloatFilter,
                                            std::uint32_t*)>
       kTable = PCL_BV_KERNEL_TABLE(list_distant, &list_distant_reference);
+  require_distances(points, center, kMostPositions);
   return kTable[isa](points, center, limit, filter, positions);
 }
 

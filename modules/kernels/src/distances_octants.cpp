@@ -6,6 +6,7 @@
 
 #include "distances_reference.h"
 #include "pcl_bv/kernels/distances.h"
+#include "preconditions.h"
 #include "square.h"
 #include "targets.h"
 
@@ -171,9 +172,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void scan_octants(Isa isa, const PointView& block, OctantScan& scan) {
+void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan) {
   static constexpr KernelTable<void(const PointView&, OctantScan&)> kTable =
       PCL_BV_KERNEL_TABLE(scan_octants, &scan_octants_reference);
+  require_distances(block, scan.center, kBlockPoints);
   kTable[isa](block, scan);
 }
 

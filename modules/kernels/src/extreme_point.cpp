@@ -5,7 +5,11 @@
 
 #include "pcl_bv/kernels/extreme_point.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "passing_points.h"
+#include "preconditions.h"
 
 namespace pcl_bv {
 namespace {
@@ -30,6 +34,11 @@ void keep_extreme(const ExtremePoint& other, ExtremePoint& best) {
 
 void find_extreme_point(const PointView& points, std::size_t first, std::size_t step, std::size_t end,
                         const CubeDirection& direction, const RoundedFilter& filter, ExtremePoint& best) {
+  require_in_memory(points);
+  if (end > points.count) {
+    throw std::out_of_range("find_extreme_point: end " + std::to_string(end) + " is behind the view's " +
+                            std::to_string(points.count) + " points");
+  }
   const Direction along = {static_cast<double>(direction[0]), static_cast<double>(direction[1]),
                            static_cast<double>(direction[2])};
   const auto look = [&](const Coordinates& point, std::size_t index) {

@@ -10,6 +10,7 @@
 #include "extremes_plan.h"
 #include "extremes_reference.h"
 #include "pcl_bv/kernels/chunks.h"
+#include "preconditions.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -189,10 +190,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void chunk_extremes(Isa isa, const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
+void chunk_extremes(UsableIsa isa, const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
                     ChunkExtremes& out) {
   static constexpr KernelTable<void(const PointView&, DirectionSet, const ReachedEnds&, ChunkExtremes&)>
       kTable = PCL_BV_KERNEL_TABLE(chunk_extremes, &chunk_extremes_reference);
+  require_in_memory(chunk, kChunkPoints);
   kTable[isa](chunk, set, reached, out);
 }
 

@@ -6,6 +6,7 @@
 #include "pcl_bv/kernels/half_spaces.h"
 
 #include "half_spaces_reference.h"
+#include "preconditions.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -27,7 +28,7 @@ std::size_t list_outside(const PointView& points, const HalfSpaces& inside, std:
 
 #else
 
-// The lanes that no half-space denies.
+// The lanes that no half-space denies; without any, those in the ball.
 template <typename T, class D>
 HWY_INLINE hn::Mask<D> inside_lanes(D d, const HalfSpaces& inside, const T (*planes)[4], V<D> x, V<D> y,
                                     V<D> z) {
@@ -35,7 +36,8 @@ HWY_INLINE hn::Mask<D> inside_lanes(D d, const HalfSpaces& inside, const T (*pla
   const auto squared = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
   const auto in_ball = hn::Lt(squared, hn::Set(d, static_cast<T>(inside.squared_ball)));
   if (hn::AllTrue(d, in_ball)) return in_ball;
-  auto in = hn::Eq(x, x);
+  auto in = in_ball;
+  if (inside.count > 0) in = hn::Eq(x, x);
   for (std::size_t k = 0; k < inside.count;) {
     const std::size_t end = HWY_MIN(k + kBetweenLooks, inside.count);
     for (; k < end; ++k) {
@@ -52,7 +54,6 @@ HWY_INLINE hn::Mask<D> inside_lanes(D d, const HalfSpaces& inside, const T (*pla
 template <Layout layout, typename T>
 std::size_t list_of(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
   const Tag<T> d;
-  const std::size_t lanes = hn::Lanes(d);
   T planes[kMaxHalfSpaces][4];
   for (std::size_t k = 0; k < inside.count; ++k) {
     const HalfSpace& h = inside.planes[k];
@@ -63,27 +64,17 @@ std::size_t list_of(const PointView& points, const HalfSpaces& inside, std::uint
   const auto cx = hn::Set(d, static_cast<T>(inside.center.x));
   const auto cy = hn::Set(d, static_cast<T>(inside.center.y));
   const auto cz = hn::Set(d, static_cast<T>(inside.center.z));
-  std::size_t count = 0, i = 0;
-  for (; i + lanes <= points.count; i += lanes) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
-    load_packet<layout>(d, points, i, x, y, z);
+    load_some<layout>(d, points, i, x, y, z);
     const auto in = inside_lanes<T>(d, inside, planes, hn::Sub(x, cx), hn::Sub(y, cy), hn::Sub(z, cz));
     if (HWY_LIKELY(hn::AllTrue(d, in))) continue;
-    HWY_ALIGN std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Not(in), bits);
-    std::uint8_t is_out[kGroupBytes / 4] = {};
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      is_out[point_of_lane<layout>(lane, lanes)] = bits[lane / 8] >> (lane % 8) & 1;
-    for (std::size_t k = 0; k < lanes; ++k) {
-      positions[count] = static_cast<std::uint32_t>(i + k);
-      count += is_out[k];
-    }
+    bool out[kGroupBytes / sizeof(T)];
+    store_mask(d, hn::Not(in), out);
+    count = append_marked<layout>(d, out, points, i, positions, count);
   }
-  const std::size_t rest =
-      list_outside_reference(points.slice(i, points.count - i), inside, positions + count);
-  for (std::size_t k = 0; k < rest; ++k)
-    positions[count + k] += static_cast<std::uint32_t>(i);
-  return count + rest;
+  return count;
 }
 
 template <typename T>
@@ -96,7 +87,6 @@ std::size_t list_of_type(const PointView& points, const HalfSpaces& inside, std:
 }
 
 std::size_t list_outside(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
-  if (inside.count == 0) return list_outside_reference(points, inside, positions);
   return points.scalar == ScalarType::float64 ? list_of_type<double>(points, inside, positions)
                                               : list_of_type<float>(points, inside, positions);
 }
@@ -110,10 +100,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-std::size_t list_outside(Isa isa, const PointView& points, const HalfSpaces& inside,
+std::size_t list_outside(UsableIsa isa, const PointView& points, const HalfSpaces& inside,
                          std::uint32_t* positions) {
   static constexpr KernelTable<std::size_t(const PointView&, const HalfSpaces&, std::uint32_t*)> kTable =
       PCL_BV_KERNEL_TABLE(list_outside, &list_outside_reference);
+  require_in_memory(points, kMostPositions);
+  require_at_most(kMaxHalfSpaces, inside.count, "half-spaces");
   return kTable[isa](points, inside, positions);
 }
 

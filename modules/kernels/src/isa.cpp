@@ -60,8 +60,8 @@ bool usable(const Entry& entry) {
   return entry.isa == Isa::scalar || (entry.target & supported) != 0;
 }
 
-// NEON before SVE: for index lists and wide records SVE has only the general way to load points (Layout::any in
-// load-inl.h), and on most processors its vectors are no longer than NEON's.
+// NEON before SVE: for index lists and wide records SVE has only the general way to load points (Layout::any
+// in load-inl.h), and on most processors its vectors are no longer than NEON's.
 Isa find_best_isa() {
   Isa best = Isa::scalar;
   for (const Entry& entry : kEntries) {
@@ -86,7 +86,8 @@ std::string list_names(const Range& isas) {
 }  // namespace
 
 std::string_view isa_name(Isa isa) {
-  return kEntries[static_cast<std::size_t>(isa)].name;
+  const auto entry = static_cast<std::size_t>(isa);
+  return entry < kEntries.size() ? kEntries[entry].name : "unknown";
 }
 
 Isa parse_isa(std::string_view name) {
@@ -107,14 +108,15 @@ std::vector<Isa> usable_isas() {
   return isas;
 }
 
-Isa resolve_isa(Isa isa) {
-  if (isa == Isa::automatic) {
+UsableIsa::UsableIsa(Isa isa) : isa_(isa) {
+  if (isa_ == Isa::automatic) {
     const char* name = std::getenv("PCL_BV_ISA");
-    if (name != nullptr && *name != '\0') isa = parse_isa(name);
+    if (name != nullptr && *name != '\0') isa_ = parse_isa(name);
   }
-  if (isa == Isa::automatic) return best_isa();
-  if (usable(kEntries[static_cast<std::size_t>(isa)])) return isa;
-  throw std::invalid_argument("instruction set '" + std::string(isa_name(isa)) +
+  if (isa_ == Isa::automatic) isa_ = best_isa();
+  const auto entry = static_cast<std::size_t>(isa_);
+  if (entry < kEntries.size() && usable(kEntries[entry])) return;
+  throw std::invalid_argument("instruction set '" + std::string(isa_name(isa_)) +
                               "' is not usable here (usable: " + list_names(usable_isas()) + ")");
 }
 

@@ -68,7 +68,7 @@ Layout layout_of(const PointView& points) {
   return points.readable >= 16 ? Layout::wide : Layout::any;
 }
 
-/// Calls body(std::integral_constant<Layout, l>) for the view's layout l.
+/// CALL(layout), a macro, with the view's layout as a constant.
 #define PCL_BV_FOR_LAYOUT(T, points, CALL)                  \
   switch (layout_of<T>(points)) {                           \
     case Layout::groups:                                    \
@@ -207,6 +207,43 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 #else
   load_packet<layout == Layout::packed16 ? Layout::wide : layout>(d, points, first, x, y, z);
 #endif
+}
+
+/// The packet from `first` on; the last one of a view is in order, filled up with the view's first point.
+template <Layout layout, class D, typename T = hn::TFromD<D>>
+HWY_INLINE void load_some(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y, V<D>& z) {
+  if (first + hn::Lanes(d) <= points.count) {
+    load_packet<layout>(d, points, first, x, y, z);
+    return;
+  }
+  T pad[3];
+  load_point(points, 0, pad);
+  load_few(d, points, first, points.count - first, pad, x, y, z);
+}
+
+/// Appends to `positions`, which has `count` already, those of the packet's points whose lanes are marked, as
+/// load_some() has loaded them. Returns how many there are then.
+template <Layout layout, class D>
+std::size_t append_marked(D d, const bool* marked, const PointView& points, std::size_t first,
+                          std::uint32_t* positions, std::size_t count) {
+  const std::size_t lanes = hn::Lanes(d), left = points.count - first;
+  bool by_point[kGroupBytes / sizeof(hn::TFromD<D>)];
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    by_point[lanes <= left ? point_of_lane<layout>(lane, lanes) : lane] = marked[lane];
+  for (std::size_t k = 0; k < HWY_MIN(lanes, left); ++k) {
+    positions[count] = static_cast<std::uint32_t>(first + k);
+    count += by_point[k];
+  }
+  return count;
+}
+
+/// Lanes of a mask, as booleans.
+template <class D>
+HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
+  HWY_ALIGN std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, mask, bits);
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
+    marked[lane] = (bits[lane / 8] >> (lane % 8) & 1) != 0;
 }
 
 /// Part of a block relative to its centre: the packet from `first` on. Behind a block's end it holds, if

@@ -11,6 +11,7 @@
 
 #include "moments_reference.h"
 #include "pcl_bv/kernels/chunks.h"
+#include "preconditions.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -130,9 +131,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-Moments block_moments(Isa isa, const PointView& block) {
+Moments block_moments(UsableIsa isa, const PointView& block) {
   static constexpr KernelTable<Moments(const PointView&)> kTable =
       PCL_BV_KERNEL_TABLE(block_moments, &block_moments_reference);
+  require_in_memory(block, kBlockPoints);
   return kTable[isa](block);
 }
 

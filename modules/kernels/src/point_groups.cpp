@@ -6,6 +6,7 @@
 #include "pcl_bv/kernels/point_groups.h"
 
 #include "point_groups_reference.h"
+#include "preconditions.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -59,7 +60,7 @@ std::size_t padding_point(const PointView& points) {
   return points.count - 1;
 }
 
-void fill_groups(Isa isa, const PointView& points, std::byte* groups) {
+void fill_groups(UsableIsa isa, const PointView& points, std::byte* groups) {
   static constexpr KernelTable<void(const PointView&, std::size_t, std::byte*)> kTable =
       PCL_BV_KERNEL_TABLE(fill_groups, &fill_groups_reference);
   kTable[isa](points, padding_point(points), groups);
@@ -67,12 +68,12 @@ void fill_groups(Isa isa, const PointView& points, std::byte* groups) {
 
 }  // namespace
 
-PointGroups::PointGroups(const PointView& points, Isa isa) {
+PointGroups::PointGroups(const PointView& points, UsableIsa isa) {
   assign(points, isa);
 }
 
-void PointGroups::assign(const PointView& points, Isa isa) {
-  isa = resolve_isa(isa);
+void PointGroups::assign(const PointView& points, UsableIsa isa) {
+  require_in_memory(points);
   const std::size_t points_per_group = kGroupBytes / size_of(points.scalar);
   const std::size_t groups = (points.count + points_per_group - 1) / points_per_group;
   if (groups > groups_.capacity()) groups_.clear();  // nothing to carry over into new memory

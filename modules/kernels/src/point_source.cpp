@@ -8,6 +8,8 @@
 
 #include <utility>
 
+#include "preconditions.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -18,12 +20,17 @@ thread_local std::vector<std::vector<std::byte>> spares;
 
 }  // namespace
 
-void LoadedPoints::load(const PointSource& source, std::size_t first, std::size_t count) {
+void LoadedPoints::load(const PointView& points, std::size_t begin, std::size_t count) {
+  if (points.indices != nullptr) throw std::invalid_argument("LoadedPoints: a view has a source or indices");
+  require_at_most(kChunkPoints, count, "points of a source");
   if (!spares.empty()) {
     buffer_ = std::move(spares.back());
     spares.pop_back();
   }
-  view_ = source.load(first, count, buffer_);
+  view_ = points.source->load(points.first + begin, count, buffer_);
+  const bool asked_for = view_.source == nullptr && view_.count == count && view_.scalar == points.scalar;
+  if (!asked_for || (count > 0 && view_.index(0) != points.first + begin))
+    throw std::invalid_argument("PointSource::load() gives other points than it was asked for");
 }
 
 void LoadedPoints::give_back() {

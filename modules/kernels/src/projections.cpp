@@ -8,6 +8,7 @@
 #include "pcl_bv/kernels/projections.h"
 
 #include "pcl_bv/kernels/chunks.h"
+#include "preconditions.h"
 #include "projections_plan.h"
 #include "projections_reference.h"
 #include "targets.h"
@@ -217,11 +218,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void chunk_farthest(Isa isa, const PointView& chunk, const ProjectionSet& set,
+void chunk_farthest(UsableIsa isa, const PointView& chunk, const ProjectionSet& set,
                     const ReachedProjections& reached, ChunkFarthest& out) {
   using Function = void(const PointView&, const ProjectionSet&, const ReachedProjections&, ChunkFarthest&);
   static constexpr KernelTable<Function> kTable =
       PCL_BV_KERNEL_TABLE(chunk_farthest, &chunk_farthest_reference);
+  require_in_memory(chunk, kChunkPoints);
+  require_at_most(kMaxProjections, set.count, "directions");
   kTable[isa](chunk, set, reached, out);
 }
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "passing_points.h"
 #include "pcl_bv/numeric/constants.h"
@@ -35,8 +37,17 @@ double double_doubt(const Direction& scaled, const Coordinates& p) {
 }  // namespace
 
 void ProjectionSet::add(const Direction& direction) {
+  if (count >= kMaxProjections) {
+    throw std::invalid_argument("a set holds at most " + std::to_string(kMaxProjections) + " directions");
+  }
   const Direction size = magnitudes(direction);
-  const int exponent = std::ilogb(std::max({size[0], size[1], size[2]}));
+  const double largest = std::max({size[0], size[1], size[2]});
+  // Sums say whether a component is a NaN, which a maximum may lose.
+  if (!(largest >= 1e-30 && largest <= 1e30) || !std::isfinite((size[0] + size[1]) + size[2])) {
+    throw std::invalid_argument("direction " + std::to_string(count) +
+                                " must be finite with its largest component from 1e-30 to 1e30");
+  }
+  const int exponent = std::ilogb(largest);
   exact[count] = direction;
   scaled[count] = {std::ldexp(direction[0], -exponent), std::ldexp(direction[1], -exponent),
                    std::ldexp(direction[2], -exponent)};

@@ -7,6 +7,7 @@
 #include "pcl_bv/kernels/slab_extents.h"
 
 #include "pcl_bv/kernels/chunks.h"
+#include "preconditions.h"
 #include "slab_extents_reference.h"
 #include "targets.h"
 
@@ -105,11 +106,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-SlabExtents slab_extents(Isa isa, const PointView& points, const Coordinates& origin,
+SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinates& origin,
                          const std::array<Direction, 3>& axes) {
   static constexpr KernelTable<SlabExtents(const PointView&, const Coordinates&,
                                            const std::array<Direction, 3>&)>
       kTable = PCL_BV_KERNEL_TABLE(slab_extents, &slab_extents_reference);
+  require_in_memory(points);
+  require_origin(points, origin);
   return kTable[isa](points, origin, axes);
 }
 

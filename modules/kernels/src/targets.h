@@ -46,7 +46,7 @@ namespace pcl_bv {
 template <typename Function>
 struct KernelTable {
   Function* entries[8];
-  Function* operator[](Isa isa) const { return entries[static_cast<std::size_t>(isa)]; }
+  Function* operator[](UsableIsa isa) const { return entries[static_cast<std::size_t>(Isa{isa})]; }
 };
 
 }  // namespace pcl_bv

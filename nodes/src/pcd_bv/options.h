@@ -48,7 +48,7 @@ struct Options {
   std::optional<std::filesystem::path> output, labels, mesh, image;
   ViewFrom view = ViewFrom::iso;
   MethodOptions method_options;
-  Execution execution;
+  Execution execution{Serial{}, Isa::scalar};  ///< The environment is asked only where --isa is not given.
   bool check = false;
   bool info = false;
   bool timings = false;

@@ -40,9 +40,9 @@ ViewFrom parse_view(std::string_view text) {
   throw UsageError("--view: unknown view " + quoted(text) + "; known are iso, top, front, side");
 }
 
-Isa parse_usable_isa(const std::string& text) {
+UsableIsa parse_usable_isa(const std::string& text) {
   try {
-    return resolve_isa(parse_isa(text));
+    return parse_isa(text);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }

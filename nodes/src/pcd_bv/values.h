@@ -18,7 +18,7 @@ float parse_tolerance(std::string_view text);
 std::optional<GroundOptions> parse_ground(std::string_view kind);
 OutputFormat parse_format(std::string_view text);
 ViewFrom parse_view(std::string_view text);
-Isa parse_usable_isa(const std::string& text);
+UsableIsa parse_usable_isa(const std::string& text);
 
 /// What is fitted without --volume: a box, a sphere and an oriented box.
 std::vector<const Method*> default_methods();

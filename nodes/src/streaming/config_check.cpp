@@ -60,7 +60,7 @@ class Checker {
   }
   void instruction_set(const char* key, const std::string& name) {
     try {
-      resolve_isa(parse_isa(name));
+      static_cast<void>(UsableIsa(parse_isa(name)));
     } catch (const std::invalid_argument& error) {
       add(key, error.what());
     }

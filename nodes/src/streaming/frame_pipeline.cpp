@@ -36,7 +36,7 @@ struct Prepared {
   PipelineConfig config;
   std::vector<const Method*> methods;
   MethodOptions options;
-  Execution execution;
+  Execution execution{Serial{}, Isa::scalar};  // until the configuration's set is known
 };
 
 std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
@@ -48,7 +48,7 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   for (const std::string& name : config.volumes)
     prepared->methods.push_back(find_method(name));
   prepared->options.up = up_direction(config.ground.up);
-  prepared->execution.isa = resolve_isa(parse_isa(config.isa));
+  prepared->execution.isa = parse_isa(config.isa);
   if (config.threads != 1) prepared->execution.parallel = Threads{static_cast<unsigned>(config.threads)};
   prepared->config = std::move(config);
   return prepared;

@@ -44,9 +44,10 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   /// result; clouds that are done in less than about 200 us are not threaded.
   void setNumberOfThreads(unsigned threads) { execution_.parallel = Threads{threads}; }
 
-  /// The instruction set, Isa::automatic by default. Never changes the result.
-  /// Throws std::invalid_argument if this build or machine does not have it.
-  void setInstructionSet(Isa isa);
+  /// The instruction set, an Isa: Isa::automatic as this object is made, which asks PCL_BV_ISA. Never changes
+  /// the result. Throws std::invalid_argument, as the constructor does, if this build or machine does not
+  /// have it.
+  void setInstructionSet(UsableIsa isa) { execution_.isa = isa; }
 
   /// Fits the volume to the input cloud, or to those points of it that the indices name.
   ///

@@ -14,10 +14,11 @@ struct Extremes;
 /// Where and how a fit runs. No choice here changes a single bit of the result.
 struct Execution {
   ParallelPolicy parallel = Serial{};
-  Isa isa = Isa::automatic;
+  UsableIsa isa = Isa::automatic;  ///< Looked up where an Execution is made, not where it is copied.
 
   /// If not null, what find_extremes() gave for these very points, which most fits begin with: they then need
   /// a pass less where it holds what they ask for. share_extremes() (methods.h) decides for several methods.
+  /// A fit of a view of other places (same_places() in point_view.h) throws std::invalid_argument.
   const Extremes* extremes = nullptr;
 };
 

@@ -38,8 +38,8 @@ struct ExtremePoints {
 /// at the few points of each chunk that can be extreme (docs/numerics.md): O(points * directions). Where the
 /// extent of a float cloud is below 1e-43 or above 1e38 that is all of them, at 50 ns for each direction.
 ///
-/// Throws std::invalid_argument for an unusable instruction set, unless there are 1 to 49 directions and
-/// unless each is finite with its largest component between 1e-30 and 1e30 in magnitude.
+/// Throws std::invalid_argument unless there are 1 to 49 directions, each finite with its largest component
+/// between 1e-30 and 1e30 in magnitude.
 ExtremePoints find_extreme_points(const PointView& points,
                                   const std::vector<std::array<double, 3>>& directions,
                                   const Execution& execution = {});

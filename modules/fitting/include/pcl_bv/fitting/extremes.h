@@ -35,14 +35,13 @@ struct Extremes {
   std::array<bool, kMaxDirections> constant{};  ///< Whether all points have exactly the same projection.
   std::array<ExtremePoint, kMaxDirections> low_point{};   ///< With ExtremeDetail::points.
   std::array<ExtremePoint, kMaxDirections> high_point{};  ///< With ExtremeDetail::points.
+  PointView points;  ///< What they are the extremes of: only compared with, never read again.
 };
 
 /// Finds the extremes of all valid points; `used` is 0 and nothing else but `dropped` is set if there is
 /// none. The same bits for every execution. One SIMD pass over the points in chunks, which also looks exactly
 /// at the few points of each chunk that can be extreme (docs/numerics.md). None if Execution::extremes has
-/// them.
-///
-/// Throws std::invalid_argument for an unusable instruction set.
+/// them; throws std::invalid_argument if those are of other points.
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,
                        const Execution& execution);
 

@@ -47,8 +47,8 @@ struct ObbOptions {
 ///
 /// O(n) in two passes for `pca` and `dito14`, three for the others, and for those O(m log m) besides for the
 /// m points that are near the hull, or near its outline from above. `minimal` takes milliseconds for a hull
-/// of hundreds of vertices. Throws std::invalid_argument for an unusable instruction set and for an `up`
-/// outside its range.
+/// of hundreds of vertices. Throws std::invalid_argument for an `up` outside its range, and otherwise as
+/// fit_sphere().
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,
                          const Execution& execution = {});
 

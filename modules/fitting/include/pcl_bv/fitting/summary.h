@@ -47,8 +47,7 @@ struct CloudSummary {
 /// of the points may round centroid and covariance otherwise.
 ///
 /// Covariance by the shifted formula in blocks of 1024 points, sums of squares about a point of the block,
-/// which are added up pair by pair (Chan, Golub, LeVeque 1983). Throws std::invalid_argument for an unusable
-/// instruction set.
+/// which are added up pair by pair (Chan, Golub, LeVeque 1983).
 CloudSummary summarize(const PointView& points, const Execution& execution = {});
 
 }  // namespace pcl_bv

@@ -29,7 +29,7 @@ class CloudFile final : public PointSource {
   /// All points, as a view that lives as long as this object.
   PointView xyz() const;
 
-  /// Throws IoError, for a file that was cut, too.
+  /// Throws IoError, also for a file that has been cut or changed since it was opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
  private:

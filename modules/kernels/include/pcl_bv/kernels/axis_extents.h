@@ -19,8 +19,8 @@ struct AxisExtents {
   std::size_t dropped;  ///< Points with a coordinate that is not valid (is_valid()).
 };
 
-/// The same bits for every `isa`, which must come from resolve_isa(). Never throws. O(n). Runs in the
-/// caller's floating-point environment: hold a FloatEnvironment.
-AxisExtents axis_extents(Isa isa, const PointView& points);
+/// The same bits for every `isa`. O(n). Runs in the caller's floating-point environment: hold a
+/// FloatEnvironment. Throws std::invalid_argument unless the points are in memory.
+AxisExtents axis_extents(UsableIsa isa, const PointView& points);
 
 }  // namespace pcl_bv

@@ -40,9 +40,10 @@ constexpr std::size_t block_count(std::size_t points) {
 /// squared_distance() of the block's valid points if that is at least `limit`; otherwise an upper bound of it
 /// that is below `limit`, not the same for each `isa`. No valid point: -1.
 ///
-/// `isa` must come from resolve_isa(). Never throws. O(n). Runs in the caller's floating-point environment:
-/// hold a FloatEnvironment.
-void block_distances(Isa isa, const PointView& points, const DistanceCenter& center, double limit,
+/// O(n). Runs in the caller's floating-point environment: hold a FloatEnvironment. Throws
+/// std::invalid_argument unless the points are in memory, and for float points whose centre has a scale
+/// other than 1.
+void block_distances(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                      FloatFilter filter, double* greatest);
 
 /// Points that share one bound of scan_octants(), and bounds of a block.
@@ -61,9 +62,9 @@ struct OctantScan {
   std::array<double, 8> greatest{};
 };
 
-/// Scans one block of at most kBlockPoints points. `greatest` is the same for each `isa`, the others are not.
-/// Otherwise as block_distances().
-void scan_octants(Isa isa, const PointView& block, OctantScan& scan);
+/// Scans one block of at most kBlockPoints points, or std::invalid_argument. `greatest` is the same for each
+/// `isa`, the others are not. Otherwise as block_distances().
+void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan);
 
 /// What scan_octants() of a float block left, and how far from its centre points must be to be asked for now.
 struct KeptBounds {
@@ -75,17 +76,17 @@ struct KeptBounds {
 /// Writes positions in the block, in any order, of points with a squared_distance() of at least `limit` to
 /// `center`, among them all valid ones whose squared_distance() to kept.center is at least kept.limit.
 /// Returns how many; there must be room for kBlockPoints. Looks at few points where few reach. `isa`: the one
-/// that the bounds are of.
-std::size_t list_reaching(Isa isa, const PointView& block, const KeptBounds& kept,
+/// that the bounds are of. Throws as scan_octants(), also for a block of doubles and without bounds.
+std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBounds& kept,
                           const DistanceCenter& center, double limit, std::uint32_t* positions);
 
 /// The octant of a point, as scan_octants() counts them.
 std::size_t octant(const Coordinates& p, const DistanceCenter& center);
 
 /// Writes the positions in the view, ascending, of the valid points whose squared_distance() is at least
-/// `limit`; returns how many. There must be room for points.count. The same for every `isa` and filter;
-/// otherwise as block_distances().
-std::size_t list_distant(Isa isa, const PointView& points, const DistanceCenter& center, double limit,
+/// `limit`; returns how many. There must be room for points.count, at most 2^32. The same for
+/// every `isa` and filter; otherwise as block_distances().
+std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions);
 
 }  // namespace pcl_bv

@@ -33,7 +33,8 @@ struct RoundedFilter {
 };
 
 /// Lets `best` compete with those valid points first, first + step, ... below `end` that pass the filter.
-/// O(points visited), scalar: meant for the few that can be extreme.
+/// O(points visited), scalar: meant for the few that can be extreme. Throws std::invalid_argument unless the
+/// points are in memory, std::out_of_range for an `end` behind the last one.
 void find_extreme_point(const PointView& points, std::size_t first, std::size_t step, std::size_t end,
                         const CubeDirection& direction, const RoundedFilter& filter, ExtremePoint& best);
 

@@ -35,9 +35,10 @@ struct ChunkExtremes {
 
 /// Finds the extreme points of at most kChunkPoints points: the exactly greatest projection; of equal ones
 /// the smallest index. Whether an end that cannot beat `reached` is found may depend on `isa`; any that is
-/// found is the same for all. `isa` must come from resolve_isa(). Paper §2 and §3. Never throws. O(n); up to
-/// 220 KiB of stack. Runs in the caller's floating-point environment: hold a FloatEnvironment.
-void chunk_extremes(Isa isa, const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
+/// found is the same for all. Paper §2 and §3. O(n); up to 220 KiB of stack. Runs in the caller's
+/// floating-point environment: hold a FloatEnvironment. Throws std::invalid_argument for more points, and
+/// unless they are in memory.
+void chunk_extremes(UsableIsa isa, const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
                     ChunkExtremes& out);
 
 }  // namespace pcl_bv

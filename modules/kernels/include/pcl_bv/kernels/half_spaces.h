@@ -37,10 +37,10 @@ struct HalfSpaces {
 };
 
 /// Writes the positions in the view, ascending, of the points that are not inside; returns how many. There
-/// must be room for points.count, at most 2^32. The same for every `isa`, which must come from resolve_isa().
-/// Never throws. O(n count) at worst. Runs in the caller's floating-point environment: hold a
-/// FloatEnvironment.
-std::size_t list_outside(Isa isa, const PointView& points, const HalfSpaces& inside,
+/// must be room for points.count, at most 2^32. The same for every `isa`. O(n count) at worst.
+/// Runs in the caller's floating-point environment: hold a FloatEnvironment. Throws std::invalid_argument for
+/// more points or half-spaces, and unless the points are in memory.
+std::size_t list_outside(UsableIsa isa, const PointView& points, const HalfSpaces& inside,
                          std::uint32_t* positions);
 
 }  // namespace pcl_bv

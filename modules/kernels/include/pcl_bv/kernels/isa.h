@@ -24,8 +24,18 @@ Isa parse_isa(std::string_view name);
 /// The sets that this build and this machine can run, slowest (scalar) first.
 std::vector<Isa> usable_isas();
 
-/// The set that a call with `isa` runs on, never `automatic`. Throws std::invalid_argument if that set is not
-/// usable here or if PCL_BV_ISA, when consulted, holds an unknown name.
-Isa resolve_isa(Isa isa);
+/// An instruction set that this build and this machine can run, and no other: what kernels and fits take.
+class UsableIsa {
+ public:
+  /// Not explicit: an Isa says enough. `automatic` is looked up here, once: copies do not ask the environment
+  /// again. Throws std::invalid_argument if the set is not usable here or if PCL_BV_ISA, when asked, holds an
+  /// unknown name.
+  UsableIsa(Isa isa = Isa::automatic);
+
+  operator Isa() const { return isa_; }  ///< Never `automatic`.
+
+ private:
+  Isa isa_;
+};
 
 }  // namespace pcl_bv

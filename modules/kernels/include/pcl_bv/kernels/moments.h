@@ -27,8 +27,9 @@ struct Moments {
 /// for doubles whose squares would vanish: the least one with which the sum of all squares is 2^-660 or more,
 /// 1000 if there is none.
 ///
-/// No valid point: zeros, and a count of 0. `isa` must come from resolve_isa() and changes no bit. Never
-/// throws. O(n). Runs in the caller's floating-point environment: hold a FloatEnvironment.
-Moments block_moments(Isa isa, const PointView& block);
+/// No valid point: zeros, and a count of 0. `isa` changes no bit. O(n). Runs in the caller's floating-point
+/// environment: hold a FloatEnvironment. Throws std::invalid_argument for more points, and unless they are in
+/// memory.
+Moments block_moments(UsableIsa isa, const PointView& block);
 
 }  // namespace pcl_bv

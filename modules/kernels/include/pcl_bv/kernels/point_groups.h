@@ -27,12 +27,12 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 class PointGroups {
  public:
   PointGroups() = default;
-  explicit PointGroups(const PointView& points, Isa isa = Isa::automatic);
+  explicit PointGroups(const PointView& points, UsableIsa isa = {});
 
   /// Replaces the contents by the points, which must not be those of this object. Allocates only if they need
-  /// more than capacity(). O(n), one pass. `isa` changes no bit; throws std::invalid_argument if it is not
-  /// usable, std::bad_alloc, and then the object is as before or empty.
-  void assign(const PointView& points, Isa isa = Isa::automatic);
+  /// more than capacity(). O(n), one pass. `isa` changes no bit. Throws std::invalid_argument unless the
+  /// points are in memory, std::bad_alloc, and then the object is as before or empty.
+  void assign(const PointView& points, UsableIsa isa = {});
 
   /// All points; a moved-from object has none. Valid until the next assign(), move or the end of this object.
   PointView view() const;

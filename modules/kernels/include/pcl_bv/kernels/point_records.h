@@ -40,9 +40,12 @@ PointView view_records(const Record* records, std::size_t count) {
   return view;
 }
 
-/// The points of a whole cloud that an index list names, in its order. The list must outlive the view.
-/// Throws std::out_of_range, naming the index, if one is not in the cloud.
+/// The points of a whole cloud in memory that an index list names, in its order. The list must outlive the
+/// view. Throws std::out_of_range, naming the index, if one is not in the cloud, and std::invalid_argument
+/// for a slice of a cloud, a cloud with an index list and one of a source.
 inline PointView select_points(const PointView& cloud, const std::int32_t* indices, std::size_t count) {
+  if (cloud.source != nullptr || cloud.indices != nullptr || cloud.first != 0)
+    throw std::invalid_argument("select_points: the cloud must be whole and in memory");
   for (std::size_t i = 0; i < count; ++i) {
     if (indices[i] >= 0 && static_cast<std::size_t>(indices[i]) < cloud.count) continue;
     throw std::out_of_range("point index " + std::to_string(indices[i]) + " is outside the cloud of " +

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 #include <vector>
 
 #include "pcl_bv/kernels/chunks.h"
@@ -25,7 +26,7 @@ class PointSource {
   virtual PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const = 0;
 };
 
-/// A view of `count` points of a source, more than kChunkPoints (fewer are better held in memory).
+/// A view of `count` points of a source. Few of them (kChunkPoints or less) are better held in memory.
 inline PointView view_of(const PointSource& source, std::size_t count, ScalarType scalar) {
   PointView view;
   view.source = &source;
@@ -37,13 +38,17 @@ inline PointView view_of(const PointSource& source, std::size_t count, ScalarTyp
 /// A part of a view, in memory while this object lives. Costs nothing where it is there already.
 class LoadedPoints {
  public:
-  /// Visited points [begin, begin + count) of the view, at most kChunkPoints if it has a source. Throws what
-  /// the source throws.
+  /// Visited points [begin, begin + count) of the view, at most kChunkPoints if it has a source. Throws
+  /// std::out_of_range for points that the view does not have, and for those of a source what it throws and
+  /// std::invalid_argument for more points, for a view that has indices, too, and for a source that gives
+  /// other points than it was asked for.
   LoadedPoints(const PointView& points, std::size_t begin, std::size_t count) {
+    if (begin > points.count || count > points.count - begin)
+      throw std::out_of_range("LoadedPoints: the view does not have these points");
     if (points.source == nullptr) {
       view_ = points.slice(begin, count);
     } else {
-      load(*points.source, points.first + begin, count);
+      load(points, begin, count);
     }
   }
   ~LoadedPoints() {
@@ -55,7 +60,7 @@ class LoadedPoints {
   const PointView& view() const { return view_; }
 
  private:
-  void load(const PointSource& source, std::size_t first, std::size_t count);
+  void load(const PointView& points, std::size_t begin, std::size_t count);
   void give_back();
 
   PointView view_;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "pcl_bv/numeric/coordinates.h"
 
@@ -48,12 +49,11 @@ struct PointView {
   /// data and no indices, and address() may not be asked.
   const PointSource* source = nullptr;
 
-  /// Points whose x is at `xyz`, `stride` bytes apart, with all of `stride` readable (x comes first in the
-  /// record).
-  template <typename T>
+  /// Points of float or double (nothing else compiles) whose x is at `xyz`, `stride` bytes apart, with all of
+  /// `stride` readable (x comes first in the record). select_points() (point_records.h) checks indices.
+  template <typename T, typename = std::enable_if_t<std::is_same_v<T, float> || std::is_same_v<T, double>>>
   static PointView of(const T* xyz, std::size_t stride, std::size_t count,
                       const std::int32_t* indices = nullptr) {
-    static_assert(sizeof(T) == 4 || sizeof(T) == 8, "coordinates are float or double");
     return {reinterpret_cast<const std::byte*>(xyz),
             stride,
             stride,
@@ -98,6 +98,13 @@ struct PointView {
     return part;
   }
 };
+
+/// Whether both visit the same memory, or points of the same source, in the same order: so they are the same
+/// points, unless what is there has changed.
+inline bool same_places(const PointView& a, const PointView& b) {
+  return a.data == b.data && a.stride == b.stride && a.count == b.count && a.indices == b.indices &&
+         a.first == b.first && a.scalar == b.scalar && a.order == b.order && a.source == b.source;
+}
 
 /// The three coordinates of the i-th visited point; T is the view's scalar type.
 template <typename T>

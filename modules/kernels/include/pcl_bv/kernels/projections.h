@@ -27,7 +27,8 @@ struct ProjectionSet {
   /// rounded.)
   std::array<Direction, kMaxProjections> scaled{};
 
-  /// The largest component from 1e-30 to 1e30 in magnitude; at most kMaxProjections.
+  /// Throws std::invalid_argument for more than kMaxProjections directions and unless this one is finite with
+  /// its largest component from 1e-30 to 1e30 in magnitude.
   void add(const Direction& direction);
   Direction end_direction(std::size_t end) const;
   Direction scaled_end_direction(std::size_t end) const;
@@ -59,10 +60,11 @@ struct ChunkFarthest {
 
 /// Finds the farthest points of at most kChunkPoints points: the exactly greatest projection; of equal ones
 /// the smallest index. Whether an end that cannot beat `reached` is found may depend on `isa`; any that is
-/// found is the same for all. `isa` must come from resolve_isa(). Paper §2 and §3. Never throws. O(n count),
-/// but where floats over- or underflow (extents above 1e38 or below 1e-43) every point is looked at exactly.
-/// Runs in the caller's floating-point environment: hold a FloatEnvironment.
-void chunk_farthest(Isa isa, const PointView& chunk, const ProjectionSet& set,
+/// found is the same for all. Paper §2 and §3. O(n count), but where floats over- or underflow (extents above
+/// 1e38 or below 1e-43) every point is looked at exactly. Runs in the caller's floating-point environment:
+/// hold a FloatEnvironment. Throws std::invalid_argument for more points or directions, and unless the points
+/// are in memory.
+void chunk_farthest(UsableIsa isa, const PointView& chunk, const ProjectionSet& set,
                     const ReachedProjections& reached, ChunkFarthest& out);
 
 }  // namespace pcl_bv

@@ -21,10 +21,10 @@ struct SlabExtents {
   std::array<double, 3> high{};
 };
 
-/// `origin` must be a valid point of the cloud, axes up to 1e150. The same bits for every `isa`, which must
-/// come from resolve_isa(). Never throws. O(n). Runs in the caller's floating-point environment: hold a
-/// FloatEnvironment.
-SlabExtents slab_extents(Isa isa, const PointView& points, const Coordinates& origin,
+/// `origin` must be a valid point of the cloud, axes up to 1e150. The same bits for every `isa`. O(n). Runs
+/// in the caller's floating-point environment: hold a FloatEnvironment. Throws std::invalid_argument for an
+/// origin that is not valid or not of the cloud's scalar type, and unless the points are in memory.
+SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinates& origin,
                          const std::array<Direction, 3>& axes);
 
 }  // namespace pcl_bv

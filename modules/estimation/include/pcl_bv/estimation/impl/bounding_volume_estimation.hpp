@@ -36,12 +36,6 @@ void BoundingVolumeEstimation<PointT, VolumeT>::setIndices(const pcl::PointIndic
 }
 
 template <typename PointT, typename VolumeT>
-void BoundingVolumeEstimation<PointT, VolumeT>::setInstructionSet(Isa isa) {
-  if (isa != Isa::automatic) resolve_isa(isa);
-  execution_.isa = isa;
-}
-
-template <typename PointT, typename VolumeT>
 auto BoundingVolumeEstimation<PointT, VolumeT>::cloud() const -> const PointCloud& {
   if (!this->input_) throw std::logic_error("BoundingVolumeEstimation: compute() before setInputCloud()");
   return *this->input_;
@@ -64,7 +58,6 @@ std::vector<EstimationResult> BoundingVolumeEstimation<PointT, VolumeT>::compute
   views.reserve(clusters.size());
   for (const pcl::PointIndices& cluster : clusters)
     views.push_back(point_view(cloud(), cluster.indices));
-  resolve_isa(execution_.isa);
   volumes.assign(clusters.size(), VolumeT());
   std::vector<EstimationResult> results(clusters.size());
   for_each_view(views, execution_, [&](std::size_t c, const Execution& execution) {

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Calls that would read past an array, run instructions of another processor or measure other points than
+// those meant are refused.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "clouds.h"
+#include "pcl_bv/kernels/axis_extents.h"
+#include "pcl_bv/kernels/distances.h"
+#include "pcl_bv/kernels/extreme_point.h"
+#include "pcl_bv/kernels/extremes.h"
+#include "pcl_bv/kernels/half_spaces.h"
+#include "pcl_bv/kernels/moments.h"
+#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/kernels/point_records.h"
+#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/kernels/projections.h"
+#include "pcl_bv/kernels/slab_extents.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+
+struct Kernel {
+  std::string name;
+  std::size_t most;  // points in a call
+  std::function<void(Isa, const PointView&)> run;
+};
+
+ProjectionSet one_direction() {
+  ProjectionSet set;
+  set.add({1, 2, 3});
+  return set;
+}
+
+std::vector<std::uint32_t> room(const PointView& points) {
+  return std::vector<std::uint32_t>(std::min(points.count, std::size_t{100'000}));
+}
+
+const std::vector<Kernel>& kernels() {
+  static const std::vector<Kernel> all = {
+      {"axis_extents", kAny, [](Isa isa, const PointView& points) { axis_extents(isa, points); }},
+      {"slab_extents", kAny,
+       [](Isa isa, const PointView& points) {
+         slab_extents(isa, points, {0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+       }},
+      {"chunk_extremes", kChunkPoints,
+       [](Isa isa, const PointView& points) {
+         ChunkExtremes out;
+         chunk_extremes(isa, points, DirectionSet::dop26, nothing_reached(), out);
+       }},
+      {"chunk_farthest", kChunkPoints,
+       [](Isa isa, const PointView& points) {
+         ReachedProjections reached;
+         reached.fill(-std::numeric_limits<double>::infinity());
+         ChunkFarthest out;
+         chunk_farthest(isa, points, one_direction(), reached, out);
+       }},
+      {"block_moments", kBlockPoints, [](Isa isa, const PointView& points) { block_moments(isa, points); }},
+      {"block_distances", kAny,
+       [](Isa isa, const PointView& points) {
+         std::vector<double> greatest(100);
+         block_distances(isa, points, {}, 1, FloatFilter::off, greatest.data());
+       }},
+      {"scan_octants", kBlockPoints,
+       [](Isa isa, const PointView& points) {
+         OctantScan scan;
+         scan_octants(isa, points, scan);
+       }},
+      {"list_reaching", kBlockPoints,
+       [](Isa isa, const PointView& points) {
+         const std::vector<float> bounds(kBlockBounds, 1.0F);
+         list_reaching(isa, points, {{}, bounds.data(), 0}, {}, 1, room(points).data());
+       }},
+      {"list_distant", std::size_t{1} << 32,
+       [](Isa isa, const PointView& points) {
+         list_distant(isa, points, {}, 1, FloatFilter::off, room(points).data());
+       }},
+      {"list_outside", std::size_t{1} << 32,
+       [](Isa isa, const PointView& points) { list_outside(isa, points, {}, room(points).data()); }},
+      {"PointGroups", kAny, [](Isa isa, const PointView& points) { PointGroups(points, isa); }}};
+  return all;
+}
+
+class NoSource : public PointSource {
+ public:
+  PointView load(std::size_t, std::size_t, std::vector<std::byte>&) const override { return {}; }
+};
+
+TEST(Misuse, NoKernelRunsOnASetThatTheMachineLacks) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(100, 1);
+  const std::vector<Isa> usable = usable_isas();
+  int refused = 0;
+  for (const Isa isa :
+       {Isa::sse4, Isa::avx2, Isa::avx512, Isa::neon, Isa::sve, Isa::sve2, static_cast<Isa>(8)}) {
+    if (std::find(usable.begin(), usable.end(), isa) != usable.end()) continue;
+    ++refused;
+    for (const Kernel& kernel : kernels())
+      EXPECT_THROW(kernel.run(isa, cloud.view()), std::invalid_argument) << kernel.name;
+  }
+  EXPECT_GE(refused, 4);  // those of the other architecture, and what is no set
+}
+
+TEST(Misuse, EveryKernelLooksUpTheAutomaticSet) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(100, 1);
+  for (const Kernel& kernel : kernels())
+    EXPECT_NO_THROW(kernel.run(Isa::automatic, cloud.view())) << kernel.name;
+  EXPECT_EQ(axis_extents(Isa::automatic, cloud.view()).high, axis_extents(Isa::scalar, cloud.view()).high);
+}
+
+TEST(Misuse, NoKernelTakesMorePointsThanItHasRoomFor) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(kChunkPoints + 1, 2);
+  for (const Kernel& kernel : kernels()) {
+    PointView points = cloud.view();
+    points.count = std::min(kernel.most, points.count);
+    EXPECT_NO_THROW(kernel.run(Isa::scalar, points)) << kernel.name;
+    if (kernel.most == kAny) continue;
+    points.count = kernel.most + 1;
+    EXPECT_THROW(kernel.run(Isa::scalar, points), std::invalid_argument) << kernel.name;
+  }
+}
+
+TEST(Misuse, NoKernelReadsPointsThatAreNotInMemory) {
+  const NoSource source;
+  PointView nowhere;
+  nowhere.count = 1;
+  for (const Kernel& kernel : kernels()) {
+    EXPECT_THROW(kernel.run(Isa::scalar, view_of(source, 100, ScalarType::float32)), std::invalid_argument)
+        << kernel.name;
+    EXPECT_THROW(kernel.run(Isa::scalar, nowhere), std::invalid_argument) << kernel.name;
+    EXPECT_NO_THROW(kernel.run(Isa::scalar, PointView())) << kernel.name;
+  }
+}
+
+TEST(Misuse, AnExtremePointIsOnlyLookedForInTheView) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 3);
+  const NoSource source;
+  const RoundedFilter filter{{0, 0, 0}, -1e30};
+  ExtremePoint best;
+  EXPECT_NO_THROW(find_extreme_point(cloud.view(), 0, 1, 10, {1, 0, 0}, filter, best));
+  EXPECT_THROW(find_extreme_point(cloud.view(), 0, 1, 11, {1, 0, 0}, filter, best), std::out_of_range);
+  EXPECT_THROW(
+      find_extreme_point(view_of(source, 10, ScalarType::float32), 0, 1, 10, {1, 0, 0}, filter, best),
+      std::invalid_argument);
+}
+
+TEST(Misuse, AnOriginThatIsNoPointOfTheCloudsTypeIsRefused) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 4);
+  const test::TestCloud<double> doubles = test::gaussian<double>(10, 4);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto measure = [](const PointView& points, const Coordinates& origin) {
+    slab_extents(Isa::scalar, points, origin, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto along = [axis](double c) {
+      return Coordinates{axis == 0 ? c : 0, axis == 1 ? c : 0, axis == 2 ? c : 0};
+    };
+    for (const double bad : {nan, 1.1e100, 0.1}) {
+      EXPECT_THROW(measure(cloud.view(), along(bad)), std::invalid_argument) << bad;
+    }
+    EXPECT_THROW(measure(doubles.view(), along(1.1e100)), std::invalid_argument);
+    EXPECT_NO_THROW(measure(doubles.view(), along(0.1)));
+    EXPECT_NO_THROW(measure(cloud.view(), along(0.5)));
+  }
+}
+
+TEST(Misuse, DistancesOfFloatsHaveNoUnitOfTheirOwnAndBoundsBelongToFloats) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 5);
+  const test::TestCloud<double> doubles = test::gaussian<double>(10, 5);
+  const DistanceCenter half{0, 0, 0, 0.5};
+  double greatest = 0;
+  EXPECT_THROW(block_distances(Isa::scalar, cloud.view(), half, 0, FloatFilter::off, &greatest),
+               std::invalid_argument);
+  EXPECT_NO_THROW(block_distances(Isa::scalar, doubles.view(), half, 0, FloatFilter::off, &greatest));
+  const std::vector<float> bounds(kBlockBounds, 1.0F);
+  std::uint32_t positions[10];
+  EXPECT_THROW(list_reaching(Isa::scalar, doubles.view(), {{}, bounds.data(), 0}, {}, 0, positions),
+               std::invalid_argument);
+  EXPECT_THROW(list_reaching(Isa::scalar, cloud.view(), {}, {}, 0, positions), std::invalid_argument);
+}
+
+TEST(Misuse, APolytopeHasNoMoreHalfSpacesThanThereIsRoomFor) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 6);
+  HalfSpaces inside;
+  std::uint32_t positions[10];
+  inside.count = kMaxHalfSpaces;
+  EXPECT_NO_THROW(list_outside(Isa::scalar, cloud.view(), inside, positions));
+  inside.count = kMaxHalfSpaces + 1;
+  EXPECT_THROW(list_outside(Isa::scalar, cloud.view(), inside, positions), std::invalid_argument);
+}
+
+TEST(Misuse, ASetOfProjectionsTakesSoManyDirectionsAndNoMore) {
+  ProjectionSet set;
+  for (std::size_t k = 0; k < kMaxProjections; ++k)
+    EXPECT_NO_THROW(set.add({1, 0, static_cast<double>(k)}));
+  EXPECT_THROW(set.add({1, 0, 0}), std::invalid_argument);
+  EXPECT_EQ(set.count, kMaxProjections);
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 7);
+  ++set.count;
+  ChunkFarthest out;
+  EXPECT_THROW(chunk_farthest(Isa::scalar, cloud.view(), set, {}, out), std::invalid_argument);
+}
+
+TEST(Misuse, WhatIsNoDirectionIsNotAddedToASet) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  ProjectionSet set;
+  for (const double bad : {nan, inf, -inf, 0.0, 0.9e-30, -1.1e30}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Direction direction{};
+      direction[axis] = bad;
+      EXPECT_THROW(set.add(direction), std::invalid_argument) << bad;
+      direction[(axis + 1) % 3] = 1;
+      if (!(std::abs(bad) < 1)) {
+        EXPECT_THROW(set.add(direction), std::invalid_argument) << bad;
+      }
+    }
+  }
+  EXPECT_EQ(set.count, 0U);
+  set.add({0, -1e-30, 0});
+  set.add({1, 0, 1e30});
+  EXPECT_EQ(set.count, 2U);
+}
+
+template <typename T>
+concept MakesAView = requires(const T* xyz) {
+  PointView::of(xyz, 12, 1);
+};
+
+TEST(Misuse, OnlyFloatsAndDoublesMakeAView) {
+  EXPECT_TRUE(MakesAView<float>);
+  EXPECT_TRUE(MakesAView<double>);
+  EXPECT_FALSE(MakesAView<std::int32_t>);
+  EXPECT_FALSE(MakesAView<std::uint64_t>);
+}
+
+TEST(Misuse, PointsAreSelectedOnlyFromWholeCloudsInMemory) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 8);
+  const std::vector<std::int32_t> indices = {0, 3};
+  const auto select = [&](const PointView& from) { return select_points(from, indices.data(), 2); };
+  const PointView selected = select(cloud.view());
+  EXPECT_EQ(load_point(selected, 1), load_point(cloud.view(), 3));
+  EXPECT_THROW(select(selected), std::invalid_argument);
+  EXPECT_THROW(select(cloud.view().slice(1, 9)), std::invalid_argument);
+  const NoSource source;
+  EXPECT_THROW(select(view_of(source, 10, ScalarType::float32)), std::invalid_argument);
+  const std::int32_t bad[] = {0, 10};
+  EXPECT_THROW(select_points(cloud.view(), bad, 2), std::out_of_range);
+}
+
+TEST(Misuse, ViewsAreTheSamePlacesOnlyIfNothingDiffers) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(10, 9), other = cloud;
+  const std::vector<std::int32_t> indices(10, 1);
+  const NoSource source;
+  const PointView view = cloud.view();
+  EXPECT_TRUE(same_places(view, cloud.view()));
+  EXPECT_FALSE(same_places(view, other.view()));
+  const auto differs = [&](const auto& change) {
+    PointView changed = view;
+    change(changed);
+    return !same_places(view, changed) && !same_places(changed, view);
+  };
+  EXPECT_TRUE(differs([](PointView& v) { v.stride = 24; }));
+  EXPECT_TRUE(differs([](PointView& v) { v.count = 9; }));
+  EXPECT_TRUE(differs([&](PointView& v) { v.indices = indices.data(); }));
+  EXPECT_TRUE(differs([](PointView& v) { v.first = 1; }));
+  EXPECT_TRUE(differs([](PointView& v) { v.scalar = ScalarType::float64; }));
+  EXPECT_TRUE(differs([](PointView& v) { v.order = PointOrder::groups; }));
+  EXPECT_TRUE(differs([&](PointView& v) { v.source = &source; }));
+}
+
+}  // namespace
+}  // namespace pcl_bv
