@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "axis_search.h"
+#include "hull_fit.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/small_ball.h"
-#include "round_fit.h"
 #include "vector3.h"
 
 namespace pcl_bv {
@@ -120,7 +120,7 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
 
 EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const Execution& execution) {
   capsule = Capsule();
-  return fit_round(points, execution, [&](const LocalHull& hull, const LocalFrame& frame) {
+  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Extremes&) {
     capsule = find_capsule(hull, frame);
   });
 }

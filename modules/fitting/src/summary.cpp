@@ -16,6 +16,8 @@
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/point_source.h"
+#include "local_frame.h"
+#include "point_rank.h"
 #include "schedule.h"
 #include "summarize_bounds.h"
 
@@ -34,7 +36,6 @@ void merge_bounds(const AxisExtents& part, Extremes& all) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     all.low[axis] = std::min(all.low[axis], part.low[axis]);
     all.high[axis] = std::max(all.high[axis], part.high[axis]);
-    all.constant[axis] = all.low[axis] == all.high[axis];
   }
 }
 
@@ -49,9 +50,7 @@ void merge_moments(const Moments& part, Moments& all) {
 // 1, or for tiny extents the power of two that brings the greatest to about 1 (2^1000 is far enough, and
 // finite).
 double scale_for(const Extremes& extremes) {
-  double extent = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    extent = std::max(extent, extremes.high[axis] - extremes.low[axis]);
+  const double extent = widest_side(extremes);
   return extent == 0 || extent >= 1e-100 ? 1 : std::ldexp(1.0, std::min(-std::ilogb(extent), 1000));
 }
 
@@ -117,6 +116,7 @@ Moments pass(const PointView& points, const Execution& execution, double seconds
 
 void finish(const PointView& points, const Execution& execution, const Coordinates& origin, Moments moments,
             CloudSummary& summary) {
+  summary.extremes.rank = point_rank(points, summary.extremes, execution);
   summary.scale = scale_for(summary.extremes);
   if (summary.scale != 1) moments = scaled_moments(points, origin, summary.scale, resolve_isa(execution.isa));
   finish(moments, origin, summary);
