@@ -35,8 +35,7 @@ ProjectionSet checked(const Direction* directions, std::size_t count) {
 }
 
 DirectionExtremes extremes_along(const Direction& n, const FarthestPoint& low, const FarthestPoint& high) {
-  return {project_down(n, low.point), project_up(n, high.point), compare_along(n, low.point, high.point) == 0,
-          low, high};
+  return {project_down(n, low.point), project_up(n, high.point), low, high};
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "point_rank.h"
 #include "schedule.h"
-#include "span.h"
 
 namespace pcl_bv {
 namespace {
@@ -51,8 +51,6 @@ void find_bounds(const PointView& points, const Execution& execution, Extremes& 
           out.high[axis] = std::max(out.high[axis], part.high[axis]);
         }
       });
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    out.constant[axis] = out.low[axis] == out.high[axis];
 }
 
 void find_points(const PointView& points, const Execution& execution, Extremes& out) {
@@ -77,12 +75,12 @@ Extremes part_of(const Extremes& known, DirectionSet set) {
   part.used = known.used;
   part.dropped = known.dropped;
   part.points = known.points;
+  part.rank = known.rank;
   const bool of_all = known.set == DirectionSet::dop26;
   for (std::size_t k = 0; k < direction_count(set); ++k) {
     const std::size_t from = of_all ? cube_direction(set, k) : k;
     part.low[k] = known.low[from];
     part.high[k] = known.high[from];
-    part.constant[k] = known.constant[from];
     part.low_point[k] = known.low_point[from];
     part.high_point[k] = known.high_point[from];
   }
@@ -124,11 +122,8 @@ void merge_extremes(const ChunkExtremes& part, Extremes& extremes) {
 void finish_extremes(std::size_t points, Extremes& extremes) {
   extremes.used = points - extremes.dropped;
   for (std::size_t k = 0; k < direction_count(extremes.set) && extremes.used > 0; ++k) {
-    const ExactSum& low = extremes.low_point[k].projection;  // of the opposite direction
-    const ExactSum& high = extremes.high_point[k].projection;
-    extremes.low[k] = -round_up(low) + 0.0;
-    extremes.high[k] = round_up(high);
-    extremes.constant[k] = compare({-low.head, -low.tail, -low.rest}, high) == 0;
+    extremes.low[k] = -round_up(extremes.low_point[k].projection) + 0.0;  // of the opposite direction
+    extremes.high[k] = round_up(extremes.high_point[k].projection);
   }
 }
 
@@ -150,6 +145,7 @@ Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail 
     find_points(points, execution, extremes);
     finish_extremes(points.count, extremes);
   }
+  extremes.rank = point_rank(points, extremes, execution);
   return extremes;
 }
 
@@ -168,12 +164,10 @@ Kdop kdop_of(const Extremes& extremes) {
 }
 
 EstimationResult result_of(const Extremes& extremes) {
-  Span flat;
-  for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
-    const auto& d = kCubeDirections[cube_direction(extremes.set, k)];
-    if (extremes.constant[k]) flat.add(Eigen::Vector3d(d[0], d[1], d[2]));
-  }
-  return result_from(flat, extremes.used, extremes.dropped);
+  const EstimationStatus status = extremes.used == 0   ? EstimationStatus::no_valid_points
+                                  : extremes.rank == 3 ? EstimationStatus::ok
+                                                       : EstimationStatus::degenerate;
+  return {status, extremes.rank, extremes.used, extremes.dropped, {}};
 }
 
 }  // namespace pcl_bv

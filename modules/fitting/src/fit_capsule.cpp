@@ -8,11 +8,11 @@
 
 #include "across.h"
 #include "axis_search.h"
+#include "hull_fit.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/small_ball.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "round_fit.h"
 
 namespace pcl_bv {
 namespace {
@@ -122,7 +122,7 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
 
 EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const Execution& execution) {
   capsule = Capsule();
-  return fit_round(points, execution, [&](const LocalHull& hull, const LocalFrame& frame) {
+  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Extremes&) {
     capsule = find_capsule(hull, frame);
   });
 }

@@ -8,11 +8,11 @@
 
 #include "across.h"
 #include "axis_search.h"
+#include "hull_fit.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/small_ball.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "round_fit.h"
 
 namespace pcl_bv {
 namespace {
@@ -66,7 +66,7 @@ Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const
 
 EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const Execution& execution) {
   cylinder = Cylinder();
-  return fit_round(points, execution, [&](const LocalHull& hull, const LocalFrame& frame) {
+  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Extremes&) {
     const std::vector<Eigen::Vector3d> vertices = essential_vertices(hull);
     const Eigen::Vector3d axis = find_axis(hull, vertices);
     std::vector<Eigen::Vector3d> all, flat;

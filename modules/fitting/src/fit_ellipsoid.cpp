@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "hull_fit.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "round_fit.h"
 #include "smallest_ellipsoid.h"
 #include "symmetric_eigen.h"
 
@@ -23,17 +23,14 @@ constexpr int kMostIterations = 300;
 // Radii below this part of the greatest are as good as flat, and would make quotients that say nothing.
 constexpr double kThinRadius = 0x1p-30;
 
-// The points as the solver sees them: coordinates along the hull's axes, which its rank makes enough.
-std::vector<Eigen::Vector3d> along_axes(const LocalHull& hull) {
-  const Eigen::Vector3d origin = hull.vertices.front().local;
-  std::vector<Eigen::Vector3d> result;
-  for (const HullPoint& v : hull.vertices) {
-    Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    for (int k = 0; k < hull.rank; ++k)
-      p[k] = dot3(hull.axes.col(k), v.local - origin);
-    result.push_back(p);
-  }
-  return result;
+// Found for the spread vertices, of which the hull's rank says how many coordinates count: what is smallest
+// for these is so for all their affine images, but the solver's matrices say nothing of points thinner than
+// 1e-8.
+WeightedEllipsoid solve(const LocalHull& hull) {
+  std::vector<Eigen::Vector3d> points;
+  for (const HullPoint& v : hull.vertices)
+    points.push_back(hull.spread(v.local));
+  return smallest_ellipsoid(points, hull.rank, kTolerance, kMostIterations);
 }
 
 struct Axes {
@@ -58,18 +55,19 @@ Axes scaled(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3
   return body;
 }
 
-// The ratio in the dimensions that the points span: volume, area or length.
+// The ratio in the dimensions that the points span: volume, area or length. Rounding moved the spread points
+// by 2^-48 of what is thinnest.
 void certify(const LocalHull& hull, const LocalFrame& frame, const WeightedEllipsoid& weighted,
              const Axes& body, EllipsoidCertificate& certificate) {
   const SymmetricEigen spread = symmetric_eigen(weighted.covariance);
   double ratio = 1, bound = 4 * std::numbers::pi / 3;
   for (int k = 0; k < hull.rank; ++k) {
-    const double radius = std::sqrt(hull.rank * std::max(spread.values[k], 0.0));
+    const double radius = std::sqrt(hull.rank * std::max(spread.values[k], 0.0)) * hull.reach[k];
     ratio *= body.radii[k] / radius;
     bound *= frame.length_down(radius);
   }
   certificate.excess = std::max(0.0, ratio - 1);
-  certificate.lower_bound = hull.rank == 3 ? bound * (1 - 0x1p-40) : 0;
+  certificate.lower_bound = hull.rank == 3 ? bound * (1 - 0x1p-40 / std::min(1.0, hull.reach[2])) : 0;
   for (std::size_t i = 0; i < hull.vertices.size(); ++i) {
     if (weighted.weights[i] == 0) continue;
     certificate.support.push_back(hull.vertices[i].index);
@@ -83,7 +81,7 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
                                EllipsoidCertificate& certificate, const Execution& execution) {
   ellipsoid = Ellipsoid();
   certificate = EllipsoidCertificate();
-  return fit_round(points, execution, [&](const LocalHull& hull, const LocalFrame& frame) {
+  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Extremes&) {
     if (hull.rank == 0) {
       certificate.support = {hull.vertices[0].index};
       certificate.weights = {1};
@@ -92,16 +90,16 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
       ellipsoid = Ellipsoid(vector(hull.vertices[0].point), Eigen::Matrix3d::Identity(), radii);
       return;
     }
-    const std::vector<Eigen::Vector3d> local = along_axes(hull);
-    const WeightedEllipsoid weighted = smallest_ellipsoid(local, hull.rank, kTolerance, kMostIterations);
-    const SymmetricEigen spread = symmetric_eigen(weighted.covariance);
+    const WeightedEllipsoid weighted = solve(hull);
+    const Eigen::Matrix3d unspread = hull.reach.asDiagonal();
+    const SymmetricEigen spread = symmetric_eigen(unspread * weighted.covariance * unspread);
     Axes body;
-    Eigen::Vector3d center = hull.vertices.front().local;
+    Eigen::Vector3d center = hull.candidates.front().local;
     for (int k = 0; k < 3; ++k) {
       body.axes.col(k) = (hull.axes.col(0) * spread.vectors(0, k) + hull.axes.col(1) * spread.vectors(1, k)) +
                          hull.axes.col(2) * spread.vectors(2, k);
       body.radii[k] = std::sqrt(hull.rank * std::max(spread.values[k], 0.0));
-      center += weighted.center[k] * hull.axes.col(k);
+      center += weighted.center[k] * hull.reach[k] * hull.axes.col(k);
     }
     body.radii = body.radii.cwiseMax(kThinRadius * body.radii[0]);
     center = frame.global(center);

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "local_hull.h"
+#include "hull_fit.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
@@ -100,23 +100,17 @@ void for_each_plane(const ParallelPolicy& parallel, std::size_t planes, const Me
 }  // namespace
 
 EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution) {
-  const FloatEnvironment environment;
-  const Extremes extremes = find_extremes(points, DirectionSet::dop26, ExtremeDetail::points, execution);
   hull = Hull();
-  EstimationResult result = result_of(extremes);
-  if (extremes.used == 0) return result;
-  const LocalFrame frame(points, extremes);
-  const LocalHull local = local_hull(points, extremes, frame, execution);
-  Normals normals = normals_of(local);
-  drop_repeated(normals);
-  const ReachTree tree(local.candidates, normals.size());
-  std::vector<HullPlane> planes(normals.size());
-  const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
-  for_each_plane(execution.parallel, normals.size(), measure);
-  hull = Hull(vertices_of(local, extremes), local.triangles, std::move(planes), local.rank);
-  result.rank = local.rank;
-  result.status = local.rank == 3 ? EstimationStatus::ok : EstimationStatus::degenerate;
-  return result;
+  return fit_on_hull(
+      points, execution, [&](const LocalHull& local, const LocalFrame&, const Extremes& extremes) {
+        Normals normals = normals_of(local);
+        drop_repeated(normals);
+        const ReachTree tree(local.candidates, normals.size());
+        std::vector<HullPlane> planes(normals.size());
+        const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
+        for_each_plane(execution.parallel, normals.size(), measure);
+        hull = Hull(vertices_of(local, extremes), local.triangles, std::move(planes), local.rank);
+      });
 }
 
 }  // namespace pcl_bv

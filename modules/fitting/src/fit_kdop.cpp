@@ -9,7 +9,6 @@
 #include "pcl_bv/fitting/extremes.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "span.h"
 
 namespace pcl_bv {
 namespace {
@@ -42,18 +41,16 @@ EstimationResult fit_own(const PointView& points, const std::shared_ptr<const Kd
     directions.push_back({set->direction(k).x(), set->direction(k).y(), set->direction(k).z()});
   const ExtremePoints extremes = find_extreme_points(points, directions, execution);
   SlabVector low = kdop.min(), high = kdop.max();
-  Span flat;
   for (std::size_t k = 0; k < extremes.along.size(); ++k) {
     const DirectionExtremes& along = extremes.along[k];
     low[static_cast<Eigen::Index>(k)] = along.low;
     high[static_cast<Eigen::Index>(k)] = along.high;
-    if (along.constant) flat.add(set->direction(k));
     if (touching == nullptr) continue;
     touching->min.push_back(along.low_point.index);
     touching->max.push_back(along.high_point.index);
   }
   kdop = Kdop(set, low, high);
-  return result_from(flat, extremes.used, extremes.dropped);
+  return result_of(find_extremes(points, DirectionSet::dop6, ExtremeDetail::bounds, execution));
 }
 
 EstimationResult fit(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,

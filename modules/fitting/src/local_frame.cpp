@@ -10,12 +10,21 @@
 
 namespace pcl_bv {
 
-LocalFrame::LocalFrame(const PointView& points, const Extremes& extremes)
-    : origin_(vector(extremes.low_point[0].point)), extent_(0) {
+double widest_side(const Extremes& extremes) {
+  double widest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    extent_ = std::max(extent_, extremes.high[axis] - extremes.low[axis]);
-  scale_ = extent_ > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(extent_), -1000, 1000)) : 1.0;
-  kernel_scale_ = points.scalar == ScalarType::float64 ? scale_ : 1.0;
+    widest = std::max(widest, extremes.high[axis] - extremes.low[axis]);
+  return widest;
 }
+
+double unit_scale(double extent) {
+  return extent > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(extent), -1000, 1000)) : 1.0;
+}
+
+LocalFrame::LocalFrame(const PointView& points, const Extremes& extremes)
+    : origin_(vector(extremes.low_point[0].point)),
+      extent_(widest_side(extremes)),
+      scale_(unit_scale(extent_)),
+      kernel_scale_(points.scalar == ScalarType::float64 ? scale_ : 1.0) {}
 
 }  // namespace pcl_bv

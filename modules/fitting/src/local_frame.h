@@ -19,13 +19,20 @@ inline Eigen::Vector3d vector(const Coordinates& p) {
   return {p.x, p.y, p.z};
 }
 
+/// The greatest width along an axis, in the unit of the points; 0 if all are equal.
+double widest_side(const Extremes& extremes);
+
+/// The power of two that brings a positive extent into [1, 2), as far as doubles have it (for 2^-1000 and
+/// below it is 2^1000); 1 for 0.
+double unit_scale(double extent);
+
 /// Relative to one of the cloud's points, in units of a power of two near its extent.
 class LocalFrame {
  public:
   /// Of a cloud with at least one valid point.
   LocalFrame(const PointView& points, const Extremes& extremes);
 
-  /// The greatest width along an axis; 0 if all points are equal. Unit of the points.
+  /// As widest_side() says.
   double extent() const { return extent_; }
 
   Eigen::Vector3d local(const Coordinates& p) const { return (vector(p) - origin_) * scale_; }

@@ -143,16 +143,19 @@ EstimationResult fit_smallest(const PointView& points, const std::vector<const M
   const Method* found = nullptr;
   Extremes extremes;
   const Execution shared = share_extremes(points, among, execution, extremes);
+  const auto failed = [](const EstimationResult& r) { return r.status == EstimationStatus::failed; };
   const auto size = [](const AnyVolume& v) { return std::pair(pcl_bv::volume(v), surface_area(v)); };
   for (const Method* method : among) {
     AnyVolume candidate;
     const EstimationResult said = method->fit(points, candidate, shared, options);
-    if (found != nullptr && !(size(candidate) < size(volume))) continue;
+    const bool better =
+        found == nullptr || (!failed(said) && (failed(result) || size(candidate) < size(volume)));
+    if (!better) continue;
     volume = std::move(candidate);
     result = said;
     found = method;
   }
-  if (winner != nullptr) *winner = result.used > 0 ? found : nullptr;
+  if (winner != nullptr) *winner = result.used > 0 && !failed(result) ? found : nullptr;
   return result;
 }
 

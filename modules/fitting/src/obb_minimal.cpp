@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <random>
-#include <stdexcept>
 #include <vector>
 
 #include "flat_box.h"
@@ -196,18 +195,16 @@ Eigen::Matrix3d solid_axes(const Vertices& vertices, std::vector<Eigen::Matrix3d
 Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
                              const Execution& execution) {
   if (!(frame.extent() > 0)) return Eigen::Matrix3d::Identity();
-  LocalHull hull;
-  try {
-    hull = local_hull(points, summary.extremes, frame, execution);
-  } catch (const std::runtime_error&) {  // Qhull gave up: the box will not be the smallest, but a box
-    const FewPoints few = few_points(points, summary.extremes, frame);
-    return solid_axes({few.begin(), few.end()}, start_frames(points, summary, frame), execution);
-  }
+  const LocalHull hull = local_hull(points, summary.extremes, frame, execution);
   if (hull.rank < 2) return orthonormal_axes(hull.axes);
   if (hull.rank == 2) return flat_axes(hull);
   Vertices vertices;
   for (const HullPoint& vertex : hull.vertices)
     vertices.push_back(vertex.local);
+  if (vertices.empty()) {  // Qhull gave up: the box will not be the smallest, but a box
+    const FewPoints few = few_points(points, summary.extremes, frame);
+    vertices.assign(few.begin(), few.end());
+  }
   return solid_axes(vertices, start_frames(points, summary, frame), execution);
 }
 

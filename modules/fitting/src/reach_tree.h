@@ -33,6 +33,7 @@ class ReachTree {
     double reach(const Eigen::Vector3d& normal) const;
   };
 
+  Eigen::Matrix3d sides(std::uint32_t begin, std::uint32_t end) const;
   Node box(std::uint32_t begin, std::uint32_t end) const;
 
   void build(std::uint32_t begin, std::uint32_t end, std::size_t leaf_points);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "extreme_search.h"
+#include "local_frame.h"
 #include "map_chunks.h"
 #include "moment_tree.h"
 #include "pcl_bv/kernels/axis_extents.h"
@@ -17,6 +18,7 @@
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "point_rank.h"
 #include "schedule.h"
 #include "summarize_bounds.h"
 
@@ -35,7 +37,6 @@ void merge_bounds(const AxisExtents& part, Extremes& all) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     all.low[axis] = std::min(all.low[axis], part.low[axis]);
     all.high[axis] = std::max(all.high[axis], part.high[axis]);
-    all.constant[axis] = all.low[axis] == all.high[axis];
   }
 }
 
@@ -48,9 +49,7 @@ MomentTree moments_of(UsableIsa isa, const PointView& chunk) {
 
 void finish(Moments moments, CloudSummary& summary) {
   if (moments.count == 0) return;
-  double extent = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    extent = std::max(extent, summary.extremes.high[axis] - summary.extremes.low[axis]);
+  const double extent = widest_side(summary.extremes);
   if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
   summary.scale = std::ldexp(1.0, moments.exponent);
   const double n = static_cast<double>(moments.count);
@@ -116,6 +115,7 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
       pass<ChunkExtremes>(points, execution, seconds, search,
                           [&](const ChunkExtremes& found) { merge_extremes(found, summary.extremes); });
   finish_extremes(points.count, summary.extremes);
+  summary.extremes.rank = point_rank(points, summary.extremes, execution);
   finish(moments, summary);
   return summary;
 }
@@ -134,6 +134,7 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
       [&](const AxisExtents& found) { merge_bounds(found, summary.extremes); });
   summary.extremes.used = moments.count;
   if (moments.count == 0) summary.extremes.low = summary.extremes.high = {};
+  summary.extremes.rank = point_rank(points, summary.extremes, execution);
   finish(moments, summary);
   return summary;
 }

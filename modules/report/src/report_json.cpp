@@ -119,7 +119,9 @@ void add_numbers(const Hull& hull, Json& entry) {
 
 Json volume_json(const VolumeEntry& entry) {
   Json json{{"shape", std::string(shape_name(entry.volume))}, {"method", entry.method}};
-  if (empty(entry.volume)) {
+  if (!entry.failed.empty()) {
+    json["failed"] = entry.failed;
+  } else if (empty(entry.volume)) {
     json["empty"] = true;
   } else {
     json["volume"] = volume(entry.volume);

@@ -60,7 +60,7 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
   row[method_column] = entry.method;
   if (entry.outside) row[10] = std::to_string(*entry.outside);
   if (empty(entry.volume)) {
-    row[3] = "empty";
+    row[3] = entry.failed.empty() ? "empty" : "failed";
     return row;
   }
   const Eigen::Vector3d middle = center(entry.volume);

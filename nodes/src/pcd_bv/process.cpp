@@ -50,6 +50,7 @@ void fit(const Segmentation& segmentation, const Options& options, Report& repor
       entry.method = method->name;
       const EstimationResult result =
           method->fit(segmentation.entries[id], entry.volume, shared, options.method_options);
+      entry.failed = result.reason;
       cluster.points = result.used;
       // Then there is one entry: the cloud.
       if (!looks_at_points(options)) report.counts.nonfinite = result.dropped;
@@ -57,16 +58,21 @@ void fit(const Segmentation& segmentation, const Options& options, Report& repor
   });
 }
 
-/// Verifies all volumes of all entries; outside if a point is.
+/// Failed if a fit did; if asked, verifies all other volumes of all entries: outside if a point is.
 Status check(const Segmentation& segmentation, const Options& options, Report& report) {
   Status status = Status::done;
   for (ClusterEntry& cluster : report.clusters) {
+    const std::string where = report.file + ": cluster " + std::to_string(cluster.id) + ": ";
+    const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
+      complain(where + entry.method + ": " + problem);
+      status = worse(status, what);
+    };
     for (VolumeEntry& entry : cluster.volumes) {
+      if (!entry.failed.empty()) object(entry, Status::failed, entry.failed);
+      if (!entry.failed.empty() || !options.check) continue;
       entry.outside = verify(entry.volume, segmentation.entries[cluster.id], options.execution).outside;
-      if (*entry.outside == 0) continue;
-      complain(report.file + ": cluster " + std::to_string(cluster.id) + ": " + entry.method + ": " +
-               std::to_string(*entry.outside) + " points outside");
-      status = Status::outside;
+      if (*entry.outside > 0)
+        object(entry, Status::outside, std::to_string(*entry.outside) + " points outside");
     }
   }
   return status;
@@ -143,7 +149,7 @@ Status process(const Job& job, const Options& options, Report& report) {
   seconds.fit = watch.lap();
   if (options.info) report.info = cloud_info(loaded.cloud(), loaded.xyz(), options.execution.parallel);
   if (options.timings) report.seconds = seconds;
-  const Status checked = options.check ? check(segmentation, options, report) : Status::done;
+  const Status checked = check(segmentation, options, report);
   return worse(checked, write_files(job, options, segmentation, report, loaded.take()));
 }
 

@@ -117,11 +117,14 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   const std::size_t methods = now.methods.size();
   result.methods.assign(now.methods.begin(), now.methods.end());
   result.volumes.resize(views.size() * methods);
+  result.results.resize(result.volumes.size());
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
     Extremes extremes;
     const Execution shared = share_extremes(views[cluster], now.methods, execution, extremes);
-    for (std::size_t m = 0; m < methods; ++m)
-      now.methods[m]->fit(views[cluster], result.volumes[cluster * methods + m], shared, now.options);
+    for (std::size_t m = 0; m < methods; ++m) {
+      const std::size_t i = cluster * methods + m;
+      result.results[i] = now.methods[m]->fit(views[cluster], result.volumes[i], shared, now.options);
+    }
   };
   for_each_view(views, now.execution, std::cref(fit_cluster));
 }

@@ -26,9 +26,12 @@ FrameReport to_report(const FrameResult& result) {
     entry.cluster.id = i;
     entry.cluster.points = result.clusters.cluster_size(i);
     if (!result.tracks.empty()) entry.track = result.tracks[i];
-    for (std::size_t m = 0; m < result.methods.size(); ++m)
-      entry.cluster.volumes.push_back(
-          {std::string(result.methods[m]->name), result.volume(i, m), std::nullopt});
+    for (std::size_t m = 0; m < result.methods.size(); ++m) {
+      VolumeEntry& volume = entry.cluster.volumes.emplace_back();
+      volume.method = result.methods[m]->name;
+      volume.volume = result.volume(i, m);
+      volume.failed = result.results[i * result.methods.size() + m].reason;
+    }
   }
   const StageTimes& ms = result.ms;
   report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/report/report.h"
 #include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/report/report.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 
@@ -35,6 +35,8 @@ struct FrameResult {
 
   std::vector<const Method*> methods;  ///< Of the volumes of each cluster, in the order asked for.
   std::vector<AnyVolume> volumes;      ///< Cluster by cluster, in each as `methods` says.
+  std::vector<EstimationResult>
+      results;  ///< What the fits of `volumes` said; those that failed left them empty.
   StageTimes ms;
 
   const AnyVolume& volume(std::size_t cluster, std::size_t method) const {

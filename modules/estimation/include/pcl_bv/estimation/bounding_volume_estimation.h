@@ -52,13 +52,13 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   /// Fits the volume to the input cloud, or to those points of it that the indices name.
   ///
   /// Points with a coordinate that is not finite are dropped, whatever is_dense says. No point left: an empty
-  /// volume and `no_valid_points`. Throws std::logic_error if no cloud was set, std::out_of_range for an
-  /// index outside the cloud.
+  /// volume and `no_valid_points`. A fit that fails: an empty volume, `failed` and the reason. Throws
+  /// std::logic_error if no cloud was set, std::out_of_range for an index outside the cloud.
   EstimationResult compute(VolumeT& volume) const;
 
   /// Fits one volume to each cluster (index lists into the input cloud; setIndices() does not matter here),
-  /// in order. The same bits as one compute() per cluster. Throws as compute() does, before anything is
-  /// written.
+  /// in order. The same bits as one compute() per cluster: one that fails takes no other with it. Throws as
+  /// compute() does, before anything is written.
   std::vector<EstimationResult> compute(const std::vector<pcl::PointIndices>& clusters,
                                         std::vector<VolumeT>& volumes) const;
 

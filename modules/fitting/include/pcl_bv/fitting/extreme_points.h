@@ -22,7 +22,6 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct DirectionExtremes {
   double low = 0;           ///< Exact least n . p, rounded down to a double; never -0.
   double high = 0;          ///< Exact greatest n . p, rounded up to a double; never -0.
-  bool constant = false;    ///< Whether all points have exactly the same n . p.
   FarthestPoint low_point;  ///< Of points with the same n . p the one with the smallest index.
   FarthestPoint high_point;
 };

@@ -29,10 +29,10 @@ struct Extremes {
   ExtremeDetail detail = ExtremeDetail::bounds;  ///< What was asked for; there may be more.
   std::size_t used = 0;
   std::size_t dropped = 0;
+  int rank = 0;                              ///< Of the points, as result.h defines it.
   std::array<double, kMaxDirections> low{};  ///< Exact least projection, rounded down to a double; never -0.
   std::array<double, kMaxDirections>
       high{};  ///< Exact greatest projection, rounded up to a double; never -0.
-  std::array<bool, kMaxDirections> constant{};  ///< Whether all points have exactly the same projection.
   std::array<ExtremePoint, kMaxDirections> low_point{};   ///< With ExtremeDetail::points.
   std::array<ExtremePoint, kMaxDirections> high_point{};  ///< With ExtremeDetail::points.
   PointView points;  ///< What they are the extremes of: only compared with, never read again.
@@ -41,7 +41,8 @@ struct Extremes {
 /// Finds the extremes of all valid points; `used` is 0 and nothing else but `dropped` is set if there is
 /// none. The same bits for every execution. One SIMD pass over the points in chunks, which also looks exactly
 /// at the few points of each chunk that can be extreme (docs/numerics.md). None if Execution::extremes has
-/// them; throws std::invalid_argument if those are of other points.
+/// them; throws std::invalid_argument if those are of other points. Points that are flat but for 2^-30 of their
+/// extent, and not just across a coordinate axis, are passed over up to five times more for their rank.
 Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail detail,
                        const Execution& execution);
 
@@ -49,7 +50,7 @@ Extremes find_extremes(const PointView& points, DirectionSet set, ExtremeDetail 
 Aabb aabb_of(const Extremes& extremes);
 Kdop kdop_of(const Extremes& extremes);
 
-/// Status and rank as result.h defines them, from what the extremes saw.
+/// Status and rank as result.h defines them.
 EstimationResult result_of(const Extremes& extremes);
 
 }  // namespace pcl_bv

@@ -84,15 +84,15 @@ struct EllipsoidCertificate {
 /// The axis-aligned box of the points: their exact minimum and maximum. Paper §2.
 ///
 /// Empty input or no finite point: an empty box and `no_valid_points`. One point: a box of that point. O(n),
-/// one pass. Throws std::invalid_argument for Execution::extremes of other points, and what the source of the
-/// points throws, if they have one.
+/// one pass; up to six for the rank of flat points (find_extremes()). Throws std::invalid_argument for
+/// Execution::extremes of other points, and what the source of the points throws, if they have one.
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution = {});
 
 /// The k-DOP of the points along the directions of `set` (not null): each slab is the true extreme, rounded
 /// outward to the next double where it is none itself. Paper §2, Figure 2. Same rules as fit_aabb(),
-/// and std::invalid_argument for a null set. The rank is that of the points, even where a projection that is
-/// no double leaves a flat slab one step wide. O(n) for each direction; your own take about twice the time of
-/// the built-in ones.
+/// and std::invalid_argument for a null set. A projection that is no double can leave the slab of a flat
+/// cloud one step wide. O(n) for each direction; your own take about twice the time of the built-in ones, and
+/// a pass more.
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                           const Execution& execution = {});
 
@@ -108,8 +108,7 @@ EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const K
                           SlabPoints& touching, const Execution& execution = {});
 
 /// A sphere around the points, centre and radius in the points' unit. Paper §3. Same rules as fit_aabb(); one
-/// point or equal points: radius 0. The rank is that along the 3 axes for `ritter` and `epos6`, 7 directions
-/// for `epos14`, 13 for the others. Two passes over the points, three for `epos98`.
+/// point or equal points: radius 0. Two passes over the points, three for `epos98`.
 EstimationResult fit_sphere(const PointView& points, const SphereOptions& options, Sphere& sphere,
                             const Execution& execution = {});
 
@@ -124,10 +123,9 @@ EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, Sp
 
 /// The convex hull of the points. Its vertices are points of the cloud (of equal ones any; axis by axis they
 /// reach as far as the cloud), its triangles the hull of them up to the rounding of doubles, and each plane's
-/// offset is the exact greatest projection of all points on its normal, rounded up. Same rules as fit_aabb();
-/// the rank is that of the points: 2 if they lie in a plane, however tilted, 1 on a line, 0 in one point, all
-/// to within 2^-36 of the extent. The planes enclose all the same. Throws std::runtime_error should Qhull
-/// fail.
+/// offset is the exact greatest projection of all points on its normal, rounded up. Same rules as fit_aabb().
+/// The hull has the rank of the points (result.h); the planes enclose all the same. Should Qhull fail, the
+/// hull is empty and the status `failed`.
 ///
 /// Akl and Toussaint 1978 drop the points inside the hull of the extremal ones, O(n); of the m others Barber,
 /// Dobkin and Huhdanpaa 1996 find the hull, O(m log m) where not most of them are vertices.

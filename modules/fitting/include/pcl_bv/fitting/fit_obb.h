@@ -41,9 +41,8 @@ struct ObbOptions {
 /// arithmetic and is tight along each axis but for the rounding of its centre.
 ///
 /// Empty input or no finite point: an empty box and `no_valid_points`. One point: a box of half extents 0.
-/// Points on a line or in a plane, to 1e-10 of their extent: a box along it, thin as rounding. The rank is
-/// that along the 26-DOP's directions (7 of them for `dito14`, 3 for `pca`). The same bits for every
-/// execution.
+/// Points on a line or in a plane, to 1e-10 of their extent: a box along it, thin as rounding. The same bits
+/// for every execution.
 ///
 /// O(n) in two passes for `pca` and `dito14`, three for the others, and for those O(m log m) besides for the
 /// m points that are near the hull, or near its outline from above. `minimal` takes milliseconds for a hull

@@ -51,8 +51,9 @@ Execution share_extremes(const PointView& points, const std::vector<const Method
 const std::vector<const Method*>& methods_of_all();
 
 /// Fits each of the methods (at least one, or std::invalid_argument) and keeps the volume that is smallest,
-/// of equally small (flat) ones that with the smallest surface, of equal ones the first. `winner`, if not
-/// null, becomes its method; null without a valid point.
+/// of equally small (flat) ones that with the smallest surface, of equal ones the first. Those that fail are
+/// left out; if all do, the result is that of the first. `winner`, if not null, becomes the volume's method;
+/// null without a valid point and if all fail.
 EstimationResult fit_smallest(const PointView& points, const std::vector<const Method*>& among,
                               AnyVolume& volume, const Execution& execution = {},
                               const MethodOptions& options = {}, const Method** winner = nullptr);

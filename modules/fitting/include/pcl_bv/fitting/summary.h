@@ -38,7 +38,6 @@ struct CloudSummary {
   Aabb aabb() const { return aabb_of(extremes); }
   Kdop dop26() const { return kdop_of(extremes); }
 
-  /// Status and rank of dop26().
   EstimationResult result() const { return result_of(extremes); }
 };
 

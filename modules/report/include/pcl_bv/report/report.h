@@ -19,6 +19,7 @@ struct VolumeEntry {
   std::string method;  ///< The canonical name, never an alias: "dop26".
   AnyVolume volume;
   std::optional<std::size_t> outside;  ///< Points that exact arithmetic found outside, if it was asked.
+  std::string failed;                  ///< If the fit failed and left the volume empty, why; else nothing.
 };
 
 struct ClusterEntry {
@@ -69,8 +70,8 @@ struct Report {
 ///
 /// Every number has the fewest digits that read back as exactly the same double, so that the volume read back
 /// holds every point that the stored one holds; there is no null, no NaN and no -0. An empty volume is
-/// `"empty":true` and has no numbers. Throws std::domain_error if a number is not finite, which no fitted
-/// volume has.
+/// `"empty":true`, one whose fit failed `"failed"` with the reason; both have no numbers. Throws
+/// std::domain_error if a number is not finite, which no fitted volume has.
 std::string report_json(const Report& report);
 
 /// The report as a table of at most 120 columns: a line on the file, then one row for each volume with its

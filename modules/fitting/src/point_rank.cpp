@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A few points that clearly span a solid spare the definition its passes over all.
+
+#include "point_rank.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "across.h"
+#include "local_frame.h"
+#include "map_chunks.h"
+#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "schedule.h"
+
+namespace pcl_bv {
+namespace {
+
+// Points taken one by one, each of which adds a dimension: farther than limits from the point, the line and
+// the plane of those before.
+//
+// The points of such a tetrahedron are in no slab thinner than its volume times 6 over the greatest product
+// of two of its edges, 3 extents squared: 2^-32 of the extent, where a cloud of rank 2 is in one of 2^-35. As
+// for triangles: 2^-19 of the extent.
+class Simplex {
+ public:
+  explicit Simplex(double extent)
+      : limit_{0x1p-8 * extent, 0x1p-18 * extent * extent, 0x1p-30 * extent * extent * extent} {}
+
+  int rank() const { return rank_; }
+
+  void add(const Coordinates& p) {
+    const Eigen::Vector3d q = vector(p) - origin_;
+    if (rank_ < 0) {
+      origin_ = vector(p);
+      rank_ = 0;
+    } else if (rank_ == 0 && q.cwiseAbs().maxCoeff() > limit_[0]) {
+      edge_ = q;
+      rank_ = 1;
+    } else if (rank_ == 1 && cross3(edge_, q).cwiseAbs().maxCoeff() > limit_[1]) {
+      normal_ = cross3(edge_, q);
+      rank_ = 2;
+    } else if (rank_ == 2 && std::abs(dot3(normal_, q)) > limit_[2]) {
+      rank_ = 3;
+    }
+  }
+
+ private:
+  double limit_[3];
+  int rank_ = -1;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), edge_ = origin_, normal_ = origin_;
+};
+
+// Four points of each chunk that lie apart, and all of the first one, as far as they are needed: whether they
+// span so many dimensions, beyond what the definition could deny.
+bool clearly_spans(const PointView& points, double extent, int dimensions) {
+  Simplex simplex(extent);
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(points, chunk);
+    const PointView& view = loaded.view();
+    const auto add_every = [&](std::size_t step) {
+      for (std::size_t i = 0; i < view.count && simplex.rank() < dimensions; i += step) {
+        const Coordinates p = load_point(view, i);
+        if (is_valid(p)) simplex.add(p);
+      }
+    };
+    add_every(std::max<std::size_t>(view.count / 4, 1));
+    if (chunk == 0) add_every(1);
+    if (simplex.rank() >= dimensions) return true;
+  }
+  return false;
+}
+
+struct Outermost {
+  double squared_distance = -1;
+  Coordinates point{};
+};
+
+void keep_outermost(const Outermost& other, Outermost& best) {
+  if (other.squared_distance < best.squared_distance) return;
+  const auto key = [](const Coordinates& p) { return std::tie(p.x, p.y, p.z); };
+  const bool first = key(other.point) < key(best.point);
+  if (other.squared_distance > best.squared_distance || first) best = other;
+}
+
+template <typename Measure>
+Outermost farthest(const PointView& points, const Execution& execution, const Measure& squared_distance) {
+  constexpr double seconds_per_point = 3e-9;
+  Outermost best;
+  map_chunks<Outermost>(
+      points, worthwhile(execution.parallel, seconds_per_point * static_cast<double>(points.count)),
+      [&](const PointView& chunk) {
+        Outermost found;
+        for (std::size_t i = 0; i < chunk.count; ++i) {
+          const Coordinates p = load_point(chunk, i);
+          if (is_valid(p)) keep_outermost({squared_distance(p), p}, found);
+        }
+        return found;
+      },
+      [&](const Outermost& found) { keep_outermost(found, best); });
+  return best;
+}
+
+// The axes that the points do not span.
+void complete_axes(Span& span) {
+  const Eigen::Vector3d first = span.axes.col(0);
+  if (span.rank == 1) span.axes.col(1) = Across(first).u;
+  span.axes.col(2) = unit3(cross3(first, span.axes.col(1)));
+}
+
+}  // namespace
+
+Span span_of(const PointView& points, double scale, const Execution& execution) {
+  Span span;
+  const Coordinates start = farthest(points, execution, [](const Coordinates&) { return 0.0; }).point;
+  const auto across = [&](const Coordinates& p) {
+    Eigen::Vector3d q = (vector(p) - vector(start)) * scale;
+    for (int k = 0; k < span.rank; ++k)
+      q -= dot3(span.axes.col(k), q) * span.axes.col(k);
+    return q;
+  };
+  for (; span.rank < 3; ++span.rank) {
+    const Outermost found = farthest(points, execution, [&](const Coordinates& p) {
+      const Eigen::Vector3d q = across(p);
+      return dot3(q, q);
+    });
+    const double distance = std::sqrt(found.squared_distance);
+    if (!(distance > kFlat)) break;
+    Eigen::Vector3d q = across(found.point);
+    // Once more: what was thousands of times longer has left its rounding.
+    for (int k = 0; k < span.rank; ++k)
+      q -= dot3(span.axes.col(k), q) * span.axes.col(k);
+    span.axes.col(span.rank) = unit3(q);
+    span.reach[span.rank] = distance;
+  }
+  complete_axes(span);
+  return span;
+}
+
+int point_rank(const PointView& points, const Extremes& extremes, const Execution& execution) {
+  int sides = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    sides += extremes.used > 0 && extremes.low[axis] < extremes.high[axis] ? 1 : 0;
+  if (sides == 0) return 0;
+  const double extent = widest_side(extremes);
+  // Products of three smaller ones could underflow.
+  if (extent > 0x1p-300 && clearly_spans(points, extent, sides)) return sides;
+  return span_of(points, unit_scale(extent), execution).rank;
+}
+
+}  // namespace pcl_bv
