@@ -81,12 +81,15 @@ struct Numbers {
     motion.translation() = vector();
     axes = random.isometry(1).linear();
     half = vector().cwiseAbs();
+    // Nearly the coordinate axes where sizes are small: components that are denormal numbers.
+    sheared << 1, points[1].x(), 0, points[0].x(), 1, 0, 0, points[2].x(), 1;
+    tilted = orthonormal_axes(sheared);
     cube_side = size.x();
   }
 
   std::array<Vector3d, 6> points;
   Eigen::Isometry3d motion;
-  Eigen::Matrix3d axes;
+  Eigen::Matrix3d axes, sheared, tilted;
   Vector3d half;
   double cube_side;
 };
@@ -167,7 +170,11 @@ void record_obb(const Numbers& n, Record& record) {
   record.add("overlaps", box.overlaps(turned));
   record.add("canonical", turned.canonical());
   record.add("oriented_as", turned.oriented_as(box));
-  record.add("quaternion", turned.quaternion().coeffs());
+  const Obb tilted(n.points[1], n.tilted, n.half), upright(n.points[1], Eigen::Matrix3d::Identity(), n.half);
+  record.add("oriented_as", tilted.oriented_as(upright));
+  record.add("oriented_as", upright.oriented_as(tilted));
+  record.add("quaternion", tilted.quaternion().coeffs());
+  record.add("orthonormal_axes", orthonormal_axes(n.sheared));
   record.add("cast_float", box.cast_float().center);
   record.add("cast_float", box.cast_float().half_extents);
   record.add("empty of a negative size", Obb(n.points[0], n.axes, -n.half).empty());
@@ -187,7 +194,7 @@ void record_round(const Numbers& n, Record& record) {
 void record_hull(const Hull& cube, const Numbers& n, Record& record) {
   const Hull hull(cube.vertices(), cube.triangles(), cube.planes(), cube.rank());
   std::vector<Vector3d> others = cube.vertices();
-  others[0] = n.points[0];
+  others[0] = n.points[1];
   record_common(hull, Hull(others, cube.triangles(), cube.planes(), cube.rank()), n, record);
 }
 
@@ -213,11 +220,12 @@ Record record_all(const Numbers& n, const Hull& cube) {
   return record;
 }
 
-// 1e-310 is a denormal number itself; squares of 1e-157 and cubes of 1e-104 are; sizes may differ, too.
-const std::vector<Vector3d>& sizes() {
-  static const std::vector<Vector3d> all{Vector3d::Constant(1e-310),  Vector3d::Constant(1e-157),
-                                         Vector3d::Constant(1e-104),  Vector3d(1e-310, 1, 1),
-                                         Vector3d(1, 1e-310, 1e-310), Vector3d(1e-310, 1e60, 1e60)};
+// 1e-310 is a denormal number itself, some below 2e-308 are, 1e-41 is one of float; squares of 1e-157 and
+// cubes of 1e-104 are denormal numbers, some squares of 1.5e-154; sizes may differ, too.
+std::vector<Vector3d> sizes() {
+  std::vector<Vector3d> all{{1e-310, 1, 1}, {1, 1e-310, 1e-310}, {1e-310, 1e60, 1e60}};
+  for (const double size : {1e-310, 2e-308, 1e-157, 1.5e-154, 1e-104, 1e-41})
+    all.push_back(Vector3d::Constant(size));
   return all;
 }
 

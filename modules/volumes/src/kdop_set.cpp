@@ -73,7 +73,6 @@ std::array<std::size_t, 3> find_basis(const Directions& directions) {
 }  // namespace
 
 KdopSet::KdopSet(std::vector<Eigen::Vector3d> directions) : directions_(std::move(directions)) {
-  const FloatEnvironment environment;
   check(directions_);
   basis_ = find_basis(directions_);
 }
