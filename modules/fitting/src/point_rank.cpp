@@ -19,16 +19,30 @@
 namespace pcl_bv {
 namespace {
 
+// Of six times the volume of a tetrahedron. A greater one is in no slab thinner than that over the greatest
+// product of two of its edges, 3 extents squared: 2^-32 of the extent, where a cloud of rank 2 is in one of
+// 2^-35.
+double clear_volume(double extent) {
+  return 0x1p-30 * extent * extent * extent;
+}
+
+// Four points that lie apart in the view decide for nearly all clouds: 20 ns, where a box of 300 points takes
+// 220.
+bool four_span(const PointView& points, double extent) {
+  const std::size_t step = points.count / 4;
+  const Coordinates p = load_point(points, 0), a = load_point(points, step), b = load_point(points, 2 * step),
+                    c = load_point(points, 3 * step);
+  if (!is_valid(p) || !is_valid(a) || !is_valid(b) || !is_valid(c)) return false;
+  const Eigen::Vector3d normal = cross3(vector(a) - vector(p), vector(b) - vector(p));
+  return std::abs(dot3(normal, vector(c) - vector(p))) > clear_volume(extent);
+}
+
 // Points taken one by one, each of which adds a dimension: farther than limits from the point, the line and
-// the plane of those before.
-//
-// The points of such a tetrahedron are in no slab thinner than its volume times 6 over the greatest product
-// of two of its edges, 3 extents squared: 2^-32 of the extent, where a cloud of rank 2 is in one of 2^-35. As
-// for triangles: 2^-19 of the extent.
+// the plane of those before. A triangle is in no strip thinner than a 2^-19th of the extent.
 class Simplex {
  public:
   explicit Simplex(double extent)
-      : limit_{0x1p-8 * extent, 0x1p-18 * extent * extent, 0x1p-30 * extent * extent * extent} {}
+      : limit_{0x1p-8 * extent, 0x1p-18 * extent * extent, clear_volume(extent)} {}
 
   int rank() const { return rank_; }
 
@@ -57,6 +71,7 @@ class Simplex {
 // Four points of each chunk that lie apart, and all of the first one, as far as they are needed: whether they
 // span so many dimensions, beyond what the definition could deny.
 bool clearly_spans(const PointView& points, double extent, int dimensions) {
+  if (dimensions == 3 && points.source == nullptr && four_span(points, extent)) return true;
   Simplex simplex(extent);
   for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
     const LoadedPoints loaded = load_chunk(points, chunk);
