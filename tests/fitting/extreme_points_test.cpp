@@ -77,7 +77,6 @@ void expect_exact(const PointView& points, const Directions& directions) {
     const DirectionExtremes& along = extremes.along[k];
     EXPECT_EQ(along.low, test::greatest_double_below(expected.low));
     EXPECT_EQ(along.high, test::least_double_above(expected.high));
-    EXPECT_EQ(along.constant, expected.low == expected.high);
     EXPECT_EQ(along.low_point.index, expected.low_index);
     EXPECT_EQ(along.high_point.index, expected.high_index);
     EXPECT_EQ(test::exact_dot(directions[k], along.low_point.point), expected.low);
@@ -129,7 +128,6 @@ void expect_same(const ExtremePoints& a, const ExtremePoints& b) {
     SCOPED_TRACE(testing::Message() << "direction " << k);
     EXPECT_EQ(a.along[k].low, b.along[k].low);
     EXPECT_EQ(a.along[k].high, b.along[k].high);
-    EXPECT_EQ(a.along[k].constant, b.along[k].constant);
     EXPECT_EQ(a.along[k].low_point.index, b.along[k].low_point.index);
     EXPECT_EQ(a.along[k].high_point.index, b.along[k].high_point.index);
   }
@@ -170,7 +168,6 @@ TEST(ExtremePoints, AlongTheCubesDirectionsAreThoseOfTheCubesKernel) {
     for (std::size_t k = 0; k < extremes.along.size(); ++k) {
       EXPECT_EQ(extremes.along[k].low, expected.low[k]);
       EXPECT_EQ(extremes.along[k].high, expected.high[k]);
-      EXPECT_EQ(extremes.along[k].constant, expected.constant[k]);
       EXPECT_EQ(extremes.along[k].low_point.index, expected.low_point[k].index);
       EXPECT_EQ(extremes.along[k].high_point.index, expected.high_point[k].index);
     }

@@ -68,7 +68,6 @@ void expect_exact(const PointView& points, const Extremes& extremes) {
     EXPECT_EQ(extremes.high[k], test::least_double_above(high)) << "direction " << k;
     EXPECT_FALSE(extremes.low[k] == 0 && std::signbit(extremes.low[k]));
     EXPECT_FALSE(extremes.high[k] == 0 && std::signbit(extremes.high[k]));
-    EXPECT_EQ(extremes.constant[k], low == high) << "direction " << k;
   }
 }
 
@@ -202,7 +201,7 @@ TEST(Extremes, SurviveAHostThatFlushesDenormals) {
   }
 }
 
-TEST(Extremes, RankCountsTheDirectionsWithAnyExtent) {
+TEST(Extremes, RankIsThatOfThePointsAlongWhateverDirections) {
   const auto rank = [](std::vector<float> xyz, DirectionSet set) {
     const PointView points = PointView::of(xyz.data(), 12, xyz.size() / 3);
     return result_of(find_extremes(points, set, ExtremeDetail::bounds, {})).rank;
@@ -210,8 +209,8 @@ TEST(Extremes, RankCountsTheDirectionsWithAnyExtent) {
   EXPECT_EQ(rank({1, 2, 3}, DirectionSet::dop6), 0);
   EXPECT_EQ(rank({0, 0, 0, 5, 0, 0}, DirectionSet::dop26), 1);
   EXPECT_EQ(rank({0, 0, 0, 1, 1, 0, 3, 1, 0}, DirectionSet::dop6), 2);
-  EXPECT_EQ(rank({0, 0, 0, 1, -1, 0, 0, 0, 1}, DirectionSet::dop6), 3) << "a box does not see a tilted plane";
-  EXPECT_EQ(rank({0, 0, 0, 1, -1, 0, 0, 0, 1}, DirectionSet::dop26), 2) << "a 26-DOP does";
+  EXPECT_EQ(rank({0, 0, 0, 1, -1, 0, 0, 0, 1}, DirectionSet::dop6), 2) << "a tilted plane";
+  EXPECT_EQ(rank({0, 0, 0, 1, -1, 0, 0, 0, 1}, DirectionSet::dop26), 2);
   EXPECT_EQ(rank({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, DirectionSet::dop26), 3);
 }
 

@@ -5,11 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "clouds.h"
+#include "hull_fit.h"
 #include "pcl_bv/numeric/directions.h"
 
 namespace pcl_bv {
@@ -144,6 +148,76 @@ TEST(Methods, TheKernelsDirectionsAreTheVolumes) {
       EXPECT_EQ(volume_set->direction(k), Eigen::Vector3d(d[0], d[1], d[2]));
     }
   }
+}
+
+EstimationResult gives_up(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                          const Execution&) {
+  volume.emplace<Hull>();
+  return {EstimationStatus::failed, 3, points.count, 0, "gave up"};
+}
+
+TEST(Methods, TheSmallestLeavesOutThoseThatFail) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(500, 3);
+  const Method failing{"failing", {}, "hull", gives_up, {}};
+  const Method* const box = find_method("aabb");
+  const Method* winner = nullptr;
+  AnyVolume volume;
+  for (const std::vector<const Method*>& among : {std::vector{&failing, box}, std::vector{box, &failing}}) {
+    EXPECT_EQ(fit_smallest(cloud.view(), among, volume, {}, {}, &winner).status, EstimationStatus::ok);
+    EXPECT_EQ(winner, box);
+    EXPECT_EQ(shape_name(volume), "aabb");
+  }
+  const EstimationResult none = fit_smallest(cloud.view(), {&failing, &failing}, volume, {}, {}, &winner);
+  EXPECT_EQ(none.status, EstimationStatus::failed);
+  EXPECT_EQ(none.reason, "gave up");
+  EXPECT_EQ(winner, nullptr);
+  EXPECT_TRUE(empty(volume));
+}
+
+// Tilted, in any order: a plane through the origin, a line, and a plane with one point just above or at what
+// is flat.
+TEST(Methods, AllSayTheSameRankHoweverPointsAreTiltedAndOrdered) {
+  std::vector<std::pair<int, std::vector<double>>> clouds{{2, {}}, {1, {}}};
+  for (int i = 0; i < 400; ++i) {
+    const double x = 3.0 * (i % 20), y = 3.0 * (i / 20);
+    clouds[0].second.insert(clouds[0].second.end(), {x, y, -(x + 2 * y) / 3});
+    clouds[1].second.insert(clouds[1].second.end(), {x, -2 * x, 5 * x});
+  }
+  for (const double z : {0x1p-36, 0x1.00001p-36})
+    clouds.push_back({z == 0x1p-36 ? 2 : 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, z}});
+  for (auto& [rank, xyz] : clouds) {
+    for (const bool reversed : {false, true}) {
+      if (reversed) std::reverse(xyz.begin(), xyz.end());  // of z, y, x
+      const PointView points = PointView::of(xyz.data(), 24, xyz.size() / 3);
+      for (const Method& method : methods()) {
+        AnyVolume volume;
+        const EstimationResult result = method.fit(points, volume, {});
+        EXPECT_EQ(result.rank, rank) << method.name << ", " << points.count << " points";
+        EXPECT_EQ(result.status == EstimationStatus::ok, rank == 3) << method.name;
+      }
+    }
+  }
+}
+
+TEST(Methods, ASolidWithoutTrianglesIsAFailureWithItsReason) {
+  Extremes extremes;
+  extremes.used = 4;
+  extremes.dropped = 1;
+  extremes.rank = 3;
+  LocalHull hull;
+  hull.rank = 3;
+  const EstimationResult failed = result_of(extremes, hull);
+  EXPECT_EQ(failed.status, EstimationStatus::failed);
+  EXPECT_EQ(failed.reason, "Qhull finds no hull");
+  EXPECT_EQ(failed.rank, 3);
+  EXPECT_EQ(failed.used, 4u);
+  EXPECT_EQ(failed.dropped, 1u);
+  hull.triangles = {{0, 1, 2}};
+  EXPECT_EQ(result_of(extremes, hull).status, EstimationStatus::ok);
+  extremes.rank = hull.rank = 2;
+  hull.triangles.clear();
+  EXPECT_EQ(result_of(extremes, hull).status, EstimationStatus::degenerate) << "a polygon has no triangles";
+  EXPECT_EQ(result_of(extremes, hull).reason, "");
 }
 
 }  // namespace

@@ -276,5 +276,24 @@ TEST(RoundFits, OfNothingAreEmpty) {
   EXPECT_TRUE(cylinder.empty() && capsule.empty() && ellipsoid.empty());
 }
 
+// Joggled by 1e-11, Qhull would leave out the one vertex off the plane, and the ellipsoid's matrix be
+// singular.
+TEST(RoundFits, OfAPlaneWithOnePointOffItNeverThrow) {
+  for (const double off : {1e-9, 0x1p-34, -0x1p-34, 0x1p-33}) {
+    SCOPED_TRACE(off);
+    TestCloud<double> cloud{"grid", {0.3, 3, off}};
+    for (int i = 0; i < 3600; ++i)
+      cloud.xyz.insert(cloud.xyz.end(), {0.1 * (i % 60), 0.1 * (i / 60), 0.0});
+    Cylinder cylinder;
+    Capsule capsule;
+    Ellipsoid ellipsoid;
+    EXPECT_NE(fit_cylinder(cloud.view(), cylinder).status, EstimationStatus::failed);
+    EXPECT_NE(fit_capsule(cloud.view(), capsule).status, EstimationStatus::failed);
+    EXPECT_NE(fit_ellipsoid(cloud.view(), ellipsoid).status, EstimationStatus::failed);
+    for (const AnyVolume& volume : {AnyVolume(cylinder), AnyVolume(capsule), AnyVolume(ellipsoid)})
+      EXPECT_EQ(verify(volume, cloud.view()).outside, 0u) << shape_name(volume);
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv

@@ -38,6 +38,10 @@ inline void expect_equal(const FrameResult& a, const FrameResult& b) {
   ASSERT_EQ(a.volumes.size(), b.volumes.size());
   for (std::size_t i = 0; i < a.volumes.size(); ++i)
     EXPECT_TRUE(a.volumes[i] == b.volumes[i]) << i;
+  ASSERT_EQ(a.results.size(), a.volumes.size());
+  ASSERT_EQ(b.results.size(), b.volumes.size());
+  for (std::size_t i = 0; i < a.results.size(); ++i)
+    EXPECT_EQ(a.results[i].rank, b.results[i].rank) << i;
 }
 
 }  // namespace pcl_bv

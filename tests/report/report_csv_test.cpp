@@ -65,6 +65,12 @@ TEST(Csv, EmptyVolumeHasNoNumbers) {
     EXPECT_EQ(line_of("m", volume), "f,3,12,m,,,,,,,,,,,,\n");
 }
 
+TEST(Csv, AFitThatFailedHasNoNumbers) {
+  std::string text;
+  append_csv("f", {3, 12, {{"hull", Hull(), {}, "gave up"}}}, text);
+  EXPECT_EQ(text, "f,3,12,hull,,,,,,,,,,,,\n");
+}
+
 TEST(Csv, EveryLineHasAsManyFieldsAsTheHeading) {
   for (const AnyVolume& volume : {AnyVolume(Aabb()), AnyVolume(Aabb({0, 0, 0}, {1, 1, 1})),
                                   AnyVolume(Sphere({0, 0, 0}, 1)), AnyVolume(Sphere())}) {

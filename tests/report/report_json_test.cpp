@@ -116,6 +116,11 @@ TEST(ReportJson, EmptyVolumeHasNoNumbers) {
                         R"({"shape":"obb","method":"obb-pca","empty":true}])"));
 }
 
+TEST(ReportJson, AFitThatFailedHasItsReasonAndNoNumbers) {
+  EXPECT_THAT(report_json(report_of({{"hull", Hull(), {}, "gave \"up\""}})),
+              HasSubstr(R"("volumes":[{"shape":"hull","method":"hull","failed":"gave \"up\""}])"));
+}
+
 TEST(ReportJson, NoClustersIsAnEmptyArray) {
   Report report;
   EXPECT_THAT(report_json(report), HasSubstr(R"("clusters":[])"));

@@ -93,6 +93,13 @@ TEST(ReportText, AnyMagnitudeFitsTheTerminal) {
   }
 }
 
+TEST(ReportText, AFitThatFailedSaysSo) {
+  Report report = two_clusters();
+  report.clusters[1].volumes[1] = {"hull", Hull(), {}, "gave up"};  // where an empty one was
+  EXPECT_THAT(report_text(report), HasSubstr("failed"));
+  EXPECT_THAT(report_text(report), Not(HasSubstr("empty")));
+}
+
 TEST(ReportText, NoClustersSaysSo) {
   Report report;
   report.file = "a.pcd";

@@ -28,9 +28,9 @@ enum class EstimationStatus : std::uint8_t {
 struct EstimationResult {
   EstimationStatus status = EstimationStatus::no_valid_points;
   int rank = 0;
-  std::size_t used = 0;     ///< Points enclosed.
-  std::size_t dropped = 0;  ///< Points with a coordinate that is not finite (double: or beyond 1e100).
-  std::string_view reason;  ///< Why it failed, a text that is never freed; empty unless it did.
+  std::size_t used = 0;       ///< Points enclosed.
+  std::size_t dropped = 0;    ///< Points with a coordinate that is not finite (double: or beyond 1e100).
+  std::string_view reason{};  ///< Why it failed, a text that is never freed; empty unless it did.
 };
 
 }  // namespace pcl_bv

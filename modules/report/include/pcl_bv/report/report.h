@@ -19,7 +19,7 @@ struct VolumeEntry {
   std::string method;  ///< The canonical name, never an alias: "dop26".
   AnyVolume volume;
   std::optional<std::size_t> outside;  ///< Points that exact arithmetic found outside, if it was asked.
-  std::string failed;                  ///< If the fit failed and left the volume empty, why; else nothing.
+  std::string failed{};                ///< If the fit failed and left the volume empty, why; else nothing.
 };
 
 struct ClusterEntry {
