@@ -180,12 +180,13 @@ TEST(PointSource, ABoxTakesOnePassAndASphereTwo) {
   const CopyingSource<float> source(cloud);
   const std::size_t chunks = chunk_count(kCount);
   AnyVolume volume;
+  // And the first chunk once more: some of its points tell the rank.
   find_method("aabb")->fit(source.view(), volume, {});
-  EXPECT_EQ(source.loads.exchange(0), chunks);
+  EXPECT_EQ(source.loads.exchange(0), chunks + 1);
   find_method("dop26")->fit(source.view(), volume, {});
-  EXPECT_EQ(source.loads.exchange(0), chunks);
+  EXPECT_EQ(source.loads.exchange(0), chunks + 1);
   find_method("sphere-epos26")->fit(source.view(), volume, {});
-  EXPECT_LE(source.loads.exchange(0), chunks + (kCount + kBlockPoints - 1) / kBlockPoints);
+  EXPECT_LE(source.loads.exchange(0), chunks + 1 + (kCount + kBlockPoints - 1) / kBlockPoints);
 }
 
 TEST(PointSource, APartOfAViewIsThatPart) {

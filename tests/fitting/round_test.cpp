@@ -174,6 +174,15 @@ TEST(Ellipsoid, ItsCertificateProvesThatItIsNearlyTheSmallest) {
   }
 }
 
+TEST(Ellipsoid, OfTwoHalfSpheresApartIsWithinItsTolerance) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Ellipsoid ellipsoid;
+    EllipsoidCertificate certificate;
+    fit_ellipsoid(turned<float>(500, seed, 0, of_capsule).view(), ellipsoid, certificate);
+    EXPECT_LE(certificate.excess, 2.1e-6) << "seed " << seed;
+  }
+}
+
 TEST(Ellipsoid, OfACubeIsItsSphere) {
   const TestCloud<float> cloud{
       "cube", {1, 1, 1, -1, 1, 1, 1, -1, 1, -1, -1, 1, 1, 1, -1, -1, 1, -1, 1, -1, -1, -1, -1, -1}};

@@ -19,7 +19,9 @@ using Square = std::array<Lifted, 4>;
 // More points with weight than this exchange it with the worst one only: all pairs would take longer than the
 // pass.
 constexpr std::size_t kMostPairs = 40;
-constexpr int kMostSweeps = 16;
+// With 16, two half spheres apart ended after 300 passes up to 9e-5 above the bound, 84 of 300 clouds 1e-5 and
+// more; with 256 all are at 2e-6 after 265, in 1.4 times the time.
+constexpr int kMostSweeps = 256;
 constexpr double kSettled = 1e-7;
 
 class Ascent {
