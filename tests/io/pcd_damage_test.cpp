@@ -132,7 +132,9 @@ TEST_F(PcdDamage, CutWhileItIsReadGivesAnErrorOrTheWholeCloud) {
   });
   for (int i = 0; i < 300; ++i) {
     const std::string reason = reason_for(file("a.pcd"));
-    EXPECT_TRUE(reason.empty() || reason.starts_with("truncated: ")) << reason;
+    EXPECT_TRUE(reason.empty() || reason.starts_with("truncated: ") ||
+                reason == "the file was changed while it was read")
+        << reason;
   }
   done = true;
   cutter.join();
