@@ -102,6 +102,7 @@ void check_together(const PipelineConfig& c, Checker& check) {
 
 std::vector<std::string> lines(const std::vector<ConfigProblem>& problems) {
   std::vector<std::string> texts;
+  texts.reserve(problems.size());
   for (const ConfigProblem& problem : problems)
     texts.push_back(problem.key + ": " + problem.what);
   return texts;
