@@ -102,6 +102,28 @@ TEST(SmallBall, EqualsTheBestOfAllSubsetsOnLatticePointsWithTheirTies) {
   }
 }
 
+TEST(SmallBall, OfNearlyRegularTetrahedraWithEdgesOfLengthOneAlongAnAxisTouchesAllFour) {
+  // Whichever point comes first, some edge from it has a coordinate of 1 that elimination divides by.
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> small(-0.1, 0.1);
+  for (int i = 0; i < 100; ++i) {
+    Points points = {{0, 0, 0}, {1, small(random), 0.05}, {0, 1, small(random)}, {1, 1, 1}};
+    std::shuffle(points.begin(), points.end(), random);
+    points[0].z() += small(random);
+    SCOPED_TRACE(testing::Message() << "seed 3, case " << i);
+    expect_smallest(points);
+  }
+  for (int i = 0; i < 300; ++i) {
+    Points points(4 + random() % 4);
+    for (auto& p : points) {
+      for (double& c : p)
+        c = static_cast<double>(random() % 5) / 2;
+    }
+    SCOPED_TRACE(testing::Message() << "seed 3, halves " << i);
+    expect_smallest(points);
+  }
+}
+
 TEST(SmallBall, OfTheCubeCornersIsTheCircumscribedOne) {
   Points points;
   for (int i = 0; i < 8; ++i)

@@ -48,6 +48,17 @@ TEST(ClustersAtTheLimits, AreExactOnDiagonalsAsLongAsTheTolerance) {
   }
 }
 
+TEST(ClustersAtTheLimits, AreExactWhereCellsAreTooFarAwayToBeCounted) {
+  // From 2^40 cells on numbers go by the bits of a double.
+  const double side = 1 / (std::sqrt(3.0) * (1 + 1e-6));
+  for (const double sign : {1.0, -1.0}) {
+    for (int k = -40; k <= 40; ++k) {
+      const double x = sign * (0x1p40 + 0.1 * k) * side;
+      expect_exact<double>({{x, 0, 0}, {x + 0.7, 0, 0}, {x + 1.9, 0, 0}, {x - 0.9, 0.3, 0}}, 1.F);
+    }
+  }
+}
+
 TEST(ClustersAtTheLimits, AreExactBetweenCellsTwoAwayAlongEachAxis) {
   // Near corners of such cells are less than the tolerance apart, since cells are a little smaller than
   // r/sqrt(3).

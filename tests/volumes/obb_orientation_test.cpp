@@ -59,6 +59,25 @@ TEST(ObbOrientation, CanonicalIsOneForAllNamesOfABox) {
 }
 
 // Cubes, square bars and tiles, some at 45 degrees, whose sizes and axes differ by rounding.
+TEST(ObbOrientation, CanonicalIsOneForAllNamesOfACubeOnItsEdge) {
+  // Two axes have the same components but for a sign.
+  const double s = std::sqrt(0.5);
+  Matrix3d axes;
+  axes << s, s, 0, s, -s, 0, 0, 0, 1;
+  const Obb box({1, 2, 3}, axes, Vector3d::Ones());
+  for (const Obb& name : all_names(box))
+    EXPECT_EQ(name.canonical().axes(), box.canonical().axes());
+}
+
+TEST(ObbOrientation, CanonicalOfACubeHasTheAxesMoreAlongXFirst) {
+  Random random(23);
+  for (int i = 0; i < 50; ++i) {
+    const Obb cube = Obb({0, 0, 0}, random_obb(random, scales()[0]).axes(), Vector3d::Ones()).canonical();
+    EXPECT_GE(std::abs(cube.axis(0).x()), std::abs(cube.axis(1).x())) << "seed 23, " << i;
+    EXPECT_GE(std::abs(cube.axis(1).x()), std::abs(cube.axis(2).x())) << "seed 23, " << i;
+  }
+}
+
 TEST(ObbOrientation, CanonicalOfASquareOnItsCornerBeginsWithTheDiagonalUpward) {
   const double r = std::sqrt(0.5);
   Matrix3d axes;

@@ -249,6 +249,15 @@ TEST(Obb, OverlapsHoldsForBoxesThatTouch) {
   }
 }
 
+TEST(Obb, OverlapsHoldsForBoxesOfDenormalSizeThatTouch) {
+  for (const double size : {5e-324, 1e-310, 1e-308}) {
+    const Vector3d half = Vector3d::Constant(size);
+    const Obb a({0, 0, 0}, Eigen::Matrix3d::Identity(), half);
+    EXPECT_TRUE(a.overlaps({Vector3d(2 * size, 0, 0), Eigen::Matrix3d::Identity(), half})) << size;
+    EXPECT_TRUE(a.overlaps({Vector3d(0, 2 * size, -2 * size), Eigen::Matrix3d::Identity(), half})) << size;
+  }
+}
+
 TEST(Obb, IntersectNeverDeniesAHitAndIsTight) {
   Random random(17);
   for (const Scale& scale : scales()) {
