@@ -3,25 +3,27 @@
 """What is known of mutants from this run and earlier ones, and which of those not noticed have an explanation."""
 import hashlib
 import json
-import random
 
 from build import ROOT, TEST_FOLDERS, tracked_files
 
 
 def in_random_order(mutants, seed):
-    """Spread over the files in proportion to what is in them; a slot's second mutant comes after all first ones."""
-    draw = random.Random(seed)
+    """Spread over the files in proportion to what is in them; a slot's second mutant comes after all first ones. By
+    what a mutant is, not by which others there are: a change of the code leaves nearly all in their order."""
+
+    def drawn(mutant):
+        return int.from_bytes(hashlib.sha256(f"{seed}|{mutant.identity}".encode()).digest()[:6], "big") / 2**48
+
     by_file = {}
-    for mutant in mutants:
+    for mutant in sorted(mutants, key=drawn):
         by_file.setdefault(mutant.file, []).append(mutant)
     keyed = []
     for group in by_file.values():
-        draw.shuffle(group)
         seen, first, later = set(), [], []
         for mutant in group:
             (later if mutant.slot in seen else first).append(mutant)
             seen.add(mutant.slot)
-        keyed += [((k + draw.random()) / len(group), m) for k, m in enumerate(first + later)]
+        keyed += [((k + drawn(m)) / len(group), m) for k, m in enumerate(first + later)]
     return [m for _, m in sorted(keyed, key=lambda pair: pair[0])]
 
 
