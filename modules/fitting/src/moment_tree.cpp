@@ -28,6 +28,7 @@ void move_origin(const Coordinates& origin, const std::array<double, 3>& d, Mome
 }  // namespace
 
 void coarsen(int exponent, Moments& moments) {
+  if (exponent == moments.exponent) return;
   const double factor = std::ldexp(1.0, exponent - moments.exponent);
   for (double& s : moments.sum)
     s *= factor;
@@ -46,8 +47,10 @@ Moments merged(const Moments& first, const Moments& second) {
   int exponent = std::min(result.exponent, other.exponent);
   while (exponent > 0 && std::ldexp(farthest, exponent) > 0x1p300)
     exponent -= 500;
-  for (double& x : d)
-    x = std::ldexp(x, exponent);
+  if (exponent > 0) {
+    for (double& x : d)
+      x = std::ldexp(x, exponent);
+  }
   coarsen(exponent, result);
   coarsen(exponent, other);
   move_origin(result.origin, d, other);
