@@ -20,7 +20,6 @@
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "planar_hull.h"
 #include "reach_tree.h"
 
 namespace pcl_bv {
@@ -168,44 +167,8 @@ TEST(LocalHull, OfCosphericalPointsHasAllOfThem) {
   EXPECT_EQ(verify(hull, cloud.view()).outside, 0u);
 }
 
-TEST(PlanarHull, KeepsNoCollinearPointAndNoDuplicate) {
-  std::vector<Eigen::Vector2d> points;
-  for (int repeat = 0; repeat < 2; ++repeat) {
-    for (int i = 0; i < 49; ++i)
-      points.emplace_back(0.125 * (i % 7), 0.125 * (i / 7) + 0.375 * (i % 7));
-  }
-  const std::vector<std::size_t> corners = planar_hull(points);
-  EXPECT_EQ(corners, (std::vector<std::size_t>{0, 6, 48, 42}));
-  EXPECT_EQ(planar_hull({{1, 1}, {1, 1}, {1, 1}}), (std::vector<std::size_t>{0}));
-  EXPECT_EQ(planar_hull({{1, 1}, {0, 0}, {2, 2}, {2, 2}}), (std::vector<std::size_t>{1, 2}));
-}
-
-TEST(PlanarHull, TurnsAreExactInAnyUnit) {
-  // From lattices, whose points are often in a row, down to where products of differences vanish.
-  std::mt19937_64 random(22);
-  const auto coordinate = [&] { return static_cast<double>(random() % 9) - 4; };
-  for (const int exponent : {0, 400, -400, -450, -500, -530, -560, -1072}) {
-    for (int i = 0; i < 500; ++i) {
-      Eigen::Vector2d p[3];
-      for (Eigen::Vector2d& corner : p)
-        corner = {std::ldexp(coordinate(), exponent), std::ldexp(coordinate(), exponent)};
-      if (i % 2 == 0) p[i % 3].x() = std::nextafter(p[i % 3].x(), 1e300);
-      const auto between = [&](int to, int k) { return Rational(p[to][k]) - Rational(p[0][k]); };
-      const Rational exact = between(1, 0) * between(2, 1) - between(1, 1) * between(2, 0);
-      ASSERT_EQ(turn(p[0], p[1], p[2]), exact.sign()) << "seed 22, unit 2^" << exponent << ", " << i;
-    }
-  }
-}
-
-TEST(PlanarHull, TurnsAreExact) {
-  // 2^-60 above the line, which plain double cannot tell.
-  EXPECT_EQ(turn({0, 0}, {1, 1}, {0.5, 0.5}), 0);
-  EXPECT_EQ(turn({0x1p-60, 0}, {1, 1}, {0.5, 0.5}), 1);
-  EXPECT_EQ(turn({0, 0x1p-60}, {1, 1}, {0.5, 0.5}), -1);
-}
-
-TEST(ReachTree, IsTheExactMaximum) {
-  const TestCloud<float> cloud = test::gaussian<float>(300, 5, 20, 5e6);
+void expect_exact_maxima(const TestCloud<float>& cloud) {
+  SCOPED_TRACE(cloud.name);
   const LocalHull hull = hull_of(cloud.view());
   for (const std::size_t questions : {1u, 1000u}) {
     const ReachTree tree(hull.candidates, questions);
@@ -219,6 +182,15 @@ TEST(ReachTree, IsTheExactMaximum) {
       EXPECT_EQ(tree.reach_up(n), test::least_double_above(greatest));
     }
   }
+}
+
+TEST(ReachTree, IsTheExactMaximum) {
+  // The second has so many candidates that boxes have the sides of least rectangles.
+  TestCloud<float> ball = test::gaussian<float>(1200, 6);
+  for (std::size_t i = 0; i < ball.xyz.size(); i += 3)
+    Eigen::Map<Eigen::Vector3f>(&ball.xyz[i]).normalize();
+  for (const TestCloud<float>& cloud : {test::gaussian<float>(300, 5, 20, 5e6), ball})
+    expect_exact_maxima(cloud);
 }
 
 // Everything Qhull could complain about, and it prints nothing.

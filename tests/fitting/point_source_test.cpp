@@ -106,6 +106,7 @@ void expect_same_fits_of_few() {
         EXPECT_EQ(test::bits(passing), test::bits(held));
         EXPECT_EQ(result.used, expected.used);
         EXPECT_EQ(result.dropped, expected.dropped);
+        EXPECT_EQ(result.rank, expected.rank);
       }
     }
   }

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <latch>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -46,19 +45,8 @@ TEST(ForEachChunk, RunsInTheCallingThreadWhenSerial) {
 }
 
 TEST(ForEachChunk, TriesEveryChunkAndRethrowsTheExceptionOfTheLowest) {
-  for (const ParallelPolicy& policy : policies()) {
-    std::atomic<int> calls{0};
-    try {
-      for_each_chunk(policy, 50, [&](std::size_t chunk) {
-        ++calls;
-        if (chunk % 7 == 3) throw std::runtime_error(std::to_string(chunk));
-      });
-      FAIL() << "nothing was thrown";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "3");
-    }
-    EXPECT_EQ(calls, 50);
-  }
+  for (const ParallelPolicy& policy : policies())
+    test::expect_exception_of_lowest_chunk(policy);
 }
 
 TEST(ForEachChunk, DoesNotNest) {

@@ -7,9 +7,9 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
-#include <stdexcept>
 #include <string>
 
+#include "executors.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {
@@ -43,17 +43,7 @@ TEST(TbbExecutor, BodiesMayUseTbbThemselves) {
 }
 
 TEST(TbbExecutor, RethrowsTheExceptionOfTheLowestChunk) {
-  std::atomic<int> calls{0};
-  try {
-    for_each_chunk(on_tbb, 50, [&](std::size_t chunk) {
-      ++calls;
-      if (chunk % 7 == 3) throw std::runtime_error(std::to_string(chunk));
-    });
-    FAIL() << "nothing was thrown";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "3");
-  }
-  EXPECT_EQ(calls, 50);
+  test::expect_exception_of_lowest_chunk(on_tbb);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "pcl_bv/fitting/fit_obb.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "obb_axes.h"
@@ -76,6 +77,14 @@ namespace {
 
 Direction direction(const Eigen::Vector3d& axis) {
   return {axis.x(), axis.y(), axis.z()};
+}
+
+std::optional<Coordinates> first_valid(const PointView& points) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (is_valid(p)) return p;
+  }
+  return std::nullopt;
 }
 
 // Few points all in double, a third of the time of the search on 300 of them. Rounding of n . q is 8 2^-53 of

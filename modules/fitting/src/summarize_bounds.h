@@ -4,14 +4,9 @@
 // A summary for those who do not ask how far a cloud reaches aslant: three times as fast on 300 points.
 #pragma once
 
-#include <optional>
-
 #include "pcl_bv/fitting/summary.h"
 
 namespace pcl_bv {
-
-/// The valid point that the view visits first, if there is one.
-std::optional<Coordinates> first_valid(const PointView& points);
 
 /// As summarize(), with the extremes along dop6 only and without their points. Needs a FloatEnvironment.
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "extreme_search.h"
 #include "local_frame.h"
@@ -90,17 +89,6 @@ Moments pass(const PointView& points, const Execution& execution, double seconds
 }
 
 }  // namespace
-
-std::optional<Coordinates> first_valid(const PointView& points) {
-  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
-    const LoadedPoints loaded = load_chunk(points, chunk);
-    for (std::size_t i = 0; i < loaded.view().count; ++i) {
-      const Coordinates p = load_point(loaded.view(), i);
-      if (is_valid(p)) return p;
-    }
-  }
-  return std::nullopt;
-}
 
 CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;

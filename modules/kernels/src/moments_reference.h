@@ -10,7 +10,7 @@ namespace pcl_bv {
 
 Moments block_moments_reference(const PointView& block);
 
-/// Calls sum(exponent, moments) for the exponents that doubles may need, until the sums are not too small.
+/// Calls sum(moments) with the exponents that doubles may need, until the sums are not too small.
 template <typename Sum>
 void sum_with_room(ScalarType scalar, Moments& moments, const Sum& sum) {
   for (moments.exponent = 0;; moments.exponent += 500) {

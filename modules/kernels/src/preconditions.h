@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What every kernel asks of its caller before it runs: it would read or write past an array, or give a volume
-// that does not enclose, without a word. A few nanoseconds a call, of which none works on less than a block.
+// that does not enclose, without a word. A few nanoseconds a call.
 #pragma once
 
 #include <cstddef>
