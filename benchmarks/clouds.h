@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
@@ -54,7 +54,7 @@ struct Cloud {
   std::shared_ptr<const void> memory;                         ///< What `view` looks at.
   /// The scalar reference's answers, by work: what fits.cpp compares with.
   std::map<std::string, AnyVolume> proven;
-  std::optional<Extremes> extremes;
+  std::optional<Supports> supports;
   std::map<std::string_view, std::size_t> outside;  ///< By peer: points outside its answer.
 };
 

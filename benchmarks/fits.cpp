@@ -16,13 +16,13 @@ namespace {
 
 const std::string kWithPoints = "-points";
 
-Extremes extremes_with_points(const Cloud& cloud, const Execution& execution) {
-  return find_extremes(cloud.view, DirectionSet::dop26, ExtremeDetail::points, execution);
+Supports extremes_with_points(const Cloud& cloud, const Execution& execution) {
+  return find_supports(cloud.view, DirectionSet::dop26, SupportDetail::points, execution);
 }
 
-bool same_points(const Extremes& a, const Extremes& b) {
+bool same_points(const Supports& a, const Supports& b) {
   for (std::size_t k = 0; k < kMaxDirections; ++k) {
-    if (a.low_point[k].index != b.low_point[k].index || a.high_point[k].index != b.high_point[k].index) {
+    if (a.along[k].low_point.index != b.along[k].low_point.index || a.along[k].high_point.index != b.along[k].high_point.index) {
       return false;
     }
   }
@@ -60,8 +60,8 @@ void Fit::check(Cloud& cloud, const Execution& execution) const {
   }
   require(volume(cloud, execution) == cloud.proven.at(name_), row + ": not the reference's answer");
   if (!with_points_) return;
-  if (!cloud.extremes) cloud.extremes = extremes_with_points(cloud, reference);
-  require(same_points(extremes_with_points(cloud, execution), *cloud.extremes), row + ": other points");
+  if (!cloud.supports) cloud.supports = extremes_with_points(cloud, reference);
+  require(same_points(extremes_with_points(cloud, execution), *cloud.supports), row + ": other points");
 }
 
 void Fit::operator()(const Cloud& cloud, const Execution& execution) const {

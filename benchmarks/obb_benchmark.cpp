@@ -15,8 +15,8 @@
 #include "obb_clouds.h"
 #include "obb_peers.h"
 #include "pcl_bv/fitting/batch.h"
-#include "pcl_bv/fitting/extreme_points.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/methods.h"
 #include "timing.h"
 
@@ -59,9 +59,9 @@ void dito_against_its_passes(benchmark::State& state, const std::string& name) {
   compare(
       state, [&] { find_method("obb-dito14")->fit(cloud.view(), volume, {}); },
       [&] {
-        const Extremes extremes = find_extremes(cloud.view(), DirectionSet::dop14, ExtremeDetail::points, {});
-        benchmark::DoNotOptimize(extremes);
-        const ExtremePoints along = find_extreme_points(cloud.view(), directions);
+        const Supports supports = find_supports(cloud.view(), DirectionSet::dop14, SupportDetail::points, {});
+        benchmark::DoNotOptimize(supports);
+        const OwnSupports along = find_supports(cloud.view(), directions);
         benchmark::DoNotOptimize(along);
       });
 }
@@ -79,8 +79,8 @@ std::vector<PointView> clusters() {
 void fit_clusters(const std::vector<PointView>& views, const std::vector<const Method*>& methods,
                   const Execution& execution) {
   for_each_view(views, execution, [&](std::size_t i, const Execution& inner) {
-    Extremes extremes;
-    const Execution shared = share_extremes(views[i], methods, inner, extremes);
+    Supports supports;
+    const Execution shared = share_supports(views[i], methods, inner, supports);
     for (const Method* method : methods) {
       AnyVolume volume;
       method->fit(views[i], volume, shared);

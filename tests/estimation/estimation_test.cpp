@@ -81,7 +81,7 @@ TEST(Estimation, ASummaryAgreesWithComputeMeanAndCovarianceMatrix) {
   EXPECT_TRUE(summary.covariance.isApprox(covariance, 1e-12));
   pcl::computeMeanAndCovarianceMatrix(*cloud, odd, covariance, mean);
   const CloudSummary half = summarize(*cloud, odd);
-  EXPECT_EQ(half.extremes.used, 2500U);
+  EXPECT_EQ(half.supports.used, 2500U);
   EXPECT_TRUE(half.centroid.isApprox(mean.head<3>(), 1e-12));
   EXPECT_TRUE(half.covariance.isApprox(covariance, 1e-12));
 }

@@ -69,13 +69,13 @@ std::set<std::size_t> brute_force_vertices(const PointView& points) {
 
 struct Found {
   LocalHull hull;
-  Extremes extremes;
+  Supports supports;
 };
 
 LocalHull hull_of(const PointView& points, const Execution& execution = {}) {
   const FloatEnvironment environment;
-  const Extremes extremes = find_extremes(points, DirectionSet::dop26, ExtremeDetail::points, execution);
-  return local_hull(points, extremes, LocalFrame(points, extremes), execution);
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
+  return local_hull(points, supports, LocalFrame(points, supports), execution);
 }
 
 Hull fit(const PointView& points, const Execution& execution = {}) {
@@ -100,12 +100,12 @@ void expect_dropped_points_inside(const TestCloud<T>& cloud) {
   SCOPED_TRACE(cloud.name);
   const FloatEnvironment environment;
   const PointView points = cloud.view();
-  const Extremes extremes = find_extremes(points, DirectionSet::dop26, ExtremeDetail::points, {});
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, {});
   const LocalHull hull = hull_of(points);
   std::set<std::size_t> kept;
   for (const HullPoint& c : hull.candidates)
     kept.insert(c.index);
-  if (kept.size() + extremes.dropped == points.count) return;
+  if (kept.size() + supports.dropped == points.count) return;
   EXPECT_TRUE(is_closed(hull.triangles));
   const ReachTree tree(hull.candidates, 1);
   for (std::size_t i = 0; i < points.count; ++i) {

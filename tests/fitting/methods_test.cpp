@@ -107,8 +107,8 @@ TEST(Methods, SharedExtremesChangeNoBit) {
       AnyVolume alone;
       const EstimationResult expected = method.fit(view, alone, {});
       for (const char* other : {"aabb", "dop14", "dop18", "dop26", "obb-dito14"}) {
-        Extremes extremes;
-        const Execution shared = share_extremes(view, {&method, find_method(other)}, {}, extremes);
+        Supports supports;
+        const Execution shared = share_supports(view, {&method, find_method(other)}, {}, supports);
         AnyVolume together;
         const EstimationResult result = method.fit(view, together, shared);
         EXPECT_TRUE(together == alone) << method.name << " with " << other << ", " << points;
@@ -123,9 +123,9 @@ TEST(Methods, SharedExtremesChangeNoBit) {
 
 TEST(Methods, ExtremesAreSharedOnlyWhereTwoWantThem) {
   const test::TestCloud<float> cloud = test::gaussian<float>(100, 12);
-  Extremes extremes;
+  Supports supports;
   const auto shares = [&](std::vector<const Method*> among) {
-    return share_extremes(cloud.view(), among, {}, extremes).extremes == &extremes;
+    return share_supports(cloud.view(), among, {}, supports).supports == &supports;
   };
   const auto named = find_method;
   EXPECT_FALSE(shares({}));
@@ -133,9 +133,9 @@ TEST(Methods, ExtremesAreSharedOnlyWhereTwoWantThem) {
   EXPECT_FALSE(shares({named("dop26"), named("obb-pca")}));
   EXPECT_FALSE(shares({named("aabb"), named("sphere-ritter")}));  // six directions are cheap
   EXPECT_TRUE(shares({named("aabb"), named("dop14")}));
-  EXPECT_EQ(extremes.set, DirectionSet::dop14);
+  EXPECT_EQ(supports.set, DirectionSet::dop14);
   EXPECT_TRUE(shares({named("dop14"), named("dop18")}));
-  EXPECT_EQ(extremes.set, DirectionSet::dop26);
+  EXPECT_EQ(supports.set, DirectionSet::dop26);
 }
 
 TEST(Methods, TheKernelsDirectionsAreTheVolumes) {
@@ -200,24 +200,24 @@ TEST(Methods, AllSayTheSameRankHoweverPointsAreTiltedAndOrdered) {
 }
 
 TEST(Methods, ASolidWithoutTrianglesIsAFailureWithItsReason) {
-  Extremes extremes;
-  extremes.used = 4;
-  extremes.dropped = 1;
-  extremes.rank = 3;
+  Supports supports;
+  supports.used = 4;
+  supports.dropped = 1;
+  supports.rank = 3;
   LocalHull hull;
   hull.rank = 3;
-  const EstimationResult failed = result_of(extremes, hull);
+  const EstimationResult failed = result_of(supports, hull);
   EXPECT_EQ(failed.status, EstimationStatus::failed);
   EXPECT_EQ(failed.reason, "Qhull finds no hull");
   EXPECT_EQ(failed.rank, 3);
   EXPECT_EQ(failed.used, 4u);
   EXPECT_EQ(failed.dropped, 1u);
   hull.triangles = {{0, 1, 2}};
-  EXPECT_EQ(result_of(extremes, hull).status, EstimationStatus::ok);
-  extremes.rank = hull.rank = 2;
+  EXPECT_EQ(result_of(supports, hull).status, EstimationStatus::ok);
+  supports.rank = hull.rank = 2;
   hull.triangles.clear();
-  EXPECT_EQ(result_of(extremes, hull).status, EstimationStatus::degenerate) << "a polygon has no triangles";
-  EXPECT_EQ(result_of(extremes, hull).reason, "");
+  EXPECT_EQ(result_of(supports, hull).status, EstimationStatus::degenerate) << "a polygon has no triangles";
+  EXPECT_EQ(result_of(supports, hull).reason, "");
 }
 
 }  // namespace

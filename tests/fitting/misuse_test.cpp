@@ -10,7 +10,7 @@
 #include <string>
 
 #include "pcl_bv/fitting/batch.h"
-#include "pcl_bv/fitting/extreme_points.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/summary.h"
 #include "sources.h"
@@ -28,9 +28,9 @@ TEST(Misuse, NoFitTakesTheExtremesOfOtherPoints) {
   PointView listed = cloud.view();
   listed.indices = indices.data();
   const CloudSummary summary = summarize(cloud.view());
-  for (const Extremes& extremes :
-       {find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {}), summary.extremes}) {
-    const Execution shared{Serial{}, Isa::automatic, &extremes};
+  for (const Supports& supports :
+       {find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, {}), summary.supports}) {
+    const Execution shared{Serial{}, Isa::automatic, &supports};
     for (const Method& method : methods()) {
       AnyVolume volume;
       EXPECT_NO_THROW(method.fit(cloud.view(), volume, shared)) << method.name;
@@ -41,7 +41,7 @@ TEST(Misuse, NoFitTakesTheExtremesOfOtherPoints) {
         AnyVolume volume;
         EXPECT_THROW(method.fit(points, volume, shared), std::invalid_argument) << method.name;
       }
-      EXPECT_THROW(find_extreme_points(points, {{1, 2, 3}}, shared), std::invalid_argument);
+      EXPECT_THROW(find_supports(points, {{1, 2, 3}}, shared), std::invalid_argument);
       EXPECT_THROW(summarize(points, shared), std::invalid_argument);
     }
   }
@@ -49,9 +49,9 @@ TEST(Misuse, NoFitTakesTheExtremesOfOtherPoints) {
 
 TEST(Misuse, ABatchDoesNotCarryTheExtremesOfOneCloudToAnother) {
   const TestCloud<float> cloud = test::gaussian<float>(100, 3), other = test::gaussian<float>(100, 4, 9);
-  const Extremes extremes = find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {});
+  const Supports supports = find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, {});
   std::vector<Aabb> boxes(2);
-  for_each_view({cloud.view(), other.view()}, {Serial{}, Isa::automatic, &extremes},
+  for_each_view({cloud.view(), other.view()}, {Serial{}, Isa::automatic, &supports},
                 [&](std::size_t i, const Execution& execution) {
                   fit_aabb(i == 0 ? cloud.view() : other.view(), boxes[i], execution);
                 });
@@ -177,7 +177,7 @@ TEST(Misuse, FitsOfHullsRefusePointsThatChangeAfterTheirExtremes) {
          {"obb-min", "obb-yaw", "obb-lshape", "cylinder", "capsule", "ellipsoid", "hull", "best"}) {
       CopyingSource<float> source(cloud);
       source.later = &later;
-      // obb-min looks for a first valid point before its extremes.
+      // obb-min looks for a first valid point before its supports.
       source.loads_before = std::string(name) == "obb-min" ? 2 : 1;
       AnyVolume volume;
       EXPECT_THROW(find_method(name)->fit(source.view(), volume, {}), std::invalid_argument)

@@ -161,8 +161,8 @@ TEST(PointSource, ExtremePointsHaveTheirNumbersInTheSource) {
   test::TestCloud<float> cloud = test::gaussian<float>(kCount, 4);
   cloud.xyz[3 * (kCount - 5)] = 50;
   const CopyingSource<float> source(cloud);
-  const Extremes extremes = find_extremes(source.view(), DirectionSet::dop6, ExtremeDetail::points, {});
-  EXPECT_EQ(extremes.high_point[0].index, kCount - 5);
+  const Supports supports = find_supports(source.view(), DirectionSet::dop6, SupportDetail::points, {});
+  EXPECT_EQ(supports.along[0].high_point.index, kCount - 5);
 }
 
 TEST(PointSource, WhatASourceThrowsReachesTheCaller) {

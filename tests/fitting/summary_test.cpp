@@ -25,13 +25,13 @@ using test::TestCloud;
 
 // Bits, not values.
 void expect_same(const CloudSummary& a, const CloudSummary& b) {
-  EXPECT_EQ(a.extremes.used, b.extremes.used);
-  EXPECT_EQ(a.extremes.dropped, b.extremes.dropped);
-  EXPECT_EQ(a.extremes.low, b.extremes.low);
-  EXPECT_EQ(a.extremes.high, b.extremes.high);
+  EXPECT_EQ(a.supports.used, b.supports.used);
+  EXPECT_EQ(a.supports.dropped, b.supports.dropped);
   for (std::size_t k = 0; k < kMaxDirections; ++k) {
-    EXPECT_EQ(a.extremes.low_point[k].index, b.extremes.low_point[k].index) << "direction " << k;
-    EXPECT_EQ(a.extremes.high_point[k].index, b.extremes.high_point[k].index) << "direction " << k;
+    EXPECT_EQ(a.supports.along[k].low, b.supports.along[k].low) << "direction " << k;
+    EXPECT_EQ(a.supports.along[k].high, b.supports.along[k].high) << "direction " << k;
+    EXPECT_EQ(a.supports.along[k].low_point.index, b.supports.along[k].low_point.index) << "direction " << k;
+    EXPECT_EQ(a.supports.along[k].high_point.index, b.supports.along[k].high_point.index) << "direction " << k;
   }
   EXPECT_EQ(a.scale, b.scale);
   EXPECT_EQ(std::memcmp(a.centroid.data(), b.centroid.data(), 3 * sizeof(double)), 0)
@@ -89,8 +89,8 @@ TEST(Summary, GivesTheVolumesThatFitsGive) {
     }
     EXPECT_EQ(summary.result().status, fitted.status);
     EXPECT_EQ(summary.result().rank, fitted.rank);
-    EXPECT_EQ(summary.extremes.used, boxed.used);
-    EXPECT_EQ(summary.extremes.dropped, boxed.dropped);
+    EXPECT_EQ(summary.supports.used, boxed.used);
+    EXPECT_EQ(summary.supports.dropped, boxed.dropped);
   }
 }
 
@@ -113,8 +113,8 @@ TEST(Summary, BadPointsAreAsIfAbsent) {
   const float inf = std::numeric_limits<float>::infinity();
   const float points[] = {nan, 100, 100, 1, 10, 5, 7, inf, 7, 5, 4, 5, 50, 50, -inf};
   const CloudSummary summary = summarize(PointView::of(points, 12, 5));
-  EXPECT_EQ(summary.extremes.used, 2U);
-  EXPECT_EQ(summary.extremes.dropped, 3U);
+  EXPECT_EQ(summary.supports.used, 2U);
+  EXPECT_EQ(summary.supports.dropped, 3U);
   EXPECT_EQ(summary.centroid, Eigen::Vector3d(3, 7, 5));
   EXPECT_EQ(summary.covariance(0, 1), -6);
 }
@@ -131,16 +131,16 @@ TEST(Summary, OfAnIndexListIsThatOfThePointsInItsOrder) {
   const CloudSummary copied = summarize(chosen.view());
   EXPECT_EQ(listed.centroid, copied.centroid);
   EXPECT_EQ(listed.covariance, copied.covariance);
-  EXPECT_EQ(listed.extremes.low, copied.extremes.low);
-  EXPECT_EQ(listed.extremes.high_point[0].index, indices[copied.extremes.high_point[0].index]);
+  EXPECT_EQ(listed.supports.along[0].low, copied.supports.along[0].low);
+  EXPECT_EQ(listed.supports.along[0].high_point.index, indices[copied.supports.along[0].high_point.index]);
 }
 
 TEST(Summary, OfNothingIsEmptyAndZero) {
   const float nothing[] = {std::numeric_limits<float>::quiet_NaN(), 1, 2};
   for (const PointView& points : {PointView(), PointView::of(nothing, 12, 1)}) {
     const CloudSummary summary = summarize(points);
-    EXPECT_EQ(summary.extremes.used, 0U);
-    EXPECT_EQ(summary.extremes.dropped, points.count);
+    EXPECT_EQ(summary.supports.used, 0U);
+    EXPECT_EQ(summary.supports.dropped, points.count);
     EXPECT_EQ(summary.result().status, EstimationStatus::no_valid_points);
     EXPECT_TRUE(summary.aabb().empty());
     EXPECT_TRUE(summary.dop26().empty());
@@ -170,7 +170,7 @@ TEST(Summary, TinyDoublesAreScaledByAPowerOfTwoAndNothingElse) {
   EXPECT_GT(summary.scale, 1);
   for (std::size_t i = 0; i < scaled.xyz.size(); ++i)
     if (i % 3 != 2) scaled.xyz[i] *= summary.scale;
-  EXPECT_EQ(summary.extremes.dropped, 2U);
+  EXPECT_EQ(summary.supports.dropped, 2U);
   const CloudSummary expected = summarize(scaled.view());
   EXPECT_EQ(expected.scale, 1);
   EXPECT_EQ(summary.covariance, expected.covariance);

@@ -15,14 +15,14 @@
 #include "clouds.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/distances.h"
-#include "pcl_bv/kernels/extreme_point.h"
-#include "pcl_bv/kernels/extremes.h"
+#include "pcl_bv/kernels/support.h"
+#include "pcl_bv/kernels/support.h"
 #include "pcl_bv/kernels/half_spaces.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/kernels/point_records.h"
 #include "pcl_bv/kernels/point_source.h"
-#include "pcl_bv/kernels/projections.h"
+#include "pcl_bv/kernels/support.h"
 #include "pcl_bv/kernels/slab_extents.h"
 
 namespace pcl_bv {
@@ -36,8 +36,8 @@ struct Kernel {
   std::function<void(Isa, const PointView&)> run;
 };
 
-ProjectionSet one_direction() {
-  ProjectionSet set;
+SupportDirections one_direction() {
+  SupportDirections set;
   set.add({1, 2, 3});
   return set;
 }
@@ -53,17 +53,15 @@ const std::vector<Kernel>& kernels() {
        [](Isa isa, const PointView& points) {
          slab_extents(isa, points, {0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
        }},
-      {"chunk_extremes", kChunkPoints,
+      {"chunk_supports of the cube", kChunkPoints,
        [](Isa isa, const PointView& points) {
-         ChunkExtremes out;
-         chunk_extremes(isa, points, DirectionSet::dop26, nothing_reached(), out);
+         ChunkSupports out;
+         chunk_supports(isa, points, SupportDirections::of(DirectionSet::dop26), nothing_reached(), out);
        }},
-      {"chunk_farthest", kChunkPoints,
+      {"chunk_supports", kChunkPoints,
        [](Isa isa, const PointView& points) {
-         ReachedProjections reached;
-         reached.fill(-std::numeric_limits<double>::infinity());
-         ChunkFarthest out;
-         chunk_farthest(isa, points, one_direction(), reached, out);
+         ChunkSupports out;
+         chunk_supports(isa, points, one_direction(), nothing_reached(), out);
        }},
       {"block_moments", kBlockPoints, [](Isa isa, const PointView& points) { block_moments(isa, points); }},
       {"block_distances", kAny,
@@ -141,18 +139,6 @@ TEST(Misuse, NoKernelReadsPointsThatAreNotInMemory) {
   }
 }
 
-TEST(Misuse, AnExtremePointIsOnlyLookedForInTheView) {
-  const test::TestCloud<float> cloud = test::gaussian<float>(10, 3);
-  const NoSource source;
-  const RoundedFilter filter{{0, 0, 0}, -1e30};
-  ExtremePoint best;
-  EXPECT_NO_THROW(find_extreme_point(cloud.view(), 0, 1, 10, {1, 0, 0}, filter, best));
-  EXPECT_THROW(find_extreme_point(cloud.view(), 0, 1, 11, {1, 0, 0}, filter, best), std::out_of_range);
-  EXPECT_THROW(
-      find_extreme_point(view_of(source, 10, ScalarType::float32), 0, 1, 10, {1, 0, 0}, filter, best),
-      std::invalid_argument);
-}
-
 TEST(Misuse, AnOriginThatIsNoPointOfTheCloudsTypeIsRefused) {
   const test::TestCloud<float> cloud = test::gaussian<float>(10, 4);
   const test::TestCloud<double> doubles = test::gaussian<double>(10, 4);
@@ -198,21 +184,21 @@ TEST(Misuse, APolytopeHasNoMoreHalfSpacesThanThereIsRoomFor) {
   EXPECT_THROW(list_outside(Isa::scalar, cloud.view(), inside, positions), std::invalid_argument);
 }
 
-TEST(Misuse, ASetOfProjectionsTakesSoManyDirectionsAndNoMore) {
-  ProjectionSet set;
-  for (std::size_t k = 0; k < kMaxProjections; ++k)
+TEST(Misuse, ASetOfDirectionsTakesSoManyDirectionsAndNoMore) {
+  SupportDirections set;
+  for (std::size_t k = 0; k < kMaxSupportDirections; ++k)
     EXPECT_NO_THROW(set.add({1, 0, static_cast<double>(k)}));
   EXPECT_THROW(set.add({1, 0, 0}), std::invalid_argument);
-  EXPECT_EQ(set.count, kMaxProjections);
+  EXPECT_EQ(set.count, kMaxSupportDirections);
   const test::TestCloud<float> cloud = test::gaussian<float>(10, 7);
   ++set.count;
-  ChunkFarthest out;
-  EXPECT_THROW(chunk_farthest(Isa::scalar, cloud.view(), set, {}, out), std::invalid_argument);
+  ChunkSupports out;
+  EXPECT_THROW(chunk_supports(Isa::scalar, cloud.view(), set, {}, out), std::invalid_argument);
 }
 
 TEST(Misuse, WhatIsNoDirectionIsNotAddedToASet) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  ProjectionSet set;
+  SupportDirections set;
   for (const double bad : {nan, inf, -inf, 0.0, 0.9e-30, -1.1e30}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Direction direction{};

@@ -29,6 +29,10 @@ Coordinates awkward_point(std::mt19937_64& random) {
   return p;
 }
 
+ExactSum exact_projection(const CubeDirection& d, const Coordinates& p) {
+  return exact_sum(d[0] * p.x, d[1] * p.y, d[2] * p.z);
+}
+
 TEST(ExactSum, RoundsOutwardToTheNearestDoubleOnThatSide) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 20000; ++i) {
@@ -60,13 +64,13 @@ TEST(ExactSum, ComparesExactly) {
 }
 
 TEST(ExactSum, SeesWhatDoublesLose) {
-  const ExactSum sum = exact_projection({1, 1, -1}, {1e20, 1, 1e20});
+  const ExactSum sum = exact_sum(1e20, 1, -1e20);
   EXPECT_EQ(round_down(sum), 1.0);
   EXPECT_EQ(round_up(sum), 1.0);
 }
 
 TEST(ExactSum, NeverReturnsNegativeZero) {
-  const ExactSum sum = exact_projection({1, 1, 1}, {-0.0, -0.0, -0.0});
+  const ExactSum sum = exact_sum(-0.0, -0.0, -0.0);
   EXPECT_FALSE(std::signbit(round_down(sum)));
   EXPECT_FALSE(std::signbit(round_up(sum)));
 }

@@ -24,11 +24,6 @@ constexpr std::size_t kBlocksPerChunk = 32;
 // With so few blocks, each is likely to hold a point on the sphere, which float arithmetic cannot reject.
 constexpr std::size_t kFewBlocks = 4;
 
-// Only the order of magnitude matters: it decides whether threads are worth starting.
-double nanoseconds_per_point(Isa isa) {
-  return isa == Isa::scalar ? 1.2 : isa == Isa::avx512 ? 0.15 : isa == Isa::avx2 ? 0.25 : 0.4;
-}
-
 // Room for the rounding of distances and of their sums, of which there are a few dozen at most.
 constexpr double kRoundUp = 1 + 0x1p-44;
 constexpr double kRoundDown = 1 - 0x1p-44;
@@ -76,8 +71,7 @@ LoadedPoints DistanceScan::blocks(std::size_t first, std::size_t count) const {
 }
 
 ParallelPolicy DistanceScan::policy(std::size_t expected) const {
-  return worthwhile(parallel_,
-                    nanoseconds_per_point(isa_) * 1e-9 * static_cast<double>(expected * kBlockPoints));
+  return worthwhile({parallel_, isa_}, Work::distance, expected * kBlockPoints);
 }
 
 // visit(chunk, first block, number of blocks) for all chunks; `expected` blocks are looked at in them.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Boxes: the extremes along three axes are the answer.
+// Boxes: the supports along three axes are the answer.
 
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/float_environment.h"
 
@@ -11,9 +11,9 @@ namespace pcl_bv {
 
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution) {
   const FloatEnvironment environment;
-  const Extremes extremes = find_extremes(points, DirectionSet::dop6, ExtremeDetail::bounds, execution);
-  box = aabb_of(extremes);
-  return result_of(extremes);
+  const Supports supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
+  box = aabb_of(supports);
+  return result_of(supports);
 }
 
 }  // namespace pcl_bv

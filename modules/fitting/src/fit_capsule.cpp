@@ -122,7 +122,7 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
 
 EstimationResult fit_capsule(const PointView& points, Capsule& capsule, const Execution& execution) {
   capsule = Capsule();
-  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Extremes&) {
+  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Supports&) {
     capsule = find_capsule(hull, frame);
   });
 }

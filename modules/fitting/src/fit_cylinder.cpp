@@ -66,7 +66,7 @@ Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const
 
 EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const Execution& execution) {
   cylinder = Cylinder();
-  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Extremes&) {
+  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Supports&) {
     const std::vector<Eigen::Vector3d> vertices = essential_vertices(hull);
     const Eigen::Vector3d axis = find_axis(hull, vertices);
     std::vector<Eigen::Vector3d> all, flat;

@@ -81,7 +81,7 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
                                EllipsoidCertificate& certificate, const Execution& execution) {
   ellipsoid = Ellipsoid();
   certificate = EllipsoidCertificate();
-  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Extremes&) {
+  return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Supports&) {
     if (hull.rank == 0) {
       certificate.support = {hull.vertices[0].index};
       certificate.weights = {1};

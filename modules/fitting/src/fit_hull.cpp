@@ -68,7 +68,7 @@ void drop_repeated(Normals& normals) {
 }
 
 // The vertices, and should rounding have lost the one that reaches farthest along an axis, that one, too.
-std::vector<Eigen::Vector3d> vertices_of(const LocalHull& hull, const Extremes& extremes) {
+std::vector<Eigen::Vector3d> vertices_of(const LocalHull& hull, const Supports& supports) {
   std::vector<Eigen::Vector3d> vertices;
   Aabb box;
   const auto add = [&](const Coordinates& p) {
@@ -79,17 +79,17 @@ std::vector<Eigen::Vector3d> vertices_of(const LocalHull& hull, const Extremes& 
     add(v.point);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
-    if (box.min()[k] > extremes.low[axis]) add(extremes.low_point[axis].point);
-    if (box.max()[k] < extremes.high[axis]) add(extremes.high_point[axis].point);
+    if (box.min()[k] > supports.along[axis].low) add(supports.along[axis].low_point.point);
+    if (box.max()[k] < supports.along[axis].high) add(supports.along[axis].high_point.point);
   }
   return vertices;
 }
 
 // By the hundred: some 10 us each where a surface is smooth.
 template <typename Measure>
-void for_each_plane(const ParallelPolicy& parallel, std::size_t planes, const Measure& measure) {
+void for_each_plane(const Execution& execution, std::size_t planes, const Measure& measure) {
   constexpr std::size_t kTogether = 100;
-  const ParallelPolicy policy = worthwhile(parallel, 5e-6 * static_cast<double>(planes));
+  const ParallelPolicy policy = worthwhile(execution, Work::hull_plane, planes);
   for_each_chunk(policy, (planes + kTogether - 1) / kTogether, [&](std::size_t chunk) {
     const FloatEnvironment environment;
     for (std::size_t i = kTogether * chunk; i < std::min(kTogether * (chunk + 1), planes); ++i)
@@ -102,14 +102,14 @@ void for_each_plane(const ParallelPolicy& parallel, std::size_t planes, const Me
 EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution) {
   hull = Hull();
   return fit_on_hull(
-      points, execution, [&](const LocalHull& local, const LocalFrame&, const Extremes& extremes) {
+      points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports& supports) {
         Normals normals = normals_of(local);
         drop_repeated(normals);
         const ReachTree tree(local.candidates, normals.size());
         std::vector<HullPlane> planes(normals.size());
         const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
-        for_each_plane(execution.parallel, normals.size(), measure);
-        hull = Hull(vertices_of(local, extremes), local.triangles, std::move(planes), local.rank);
+        for_each_plane(execution, normals.size(), measure);
+        hull = Hull(vertices_of(local, supports), local.triangles, std::move(planes), local.rank);
       });
 }
 

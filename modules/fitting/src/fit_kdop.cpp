@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "pcl_bv/fitting/extreme_points.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/float_environment.h"
 
@@ -24,14 +24,14 @@ std::optional<DirectionSet> direction_set(const std::shared_ptr<const KdopSet>& 
 EstimationResult fit_built_in(const PointView& points, DirectionSet directions,
                               const std::shared_ptr<const KdopSet>& set, Kdop& kdop, SlabPoints* touching,
                               const Execution& execution) {
-  const ExtremeDetail detail = touching != nullptr ? ExtremeDetail::points : ExtremeDetail::bounds;
-  const Extremes extremes = find_extremes(points, directions, detail, execution);
-  kdop = kdop_of(extremes);
-  for (std::size_t k = 0; touching != nullptr && extremes.used > 0 && k < set->size(); ++k) {
-    touching->min.push_back(extremes.low_point[k].index);
-    touching->max.push_back(extremes.high_point[k].index);
+  const SupportDetail detail = touching != nullptr ? SupportDetail::points : SupportDetail::bounds;
+  const Supports supports = find_supports(points, directions, detail, execution);
+  kdop = kdop_of(supports);
+  for (std::size_t k = 0; touching != nullptr && supports.used > 0 && k < set->size(); ++k) {
+    touching->min.push_back(supports.along[k].low_point.index);
+    touching->max.push_back(supports.along[k].high_point.index);
   }
-  return result_of(extremes);
+  return result_of(supports);
 }
 
 EstimationResult fit_own(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
@@ -39,10 +39,10 @@ EstimationResult fit_own(const PointView& points, const std::shared_ptr<const Kd
   std::vector<std::array<double, 3>> directions;
   for (std::size_t k = 0; k < set->size(); ++k)
     directions.push_back({set->direction(k).x(), set->direction(k).y(), set->direction(k).z()});
-  const ExtremePoints extremes = find_extreme_points(points, directions, execution);
+  const OwnSupports supports = find_supports(points, directions, execution);
   SlabVector low = kdop.min(), high = kdop.max();
-  for (std::size_t k = 0; k < extremes.along.size(); ++k) {
-    const DirectionExtremes& along = extremes.along[k];
+  for (std::size_t k = 0; k < supports.along.size(); ++k) {
+    const Support& along = supports.along[k];
     low[static_cast<Eigen::Index>(k)] = along.low;
     high[static_cast<Eigen::Index>(k)] = along.high;
     if (touching == nullptr) continue;
@@ -50,7 +50,7 @@ EstimationResult fit_own(const PointView& points, const std::shared_ptr<const Kd
     touching->max.push_back(along.high_point.index);
   }
   kdop = Kdop(set, low, high);
-  return result_of(find_extremes(points, DirectionSet::dop6, ExtremeDetail::bounds, execution));
+  return result_of(find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution));
 }
 
 EstimationResult fit(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,

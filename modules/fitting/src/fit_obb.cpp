@@ -14,7 +14,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/exact_sum.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "projection_search.h"
+#include "support_search.h"
 #include "same_points.h"
 #include "summarize_bounds.h"
 #include "symmetric_eigen.h"
@@ -33,28 +33,28 @@ Eigen::Vector3d unit_up(const Eigen::Vector3d& up) {
 
 EstimationResult fit_pca(const PointView& points, Obb& box, const Execution& execution) {
   const CloudSummary summary = summarize_bounds(points, execution);
-  if (summary.extremes.used > 0)
-    box = measured_box(principal_axes(summary), points, summary.extremes, execution);
+  if (summary.supports.used > 0)
+    box = measured_box(principal_axes(summary), points, summary.supports, execution);
   return summary.result();
 }
 
 EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& execution) {
-  const Extremes extremes = find_extremes(points, DirectionSet::dop14, ExtremeDetail::points, execution);
-  if (extremes.used > 0) {
-    const LocalFrame frame(points, extremes);
-    const Eigen::Matrix3d axes = dito_axes(few_points(points, extremes, frame), extremes, frame);
-    const Aabb upright = aabb_of(extremes);
-    if (!axes.isIdentity(0)) box = measured_box(axes, points, extremes, execution);
+  const Supports supports = find_supports(points, DirectionSet::dop14, SupportDetail::points, execution);
+  if (supports.used > 0) {
+    const LocalFrame frame(points, supports);
+    const Eigen::Matrix3d axes = dito_axes(few_points(points, supports, frame), supports, frame);
+    const Aabb upright = aabb_of(supports);
+    if (!axes.isIdentity(0)) box = measured_box(axes, points, supports, execution);
     if (box.empty() || !(box.surface_area() < upright.surface_area())) box = Obb(upright).canonical();
   }
-  return result_of(extremes);
+  return result_of(supports);
 }
 
 EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution& execution) {
   const CloudSummary summary = summarize(points, execution);
-  if (summary.extremes.used > 0) {
-    const LocalFrame frame(points, summary.extremes);
-    box = measured_box(minimal_axes(points, summary, frame, execution), points, summary.extremes, execution);
+  if (summary.supports.used > 0) {
+    const LocalFrame frame(points, summary.supports);
+    box = measured_box(minimal_axes(points, summary, frame, execution), points, summary.supports, execution);
   }
   return summary.result();
 }
@@ -62,13 +62,13 @@ EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution&
 EstimationResult fit_upright(const PointView& points, const ObbOptions& options, Obb& box,
                              const Execution& execution) {
   const Eigen::Vector3d up = unit_up(options.up);
-  const Extremes extremes = find_extremes(points, DirectionSet::dop26, ExtremeDetail::points, execution);
-  if (extremes.used > 0) {
-    const LocalFrame frame(points, extremes);
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
+  if (supports.used > 0) {
+    const LocalFrame frame(points, supports);
     const auto axes = options.method == ObbMethod::yaw ? yaw_axes : lshape_axes;
-    box = measured_box(axes(points, extremes, frame, up, execution), points, extremes, execution);
+    box = measured_box(axes(points, supports, frame, up, execution), points, supports, execution);
   }
-  return result_of(extremes);
+  return result_of(supports);
 }
 
 }  // namespace
@@ -91,15 +91,15 @@ std::optional<Coordinates> first_valid(const PointView& points) {
 // |q|_1 at most, twice what it can be (obb.cpp); the sides of the points' box add up to no less than any
 // |q|_1, and the smallest normal covers products that underflow. Coordinate axes need none of that: the box
 // says exactly how far the points reach.
-Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Extremes& extremes,
+Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                 UsableIsa isa) {
   const LoadedPoints loaded(points, 0, points.count);
   const std::optional<Coordinates> origin = first_valid(loaded.view());
-  require_same_points(origin && within(extremes, *origin));
+  require_same_points(origin && within(supports, *origin));
   const SlabExtents found = slab_extents(
       isa, loaded.view(), *origin, {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))});
   const Eigen::Vector3d from = vector(*origin);
-  const auto side = [&](std::size_t axis) { return extremes.high[axis] - extremes.low[axis]; };
+  const auto side = [&](std::size_t axis) { return supports.along[axis].high - supports.along[axis].low; };
   const double rounding = 0x1p-50 * ((side(0) + side(1)) + side(2)) + kSmallestNormal;
   Eigen::Vector3d low, high;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -107,22 +107,25 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Extr
     high[i] = found.high[i] + rounding;
     for (std::size_t k = 0; k < 3; ++k) {
       if (axes.col(i) != Eigen::Vector3d::Unit(k)) continue;
-      low[i] = round_down(exact_sum(extremes.low[k], -from[k], 0));
-      high[i] = round_up(exact_sum(extremes.high[k], -from[k], 0));
+      low[i] = round_down(exact_sum(supports.along[k].low, -from[k], 0));
+      high[i] = round_up(exact_sum(supports.along[k].high, -from[k], 0));
     }
   }
   return Obb::from_slabs(axes, from, low, high);
 }
 
-// Many points: floats reject nearly all of them, and the extremes are exact.
-Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Extremes& extremes,
+// Many points: floats reject nearly all of them, and the supports are exact.
+Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution) {
-  const Direction directions[] = {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))};
-  const ProjectionSearch found = search_projections(points, directions, 3, execution);
-  require_same_points(found.farthest.dropped == extremes.dropped);
+  SupportDirections directions;
+  for (int i = 0; i < 3; ++i)
+    directions.add(direction(axes.col(i)));
+  SupportSearch search(execution.isa, directions, points.count);
+  search.run(points, execution);
+  require_same_points(search.dropped() == supports.dropped);
   Eigen::Vector3d low, high;
   for (int i = 0; i < 3; ++i) {
-    const DirectionExtremes along = found.along(static_cast<std::size_t>(i));
+    const Support along = search.along(static_cast<std::size_t>(i));
     low[i] = along.low;
     high[i] = along.high;
   }
@@ -131,11 +134,11 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Ext
 
 }  // namespace
 
-Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Extremes& extremes,
+Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution) {
   constexpr std::size_t few_points = 2048;
-  const Obb box = points.count <= few_points ? measure_few(axes, points, extremes, execution.isa)
-                                             : measure_many(axes, points, extremes, execution);
+  const Obb box = points.count <= few_points ? measure_few(axes, points, supports, execution.isa)
+                                             : measure_many(axes, points, supports, execution);
   return box.canonical();
 }
 

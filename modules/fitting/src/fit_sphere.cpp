@@ -11,8 +11,8 @@
 
 #include "exact_sphere.h"
 #include "growth.h"
-#include "pcl_bv/fitting/extreme_points.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "sphere_seed.h"
@@ -38,11 +38,11 @@ struct FirstBall {
 };
 
 // Half-way between the ends of the axis whose ends are farthest apart.
-FirstBall ritter_ball(const Extremes& extremes, const LocalFrame& frame) {
+FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
   FirstBall ball{Eigen::Vector3d::Zero(), -1};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Coordinates& low = extremes.low_point[axis].point;
-    const Coordinates& high = extremes.high_point[axis].point;
+    const Coordinates& low = supports.along[axis].low_point.point;
+    const Coordinates& high = supports.along[axis].high_point.point;
     const Eigen::Vector3d center = frame.global((frame.local(low) + frame.local(high)) / 2);
     const DistanceCenter from = frame.center(center);
     const double squared = std::max(squared_distance(low, from), squared_distance(high, from));
@@ -70,14 +70,14 @@ std::vector<std::array<double, 3>> epos98_directions() {
 }
 
 // EPOS of no more points than it has ends of directions is the ball of all of them (Larsson 2008).
-FirstBall epos_ball(const PointView& points, SphereMethod method, const Extremes& extremes,
+FirstBall epos_ball(const PointView& points, SphereMethod method, const Supports& supports,
                     const LocalFrame& frame, const Execution& execution) {
-  const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(extremes.set);
+  const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(supports.set);
   const bool few = points.count <= ends;
-  SeedPoints seeds = few ? SeedPoints(points, extremes) : SeedPoints(extremes);
+  SeedPoints seeds = few ? SeedPoints(points, supports) : SeedPoints(supports);
   if (method == SphereMethod::epos98 && !few) {
     static const std::vector<std::array<double, 3>> directions = epos98_directions();
-    for (const DirectionExtremes& along : find_extreme_points(points, directions, execution).along) {
+    for (const Support& along : find_supports(points, directions, execution).along) {
       seeds.add(along.low_point.index, along.low_point.point);
       seeds.add(along.high_point.index, along.high_point.point);
     }
@@ -86,11 +86,11 @@ FirstBall epos_ball(const PointView& points, SphereMethod method, const Extremes
   return {center, seeds.greatest_distance(frame.center(center))};
 }
 
-Sphere grown_sphere(const PointView& points, const SphereOptions& options, const Extremes& extremes,
+Sphere grown_sphere(const PointView& points, const SphereOptions& options, const Supports& supports,
                     const LocalFrame& frame, const Execution& execution) {
   const FirstBall ball = options.method == SphereMethod::ritter
-                             ? ritter_ball(extremes, frame)
-                             : epos_ball(points, options.method, extremes, frame, execution);
+                             ? ritter_ball(supports, frame)
+                             : epos_ball(points, options.method, supports, frame, execution);
   const DistanceScan scan(points, execution);
   return grow_sphere(scan, frame, ball.center, ball.squared_radius, options.growth);
 }
@@ -104,36 +104,36 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
     return fit_smallest_sphere(points, sphere, certificate, execution);
   }
   const FloatEnvironment environment;
-  const Extremes extremes =
-      find_extremes(points, seed_directions(options.method), ExtremeDetail::points, execution);
+  const Supports supports =
+      find_supports(points, seed_directions(options.method), SupportDetail::points, execution);
   sphere = Sphere();
-  if (extremes.used > 0) {
-    const LocalFrame frame(points, extremes);
-    sphere = frame.extent() > 0 ? grown_sphere(points, options, extremes, frame, execution)
-                                : Sphere(vector(extremes.low_point[0].point), 0.0);
+  if (supports.used > 0) {
+    const LocalFrame frame(points, supports);
+    sphere = frame.extent() > 0 ? grown_sphere(points, options, supports, frame, execution)
+                                : Sphere(vector(supports.along[0].low_point.point), 0.0);
   }
-  return result_of(extremes);
+  return result_of(supports);
 }
 
 EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
                                      const Execution& execution) {
   const FloatEnvironment environment;
-  const Extremes extremes = find_extremes(points, DirectionSet::dop26, ExtremeDetail::points, execution);
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   sphere = Sphere();
   certificate = SphereCertificate();
-  if (extremes.used > 0) {
-    const LocalFrame frame(points, extremes);
+  if (supports.used > 0) {
+    const LocalFrame frame(points, supports);
     if (frame.extent() > 0) {
       DistanceScan scan(points, execution);
-      sphere = exact_sphere(scan, frame, SeedPoints(extremes), certificate);
+      sphere = exact_sphere(scan, frame, SeedPoints(supports), certificate);
     } else {
-      sphere = Sphere(vector(extremes.low_point[0].point), 0.0);
+      sphere = Sphere(vector(supports.along[0].low_point.point), 0.0);
       certificate.support_size = 1;
-      certificate.support[0] = extremes.low_point[0].index;
+      certificate.support[0] = supports.along[0].low_point.index;
       certificate.weights[0] = 1;
     }
   }
-  return result_of(extremes);
+  return result_of(supports);
 }
 
 }  // namespace pcl_bv

@@ -10,9 +10,9 @@
 
 namespace pcl_bv {
 
-/// What is said of points that have this hull: as result_of(extremes) unless Qhull found no triangles.
-inline EstimationResult result_of(const Extremes& extremes, const LocalHull& hull) {
-  EstimationResult result = result_of(extremes);
+/// What is said of points that have this hull: as result_of(supports) unless Qhull found no triangles.
+inline EstimationResult result_of(const Supports& supports, const LocalHull& hull) {
+  EstimationResult result = result_of(supports);
   if (hull.rank == 3 && hull.triangles.empty()) {
     result.status = EstimationStatus::failed;
     result.reason = "Qhull finds no hull";
@@ -20,16 +20,16 @@ inline EstimationResult result_of(const Extremes& extremes, const LocalHull& hul
   return result;
 }
 
-/// Calls fit(hull, frame, extremes) if there is a valid point and a hull.
+/// Calls fit(hull, frame, supports) if there is a valid point and a hull.
 template <typename Fit>
 EstimationResult fit_on_hull(const PointView& points, const Execution& execution, const Fit& fit) {
   const FloatEnvironment environment;
-  const Extremes extremes = find_extremes(points, DirectionSet::dop26, ExtremeDetail::points, execution);
-  if (extremes.used == 0) return result_of(extremes);
-  const LocalFrame frame(points, extremes);
-  const LocalHull hull = local_hull(points, extremes, frame, execution);
-  const EstimationResult result = result_of(extremes, hull);
-  if (result.status != EstimationStatus::failed) fit(hull, frame, extremes);
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
+  if (supports.used == 0) return result_of(supports);
+  const LocalFrame frame(points, supports);
+  const LocalHull hull = local_hull(points, supports, frame, execution);
+  const EstimationResult result = result_of(supports, hull);
+  if (result.status != EstimationStatus::failed) fit(hull, frame, supports);
   return result;
 }
 

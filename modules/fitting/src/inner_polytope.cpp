@@ -24,10 +24,10 @@ struct Corners {
   std::vector<Eigen::Vector3d> local;
 };
 
-Corners distinct_extremes(const Extremes& extremes, const LocalFrame& frame) {
+Corners distinct_extremes(const Supports& supports, const LocalFrame& frame) {
   Corners corners;
-  for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
-    for (const ExtremePoint& extreme : {extremes.low_point[k], extremes.high_point[k]}) {
+  for (std::size_t k = 0; k < direction_count(supports.set); ++k) {
+    for (const SupportPoint& extreme : {supports.along[k].low_point, supports.along[k].high_point}) {
       const Eigen::Vector3d p = frame.local(extreme.point);
       if (std::find(corners.local.begin(), corners.local.end(), p) != corners.local.end()) continue;
       corners.points.push_back(extreme.point);
@@ -84,9 +84,9 @@ HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinate
 
 }  // namespace
 
-HalfSpaces inner_polytope(const PointView& points, const Extremes& extremes, const LocalFrame& frame) {
+HalfSpaces inner_polytope(const PointView& points, const Supports& supports, const LocalFrame& frame) {
   HalfSpaces result;
-  const Corners corners = distinct_extremes(extremes, frame);
+  const Corners corners = distinct_extremes(supports, frame);
   if (corners.points.size() < 4) return result;
   const std::vector<Triangle> triangles = hull_triangles(corners.local);
   if (triangles.empty() || triangles.size() > kMaxHalfSpaces) return result;

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "local_frame.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/half_spaces.h"
 
 namespace pcl_bv {
@@ -14,6 +14,6 @@ namespace pcl_bv {
 /// Half-spaces such that every point of the cloud that is inside (as list_outside() decides) is strictly
 /// inside the convex hull of the extremal points, by exact arithmetic. Those points themselves are not
 /// inside. Count 0 where the points do not span a solid.
-HalfSpaces inner_polytope(const PointView& points, const Extremes& extremes, const LocalFrame& frame);
+HalfSpaces inner_polytope(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 }  // namespace pcl_bv

@@ -10,10 +10,10 @@
 
 namespace pcl_bv {
 
-double widest_side(const Extremes& extremes) {
+double widest_side(const Supports& supports) {
   double widest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    widest = std::max(widest, extremes.high[axis] - extremes.low[axis]);
+    widest = std::max(widest, supports.along[axis].high - supports.along[axis].low);
   return widest;
 }
 
@@ -21,9 +21,9 @@ double unit_scale(double extent) {
   return extent > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(extent), -1000, 1000)) : 1.0;
 }
 
-LocalFrame::LocalFrame(const PointView& points, const Extremes& extremes)
-    : origin_(vector(extremes.low_point[0].point)),
-      extent_(widest_side(extremes)),
+LocalFrame::LocalFrame(const PointView& points, const Supports& supports)
+    : origin_(vector(supports.along[0].low_point.point)),
+      extent_(widest_side(supports)),
       scale_(unit_scale(extent_)),
       kernel_scale_(points.scalar == ScalarType::float64 ? scale_ : 1.0) {}
 

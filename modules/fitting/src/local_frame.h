@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/numeric/directed.h"
 
@@ -20,7 +20,7 @@ inline Eigen::Vector3d vector(const Coordinates& p) {
 }
 
 /// The greatest width along an axis, in the unit of the points; 0 if all are equal.
-double widest_side(const Extremes& extremes);
+double widest_side(const Supports& supports);
 
 /// The power of two that brings a positive extent into [1, 2), as far as doubles have it (for 2^-1000 and
 /// below it is 2^1000); 1 for 0.
@@ -30,7 +30,7 @@ double unit_scale(double extent);
 class LocalFrame {
  public:
   /// Of a cloud with at least one valid point.
-  LocalFrame(const PointView& points, const Extremes& extremes);
+  LocalFrame(const PointView& points, const Supports& supports);
 
   /// As widest_side() says.
   double extent() const { return extent_; }

@@ -22,11 +22,6 @@ namespace {
 // the filter (AVX-512).
 constexpr std::size_t kFewPoints = 500;
 
-// What a point costs; it decides whether threads are worth starting.
-double seconds_per_point(Isa isa) {
-  return isa == Isa::scalar ? 20e-9 : 3e-9;
-}
-
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
                                        const LocalFrame& frame, const Execution& execution) {
   std::vector<HullPoint> all;
@@ -47,8 +42,8 @@ std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces
       all.insert(all.end(), part.begin(), part.end());
     }
   };
-  const double seconds = seconds_per_point(execution.isa) * static_cast<double>(points.count);
-  map_chunks<std::vector<HullPoint>>(points, worthwhile(execution.parallel, seconds), list, append);
+  map_chunks<std::vector<HullPoint>>(points, worthwhile(execution, Work::half_spaces, points.count), list,
+                                     append);
   return all;
 }
 
@@ -115,17 +110,17 @@ void find_solid(LocalHull& hull) {
 
 }  // namespace
 
-LocalHull local_hull(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
                      const Execution& execution) {
   LocalHull hull;
   HalfSpaces inside;
-  if (extremes.used > kFewPoints) inside = inner_polytope(points, extremes, frame);
+  if (supports.used > kFewPoints) inside = inner_polytope(points, supports, frame);
   hull.candidates = find_candidates(points, inside, frame, execution);
-  require_same_points(box_of(hull.candidates) == aabb_of(extremes));
+  require_same_points(box_of(hull.candidates) == aabb_of(supports));
   const PointView view =
       PointView::of(&hull.candidates.front().point.x, sizeof(HullPoint), hull.candidates.size());
   static_cast<Span&>(hull) = span_of(view, frame.scale(), execution);
-  hull.rank = extremes.rank;
+  hull.rank = supports.rank;
   switch (hull.rank) {
     case 3:
       find_solid(hull);

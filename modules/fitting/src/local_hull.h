@@ -13,7 +13,7 @@
 #include "hull_triangles.h"
 #include "local_frame.h"
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "point_rank.h"
 #include "pcl_bv/numeric/vector3.h"
 
@@ -50,11 +50,11 @@ struct LocalHull : Span {
   }
 };
 
-/// For a cloud with at least one valid point; `extremes` are those along dop26, with points. The same bits
+/// For a cloud with at least one valid point; `supports` are those along dop26, with points. The same bits
 /// for every execution. `vertices` and `triangles` are the hull up to rounding (hull_triangles.h);
 /// `candidates` are exact. Needs a FloatEnvironment. O(n) for the points inside the polytope of the extremal
 /// ones, O(m log m) for the m others.
-LocalHull local_hull(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
                      const Execution& execution);
 
 }  // namespace pcl_bv

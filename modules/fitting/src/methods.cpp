@@ -107,8 +107,8 @@ const Method* find_method(std::string_view name) {
   return nullptr;
 }
 
-Execution share_extremes(const PointView& points, const std::vector<const Method*>& among,
-                         const Execution& execution, Extremes& extremes) {
+Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
+                         const Execution& execution, Supports& supports) {
   std::size_t askers = 0;
   std::optional<DirectionSet> widest;
   for (const Method* method : among) {
@@ -118,8 +118,8 @@ Execution share_extremes(const PointView& points, const std::vector<const Method
   }
   Execution shared = execution;
   if (askers < 2 || *widest == DirectionSet::dop6) return shared;
-  extremes = find_extremes(points, *widest, ExtremeDetail::points, execution);
-  shared.extremes = &extremes;
+  supports = find_supports(points, *widest, SupportDetail::points, execution);
+  shared.supports = &supports;
   return shared;
 }
 
@@ -141,8 +141,8 @@ EstimationResult fit_smallest(const PointView& points, const std::vector<const M
   if (among.empty()) throw std::invalid_argument("fit_smallest: among must name at least one method");
   EstimationResult result;
   const Method* found = nullptr;
-  Extremes extremes;
-  const Execution shared = share_extremes(points, among, execution, extremes);
+  Supports supports;
+  const Execution shared = share_supports(points, among, execution, supports);
   const auto failed = [](const EstimationResult& r) { return r.status == EstimationStatus::failed; };
   const auto size = [](const AnyVolume& v) { return std::pair(pcl_bv::volume(v), surface_area(v)); };
   for (const Method* method : among) {

@@ -9,7 +9,7 @@
 
 #include "local_frame.h"
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/summary.h"
 #include "pcl_bv/volumes/obb.h"
 #include "small_vector.h"
@@ -18,8 +18,8 @@ namespace pcl_bv {
 
 /// A canonical box along the axes around all valid points, of which there must be one: by exact arithmetic,
 /// and tight to a few units in the last place of the extents and of the centre. Columns unit and orthogonal
-/// to 1e-12; `extremes` along any set. Needs a FloatEnvironment.
-Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Extremes& extremes,
+/// to 1e-12; `supports` along any set. Needs a FloatEnvironment.
+Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution);
 
 /// Eigenvectors of the covariance, that of the greatest eigenvalue first.
@@ -29,21 +29,21 @@ Eigen::Matrix3d principal_axes(const CloudSummary& summary);
 using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 
 /// The points of both ends of all directions, or, of no more points than that, all valid ones.
-FewPoints few_points(const PointView& points, const Extremes& extremes, const LocalFrame& frame);
+FewPoints few_points(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 /// The axes of least half surface, measured on 'few' in floats, among the coordinate axes and those of DiTO's
-/// triangles (Larsson, Kallberg 2011). `extremes` along dop14, with points, and `few` of them.
-Eigen::Matrix3d dito_axes(const FewPoints& few, const Extremes& extremes, const LocalFrame& frame);
+/// triangles (Larsson, Kallberg 2011). `supports` along dop14, with points, and `few` of them.
+Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const LocalFrame& frame);
 
 /// The axes of the least box that a search over the hull finds. `summary` of the same points.
 Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
                              const Execution& execution);
 
 /// Axes of which one is `up`, a unit vector; the others as the least area from above wants them, or the
-/// closeness of the sides. `extremes` along dop26, with points.
-Eigen::Matrix3d yaw_axes(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+/// closeness of the sides. `supports` along dop26, with points.
+Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                          const Eigen::Vector3d& up, const Execution& execution);
-Eigen::Matrix3d lshape_axes(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                             const Eigen::Vector3d& up, const Execution& execution);
 
 }  // namespace pcl_bv

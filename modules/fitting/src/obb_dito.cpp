@@ -73,12 +73,12 @@ struct Best {
 };
 
 // The two points of a direction's ends that are farthest apart.
-void farthest_pair(const Extremes& extremes, const LocalFrame& frame, Eigen::Vector3d& p,
+void farthest_pair(const Supports& supports, const LocalFrame& frame, Eigen::Vector3d& p,
                    Eigen::Vector3d& q) {
   double greatest = -1;
   for (std::size_t k = 0; k < direction_count(DirectionSet::dop14); ++k) {
-    const Eigen::Vector3d low = frame.local(extremes.low_point[k].point);
-    const Eigen::Vector3d high = frame.local(extremes.high_point[k].point);
+    const Eigen::Vector3d low = frame.local(supports.along[k].low_point.point);
+    const Eigen::Vector3d high = frame.local(supports.along[k].high_point.point);
     if ((high - low).squaredNorm() <= greatest) continue;
     greatest = (high - low).squaredNorm();
     p = low;
@@ -103,26 +103,26 @@ Eigen::Matrix3d along_line(const Eigen::Vector3d& e) {
 
 }  // namespace
 
-FewPoints few_points(const PointView& points, const Extremes& extremes, const LocalFrame& frame) {
+FewPoints few_points(const PointView& points, const Supports& supports, const LocalFrame& frame) {
   FewPoints few;
-  const std::size_t directions = direction_count(extremes.set);
+  const std::size_t directions = direction_count(supports.set);
   if (points.count <= 2 * directions) {
-    for_each_valid(points, extremes,
+    for_each_valid(points, supports,
                    [&](std::size_t, const Coordinates& p) { few.push_back(frame.local(p)); });
     return few;
   }
   for (std::size_t k = 0; k < directions; ++k) {
-    few.push_back(frame.local(extremes.low_point[k].point));
-    few.push_back(frame.local(extremes.high_point[k].point));
+    few.push_back(frame.local(supports.along[k].low_point.point));
+    few.push_back(frame.local(supports.along[k].high_point.point));
   }
   return few;
 }
 
-Eigen::Matrix3d dito_axes(const FewPoints& few, const Extremes& extremes, const LocalFrame& frame) {
+Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const LocalFrame& frame) {
   if (!(frame.extent() > 0)) return Eigen::Matrix3d::Identity();
   Best best(few);
   Eigen::Vector3d p0 = few[0], p1 = few[0];
-  farthest_pair(extremes, frame, p0, p1);
+  farthest_pair(supports, frame, p0, p1);
   const Eigen::Vector3d e = (p1 - p0).normalized();
   const Eigen::Vector3d p2 = farthest_from_line(few, p0, e);
   const Eigen::Vector3d normal = (p1 - p0).cross(p2 - p0);

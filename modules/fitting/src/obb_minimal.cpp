@@ -119,11 +119,11 @@ constexpr std::size_t kSureStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
                                           const LocalFrame& frame) {
-  Extremes extremes = summary.extremes;
-  extremes.set = DirectionSet::dop14;  // whose directions come first
-  const FewPoints few = few_points(points, extremes, frame);
+  Supports supports = summary.supports;
+  supports.set = DirectionSet::dop14;  // whose directions come first
+  const FewPoints few = few_points(points, supports, frame);
   static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(40);
-  std::vector<Eigen::Matrix3d> frames{dito_axes(few, extremes, frame), principal_axes(summary),
+  std::vector<Eigen::Matrix3d> frames{dito_axes(few, supports, frame), principal_axes(summary),
                                       Eigen::Matrix3d::Identity()};
   add_triangle_frames(few, frames);
   frames.insert(frames.end(), scattered.begin(), scattered.end());
@@ -164,10 +164,9 @@ Vertices salient(const Vertices& vertices, const std::vector<Eigen::Matrix3d>& f
 // Each start turned as far as it gets, best first.
 std::vector<Frame> searched(const std::vector<Eigen::Matrix3d>& starts, const Vertices& vertices,
                             const Execution& execution) {
-  constexpr double seconds_per_vertex = 1e-6;  // some ten turns of a sort and the calipers
   std::vector<Frame> found(starts.size());
-  const double seconds = seconds_per_vertex * static_cast<double>(starts.size() * vertices.size());
-  for_each_chunk(worthwhile(execution.parallel, seconds), starts.size(), [&](std::size_t i) {
+  const ParallelPolicy policy = worthwhile(execution, Work::box_turns, starts.size() * vertices.size());
+  for_each_chunk(policy, starts.size(), [&](std::size_t i) {
     const FloatEnvironment environment;
     found[i] = turned(starts[i], vertices);
   });
@@ -195,14 +194,14 @@ Eigen::Matrix3d solid_axes(const Vertices& vertices, std::vector<Eigen::Matrix3d
 Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
                              const Execution& execution) {
   if (!(frame.extent() > 0)) return Eigen::Matrix3d::Identity();
-  const LocalHull hull = local_hull(points, summary.extremes, frame, execution);
+  const LocalHull hull = local_hull(points, summary.supports, frame, execution);
   if (hull.rank < 2) return orthonormal_axes(hull.axes);
   if (hull.rank == 2) return flat_axes(hull);
   Vertices vertices;
   for (const HullPoint& vertex : hull.vertices)
     vertices.push_back(vertex.local);
   if (vertices.empty()) {  // Qhull gave up: the box will not be the smallest, but a box
-    const FewPoints few = few_points(points, summary.extremes, frame);
+    const FewPoints few = few_points(points, summary.supports, frame);
     vertices.assign(few.begin(), few.end());
   }
   return solid_axes(vertices, start_frames(points, summary, frame), execution);

@@ -35,13 +35,13 @@ constexpr double kNear = 1.0 / 40;
 
 // Points from above, every so many of the cloud, in floats: they only choose an angle.
 struct Sample {
-  Sample(const PointView& points, const Extremes& extremes, const LocalFrame& frame, const Ground& ground,
+  Sample(const PointView& points, const Supports& supports, const LocalFrame& frame, const Ground& ground,
          const Eigen::Vector2d& origin, std::size_t size) {
     const std::size_t step = std::max<std::size_t>(1, (points.count + size - 1) / size);
     for (std::size_t i = 0; i < points.count; i += step) {
       const Coordinates p = load_point(LoadedPoints(points, i, 1).view(), 0);
       if (!is_valid(p)) continue;
-      require_same_points(within(extremes, p));
+      require_same_points(within(supports, p));
       const Eigen::Vector2d at = ground.flat(frame.local(p)) - origin;
       x.push_back(static_cast<float>(at.x()));
       y.push_back(static_cast<float>(at.y()));
@@ -127,21 +127,21 @@ Turn refined(Turn best, const Closeness& closeness, const Sample& sample) {
 
 }  // namespace
 
-Eigen::Matrix3d yaw_axes(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                          const Eigen::Vector3d& up, const Execution& execution) {
   const Ground ground(up);
-  const Outline outline = outline_from_above(points, extremes, frame, ground, execution);
+  const Outline outline = outline_from_above(points, supports, frame, ground, execution);
   return ground.axes_along(least_rectangle(outline.data(), outline.size()).side);
 }
 
-Eigen::Matrix3d lshape_axes(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                             const Eigen::Vector3d& up, const Execution& execution) {
   const Ground ground(up);
-  const Outline outline = outline_from_above(points, extremes, frame, ground, execution);
+  const Outline outline = outline_from_above(points, supports, frame, ground, execution);
   const FlatBox rectangle = least_rectangle(outline.data(), outline.size());
   if (outline.size() < 3) return ground.axes_along(rectangle.side);
   const Closeness closeness(outline, rectangle.diagonal);
-  const Sample coarse(points, extremes, frame, ground, outline[0], kCoarsePoints);
+  const Sample coarse(points, supports, frame, ground, outline[0], kCoarsePoints);
   std::array<Turn, kCoarseSteps> turns;
   for (std::size_t k = 0; k < kCoarseSteps; ++k) {
     const double t = static_cast<double>(k) / static_cast<double>(kCoarseSteps);
@@ -149,7 +149,7 @@ Eigen::Matrix3d lshape_axes(const PointView& points, const Extremes& extremes, c
   }
   std::stable_sort(turns.begin(), turns.end(),
                    [](const Turn& a, const Turn& b) { return a.closeness > b.closeness; });
-  const Sample fine(points, extremes, frame, ground, outline[0], kFinePoints);
+  const Sample fine(points, supports, frame, ground, outline[0], kFinePoints);
   Turn best{0, -1};
   for (std::size_t k = 0; k < kStarts; ++k) {
     const Turn turn = refined(turns[k], closeness, fine);

@@ -51,7 +51,7 @@ HalfSpaces walls(const PointView& points, const FewPoints& few, const LocalFrame
   return result;
 }
 
-Outline chunk_outline(UsableIsa isa, const PointView& chunk, const Extremes& extremes,
+Outline chunk_outline(UsableIsa isa, const PointView& chunk, const Supports& supports,
                       const HalfSpaces& inside, const LocalFrame& frame, const Ground& ground) {
   std::array<std::uint32_t, kBlockPoints> positions;
   Outline outline;
@@ -61,7 +61,7 @@ Outline chunk_outline(UsableIsa isa, const PointView& chunk, const Extremes& ext
     for (std::size_t i = 0; i < count; ++i) {
       const Coordinates p = load_point(block, positions[i]);
       if (!is_valid(p)) continue;
-      require_same_points(within(extremes, p));
+      require_same_points(within(supports, p));
       outline.push_back(ground.flat(frame.local(p)));
     }
   }
@@ -87,15 +87,14 @@ Eigen::Matrix3d Ground::axes_along(const Eigen::Vector2d& side) const {
   return orthonormal_axes(axes);
 }
 
-Outline outline_from_above(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const Execution& execution) {
-  const HalfSpaces inside = walls(points, few_points(points, extremes, frame), frame, ground);
-  constexpr double seconds_per_point = 5e-9;  // between 1 ns, all inside, and 50 ns, none
+  const HalfSpaces inside = walls(points, few_points(points, supports, frame), frame, ground);
   Outline outline;
   map_chunks<Outline>(
-      points, worthwhile(execution.parallel, seconds_per_point * static_cast<double>(points.count)),
+      points, worthwhile(execution, Work::outline, points.count),
       [&](const PointView& chunk) {
-        return chunk_outline(execution.isa, chunk, extremes, inside, frame, ground);
+        return chunk_outline(execution.isa, chunk, supports, inside, frame, ground);
       },
       [&](const Outline& part) {
         for (const Eigen::Vector2d& corner : part)

@@ -10,7 +10,7 @@
 
 #include "local_frame.h"
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "small_vector.h"
 
 namespace pcl_bv {
@@ -31,9 +31,9 @@ struct Ground {
 /// hundred.
 using Outline = SmallVector<Eigen::Vector2d, 1024>;
 
-/// The convex outline from above, in local coordinates, up to rounding; a corner at least. `extremes` along
+/// The convex outline from above, in local coordinates, up to rounding; a corner at least. `supports` along
 /// dop26, with points. The same bits for every execution.
-Outline outline_from_above(const PointView& points, const Extremes& extremes, const LocalFrame& frame,
+Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const Execution& execution);
 
 }  // namespace pcl_bv

@@ -103,10 +103,9 @@ void keep_outermost(const Outermost& other, Outermost& best) {
 
 template <typename Measure>
 Outermost farthest(const PointView& points, const Execution& execution, const Measure& squared_distance) {
-  constexpr double seconds_per_point = 3e-9;
   Outermost best;
   map_chunks<Outermost>(
-      points, worthwhile(execution.parallel, seconds_per_point * static_cast<double>(points.count)),
+      points, worthwhile(execution, Work::rank, points.count),
       [&](const PointView& chunk) {
         Outermost found;
         for (std::size_t i = 0; i < chunk.count; ++i) {
@@ -155,12 +154,12 @@ Span span_of(const PointView& points, double scale, const Execution& execution) 
   return span;
 }
 
-int point_rank(const PointView& points, const Extremes& extremes, const Execution& execution) {
+int point_rank(const PointView& points, const Supports& supports, const Execution& execution) {
   int sides = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    sides += extremes.used > 0 && extremes.low[axis] < extremes.high[axis] ? 1 : 0;
+    sides += supports.used > 0 && supports.along[axis].low < supports.along[axis].high ? 1 : 0;
   if (sides == 0) return 0;
-  const double extent = widest_side(extremes);
+  const double extent = widest_side(supports);
   // Products of three smaller ones could underflow.
   if (extent > 0x1p-300 && clearly_spans(points, extent, sides)) return sides;
   return span_of(points, unit_scale(extent), execution).rank;

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/point_view.h"
 
 namespace pcl_bv {
@@ -32,9 +32,9 @@ struct Span {
 /// and every order of the points. O(n), a pass for each distance and one for p0. Needs a FloatEnvironment.
 Span span_of(const PointView& points, double scale, const Execution& execution);
 
-/// The rank of span_of(), 0 without a valid point. `extremes` of the same points. Four points that span a
+/// The rank of span_of(), 0 without a valid point. `supports` of the same points. Four points that span a
 /// solid decide, so for nearly all clouds the first four that are looked at do. Needs a FloatEnvironment.
 /// O(n) where a cloud is as thin as 2^-30 of its extent and not across a coordinate axis.
-int point_rank(const PointView& points, const Extremes& extremes, const Execution& execution);
+int point_rank(const PointView& points, const Supports& supports, const Execution& execution);
 
 }  // namespace pcl_bv

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/point_source.h"
 
 namespace pcl_bv {
@@ -17,14 +17,14 @@ inline void require_same_points(bool same) {
 }
 
 /// Whether a point is in the box of all points.
-inline bool within(const Extremes& all, const Coordinates& p) {
-  return p.x >= all.low[0] && p.x <= all.high[0] && p.y >= all.low[1] && p.y <= all.high[1] &&
-         p.z >= all.low[2] && p.z <= all.high[2];
+inline bool within(const Supports& all, const Coordinates& p) {
+  return p.x >= all.along[0].low && p.x <= all.along[0].high && p.y >= all.along[1].low && p.y <= all.along[1].high &&
+         p.z >= all.along[2].low && p.z <= all.along[2].high;
 }
 
 /// Calls visit(index, p) for the valid points of a view of at most kChunkPoints.
 template <typename Visit>
-void for_each_valid(const PointView& points, const Extremes& all, const Visit& visit) {
+void for_each_valid(const PointView& points, const Supports& all, const Visit& visit) {
   const LoadedPoints loaded(points, 0, points.count);
   std::size_t valid = 0;
   for (std::size_t i = 0; i < points.count; ++i) {

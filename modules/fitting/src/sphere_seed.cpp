@@ -11,16 +11,16 @@
 
 namespace pcl_bv {
 
-SeedPoints::SeedPoints(const Extremes& extremes) {
-  for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
-    seeds_.push_back({extremes.low_point[k].index, extremes.low_point[k].point});
-    seeds_.push_back({extremes.high_point[k].index, extremes.high_point[k].point});
+SeedPoints::SeedPoints(const Supports& supports) {
+  for (std::size_t k = 0; k < direction_count(supports.set); ++k) {
+    seeds_.push_back({supports.along[k].low_point.index, supports.along[k].low_point.point});
+    seeds_.push_back({supports.along[k].high_point.index, supports.along[k].high_point.point});
   }
   make_unique();
 }
 
-SeedPoints::SeedPoints(const PointView& points, const Extremes& extremes) {
-  for_each_valid(points, extremes, [&](std::size_t index, const Coordinates& p) {
+SeedPoints::SeedPoints(const PointView& points, const Supports& supports) {
+  for_each_valid(points, supports, [&](std::size_t index, const Coordinates& p) {
     seeds_.push_back({index, p});
   });
   make_unique();

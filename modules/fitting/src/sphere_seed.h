@@ -5,7 +5,7 @@
 #pragma once
 
 #include "local_frame.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/small_ball.h"
 #include "small_vector.h"
 
@@ -19,11 +19,11 @@ class SeedPoints {
     Coordinates point;
   };
 
-  /// The points of both ends of all of the extremes' directions, which must have been asked for.
-  explicit SeedPoints(const Extremes& extremes);
+  /// The points of both ends of all of the supports' directions, which must have been asked for.
+  explicit SeedPoints(const Supports& supports);
 
-  /// All valid points, with their extremes.
-  SeedPoints(const PointView& points, const Extremes& extremes);
+  /// All valid points, with their supports.
+  SeedPoints(const PointView& points, const Supports& supports);
 
   std::size_t size() const { return seeds_.size(); }
   const Seed& operator[](std::size_t i) const { return seeds_[i]; }

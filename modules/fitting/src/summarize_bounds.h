@@ -8,7 +8,7 @@
 
 namespace pcl_bv {
 
-/// As summarize(), with the extremes along dop6 only and without their points. Needs a FloatEnvironment.
+/// As summarize(), with the supports along dop6 only and without their points. Needs a FloatEnvironment.
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution);
 
 }  // namespace pcl_bv

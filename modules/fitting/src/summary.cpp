@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The moments ride on the search for extremes, chunk by chunk.
+// The moments ride on the search for supports, chunk by chunk.
 
 #include "pcl_bv/fitting/summary.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "extreme_search.h"
+#include "support_search.h"
 #include "local_frame.h"
 #include "map_chunks.h"
 #include "moment_tree.h"
-#include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/constants.h"
@@ -24,20 +23,12 @@
 namespace pcl_bv {
 namespace {
 
-// What a chunk gives; the extremes are those of a search, or the box alone.
+// What a chunk gives; the supports are those of a search, or the box alone.
 template <typename Found>
 struct Part {
-  Found extremes;
+  Found supports;
   MomentTree moments;
 };
-
-void merge_bounds(const AxisExtents& part, Extremes& all) {
-  all.dropped += part.dropped;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    all.low[axis] = std::min(all.low[axis], part.low[axis]);
-    all.high[axis] = std::max(all.high[axis], part.high[axis]);
-  }
-}
 
 MomentTree moments_of(UsableIsa isa, const PointView& chunk) {
   MomentTree tree;
@@ -48,7 +39,7 @@ MomentTree moments_of(UsableIsa isa, const PointView& chunk) {
 
 void finish(Moments moments, CloudSummary& summary) {
   if (moments.count == 0) return;
-  const double extent = widest_side(summary.extremes);
+  const double extent = widest_side(summary.supports);
   if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
   summary.scale = std::ldexp(1.0, moments.exponent);
   const double n = static_cast<double>(moments.count);
@@ -56,8 +47,8 @@ void finish(Moments moments, CloudSummary& summary) {
   double mean[3];
   for (int axis = 0; axis < 3; ++axis) {
     mean[axis] = moments.sum[axis] / n;
-    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.scale, summary.extremes.low[axis],
-                                        summary.extremes.high[axis]) +
+    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.scale, summary.supports.along[axis].low,
+                                        summary.supports.along[axis].high) +
                              0.0;
   }
   std::size_t k = 0;
@@ -71,17 +62,17 @@ void finish(Moments moments, CloudSummary& summary) {
 
 // One pass: search(chunk) and the moments of the chunk, merge(found) in order.
 template <typename Found, typename Search, typename Merge>
-Moments pass(const PointView& points, const Execution& execution, double seconds, Search&& search,
+Moments pass(const PointView& points, const Execution& execution, std::size_t count, const Search& search,
              const Merge& merge) {
   MomentTree moments;
   std::size_t blocks = 0;
   map_chunks<Part<Found>>(
-      points, worthwhile(execution.parallel, seconds),
+      points, worthwhile(execution, Work::cube_support, count),
       [&](const PointView& chunk) {
         return Part<Found>{search(chunk), moments_of(execution.isa, chunk)};
       },
       [&](const Part<Found>& part) {
-        merge(part.extremes);
+        merge(part.supports);
         moments.append(blocks, part.moments);
         blocks += kChunkPoints / kBlockPoints;
       });
@@ -92,37 +83,36 @@ Moments pass(const PointView& points, const Execution& execution, double seconds
 
 CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  require_own_extremes(points, execution);
+  require_own_supports(points, execution);
   CloudSummary summary;
-  summary.extremes.set = DirectionSet::dop26;
-  summary.extremes.points = points;
-  ExtremeSearch search(execution.isa, DirectionSet::dop26, points.count);
-  // Moments cost about as much again as the extremes.
-  const double seconds = 2 * search_seconds(execution.isa, DirectionSet::dop26, points.count);
-  const Moments moments =
-      pass<ChunkExtremes>(points, execution, seconds, search,
-                          [&](const ChunkExtremes& found) { merge_extremes(found, summary.extremes); });
-  finish_extremes(points.count, summary.extremes);
-  summary.extremes.rank = point_rank(points, summary.extremes, execution);
+  Supports& supports = summary.supports;
+  supports.set = DirectionSet::dop26;
+  supports.detail = SupportDetail::points;
+  supports.points = points;
+  const SupportDirections& directions = SupportDirections::of(supports.set);
+  SupportSearch search(execution.isa, directions, points.count);
+  // Moments cost about as much again as the supports.
+  const Moments moments = pass<ChunkSupports>(
+      points, execution, 2 * directions.count * points.count,
+      [&](const PointView& chunk) { return search.find(chunk); },
+      [&](const ChunkSupports& found) { search.merge(found); });
+  finish(search, points.count, supports);
+  supports.rank = point_rank(points, supports, execution);
   finish(moments, summary);
   return summary;
 }
 
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution) {
-  require_own_extremes(points, execution);
+  require_own_supports(points, execution);
   CloudSummary summary;
-  summary.extremes.set = DirectionSet::dop6;
-  summary.extremes.points = points;
-  summary.extremes.low.fill(kInfinity);
-  summary.extremes.high.fill(-kInfinity);
+  summary.supports = no_bounds(points);
   // Moments cost about as much as a 26-DOP, the box next to nothing.
-  const double seconds = search_seconds(execution.isa, DirectionSet::dop26, points.count);
   const Moments moments = pass<AxisExtents>(
-      points, execution, seconds, [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
-      [&](const AxisExtents& found) { merge_bounds(found, summary.extremes); });
-  summary.extremes.used = moments.count;
-  if (moments.count == 0) summary.extremes.low = summary.extremes.high = {};
-  summary.extremes.rank = point_rank(points, summary.extremes, execution);
+      points, execution, kMaxDirections * points.count,
+      [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
+      [&](const AxisExtents& found) { merge_bounds(found, summary.supports); });
+  finish_bounds(summary.supports);
+  summary.supports.rank = point_rank(points, summary.supports, execution);
   finish(moments, summary);
   return summary;
 }

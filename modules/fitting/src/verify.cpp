@@ -201,13 +201,12 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
 Verification verify(const AnyVolume& volume, const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
   constexpr std::size_t chunk_points = 4096;  // a chunk may be all rationals: a microsecond each
-  const double serial_seconds = 50e-9 * static_cast<double>(points.count);
   const auto check = [&](std::size_t chunk) {
     const std::size_t begin = chunk * chunk_points;
     const LoadedPoints part(points, begin, std::min(chunk_points, points.count - begin));
     return std::visit([&part](const auto& shape) { return verify_chunk(shape, part.view()); }, volume);
   };
-  return reduce_chunks(worthwhile(execution.parallel, serial_seconds),
+  return reduce_chunks(worthwhile(execution, Work::verify, points.count),
                        (points.count + chunk_points - 1) / chunk_points, Verification{}, check, merge);
 }
 

@@ -10,7 +10,7 @@
 
 #include <limits>
 
-#include "extremes_reference.h"
+#include "references.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "preconditions.h"
 #include "targets.h"

@@ -6,7 +6,7 @@
 
 #include "pcl_bv/kernels/distances.h"
 
-#include "distances_reference.h"
+#include "references.h"
 #include "preconditions.h"
 #include "targets.h"
 

@@ -3,7 +3,7 @@
 
 // UPDATESPHERE's side of the paper's EXPANDSPHERE (Figure 3): which points are outside.
 
-#include "distances_reference.h"
+#include "references.h"
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
 #include "square.h"

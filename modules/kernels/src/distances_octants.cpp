@@ -4,7 +4,7 @@
 // The farthest points in each octant, for the smallest sphere: float arithmetic rejects runs of points, as
 // the mask of the paper's EXPANDSPHERE (Figure 3) does groups of four, and double arithmetic decides.
 
-#include "distances_reference.h"
+#include "references.h"
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
 #include "square.h"

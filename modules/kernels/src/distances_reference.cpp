@@ -4,7 +4,7 @@
 // Scalar reference. All in double: one at a time, a double costs what a float does. Compiled with -O3
 // -fno-tree-vectorize, so that it stays what benchmarks call scalar.
 
-#include "distances_reference.h"
+#include "references.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 
 #include "pcl_bv/kernels/half_spaces.h"
 
-#include "half_spaces_reference.h"
+#include "references.h"
 #include "preconditions.h"
 #include "targets.h"
 

@@ -3,7 +3,7 @@
 
 // Point after point, until a half-space denies it.
 
-#include "half_spaces_reference.h"
+#include "references.h"
 
 namespace pcl_bv {
 namespace {

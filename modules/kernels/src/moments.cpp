@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-#include "moments_reference.h"
+#include "references.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "preconditions.h"
 #include "targets.h"

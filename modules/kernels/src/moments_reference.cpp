@@ -3,7 +3,7 @@
 
 // Scalar reference: the sums as moments.h defines them, one point at a time.
 
-#include "moments_reference.h"
+#include "references.h"
 
 #include <cmath>
 

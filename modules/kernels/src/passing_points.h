@@ -7,10 +7,17 @@
 #include <cstddef>
 #include <cstring>
 
-#include "pcl_bv/kernels/extreme_point.h"
+#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/numeric/exact_dot.h"
 
 namespace pcl_bv {
+
+/// Which points are worth an exact look: those whose rounded projection, relative to `center` and in the
+/// view's scalar type, is at least `threshold` (a value of that type).
+struct RoundedFilter {
+  Coordinates center;
+  double threshold;
+};
 
 /// RoundedFilter along a direction, in registers.
 template <typename T>

@@ -5,7 +5,7 @@
 
 #include "pcl_bv/kernels/point_groups.h"
 
-#include "point_groups_reference.h"
+#include "references.h"
 #include "preconditions.h"
 #include "targets.h"
 

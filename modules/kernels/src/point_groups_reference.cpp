@@ -3,7 +3,7 @@
 
 // Scalar reference: point by point, coordinate by coordinate.
 
-#include "point_groups_reference.h"
+#include "references.h"
 
 namespace pcl_bv {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "pcl_bv/kernels/chunks.h"
 #include "preconditions.h"
-#include "slab_extents_reference.h"
+#include "references.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE

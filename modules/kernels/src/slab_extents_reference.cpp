@@ -3,7 +3,7 @@
 
 // Point after point.
 
-#include "slab_extents_reference.h"
+#include "references.h"
 
 #include <algorithm>
 

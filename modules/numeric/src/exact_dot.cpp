@@ -163,7 +163,7 @@ int width(double value) {
 }
 
 bool is_exact(double product, double a, double b) {
-  if (a == 0 || b == 0) return true;
+  if (a == 0 || b == 0 || a == 1 || a == -1) return true;
   const int wide = width(a), other = width(b);
   return (wide == 1 || other == 1 || wide + other <= 53) && std::abs(product) >= 0x1p-960;
 }

@@ -19,10 +19,6 @@ ExactSum exact_sum(double x, double y, double z) {
   return {head.sum, head.error, errors.error};
 }
 
-ExactSum exact_projection(const CubeDirection& direction, const Coordinates& p) {
-  return exact_sum(direction[0] * p.x, direction[1] * p.y, direction[2] * p.z);
-}
-
 // tail + rest is at most half a step of head and a tiny bit, and its rounded sum has its exact sign, so that
 // sign alone says on which side of head the exact value lies, never farther than the next double.
 double round_down(const ExactSum& sum) {

@@ -43,8 +43,8 @@ void fit(const Segmentation& segmentation, const Options& options, Report& repor
   for_each_view(segmentation.entries, options.execution, [&](std::size_t id, const Execution& execution) {
     ClusterEntry& cluster = report.clusters[id];
     cluster.id = id;
-    Extremes extremes;
-    const Execution shared = share_extremes(segmentation.entries[id], options.methods, execution, extremes);
+    Supports supports;
+    const Execution shared = share_supports(segmentation.entries[id], options.methods, execution, supports);
     for (const Method* method : options.methods) {
       VolumeEntry& entry = cluster.volumes.emplace_back();
       entry.method = method->name;

@@ -119,8 +119,8 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   result.volumes.resize(views.size() * methods);
   result.results.resize(result.volumes.size());
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
-    Extremes extremes;
-    const Execution shared = share_extremes(views[cluster], now.methods, execution, extremes);
+    Supports supports;
+    const Execution shared = share_supports(views[cluster], now.methods, execution, supports);
     for (std::size_t m = 0; m < methods; ++m) {
       const std::size_t i = cluster * methods + m;
       result.results[i] = now.methods[m]->fit(views[cluster], result.volumes[i], shared, now.options);

@@ -84,8 +84,8 @@ struct EllipsoidCertificate {
 /// The axis-aligned box of the points: their exact minimum and maximum. Paper §2.
 ///
 /// Empty input or no finite point: an empty box and `no_valid_points`. One point: a box of that point. O(n),
-/// one pass; up to six for the rank of flat points (find_extremes()). Throws std::invalid_argument for
-/// Execution::extremes of other points, and what the source of the points throws, if they have one.
+/// one pass; up to six for the rank of flat points (find_supports()). Throws std::invalid_argument for
+/// Execution::supports of other points, and what the source of the points throws, if they have one.
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution = {});
 
 /// The k-DOP of the points along the directions of `set` (not null): each slab is the true extreme, rounded

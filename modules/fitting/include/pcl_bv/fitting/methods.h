@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/volumes/any_volume.h"
@@ -26,7 +26,7 @@ struct Method {
   std::vector<std::string_view> aliases;  ///< Other names that mean it.
   std::string_view shape;  ///< As shape_name() says; empty for `best`, which depends on the points.
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
-  std::optional<DirectionSet> begins_with;  ///< The extremes that it looks for first, if it does.
+  std::optional<DirectionSet> begins_with;  ///< The supports that it looks for first, if it does.
   bool upright = false;                     ///< Whether it asks for MethodOptions::up.
 
   EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,
@@ -41,10 +41,10 @@ const std::vector<Method>& methods();
 /// The method with this name or alias, or null.
 const Method* find_method(std::string_view name);
 
-/// For fitting several methods to the same points: if two or more begin with extremes, and not only with
-/// those along the axes, finds them once, in `extremes`, which must outlive the execution that is returned.
-Execution share_extremes(const PointView& points, const std::vector<const Method*>& among,
-                         const Execution& execution, Extremes& extremes);
+/// For fitting several methods to the same points: if two or more begin with supports, and not only with
+/// those along the axes, finds them once, in `supports`, which must outlive the execution that is returned.
+Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
+                         const Execution& execution, Supports& supports);
 
 /// What `all` stands for: every method but the hull, which has no bound on its size, and `best`, which is one
 /// of the others.

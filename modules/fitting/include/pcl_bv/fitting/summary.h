@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/result.h"
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
@@ -19,7 +19,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// In the points' unit and frame. Without a valid point centroid and covariance are zero, the volumes empty.
 struct CloudSummary {
   /// Along the 26 directions, with points; `used` and `dropped` are in here.
-  Extremes extremes;
+  Supports supports;
 
   /// The mean of the valid points, inside their box. Of at most 2^b blocks of 1024 points, off by at most
   /// (175 + 30 b) 2^-53 of the extent and a rounding of the coordinate itself.
@@ -35,14 +35,14 @@ struct CloudSummary {
   /// by which the points were multiplied for the covariance. Its eigenvectors do not depend on it.
   double scale = 1;
 
-  Aabb aabb() const { return aabb_of(extremes); }
-  Kdop dop26() const { return kdop_of(extremes); }
+  Aabb aabb() const { return aabb_of(supports); }
+  Kdop dop26() const { return kdop_of(supports); }
 
-  EstimationResult result() const { return result_of(extremes); }
+  EstimationResult result() const { return result_of(supports); }
 };
 
-/// Extremes, centroid and covariance of all valid points. O(n); each chunk is read from memory once, as it is
-/// still in the cache when the moments follow the extremes. The same bits for every execution; another order
+/// Supports, centroid and covariance of all valid points. O(n); each chunk is read from memory once, as it is
+/// still in the cache when the moments follow the supports. The same bits for every execution; another order
 /// of the points may round centroid and covariance otherwise.
 ///
 /// Covariance by the shifted formula in blocks of 1024 points, sums of squares about a point of the block,

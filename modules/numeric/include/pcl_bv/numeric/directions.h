@@ -35,20 +35,4 @@ constexpr std::size_t cube_direction(DirectionSet set, std::size_t k) {
   return set == DirectionSet::dop18 && k >= 3 ? k + 4 : k;
 }
 
-/// The two ends of each direction: 2k is its least projection, 2k + 1 its greatest. An end is the greatest
-/// projection along end_direction().
-inline constexpr std::size_t kMaxEnds = 2 * kMaxDirections;
-
-constexpr CubeDirection end_direction(DirectionSet set, std::size_t end) {
-  CubeDirection d = kCubeDirections[cube_direction(set, end / 2)];
-  for (std::int8_t& c : d)
-    c = static_cast<std::int8_t>(end % 2 == 0 ? -c : c);
-  return d;
-}
-
-/// Number of coefficients that are not 0: 1, 2 or 3.
-constexpr int term_count(const CubeDirection& d) {
-  return (d[0] != 0) + (d[1] != 0) + (d[2] != 0);
-}
-
 }  // namespace pcl_bv

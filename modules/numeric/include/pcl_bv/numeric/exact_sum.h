@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact values of c0 x + c1 y + c2 z for c in {-1, 0, 1}: what decides where a k-DOP's slab lies.
+// Exact sums of three doubles: what decides where the slab of a k-DOP lies.
 #pragma once
-
-#include "pcl_bv/numeric/coordinates.h"
-#include "pcl_bv/numeric/directions.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -16,9 +13,6 @@ struct ExactSum {
 };
 
 ExactSum exact_sum(double x, double y, double z);
-
-/// The exact projection of p onto a direction with coefficients in {-1, 0, 1}.
-ExactSum exact_projection(const CubeDirection& direction, const Coordinates& p);
 
 /// The greatest double <= and the least double >= the exact value; equal if it is a double itself. Never -0.
 double round_down(const ExactSum& sum);

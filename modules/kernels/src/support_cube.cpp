@@ -3,24 +3,21 @@
 
 // FIND-k-DOP of the paper (Figure 2), once in the source, compiled for every instruction set.
 
-#include "pcl_bv/kernels/extremes.h"
-
-#include <limits>
-
-#include "extremes_plan.h"
-#include "extremes_reference.h"
 #include "pcl_bv/kernels/chunks.h"
-#include "preconditions.h"
+#include "pcl_bv/kernels/support.h"
+#include "references.h"
+#include "support_plan.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "extremes.cpp"
+#define HWY_TARGET_INCLUDE "support_cube.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "lanes-inl.h"
 #include "load-inl.h"
 #include "reach-inl.h"
+#include "support_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -28,9 +25,9 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-void chunk_extremes(const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
-                    ChunkExtremes& out) {
-  chunk_extremes_reference(chunk, set, reached, out);
+void cube_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+                   ChunkSupports& out) {
+  chunk_supports_reference(chunk, set, reached, out);
 }
 
 #else
@@ -119,66 +116,51 @@ std::size_t reach_of_blocks(const PointView& chunk, const T* center, const LaneR
 }
 
 template <Layout layout, DirectionSet set, typename T>
-void extremes_of_chunk(const PointView& chunk, const ReachedEnds& reached, ChunkExtremes& out) {
-  out = ChunkExtremes();
-  Coordinates center;
-  if (!chunk_center(chunk, center)) {
+void supports_of_chunk(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
+  Spread spread;
+  if (!central_point(chunk, spread.center)) {
     out.dropped = chunk.count;
     return;
   }
-  const T c[3] = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
+  const T c[3] = {static_cast<T>(spread.center.x), static_cast<T>(spread.center.y),
+                  static_cast<T>(spread.center.z)};
   constexpr std::size_t ends = 2 * direction_count(set);
-  HWY_ALIGN T
-      values[kChunkPoints / kPackets * ends];  // 104 KiB for floats, 208 for doubles, whatever the vectors
+  // 104 KiB for floats, 208 for doubles, whatever the vectors.
+  HWY_ALIGN T values[kChunkPoints / kPackets * ends];
   const LaneReach<T> reach(values, ends);
   out.dropped = reach_of_blocks<layout, set>(chunk, c, reach);
-  RoundedEnds top;
-  for (std::size_t end = 0; end < ends; ++end)
-    top[end] = greatest_reach(reach, end, chunk.count);
-  const SearchPlan plan(set, top, center, chunk.scalar);
-  for (std::size_t end = 0; end < ends; ++end) {
-    const EndSearch what = plan.of(end, reached[end]);
-    const CubeDirection direction = end_direction(set, end);
-    if (what.kind == EndSearch::Kind::every) {
-      ExtremePoint any;
-      any.found = first_valid_point(chunk, any.point, any.index);
-      any.projection = exact_projection(direction, any.point);
-      keep_extreme(any, out.ends[end]);
-    }
-    if (what.kind != EndSearch::Kind::some) continue;
-    const RoundedFilter filter{center, what.threshold};
-    const auto look = [&](std::size_t first, std::size_t step, std::size_t last) {
-      find_extreme_point(chunk, first, step, last, direction, filter, out.ends[end]);
-    };
-    search_lanes<layout>(chunk, reach, end, what.threshold, look);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    spread.greatest[axis] = HWY_MAX(greatest_reach(reach, 2 * axis, chunk.count),
+                                    greatest_reach(reach, 2 * axis + 1, chunk.count));
   }
+  search_ends<layout>(chunk, SupportDirections::of(set), reach, spread, reached, nullptr, out);
 }
 
 template <DirectionSet set, typename T>
-void extremes_of_set(const PointView& chunk, const ReachedEnds& reached, ChunkExtremes& out) {
-#define PCL_BV_CALL(layout) extremes_of_chunk<layout, set, T>(chunk, reached, out)
+void supports_of_set(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
+#define PCL_BV_CALL(layout) supports_of_chunk<layout, set, T>(chunk, reached, out)
   PCL_BV_FOR_LAYOUT(T, chunk, PCL_BV_CALL)
 #undef PCL_BV_CALL
 }
 
-template <typename T>
-void extremes_of(const PointView& chunk, DirectionSet set, const ReachedEnds& reached, ChunkExtremes& out) {
-  switch (set) {
-    case DirectionSet::dop6:
-      return extremes_of_set<DirectionSet::dop6, T>(chunk, reached, out);
-    case DirectionSet::dop14:
-      return extremes_of_set<DirectionSet::dop14, T>(chunk, reached, out);
-    case DirectionSet::dop18:
-      return extremes_of_set<DirectionSet::dop18, T>(chunk, reached, out);
-    case DirectionSet::dop26:
-      return extremes_of_set<DirectionSet::dop26, T>(chunk, reached, out);
-  }
+template <DirectionSet set>
+void supports_of(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
+  if (chunk.scalar == ScalarType::float64) return supports_of_set<set, double>(chunk, reached, out);
+  supports_of_set<set, float>(chunk, reached, out);
 }
 
-void chunk_extremes(const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
-                    ChunkExtremes& out) {
-  if (chunk.scalar == ScalarType::float64) return extremes_of<double>(chunk, set, reached, out);
-  extremes_of<float>(chunk, set, reached, out);
+void cube_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+                   ChunkSupports& out) {
+  switch (*set.cube) {
+    case DirectionSet::dop6:
+      return supports_of<DirectionSet::dop6>(chunk, reached, out);
+    case DirectionSet::dop14:
+      return supports_of<DirectionSet::dop14>(chunk, reached, out);
+    case DirectionSet::dop18:
+      return supports_of<DirectionSet::dop18>(chunk, reached, out);
+    case DirectionSet::dop26:
+      return supports_of<DirectionSet::dop26>(chunk, reached, out);
+  }
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR
@@ -190,11 +172,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void chunk_extremes(UsableIsa isa, const PointView& chunk, DirectionSet set, const ReachedEnds& reached,
-                    ChunkExtremes& out) {
-  static constexpr KernelTable<void(const PointView&, DirectionSet, const ReachedEnds&, ChunkExtremes&)>
-      kTable = PCL_BV_KERNEL_TABLE(chunk_extremes, &chunk_extremes_reference);
-  require_in_memory(chunk, kChunkPoints);
+void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
+                   const ReachedSupports& reached, ChunkSupports& out) {
+  static constexpr KernelTable<decltype(chunk_supports_reference)> kTable =
+      PCL_BV_KERNEL_TABLE(cube_supports, &chunk_supports_reference);
   kTable[isa](chunk, set, reached, out);
 }
 

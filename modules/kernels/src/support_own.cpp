@@ -5,21 +5,21 @@
 // lies in the first-level cache while a few directions at a time, as many as there are registers for, run
 // over it.
 
-#include "pcl_bv/kernels/projections.h"
+#include "pcl_bv/kernels/support.h"
 
 #include "pcl_bv/kernels/chunks.h"
-#include "preconditions.h"
-#include "projections_plan.h"
-#include "projections_reference.h"
+#include "references.h"
+#include "support_plan.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "projections.cpp"
+#define HWY_TARGET_INCLUDE "support_own.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "copy-inl.h"
 #include "lanes-inl.h"
+#include "support_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -27,9 +27,9 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-void chunk_farthest(const PointView& chunk, const ProjectionSet& set, const ReachedProjections& reached,
-                    ChunkFarthest& out) {
-  chunk_farthest_reference(chunk, set, reached, out);
+void own_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+                  ChunkSupports& out) {
+  chunk_supports_reference(chunk, set, reached, out);
 }
 
 #else
@@ -43,7 +43,7 @@ template <typename T>
 struct Workspace {
   HWY_ALIGN T points[3 * kBlockPoints];
   HWY_ALIGN T reach[104 * 1024 / sizeof(T)];
-  T directions[3 * kMaxProjections];
+  T directions[3 * kMaxSupportDirections];
 };
 
 // Named variables, not arrays: vectors of SVE have no size that the compiler knows.
@@ -110,10 +110,10 @@ void reach_of_copy(D d, const T* points, std::size_t packets, std::size_t count,
 // The pass over a part's points; returns how many of them were dropped.
 template <Layout layout, typename T>
 std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneReach<T>& reach,
-                          Workspace<T>& work, Relief& relief) {
+                          Workspace<T>& work, Spread& spread) {
   const Tag<T> d;
-  const T center[3] = {static_cast<T>(relief.center.x), static_cast<T>(relief.center.y),
-                       static_cast<T>(relief.center.z)};
+  const T center[3] = {static_cast<T>(spread.center.x), static_cast<T>(spread.center.y),
+                       static_cast<T>(spread.center.z)};
   const std::size_t blocks = kBlockPoints / reach.block_points;  // copied together
   const std::size_t step = blocks * reach.block_points;
   std::size_t dropped = 0;
@@ -122,8 +122,8 @@ std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneRe
   for (std::size_t begin = 0; begin < part.count; begin += step, values += blocks * reach.per_block) {
     const PointView block = part.slice(begin, HWY_MIN(step, part.count - begin));
     std::size_t bad = 0;
-    if (!clean || !copy_block<layout, false>(d, block, center, work.points, relief.spread, bad)) {
-      copy_block<layout, true>(d, block, center, work.points, relief.spread, bad);
+    if (!clean || !copy_block<layout, false>(d, block, center, work.points, spread.greatest, bad)) {
+      copy_block<layout, true>(d, block, center, work.points, spread.greatest, bad);
       clean = bad == 0;
     }
     dropped += bad;
@@ -133,51 +133,23 @@ std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneRe
   return dropped;
 }
 
-// Lets `best` compete with a part's points at an end.
-template <Layout layout, typename T>
-void search_end(const PointView& part, const ProjectionSet& set, std::size_t end, const LaneReach<T>& reach,
-                const EndSearch& what, const RoundedFilter& filter, FarthestPoint& best) {
-  const Direction direction = set.end_direction(end);
-  if (what.kind == EndSearch::Kind::every) {
-    FarthestPoint any;
-    any.found = first_valid_point(part, any.point, any.index);
-    return keep_farthest(direction, any, best);
-  }
-  const Direction scaled = set.scaled_end_direction(end);
-  const auto look = [&](std::size_t first, std::size_t step, std::size_t last) {
-    find_farthest(part, first, step, last, direction, scaled, filter, best);
-  };
-  search_lanes<layout>(part, reach, end, filter.threshold, look);
-}
-
 // As many points as the lanes' reach has room for; what they reach spares the later parts, if there are
 // `more`, the search.
 template <Layout layout, typename T>
-void farthest_of_part(const PointView& part, const ProjectionSet& set, const LaneReach<T>& reach, bool more,
-                      Workspace<T>& work, ReachedProjections& reached, ChunkFarthest& out) {
-  Relief relief;
-  if (!central_point(part, relief.center)) {
+void supports_of_part(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach, bool more,
+                      Workspace<T>& work, ReachedSupports& reached, ChunkSupports& out) {
+  Spread spread;
+  if (!central_point(part, spread.center)) {
     out.dropped += part.count;
     return;
   }
-  out.dropped += reach_of_part<layout>(part, set.count, reach, work, relief);
-  for (std::size_t k = 0; k < set.count; ++k) {
-    const ProjectionPlan plan(set, k, relief, part.scalar);
-    for (const std::size_t end : {2 * k, 2 * k + 1}) {
-      const double top = greatest_reach(reach, end, part.count);
-      const EndSearch what = plan.of(end % 2 != 0, top, reached[end]);
-      if (what.kind == EndSearch::Kind::none) continue;
-      search_end<layout>(part, set, end, reach, what, {relief.center, what.threshold}, out.ends[end]);
-      if (more && out.ends[end].found) {
-        reached[end] = HWY_MAX(reached[end], surely_reached(set, end, out.ends[end].point));
-      }
-    }
-  }
+  out.dropped += reach_of_part<layout>(part, set.count, reach, work, spread);
+  search_ends<layout>(part, set, reach, spread, reached, more ? &reached : nullptr, out);
 }
 
 template <Layout layout, typename T>
-void farthest_of_layout(const PointView& chunk, const ProjectionSet& set, ReachedProjections& reached,
-                        ChunkFarthest& out) {
+void supports_of_layout(const PointView& chunk, const SupportDirections& set, ReachedSupports& reached,
+                        ChunkSupports& out) {
   Workspace<T> work;
   for (std::size_t k = 0; k < set.count; ++k) {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -189,24 +161,23 @@ void farthest_of_layout(const PointView& chunk, const ProjectionSet& set, Reache
   const std::size_t part_points = copies * per_copy * reach.block_points;
   for (std::size_t begin = 0; begin < chunk.count; begin += part_points) {
     const PointView part = chunk.slice(begin, HWY_MIN(part_points, chunk.count - begin));
-    farthest_of_part<layout>(part, set, reach, begin + part_points < chunk.count, work, reached, out);
+    supports_of_part<layout>(part, set, reach, begin + part_points < chunk.count, work, reached, out);
   }
 }
 
 template <typename T>
-void farthest_of(const PointView& chunk, const ProjectionSet& set, ReachedProjections& reached,
-                 ChunkFarthest& out) {
-#define PCL_BV_CALL(layout) farthest_of_layout<layout, T>(chunk, set, reached, out)
+void supports_of(const PointView& chunk, const SupportDirections& set, ReachedSupports& reached,
+                 ChunkSupports& out) {
+#define PCL_BV_CALL(layout) supports_of_layout<layout, T>(chunk, set, reached, out)
   PCL_BV_FOR_LAYOUT(T, chunk, PCL_BV_CALL)
 #undef PCL_BV_CALL
 }
 
-void chunk_farthest(const PointView& chunk, const ProjectionSet& set, const ReachedProjections& reached,
-                    ChunkFarthest& out) {
-  out = ChunkFarthest();
-  ReachedProjections reached_so_far = reached;
-  if (chunk.scalar == ScalarType::float64) return farthest_of<double>(chunk, set, reached_so_far, out);
-  farthest_of<float>(chunk, set, reached_so_far, out);
+void own_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+                  ChunkSupports& out) {
+  ReachedSupports reached_so_far = reached;
+  if (chunk.scalar == ScalarType::float64) return supports_of<double>(chunk, set, reached_so_far, out);
+  supports_of<float>(chunk, set, reached_so_far, out);
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR
@@ -218,13 +189,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void chunk_farthest(UsableIsa isa, const PointView& chunk, const ProjectionSet& set,
-                    const ReachedProjections& reached, ChunkFarthest& out) {
-  using Function = void(const PointView&, const ProjectionSet&, const ReachedProjections&, ChunkFarthest&);
-  static constexpr KernelTable<Function> kTable =
-      PCL_BV_KERNEL_TABLE(chunk_farthest, &chunk_farthest_reference);
-  require_in_memory(chunk, kChunkPoints);
-  require_at_most(kMaxProjections, set.count, "directions");
+void own_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
+                  const ReachedSupports& reached, ChunkSupports& out) {
+  static constexpr KernelTable<decltype(chunk_supports_reference)> kTable =
+      PCL_BV_KERNEL_TABLE(own_supports, &chunk_supports_reference);
   kTable[isa](chunk, set, reached, out);
 }
 

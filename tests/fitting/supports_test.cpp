@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/fitting/extremes.h"
+#include "pcl_bv/fitting/supports.h"
 
 #include <gtest/gtest.h>
 
@@ -54,20 +54,20 @@ std::pair<Rational, Rational> exact_extent(const PointView& points, const std::a
 }
 
 // The definition, in rationals.
-void expect_exact(const PointView& points, const Extremes& extremes) {
+void expect_exact(const PointView& points, const Supports& supports) {
   std::size_t used = 0;
   for (std::size_t i = 0; i < points.count; ++i)
     used += is_valid(load_point(points, i)) ? 1 : 0;
-  ASSERT_EQ(extremes.used, used);
-  ASSERT_EQ(extremes.dropped, points.count - used);
+  ASSERT_EQ(supports.used, used);
+  ASSERT_EQ(supports.dropped, points.count - used);
   if (used == 0) return;
-  for (std::size_t k = 0; k < direction_count(extremes.set); ++k) {
-    const auto& d = kCubeDirections[cube_direction(extremes.set, k)];
+  for (std::size_t k = 0; k < direction_count(supports.set); ++k) {
+    const auto& d = kCubeDirections[cube_direction(supports.set, k)];
     const auto [low, high] = exact_extent(points, std::array<int, 3>{d[0], d[1], d[2]});
-    EXPECT_EQ(extremes.low[k], test::greatest_double_below(low)) << "direction " << k;
-    EXPECT_EQ(extremes.high[k], test::least_double_above(high)) << "direction " << k;
-    EXPECT_FALSE(extremes.low[k] == 0 && std::signbit(extremes.low[k]));
-    EXPECT_FALSE(extremes.high[k] == 0 && std::signbit(extremes.high[k]));
+    EXPECT_EQ(supports.along[k].low, test::greatest_double_below(low)) << "direction " << k;
+    EXPECT_EQ(supports.along[k].high, test::least_double_above(high)) << "direction " << k;
+    EXPECT_FALSE(supports.along[k].low == 0 && std::signbit(supports.along[k].low));
+    EXPECT_FALSE(supports.along[k].high == 0 && std::signbit(supports.along[k].high));
   }
 }
 
@@ -75,25 +75,25 @@ template <typename T>
 void expect_exact_on_nasty_clouds() {
   for (const TestCloud<T>& cloud : test::nasty_clouds<T>()) {
     SCOPED_TRACE(cloud.name);
-    expect_exact(cloud.view(), find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::bounds, {}));
+    expect_exact(cloud.view(), find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::bounds, {}));
   }
 }
 
-TEST(Extremes, AreTheTrueOnesRoundedOutwardForFloat) {
+TEST(Supports, AreTheTrueOnesRoundedOutwardForFloat) {
   expect_exact_on_nasty_clouds<float>();
 }
-TEST(Extremes, AreTheTrueOnesRoundedOutwardForDouble) {
+TEST(Supports, AreTheTrueOnesRoundedOutwardForDouble) {
   expect_exact_on_nasty_clouds<double>();
 }
 
-TEST(Extremes, OfASetAreThoseOfItsDirections) {
+TEST(Supports, OfASetAreThoseOfItsDirections) {
   const TestCloud<float> cloud = test::gaussian<float>(5000, 1, 1, 5e6);
   for (const DirectionSet set : kSets) {
-    expect_exact(cloud.view(), find_extremes(cloud.view(), set, ExtremeDetail::bounds, {}));
+    expect_exact(cloud.view(), find_supports(cloud.view(), set, SupportDetail::bounds, {}));
   }
 }
 
-TEST(Extremes, OfTwoBlocksTheOneThatIsOnlyRoundedToMoreDoesNotWin) {
+TEST(Supports, OfTwoBlocksTheOneThatIsOnlyRoundedToMoreDoesNotWin) {
   // Float differences of 1e7 are off by up to half a metre, their sums by more: the lesser of two may be
   // rounded to the greater.
   const TestCloud<float> others = test::gaussian<float>(2 * kBlockPoints, 14, 1000, -5e6);
@@ -105,11 +105,11 @@ TEST(Extremes, OfTwoBlocksTheOneThatIsOnlyRoundedToMoreDoesNotWin) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         cloud.xyz[3 * i + axis] = 5e6F + 0.5F * static_cast<float>(random() % 4);
     }
-    expect_exact(cloud.view(), find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::bounds, {}));
+    expect_exact(cloud.view(), find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::bounds, {}));
   }
 }
 
-TEST(Extremes, OfTwoChunksTheOneThatReachesFartherByALastBitWins) {
+TEST(Supports, OfTwoChunksTheOneThatReachesFartherByALastBitWins) {
   // Far from the origin along one axis; the second chunk is the first, each point a last bit farther out
   // along the other two, which double sums cannot tell.
   const TestCloud<double> offsets = test::gaussian<double>(kChunkPoints, 15);
@@ -125,55 +125,55 @@ TEST(Extremes, OfTwoChunksTheOneThatReachesFartherByALastBitWins) {
         cloud.xyz.push_back(same ? value : std::nextafter(value, std::copysign(out, offsets.xyz[i])));
       }
     }
-    expect_exact(cloud.view(), find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::bounds, {}));
+    expect_exact(cloud.view(), find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::bounds, {}));
   }
 }
 
-void expect_same(const Extremes& a, const Extremes& b) {
+void expect_same(const Supports& a, const Supports& b) {
   EXPECT_EQ(a.used, b.used);
-  EXPECT_EQ(a.low, b.low);
-  EXPECT_EQ(a.high, b.high);
   for (std::size_t k = 0; k < kMaxDirections; ++k) {
-    EXPECT_EQ(a.low_point[k].index, b.low_point[k].index) << "direction " << k;
-    EXPECT_EQ(a.high_point[k].index, b.high_point[k].index) << "direction " << k;
+    EXPECT_EQ(a.along[k].low, b.along[k].low) << "direction " << k;
+    EXPECT_EQ(a.along[k].high, b.along[k].high) << "direction " << k;
+    EXPECT_EQ(a.along[k].low_point.index, b.along[k].low_point.index) << "direction " << k;
+    EXPECT_EQ(a.along[k].high_point.index, b.along[k].high_point.index) << "direction " << k;
   }
 }
 
-TEST(Extremes, SameBitsForEveryInstructionSetAndThreadCount) {
+TEST(Supports, SameBitsForEveryInstructionSetAndThreadCount) {
   std::vector<TestCloud<float>> clouds = test::nasty_clouds<float>();
   clouds.push_back(test::gaussian<float>(test::kThreadedPoints, 77));
   for (const TestCloud<float>& cloud : clouds) {
     const Execution reference{Serial{}, Isa::scalar};
-    const Extremes expected =
-        find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, reference);
+    const Supports expected =
+        find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, reference);
     for (const auto& [name, execution] : test::every_execution()) {
       SCOPED_TRACE(cloud.name + ", " + name);
-      expect_same(find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, execution),
+      expect_same(find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, execution),
                   expected);
     }
   }
 }
 
-TEST(Extremes, TiesGoToTheSmallestIndexWhereverTheBlocksLie) {
+TEST(Supports, TiesGoToTheSmallestIndexWhereverTheBlocksLie) {
   TestCloud<float> cloud{"all equal but one", std::vector<float>(3 * 5000, 1.0F)};
   cloud.xyz[3 * 2500] = 2.0F;
-  const Extremes extremes = find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {});
-  EXPECT_EQ(extremes.high_point[0].index, 2500U);
-  EXPECT_EQ(extremes.low_point[0].index, 0U);
-  EXPECT_EQ(extremes.high_point[1].index, 0U);
-  EXPECT_EQ(extremes.high_point[12].index, 0U);
+  const Supports supports = find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, {});
+  EXPECT_EQ(supports.along[0].high_point.index, 2500U);
+  EXPECT_EQ(supports.along[0].low_point.index, 0U);
+  EXPECT_EQ(supports.along[1].high_point.index, 0U);
+  EXPECT_EQ(supports.along[12].high_point.index, 0U);
 }
 
-TEST(Extremes, DoNotDependOnTheOrderOfAnIndexList) {
+TEST(Supports, DoNotDependOnTheOrderOfAnIndexList) {
   const TestCloud<float> cloud = test::gaussian<float>(3000, 6);
   std::vector<std::int32_t> indices(3000);
   std::iota(indices.rbegin(), indices.rend(), 0);
   const PointView reversed = PointView::of(cloud.xyz.data(), 12, indices.size(), indices.data());
-  expect_same(find_extremes(reversed, DirectionSet::dop26, ExtremeDetail::points, {}),
-              find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {}));
+  expect_same(find_supports(reversed, DirectionSet::dop26, SupportDetail::points, {}),
+              find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, {}));
 }
 
-TEST(Extremes, TranslateExactlyByPowersOfTwo) {
+TEST(Supports, TranslateExactlyByPowersOfTwo) {
   // Coordinates on a grid of 2^-10 stay exact when 2^12 is added, so every extreme moves by just that.
   TestCloud<float> cloud = test::gaussian<float>(4000, 12);
   for (float& c : cloud.xyz)
@@ -181,30 +181,30 @@ TEST(Extremes, TranslateExactlyByPowersOfTwo) {
   TestCloud<float> moved = cloud;
   for (std::size_t i = 0; i < moved.xyz.size(); i += 3)
     moved.xyz[i] += 4096.0F;
-  const Extremes a = find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {});
-  const Extremes b = find_extremes(moved.view(), DirectionSet::dop26, ExtremeDetail::points, {});
+  const Supports a = find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, {});
+  const Supports b = find_supports(moved.view(), DirectionSet::dop26, SupportDetail::points, {});
   for (std::size_t k = 0; k < kMaxDirections; ++k) {
-    EXPECT_EQ(b.low[k], a.low[k] + 4096.0 * kCubeDirections[k][0]);
-    EXPECT_EQ(b.high[k], a.high[k] + 4096.0 * kCubeDirections[k][0]);
-    EXPECT_EQ(b.high_point[k].index, a.high_point[k].index);
+    EXPECT_EQ(b.along[k].low, a.along[k].low + 4096.0 * kCubeDirections[k][0]);
+    EXPECT_EQ(b.along[k].high, a.along[k].high + 4096.0 * kCubeDirections[k][0]);
+    EXPECT_EQ(b.along[k].high_point.index, a.along[k].high_point.index);
   }
 }
 
-TEST(Extremes, SurviveAHostThatFlushesDenormals) {
+TEST(Supports, SurviveAHostThatFlushesDenormals) {
   const TestCloud<float> cloud = test::gaussian<float>(700, 7, 1e-41);
-  const Extremes expected = find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {});
-  ASSERT_GT(expected.high[0], 0);
+  const Supports expected = find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, {});
+  ASSERT_GT(expected.along[0].high, 0);
   for (const auto& [name, execution] : test::every_execution()) {
     SCOPED_TRACE(name);
     const test::FlushToZero host;
-    expect_same(find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, execution), expected);
+    expect_same(find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, execution), expected);
   }
 }
 
-TEST(Extremes, RankIsThatOfThePointsAlongWhateverDirections) {
+TEST(Supports, RankIsThatOfThePointsAlongWhateverDirections) {
   const auto rank = [](std::vector<float> xyz, DirectionSet set) {
     const PointView points = PointView::of(xyz.data(), 12, xyz.size() / 3);
-    return result_of(find_extremes(points, set, ExtremeDetail::bounds, {})).rank;
+    return result_of(find_supports(points, set, SupportDetail::bounds, {})).rank;
   };
   EXPECT_EQ(rank({1, 2, 3}, DirectionSet::dop6), 0);
   EXPECT_EQ(rank({0, 0, 0, 5, 0, 0}, DirectionSet::dop26), 1);
@@ -214,11 +214,11 @@ TEST(Extremes, RankIsThatOfThePointsAlongWhateverDirections) {
   EXPECT_EQ(rank({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, DirectionSet::dop26), 3);
 }
 
-TEST(Extremes, AnUnusableInstructionSetIsAnError) {
+TEST(Supports, AnUnusableInstructionSetIsAnError) {
   const TestCloud<float> cloud = test::gaussian<float>(10, 1);
   const Isa foreign =
       usable_isas().back() == Isa::neon || usable_isas().back() > Isa::neon ? Isa::avx2 : Isa::neon;
-  EXPECT_THROW(find_extremes(cloud.view(), DirectionSet::dop6, ExtremeDetail::bounds, {Serial{}, foreign}),
+  EXPECT_THROW(find_supports(cloud.view(), DirectionSet::dop6, SupportDetail::bounds, {Serial{}, foreign}),
                std::invalid_argument);
 }
 

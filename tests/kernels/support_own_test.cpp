@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/kernels/projections.h"
+#include "pcl_bv/kernels/support.h"
 
 #include <gtest/gtest.h>
 
@@ -17,66 +17,30 @@
 #include "exact.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/point_groups.h"
+#include "supports_by_definition.h"
 
 namespace pcl_bv {
 namespace {
 
+using test::by_definition;
 using test::Directions;
+using test::expect_same;
 using test::Rational;
 using test::Records;
+using test::run;
 using test::TestCloud;
 
-ProjectionSet set_of(const Directions& directions) {
-  ProjectionSet set;
+SupportDirections set_of(const Directions& directions) {
+  SupportDirections set;
   for (const Direction& d : directions)
     set.add(d);
   return set;
 }
 
-ReachedProjections nothing() {
-  ReachedProjections reached;
-  reached.fill(-std::numeric_limits<double>::infinity());
-  return reached;
-}
-
-ChunkFarthest run(Isa isa, const PointView& points, const ProjectionSet& set,
-                  const ReachedProjections& reached = nothing()) {
-  ChunkFarthest farthest;
-  chunk_farthest(isa, points, set, reached, farthest);
-  return farthest;
-}
-
-// As simple as can be: every point, exactly.
-ChunkFarthest by_definition(const PointView& points, const ProjectionSet& set) {
-  ChunkFarthest out;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (!is_valid(p)) {
-      ++out.dropped;
-      continue;
-    }
-    for (std::size_t end = 0; end < 2 * set.count; ++end) {
-      FarthestPoint& best = out.ends[end];
-      const int order = best.found ? compare_along(set.end_direction(end), p, best.point) : 1;
-      if (order > 0 || (order == 0 && points.index(i) < best.index)) best = {true, p, points.index(i)};
-    }
-  }
-  return out;
-}
-
-void expect_same(const ChunkFarthest& a, const ChunkFarthest& b, std::size_t directions) {
-  EXPECT_EQ(a.dropped, b.dropped);
-  for (std::size_t end = 0; end < 2 * directions; ++end) {
-    SCOPED_TRACE("end " + std::to_string(end));
-    ASSERT_EQ(a.ends[end].found, b.ends[end].found);
-    EXPECT_EQ(a.ends[end].index, b.ends[end].index);
-  }
-}
-
-class Projections : public testing::TestWithParam<Isa> {
+class OwnSupports : public testing::TestWithParam<Isa> {
  protected:
   void expect_definition(const PointView& points, const Directions& directions) {
-    const ProjectionSet set = set_of(directions);
+    const SupportDirections set = set_of(directions);
     expect_same(run(GetParam(), points, set), by_definition(points, set), set.count);
   }
 
@@ -89,27 +53,27 @@ class Projections : public testing::TestWithParam<Isa> {
   }
 };
 
-TEST_P(Projections, AreThoseOfTheDefinitionForFloat) {
+TEST_P(OwnSupports, AreThoseOfTheDefinitionForFloat) {
   expect_definition_on_nasty_clouds<float>(test::nasty_directions());
   expect_definition_on_nasty_clouds<float>(test::random_directions(5, 1));
   expect_definition_on_nasty_clouds<float>(test::integer_directions());
 }
 
-TEST_P(Projections, AreThoseOfTheDefinitionForDouble) {
+TEST_P(OwnSupports, AreThoseOfTheDefinitionForDouble) {
   expect_definition_on_nasty_clouds<double>(test::nasty_directions());
   expect_definition_on_nasty_clouds<double>(test::random_directions(5, 2));
 }
 
-TEST_P(Projections, AreThoseOfTheDefinitionForEveryNumberOfDirections) {
+TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryNumberOfDirections) {
   // Groups of directions, and parts of a chunk that shrink as directions grow.
   const TestCloud<float> cloud = test::gaussian<float>(kChunkPoints, 5);
-  for (std::size_t n = 1; n <= kMaxProjections; n += n < 10 ? 1 : 3) {
+  for (std::size_t n = 1; n <= kMaxSupportDirections; n += n < 10 ? 1 : 3) {
     SCOPED_TRACE(testing::Message() << n << " directions");
     expect_definition(Records<float>(cloud, 16).view(), test::random_directions(n, n));
   }
 }
 
-TEST_P(Projections, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
+TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
   const Directions directions = test::random_directions(3, 4);
   for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
     const TestCloud<float> cloud = test::gaussian<float>(n, n);
@@ -125,7 +89,7 @@ TEST_P(Projections, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
   }
 }
 
-TEST_P(Projections, AreThoseOfTheDefinitionForGroupsAndTheirSlices) {
+TEST_P(OwnSupports, AreThoseOfTheDefinitionForGroupsAndTheirSlices) {
   // The last packet of a block may start amid a group, where a vector of x must not end in y.
   const Directions directions = test::random_directions(3, 7);
   for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
@@ -139,7 +103,7 @@ TEST_P(Projections, AreThoseOfTheDefinitionForGroupsAndTheirSlices) {
   }
 }
 
-TEST_P(Projections, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
+TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                        -std::numeric_limits<float>::infinity()};
   const Directions directions = test::random_directions(6, 5);
@@ -155,7 +119,7 @@ TEST_P(Projections, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
   }
 }
 
-TEST_P(Projections, OfTheOnlyValidPointAreItsOwn) {
+TEST_P(OwnSupports, OfTheOnlyValidPointAreItsOwn) {
   const Directions directions = test::random_directions(3, 5);
   for (const std::size_t n : {1, 15, 40}) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -167,7 +131,7 @@ TEST_P(Projections, OfTheOnlyValidPointAreItsOwn) {
   }
 }
 
-TEST_P(Projections, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
+TEST_P(OwnSupports, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
   const TestCloud<float> cloud = test::gaussian<float>(4000, 3);
   std::vector<std::int32_t> indices(4000);
   std::iota(indices.begin(), indices.end(), 0);
@@ -185,7 +149,7 @@ TEST_P(Projections, AreThoseOfTheDefinitionForIndexListsWithRepetitions) {
   }
 }
 
-TEST_P(Projections, AreThoseOfTheDefinitionForEveryTailOfABlock) {
+TEST_P(OwnSupports, AreThoseOfTheDefinitionForEveryTailOfABlock) {
   const Directions directions = {{0.3, 0.2, 0.1}, {-0.1, 0.1, 0.5}};
   for (const std::size_t whole : {64, 128, 256, 512, 1024}) {
     for (std::size_t n = whole + 1; n < whole + 18; ++n) {
@@ -201,7 +165,7 @@ TEST_P(Projections, AreThoseOfTheDefinitionForEveryTailOfABlock) {
   }
 }
 
-TEST_P(Projections, OfEqualPointsAreTheSmallestIndexWhateverTheOrder) {
+TEST_P(OwnSupports, OfEqualPointsAreTheSmallestIndexWhateverTheOrder) {
   const std::vector<float> xyz(3 * 100, 0.7F);
   const std::vector<std::int32_t> indices = {50, 7, 99, 3, 8};
   const PointView view = PointView::of(xyz.data(), 12, indices.size(), indices.data());
@@ -217,7 +181,7 @@ TestCloud<T> flat(std::uint64_t seed, double offset) {
   return cloud;
 }
 
-TEST_P(Projections, OfPointsFlatInTheDirectionAreDecidedExactly) {
+TEST_P(OwnSupports, OfPointsFlatInTheDirectionAreDecidedExactly) {
   // Planes far from the origin and near: every point is within the filter's band, the last bits decide.
   const Directions directions = {{1.0 / 3, 1, -1}, {-1.0 / 3, -1, 1}, {0.1 / 3, 0.1, -0.1}};
   for (const double offset : {0.0, 5e6}) {
@@ -229,13 +193,13 @@ TEST_P(Projections, OfPointsFlatInTheDirectionAreDecidedExactly) {
   }
 }
 
-TEST_P(Projections, AreRightWherePartialSumsOverflow) {
+TEST_P(OwnSupports, AreRightWherePartialSumsOverflow) {
   // 1.9 x is -infinity in float; 1.9 (x + y) is the greatest projection.
   TestCloud<float> cloud = test::gaussian<float>(200, 2, 1e36);
   cloud.xyz.insert(cloud.xyz.begin() + 3 * 30, {-2e38F, 2.2e38F, 1e36F});
   cloud.xyz.insert(cloud.xyz.begin() + 3 * 60, {2.1e38F, -2.4e38F, 1e36F});
   expect_definition(cloud.view(), {{1.9, 1.9, 1.9}});
-  const ChunkFarthest farthest = run(GetParam(), cloud.view(), set_of({{1.9, 1.9, 1.9}}));
+  const ChunkSupports farthest = run(GetParam(), cloud.view(), set_of({{1.9, 1.9, 1.9}}));
   EXPECT_EQ(farthest.ends[0].index, 60U);
   EXPECT_EQ(farthest.ends[1].index, 30U);
 }
@@ -267,7 +231,7 @@ constexpr Direction kTinyComponents[] = {
     {1, 1e-42, 3e-43},      {1, 1e-44, 1.2e-44},      {1, 1e-46, 3e-46},      {1, 7e-319, 2e-318},
     {1e30, 1e-288, 3e-289}, {1e30, 1e-293, 1.3e-293}, {1e30, 1e-305, -2e-306}};
 
-TEST_P(Projections, AreRightWhereOnlyTinyComponentsOfTheDirectionMatter) {
+TEST_P(OwnSupports, AreRightWhereOnlyTinyComponentsOfTheDirectionMatter) {
   // As floats the components keep a few bits or none, as scaled doubles too: the rounded ones point
   // elsewhere.
   for (const Direction& tiny : kTinyComponents) {
@@ -284,7 +248,7 @@ TEST_P(Projections, AreRightWhereOnlyTinyComponentsOfTheDirectionMatter) {
   }
 }
 
-TEST(ProjectionSet, WhatIsSurelyReachedIsReachedInExactArithmetic) {
+TEST(SupportDirections, WhatIsSurelyReachedIsReachedInExactArithmetic) {
   Directions directions = test::nasty_directions();
   directions.insert(directions.end(), std::begin(kTinyComponents), std::end(kTinyComponents));
   std::mt19937_64 random(21);
@@ -292,7 +256,7 @@ TEST(ProjectionSet, WhatIsSurelyReachedIsReachedInExactArithmetic) {
   for (std::size_t by = 0; by < 3; ++by) {
     for (const Direction& d : directions) {
       const Direction direction = turned(d, by);
-      const ProjectionSet set = set_of({direction});
+      const SupportDirections set = set_of({direction});
       const double greatest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
       const Rational scale(std::ldexp(1, -std::ilogb(greatest)));
       for (int i = 0; i < 2000; ++i) {
@@ -310,7 +274,7 @@ TEST(ProjectionSet, WhatIsSurelyReachedIsReachedInExactArithmetic) {
     }
   }
 }
-TEST_P(Projections, DoublesBeyondTheLimitAreDropped) {
+TEST_P(OwnSupports, DoublesBeyondTheLimitAreDropped) {
   TestCloud<double> cloud{"limit", {1e100, 0, 0, 0, -1.01e100, 0, 1, 2, 3, 0, 0, 1e200}};
   for (int i = 0; i < 50; ++i)
     cloud.xyz.insert(cloud.xyz.end(), {0.99e100, 1, 1});
@@ -319,7 +283,7 @@ TEST_P(Projections, DoublesBeyondTheLimitAreDropped) {
   EXPECT_EQ(run(GetParam(), cloud.view(), set_of({{1, 1, 1}})).dropped, 3U);
 }
 
-TEST_P(Projections, OfDoublesAreRightWhereProductsVanish) {
+TEST_P(OwnSupports, OfDoublesAreRightWhereProductsVanish) {
   for (const double scale : {1e-300, 1e-310, 1e-322, 1e-160, 1e95}) {
     SCOPED_TRACE(testing::Message() << "scale " << scale);
     TestCloud<double> cloud = test::gaussian<double>(1500, 3);
@@ -329,22 +293,13 @@ TEST_P(Projections, OfDoublesAreRightWhereProductsVanish) {
   }
 }
 
-TEST_P(Projections, AreFoundUnlessTheyCannotReachWhatIsKnown) {
+TEST_P(OwnSupports, AreFoundUnlessTheyCannotReachWhatIsKnown) {
   const TestCloud<float> cloud = test::gaussian<float>(20'000, 11, 3, 1e3);
-  const ProjectionSet set = set_of(test::random_directions(13, 8));
-  const ChunkFarthest all = run(GetParam(), cloud.view(), set);
-  ReachedProjections same = nothing();
-  ReachedProjections beyond = nothing();
-  for (std::size_t end = 0; end < 2 * set.count; ++end) {
-    same[end] = surely_reached(set, end, all.ends[end].point);
-    beyond[end] = same[end] + 1;
-  }
-  expect_same(run(GetParam(), cloud.view(), set, same), all, set.count);
-  for (const FarthestPoint& end : run(GetParam(), cloud.view(), set, beyond).ends)
-    EXPECT_FALSE(end.found);
+  const SupportDirections set = set_of(test::random_directions(13, 8));
+  test::expect_found_unless_beyond(GetParam(), cloud.view(), set);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryUsableSet, Projections, testing::ValuesIn(usable_isas()),
+INSTANTIATE_TEST_SUITE_P(EveryUsableSet, OwnSupports, testing::ValuesIn(usable_isas()),
                          [](const auto& param) { return std::string(isa_name(param.param)); });
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/fitting/extreme_points.h"
+#include "pcl_bv/fitting/supports.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,6 @@
 #include "exact.h"
 #include "executions.h"
 #include "flush_to_zero.h"
-#include "pcl_bv/fitting/extremes.h"
 
 namespace pcl_bv {
 namespace {
@@ -64,17 +63,17 @@ Ends by_definition(const PointView& points, const Direction& n) {
 }
 
 void expect_exact(const PointView& points, const Directions& directions) {
-  const ExtremePoints extremes = find_extreme_points(points, directions);
+  const OwnSupports supports = find_supports(points, directions);
   std::size_t used = 0;
   for (std::size_t i = 0; i < points.count; ++i)
     used += is_valid(load_point(points, i)) ? 1 : 0;
-  ASSERT_EQ(extremes.used, used);
-  ASSERT_EQ(extremes.dropped, points.count - used);
-  ASSERT_EQ(extremes.along.size(), used == 0 ? 0 : directions.size());
-  for (std::size_t k = 0; k < extremes.along.size(); ++k) {
+  ASSERT_EQ(supports.used, used);
+  ASSERT_EQ(supports.dropped, points.count - used);
+  ASSERT_EQ(supports.along.size(), used == 0 ? 0 : directions.size());
+  for (std::size_t k = 0; k < supports.along.size(); ++k) {
     SCOPED_TRACE(testing::Message() << "direction " << k);
     const Ends expected = by_definition(points, directions[k]);
-    const DirectionExtremes& along = extremes.along[k];
+    const Support& along = supports.along[k];
     EXPECT_EQ(along.low, test::greatest_double_below(expected.low));
     EXPECT_EQ(along.high, test::least_double_above(expected.high));
     EXPECT_EQ(along.low_point.index, expected.low_index);
@@ -95,14 +94,14 @@ void expect_exact_on_nasty_clouds() {
   }
 }
 
-TEST(ExtremePoints, AreTheTrueOnesOfAFloatCloud) {
+TEST(OwnSupports, AreTheTrueOnesOfAFloatCloud) {
   expect_exact_on_nasty_clouds<float>();
 }
-TEST(ExtremePoints, AreTheTrueOnesOfADoubleCloud) {
+TEST(OwnSupports, AreTheTrueOnesOfADoubleCloud) {
   expect_exact_on_nasty_clouds<double>();
 }
 
-TEST(ExtremePoints, OfDoublesWhoseProductsVanishAreTheTrueOnes) {
+TEST(OwnSupports, OfDoublesWhoseProductsVanishAreTheTrueOnes) {
   for (const double scale : {1e-300, 1e-310, 1e-322}) {
     TestCloud<double> cloud = test::gaussian<double>(100, 1);
     for (double& c : cloud.xyz)
@@ -111,7 +110,7 @@ TEST(ExtremePoints, OfDoublesWhoseProductsVanishAreTheTrueOnes) {
   }
 }
 
-TEST(ExtremePoints, OfIntegerLatticesAreTheTrueOnes) {
+TEST(OwnSupports, OfIntegerLatticesAreTheTrueOnes) {
   TestCloud<float> cloud{"lattice", {}};
   for (int i = 0; i < 12 * 12 * 12; ++i) {
     cloud.xyz.insert(cloud.xyz.end(), {static_cast<float>(i % 12), static_cast<float>(i / 12 % 12),
@@ -120,7 +119,7 @@ TEST(ExtremePoints, OfIntegerLatticesAreTheTrueOnes) {
   expect_exact(cloud.view(), test::integer_directions());
 }
 
-void expect_same(const ExtremePoints& a, const ExtremePoints& b) {
+void expect_same(const OwnSupports& a, const OwnSupports& b) {
   EXPECT_EQ(a.used, b.used);
   EXPECT_EQ(a.dropped, b.dropped);
   ASSERT_EQ(a.along.size(), b.along.size());
@@ -135,14 +134,14 @@ void expect_same(const ExtremePoints& a, const ExtremePoints& b) {
 
 template <typename T>
 void expect_same_for_every_execution(const TestCloud<T>& cloud, const Directions& directions) {
-  const ExtremePoints expected = find_extreme_points(cloud.view(), directions, {Serial{}, Isa::scalar});
+  const OwnSupports expected = find_supports(cloud.view(), directions, {Serial{}, Isa::scalar});
   for (const auto& [name, execution] : test::every_execution()) {
     SCOPED_TRACE(cloud.name + ", " + name);
-    expect_same(find_extreme_points(cloud.view(), directions, execution), expected);
+    expect_same(find_supports(cloud.view(), directions, execution), expected);
   }
 }
 
-TEST(ExtremePoints, SameBitsForEveryInstructionSetAndThreadCount) {
+TEST(OwnSupports, SameBitsForEveryInstructionSetAndThreadCount) {
   for (const TestCloud<float>& cloud : test::nasty_clouds<float>())
     expect_same_for_every_execution(cloud, test::nasty_directions());
   for (const TestCloud<double>& cloud : test::nasty_clouds<double>())
@@ -156,25 +155,25 @@ TEST(ExtremePoints, SameBitsForEveryInstructionSetAndThreadCount) {
   expect_same_for_every_execution(large, test::integer_directions());
 }
 
-TEST(ExtremePoints, AlongTheCubesDirectionsAreThoseOfTheCubesKernel) {
+TEST(OwnSupports, AlongTheCubesDirectionsAreThoseOfTheCubesKernel) {
   Directions directions;
   for (const CubeDirection& d : kCubeDirections)
     directions.push_back({double(d[0]), double(d[1]), double(d[2])});
   for (const TestCloud<float>& cloud : test::nasty_clouds<float>()) {
     SCOPED_TRACE(cloud.name);
-    const Extremes expected = find_extremes(cloud.view(), DirectionSet::dop26, ExtremeDetail::points, {});
-    const ExtremePoints extremes = find_extreme_points(cloud.view(), directions);
-    EXPECT_EQ(extremes.used, expected.used);
-    for (std::size_t k = 0; k < extremes.along.size(); ++k) {
-      EXPECT_EQ(extremes.along[k].low, expected.low[k]);
-      EXPECT_EQ(extremes.along[k].high, expected.high[k]);
-      EXPECT_EQ(extremes.along[k].low_point.index, expected.low_point[k].index);
-      EXPECT_EQ(extremes.along[k].high_point.index, expected.high_point[k].index);
+    const Supports expected = find_supports(cloud.view(), DirectionSet::dop26, SupportDetail::points, {});
+    const OwnSupports supports = find_supports(cloud.view(), directions);
+    EXPECT_EQ(supports.used, expected.used);
+    for (std::size_t k = 0; k < supports.along.size(); ++k) {
+      EXPECT_EQ(supports.along[k].low, expected.along[k].low);
+      EXPECT_EQ(supports.along[k].high, expected.along[k].high);
+      EXPECT_EQ(supports.along[k].low_point.index, expected.along[k].low_point.index);
+      EXPECT_EQ(supports.along[k].high_point.index, expected.along[k].high_point.index);
     }
   }
 }
 
-TEST(ExtremePoints, NameTheCloudsIndexUnderAnIndexList) {
+TEST(OwnSupports, NameTheCloudsIndexUnderAnIndexList) {
   const TestCloud<float> cloud = test::gaussian<float>(3000, 6);
   std::vector<std::int32_t> indices(2000);
   std::iota(indices.rbegin(), indices.rend(), 500);
@@ -182,35 +181,35 @@ TEST(ExtremePoints, NameTheCloudsIndexUnderAnIndexList) {
                test::random_directions(3, 9));
 }
 
-TEST(ExtremePoints, ADirectionOfAnotherLengthHasTheSamePoints) {
+TEST(OwnSupports, ADirectionOfAnotherLengthHasTheSamePoints) {
   const TestCloud<float> cloud = test::gaussian<float>(5000, 12, 3, 100);
   Directions directions = test::random_directions(10, 1), longer = directions;
   for (auto& d : longer)
     d = {d[0] * 0x1p80, d[1] * 0x1p80, d[2] * 0x1p80};
-  const ExtremePoints a = find_extreme_points(cloud.view(), directions);
-  const ExtremePoints b = find_extreme_points(cloud.view(), longer);
+  const OwnSupports a = find_supports(cloud.view(), directions);
+  const OwnSupports b = find_supports(cloud.view(), longer);
   for (std::size_t k = 0; k < directions.size(); ++k) {
     EXPECT_EQ(b.along[k].high, a.along[k].high * 0x1p80);
     EXPECT_EQ(b.along[k].high_point.index, a.along[k].high_point.index);
   }
 }
 
-TEST(ExtremePoints, SurviveAHostThatFlushesDenormals) {
+TEST(OwnSupports, SurviveAHostThatFlushesDenormals) {
   const TestCloud<float> cloud = test::gaussian<float>(700, 7, 1e-41);
   const Directions directions = test::random_directions(4, 2);
-  const ExtremePoints expected = find_extreme_points(cloud.view(), directions);
+  const OwnSupports expected = find_supports(cloud.view(), directions);
   ASSERT_GT(expected.along[0].high, 0);
   for (const auto& [name, execution] : test::every_execution()) {
     SCOPED_TRACE(name);
     const test::FlushToZero host;
-    expect_same(find_extreme_points(cloud.view(), directions, execution), expected);
+    expect_same(find_supports(cloud.view(), directions, execution), expected);
   }
 }
 
-TEST(ExtremePoints, RefusesWhatIsNoDirection) {
+TEST(OwnSupports, RefusesWhatIsNoDirection) {
   const TestCloud<float> cloud = test::gaussian<float>(10, 1);
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  const auto find = [&](const Directions& d) { return find_extreme_points(cloud.view(), d); };
+  const auto find = [&](const Directions& d) { return find_supports(cloud.view(), d); };
   for (const Directions& bad :
        {Directions{}, Directions(50, {1, 0, 0}), Directions{{0, 0, 0}}, Directions{{1, nan, 0}},
         Directions{{inf, 0, 0}}, Directions{{1, 0, 0}, {0.9e-30, 0, 0}}, Directions{{0, 1.1e30, 0}}}) {
@@ -219,7 +218,7 @@ TEST(ExtremePoints, RefusesWhatIsNoDirection) {
   EXPECT_NO_THROW(find({{1e-30, 0, 0}, {-1e30, 0, 0}}));
   const Isa foreign =
       usable_isas().back() == Isa::neon || usable_isas().back() > Isa::neon ? Isa::avx2 : Isa::neon;
-  EXPECT_THROW(find_extreme_points(cloud.view(), {{1, 0, 0}}, {Serial{}, foreign}), std::invalid_argument);
+  EXPECT_THROW(find_supports(cloud.view(), {{1, 0, 0}}, {Serial{}, foreign}), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/kernels/extreme_point.h"
+#include "pcl_bv/kernels/support.h"
 
 #include <gtest/gtest.h>
-
-#include <limits>
 
 #include "clouds.h"
 #include "exact.h"
@@ -15,15 +13,15 @@ namespace {
 
 using test::Rational;
 
-constexpr RoundedFilter kEverything{{0, 0, 0}, -std::numeric_limits<double>::infinity()};
-
-TEST(ExtremePoint, IsTheExactlyGreatestWithTheSmallestIndex) {
+TEST(SupportPoint, IsTheExactlyGreatestWithTheSmallestIndex) {
   for (const auto& cloud : test::nasty_clouds<float>()) {
     if (cloud.size() > 2000) continue;  // rationals are slow
-    for (const auto& d : kCubeDirections) {
-      const std::array<int, 3> direction = {d[0], d[1], d[2]};
-      ExtremePoint best;
-      find_extreme_point(cloud.view(), 0, 1, cloud.size(), d, kEverything, best);
+    const SupportDirections& set = SupportDirections::of(DirectionSet::dop26);
+    ChunkSupports supports;
+    chunk_supports(Isa::automatic, cloud.view(), set, nothing_reached(), supports);
+    for (std::size_t end = 0; end < 2 * set.count; ++end) {
+      const Direction direction = set.end_direction(end);
+      const SupportPoint& best = supports.ends[end];
       bool found = false;
       Rational greatest;
       std::size_t index = 0;
@@ -45,13 +43,14 @@ TEST(ExtremePoint, IsTheExactlyGreatestWithTheSmallestIndex) {
   }
 }
 
-TEST(ExtremePoint, NamesTheCloudsIndexUnderAnIndexListAndBreaksTiesByIt) {
+TEST(SupportPoint, NamesTheCloudsIndexUnderAnIndexListAndBreaksTiesByIt) {
   const test::TestCloud<float> cloud{"ties", {5, 0, 0, 1, 1, 1, 9, 9, 9, 1, 1, 1, 1, 1, 1}};
   const std::int32_t indices[] = {4, 0, 3, 1};
   const PointView view = PointView::of(cloud.xyz.data(), 12, 4, indices);
-  ExtremePoint best;
-  find_extreme_point(view, 0, 1, 4, {0, 1, 1}, kEverything, best);
-  EXPECT_EQ(best.index, 1U);
+  const SupportDirections& set = SupportDirections::of(DirectionSet::dop26);
+  ChunkSupports supports;
+  chunk_supports(Isa::automatic, view, set, nothing_reached(), supports);
+  EXPECT_EQ(supports.ends[2 * 11 + 1].index, 1U);  // (0, 1, 1)
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/kernels/extremes.h"
+#include "pcl_bv/kernels/support.h"
 
 #include <gtest/gtest.h>
 
@@ -13,37 +13,24 @@
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/kernels/point_groups.h"
+#include "supports_by_definition.h"
 
 namespace pcl_bv {
 namespace {
 
+using test::by_definition;
+using test::expect_same;
 using test::Records;
+using test::run;
 using test::TestCloud;
 
 constexpr DirectionSet kSets[] = {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18,
                                   DirectionSet::dop26};
 
-ChunkExtremes run(Isa isa, const PointView& points, DirectionSet set,
-                  const ReachedEnds& reached = nothing_reached()) {
-  ChunkExtremes extremes;
-  chunk_extremes(isa, points, set, reached, extremes);
-  return extremes;
-}
-
 // Bits, not values: -0 differs from 0.
 template <typename Value>
 bool same_bits(const Value& a, const Value& b) {
   return std::memcmp(&a, &b, sizeof(Value)) == 0;
-}
-
-void expect_same(const ChunkExtremes& a, const ChunkExtremes& b, DirectionSet set) {
-  EXPECT_EQ(a.dropped, b.dropped);
-  for (std::size_t end = 0; end < 2 * direction_count(set); ++end) {
-    SCOPED_TRACE("end " + std::to_string(end));
-    ASSERT_EQ(a.ends[end].found, b.ends[end].found);
-    EXPECT_EQ(a.ends[end].index, b.ends[end].index);
-    EXPECT_EQ(compare(a.ends[end].projection, b.ends[end].projection), 0);
-  }
 }
 
 void expect_same(const AxisExtents& a, const AxisExtents& b) {
@@ -52,22 +39,6 @@ void expect_same(const AxisExtents& a, const AxisExtents& b) {
                                        << b.low[0] << ' ' << b.low[1] << ' ' << b.low[2];
   EXPECT_TRUE(same_bits(a.high, b.high)) << a.high[0] << ' ' << a.high[1] << ' ' << a.high[2] << " and "
                                          << b.high[0] << ' ' << b.high[1] << ' ' << b.high[2];
-}
-
-// As simple as can be: every point, exactly.
-ChunkExtremes by_definition(const PointView& points, DirectionSet set) {
-  ChunkExtremes out;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (!is_valid(p)) {
-      ++out.dropped;
-      continue;
-    }
-    for (std::size_t end = 0; end < 2 * direction_count(set); ++end) {
-      keep_extreme({true, exact_projection(end_direction(set, end), p), p, points.index(i)}, out.ends[end]);
-    }
-  }
-  return out;
 }
 
 AxisExtents box_by_definition(const PointView& points) {
@@ -87,49 +58,34 @@ AxisExtents box_by_definition(const PointView& points) {
   return out;
 }
 
-class Extremes : public testing::TestWithParam<Isa> {
+class CubeSupports : public testing::TestWithParam<Isa> {
  protected:
   template <typename T>
   void expect_definition(const PointView& points) {
     expect_same(axis_extents(GetParam(), points), box_by_definition(points));
     for (const DirectionSet set : kSets) {
       SCOPED_TRACE("directions " + std::to_string(direction_count(set)));
-      expect_same(run(GetParam(), points, set), by_definition(points, set), set);
-    }
-  }
-
-  template <typename T>
-  void expect_found_unless_beyond(const TestCloud<T>& cloud) {
-    SCOPED_TRACE(cloud.name);
-    const ChunkExtremes all = run(GetParam(), cloud.view(), DirectionSet::dop26);
-    ReachedEnds same = nothing_reached();
-    ReachedEnds beyond = nothing_reached();
-    for (std::size_t end = 0; end < kMaxEnds; ++end) {
-      same[end] = round_down(all.ends[end].projection);
-      beyond[end] = same[end] + 1;
-    }
-    expect_same(run(GetParam(), cloud.view(), DirectionSet::dop26, same), all, DirectionSet::dop26);
-    for (const ExtremePoint& end : run(GetParam(), cloud.view(), DirectionSet::dop26, beyond).ends) {
-      EXPECT_FALSE(end.found);
+      const SupportDirections& directions = SupportDirections::of(set);
+      expect_same(run(GetParam(), points, directions), by_definition(points, directions), directions.count);
     }
   }
 };
 
-TEST_P(Extremes, AreThoseOfTheDefinitionForFloat) {
+TEST_P(CubeSupports, AreThoseOfTheDefinitionForFloat) {
   for (const TestCloud<float>& cloud : test::nasty_clouds<float>()) {
     SCOPED_TRACE(cloud.name);
     expect_definition<float>(cloud.view());
   }
 }
 
-TEST_P(Extremes, AreThoseOfTheDefinitionForDouble) {
+TEST_P(CubeSupports, AreThoseOfTheDefinitionForDouble) {
   for (const TestCloud<double>& cloud : test::nasty_clouds<double>()) {
     SCOPED_TRACE(cloud.name);
     expect_definition<double>(cloud.view());
   }
 }
 
-TEST_P(Extremes, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
+TEST_P(CubeSupports, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
   for (std::size_t n = 1; n <= 3 * 16 + 1; ++n) {
     const TestCloud<float> cloud = test::gaussian<float>(n, n);
     for (const auto& [stride, offset] : std::vector<std::pair<std::size_t, std::size_t>>{{12, 0},
@@ -154,7 +110,7 @@ TEST_P(Extremes, AreThoseOfTheDefinitionForEveryStrideOffsetAndTail) {
   }
 }
 
-TEST_P(Extremes, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
+TEST_P(CubeSupports, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                        -std::numeric_limits<float>::infinity()};
   for (std::size_t n : {1, 15, 16, 33, 50}) {
@@ -164,12 +120,12 @@ TEST_P(Extremes, AreThoseOfTheDefinitionForEveryPositionOfABadPoint) {
       SCOPED_TRACE(testing::Message() << n << " points, coordinate " << i);
       expect_definition<float>(Records<float>(cloud, 16).view());
       expect_definition<float>(Records<float>(cloud, 12).view());
-      EXPECT_EQ(run(GetParam(), cloud.view(), DirectionSet::dop26).dropped, 1U);
+      EXPECT_EQ(run(GetParam(), cloud.view(), SupportDirections::of(DirectionSet::dop26)).dropped, 1U);
     }
   }
 }
 
-TEST_P(Extremes, AreThoseOfTheDefinitionForIndexLists) {
+TEST_P(CubeSupports, AreThoseOfTheDefinitionForIndexLists) {
   const TestCloud<float> cloud = test::gaussian<float>(4000, 3);
   std::vector<std::int32_t> indices(4000);
   std::iota(indices.begin(), indices.end(), 0);
@@ -186,7 +142,7 @@ TEST_P(Extremes, AreThoseOfTheDefinitionForIndexLists) {
   }
 }
 
-TEST_P(Extremes, AreThoseOfTheDefinitionForGroupsAndAnySliceOfThem) {
+TEST_P(CubeSupports, AreThoseOfTheDefinitionForGroupsAndAnySliceOfThem) {
   TestCloud<float> cloud = test::gaussian<float>(2200, 12);
   cloud.xyz[3 * 1500 + 1] = std::numeric_limits<float>::quiet_NaN();
   const TestCloud<double> doubles = test::gaussian<double>(2200, 13);
@@ -201,7 +157,7 @@ TEST_P(Extremes, AreThoseOfTheDefinitionForGroupsAndAnySliceOfThem) {
   }
 }
 
-TEST_P(Extremes, AreThoseOfTheDefinitionForIndexListsIntoGroups) {
+TEST_P(CubeSupports, AreThoseOfTheDefinitionForIndexListsIntoGroups) {
   const TestCloud<float> cloud = test::gaussian<float>(500, 14);
   const PointGroups groups(cloud.view());
   const std::int32_t indices[] = {499, 3, 17, 18, 19, 20, 21, 22, 23, 0, 480, 16, 15, 64, 65, 66, 67, 68, 70};
@@ -211,15 +167,15 @@ TEST_P(Extremes, AreThoseOfTheDefinitionForIndexListsIntoGroups) {
     expect_definition<float>(view);
 }
 
-TEST_P(Extremes, SumsAreNotContracted) {
+TEST_P(CubeSupports, SumsAreNotContracted) {
   // x + y rounds here; with a fused multiply-add in place of the separate sum the last bit differs.
   const TestCloud<float> cloud{"fma", {1.0F + 0x1p-23F, 0x1p-24F, -1.0F, 16777216.0F, 1.0F, 1.0F}};
   expect_definition<float>(cloud.view());
-  const ChunkExtremes extremes = run(GetParam(), cloud.view(), DirectionSet::dop14);
-  EXPECT_EQ(round_up(extremes.ends[7].projection), 16777218.0);
+  const SupportDirections& directions = SupportDirections::of(DirectionSet::dop14);
+  EXPECT_EQ(run(GetParam(), cloud.view(), directions).ends[7].index, 1U);
 }
 
-TEST_P(Extremes, ABoxOfMixedZerosHasPositiveZeros) {
+TEST_P(CubeSupports, ABoxOfMixedZerosHasPositiveZeros) {
   for (const std::size_t copies : {1, 7, 100}) {
     TestCloud<float> cloud{"zeros", {}};
     for (std::size_t i = 0; i < copies; ++i)
@@ -232,7 +188,7 @@ TEST_P(Extremes, ABoxOfMixedZerosHasPositiveZeros) {
   }
 }
 
-TEST_P(Extremes, ABoxIsRightWhateverTheSigns) {
+TEST_P(CubeSupports, ABoxIsRightWhateverTheSigns) {
   // Integer comparison of floats goes wrong where all signs agree, unless it is told.
   for (const double offset : {-30.0, -3.0, 0.0, 3.0, 30.0}) {
     const TestCloud<float> cloud = test::gaussian<float>(5000, 9, 1, offset);
@@ -242,17 +198,17 @@ TEST_P(Extremes, ABoxIsRightWhateverTheSigns) {
   }
 }
 
-TEST_P(Extremes, DoublesBeyondTheLimitAreDropped) {
+TEST_P(CubeSupports, DoublesBeyondTheLimitAreDropped) {
   TestCloud<double> cloud{"limit", {1e100, 0, 0, 0, -1.01e100, 0, 1, 2, 3, 0, 0, 1e200}};
   for (int i = 0; i < 50; ++i)
     cloud.xyz.insert(cloud.xyz.end(), {0.99e100, 1, 1});
   cloud.xyz.insert(cloud.xyz.end(), {1.01e100, 1, 1});
   expect_definition<double>(cloud.view());
-  EXPECT_EQ(run(GetParam(), cloud.view(), DirectionSet::dop6).dropped, 3U);
+  EXPECT_EQ(run(GetParam(), cloud.view(), SupportDirections::of(DirectionSet::dop6)).dropped, 3U);
   EXPECT_EQ(axis_extents(GetParam(), cloud.view()).high[0], 1e100);
 }
 
-TEST_P(Extremes, OfPointsOnOneSideOfTheirMeanInAFlatDirection) {
+TEST_P(CubeSupports, OfPointsOnOneSideOfTheirMeanInAFlatDirection) {
   // Planes x + y = 1 near the origin and x + y = 0.5 far from it: the mean, rounded, may lie on either side
   // of them, and far from the origin so far that all points are clearly on one.
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -268,7 +224,7 @@ TEST_P(Extremes, OfPointsOnOneSideOfTheirMeanInAFlatDirection) {
   }
 }
 
-TEST_P(Extremes, OfAFlatChunkAreFoundWhereItsRoundedMeanLiesBeside) {
+TEST_P(CubeSupports, OfAFlatChunkAreFoundWhereItsRoundedMeanLiesBeside) {
   // x + y = 2^21 for both; their mean is rounded in x alone, and then its sum is 2^-4 less. Mirrored, more.
   for (const float sign : {1.0F, -1.0F}) {
     const TestCloud<float> cloud{
@@ -277,15 +233,19 @@ TEST_P(Extremes, OfAFlatChunkAreFoundWhereItsRoundedMeanLiesBeside) {
   }
 }
 
-TEST_P(Extremes, AreFoundUnlessTheyCannotReachWhatIsKnown) {
+TEST_P(CubeSupports, AreFoundUnlessTheyCannotReachWhatIsKnown) {
   // Doubles at UTM size too: there the sums along a direction are rounded to more than the points' extent
   // needs.
-  expect_found_unless_beyond(test::gaussian<float>(20'000, 11, 3, 1e3));
-  for (std::uint64_t seed = 12; seed < 20; ++seed)
-    expect_found_unless_beyond(test::gaussian<double>(500, seed, 3, 5e6));
+  const SupportDirections& directions = SupportDirections::of(DirectionSet::dop26);
+  const TestCloud<float> floats = test::gaussian<float>(20'000, 11, 3, 1e3);
+  test::expect_found_unless_beyond(GetParam(), floats.view(), directions);
+  for (std::uint64_t seed = 12; seed < 20; ++seed) {
+    const TestCloud<double> doubles = test::gaussian<double>(500, seed, 3, 5e6);
+    test::expect_found_unless_beyond(GetParam(), doubles.view(), directions);
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryUsableSet, Extremes, testing::ValuesIn(usable_isas()),
+INSTANTIATE_TEST_SUITE_P(EveryUsableSet, CubeSupports, testing::ValuesIn(usable_isas()),
                          [](const auto& param) { return std::string(isa_name(param.param)); });
 
 }  // namespace

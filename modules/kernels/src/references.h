@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The scalar references: plain loops that say what the vectors of each kernel must agree with.
+#pragma once
+
+#include "pcl_bv/kernels/axis_extents.h"
+#include "pcl_bv/kernels/distances.h"
+#include "pcl_bv/kernels/half_spaces.h"
+#include "pcl_bv/kernels/moments.h"
+#include "pcl_bv/kernels/slab_extents.h"
+#include "pcl_bv/kernels/support.h"
+
+namespace pcl_bv {
+
+AxisExtents axis_extents_reference(const PointView& points);
+void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
+                              const ReachedSupports& reached, ChunkSupports& out);
+SlabExtents slab_extents_reference(const PointView& points, const Coordinates& origin,
+                                   const std::array<Direction, 3>& axes);
+std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
+                                   std::uint32_t* positions);
+
+/// Writes the points as groups; the `pad`-th one (if there is any) fills the last group.
+void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);
+
+void block_distances_reference(const PointView& points, const DistanceCenter& center, double limit,
+                               FloatFilter filter, double* greatest);
+void scan_octants_reference(const PointView& block, OctantScan& scan);
+std::size_t list_reaching_reference(const PointView& block, const KeptBounds& kept,
+                                    const DistanceCenter& center, double limit, std::uint32_t* positions);
+std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
+                                   FloatFilter filter, std::uint32_t* positions);
+
+Moments block_moments_reference(const PointView& block);
+
+/// Calls sum(moments) with the exponents that doubles may need, until the sums are not too small.
+template <typename Sum>
+void sum_with_room(ScalarType scalar, Moments& moments, const Sum& sum) {
+  for (moments.exponent = 0;; moments.exponent += 500) {
+    sum(moments);
+    const double squares = (moments.product[0] + moments.product[3]) + moments.product[5];
+    if (scalar == ScalarType::float32 || moments.exponent == 1000 || squares >= 0x1p-660) return;
+  }
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The bounds that docs/numerics.md derives.
+
+#include "support_plan.h"
+
+#include <cmath>
+#include <limits>
+
+#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "preconditions.h"
+#include "support_error.h"
+
+namespace pcl_bv {
+
+bool central_point(const PointView& points, Coordinates& center) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    center = load_point(points, (points.count / 2 + i) % points.count);
+    if (is_valid(center)) return true;
+  }
+  return false;
+}
+
+SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread,
+                         ScalarType scalar)
+    : is_float_(scalar == ScalarType::float32) {
+  const double unit = is_float_ ? 0x1p-24 : kU;
+  const double least = is_float_ ? 0x1p-149 : 0x1p-1074;
+  const double greatest = is_float_ ? static_cast<double>(std::numeric_limits<float>::max()) : 1e300;
+  const Direction& scaled = set.scaled[direction];
+  const auto& s = spread.greatest;
+  const auto flat = [&](std::size_t axis) { return set.exact[direction][axis] == 0 || s[axis] == 0; };
+  constant_ = flat(0) && flat(1) && flat(2);  // p - c is 0 only if p is c
+  const double size = dot3(magnitudes(scaled), s);
+  overflow_ = !(size <= 0.99 * greatest);  // of infinite spreads it may be NaN
+  // Of one projection, and of the difference of two: products, or only additions. A single term without a
+  // product cannot swap two points, since x - c is monotone.
+  double error = 5.1 * unit * size + least * ((s[0] + s[1]) + s[2] + 4);
+  pair_error_ = 2 * error + unit * size;
+  if (set.cube) {
+    const double terms = taxicab3(scaled);
+    error = 4 * unit * size;
+    pair_error_ = (terms == 1 ? 0 : terms == 2 ? 5.2 : 7.2) * unit * size;
+  }
+  offset_ = dot3(scaled, spread.center);
+  offset_error_ = error + 0x1p-49 * size + double_error(scaled, spread.center);
+}
+
+EndSearch SupportPlan::of(bool high, double top, double reached) const {
+  if (constant_) return {EndSearch::Kind::every, 0};
+  if (overflow_) return {EndSearch::Kind::some, -kInfinity};  // sums say nothing
+  if (top + (high ? offset_ : -offset_) + offset_error_ < reached) return {EndSearch::Kind::none, 0};
+  const double threshold = top - pair_error_;
+  return {EndSearch::Kind::some, is_float_ ? float_down(threshold) : threshold};
+}
+
+SupportPoint first_valid_point(const PointView& points) {
+  SupportPoint first;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p) || (first.found && first.index < points.index(i))) continue;
+    first = {true, p, points.index(i)};
+    if (points.indices == nullptr) break;
+  }
+  return first;
+}
+
+void find_support(const PointView& points, std::size_t first, std::size_t step, std::size_t last,
+                  const SupportDirections& set, std::size_t end, const RoundedFilter& filter,
+                  SupportPoint& best) {
+  const Direction direction = set.end_direction(end), scaled = set.scaled_end_direction(end);
+  const auto look = [&](const Coordinates& point, std::size_t index) {
+    if (is_valid(point)) keep_farther(direction, {true, point, index}, best);
+  };
+  if (points.scalar == ScalarType::float32) {
+    for_each_passing<float>(points, first, step, last, scaled, filter, look);
+  } else {
+    for_each_passing<double>(points, first, step, last, scaled, filter, look);
+  }
+}
+
+void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
+                    const ReachedSupports& reached, ChunkSupports& out) {
+  require_in_memory(chunk, kChunkPoints);
+  require_at_most(kMaxSupportDirections, set.count, "directions");
+  out = ChunkSupports();
+  (set.cube ? cube_supports : own_supports)(isa, chunk, set, reached, out);
+}
+
+}  // namespace pcl_bv

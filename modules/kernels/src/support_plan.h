@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the vectors are told before their pass over points, and what follows from it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "passing_points.h"
+#include "pcl_bv/kernels/support.h"
+
+namespace pcl_bv {
+
+/// A valid point amid the others, to which projections are relative: then zero is reached at every end, and
+/// rounding errors are those of the extent, not of the place (UTM). False if there is no valid point.
+bool central_point(const PointView& points, Coordinates& center);
+
+/// What the pass over some points saw.
+struct Spread {
+  Coordinates center{};
+  std::array<double, 3> greatest{};  ///< Magnitudes of p - center, as rounded.
+};
+
+/// What is left to look at for one end.
+struct EndSearch {
+  enum class Kind {
+    none,   ///< The end cannot beat `reached`.
+    every,  ///< All valid points have exactly the same projection.
+    some    ///< The points whose rounded projection is at least the threshold.
+  };
+  Kind kind = Kind::none;
+  double threshold = 0;  ///< A value of the view's scalar type.
+};
+
+/// What follows for the two ends of a direction.
+class SupportPlan {
+ public:
+  SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread, ScalarType scalar);
+
+  /// `top` is the greatest rounded projection of p - center at the end, `reached` as ReachedSupports has it.
+  EndSearch of(bool high, double top, double reached) const;
+
+ private:
+  bool is_float_;
+  bool constant_;
+  bool overflow_;
+  double offset_;        // the projection of the centre
+  double offset_error_;  // of a point's rounded projection plus that offset
+  double pair_error_;    // of the difference of two points' rounded projections
+};
+
+/// The valid point with the smallest index: what competes for an end at which all are equal.
+SupportPoint first_valid_point(const PointView& points);
+
+/// Lets `best` compete with those valid points first, first + step, ... below `last` that pass the filter
+/// along the scaled direction of an end.
+void find_support(const PointView& points, std::size_t first, std::size_t step, std::size_t last,
+                  const SupportDirections& set, std::size_t end, const RoundedFilter& filter,
+                  SupportPoint& best);
+
+/// The kernels behind chunk_supports(): for the directions of the cube and for others.
+void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
+                   const ReachedSupports& reached, ChunkSupports& out);
+void own_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
+                  const ReachedSupports& reached, ChunkSupports& out);
+
+}  // namespace pcl_bv

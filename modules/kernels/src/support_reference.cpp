@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Scalar reference: one point at a time into local accumulators, along the cube's directions with the paper's
+// shared sums x + y and x - y, then a second look at the blocks that can hold a support point. Compiled with
+// -O3 -fno-tree-vectorize, so that it stays what benchmarks call scalar.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pcl_bv/kernels/chunks.h"
+#include "references.h"
+
+namespace pcl_bv {
+namespace {
+
+template <typename T>
+constexpr T limit = sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max())
+                                   : static_cast<T>(1e100);
+
+// The projections along the cube's directions, in the arithmetic of the points.
+template <DirectionSet set>
+struct AlongCube {
+  static constexpr std::size_t count = direction_count(set);
+
+  template <typename T>
+  void operator()(T x, T y, T z, T* p) const {
+    *p++ = x;
+    *p++ = y;
+    *p++ = z;
+    if constexpr (set == DirectionSet::dop6) return;
+    const T sum = x + y;
+    const T difference = x - y;
+    if constexpr (set != DirectionSet::dop18) {
+      *p++ = sum + z;
+      *p++ = sum - z;
+      *p++ = difference + z;
+      *p++ = difference - z;
+    }
+    if constexpr (set != DirectionSet::dop14) {
+      *p++ = sum;
+      *p++ = difference;
+      *p++ = x + z;
+      *p++ = x - z;
+      *p++ = y + z;
+      *p++ = y - z;
+    }
+  }
+};
+
+// Along any directions, in double; first along the axes, for the magnitudes.
+struct AlongOwn {
+  const SupportDirections& set;
+  std::size_t count = 3 + set.count;
+
+  void operator()(double x, double y, double z, double* p) const {
+    *p++ = x;
+    *p++ = y;
+    *p++ = z;
+    for (std::size_t k = 0; k < set.count; ++k)
+      *p++ = (set.scaled[k][0] * x + set.scaled[k][1] * y) + set.scaled[k][2] * z;
+  }
+};
+
+// Least and greatest projection of one block's valid points.
+template <typename T>
+struct Block {
+  T low[3 + kMaxSupportDirections];
+  T high[3 + kMaxSupportDirections];
+
+  double reach(std::size_t end) const { return end % 2 == 0 ? -low[end / 2] : high[end / 2]; }
+};
+
+template <typename T, typename Along, typename Load>
+std::size_t project_block(std::size_t points, const Load& load, const Along& along, Block<T>& out) {
+  T low[3 + kMaxSupportDirections];
+  T high[3 + kMaxSupportDirections];
+  std::fill_n(low, along.count, std::numeric_limits<T>::infinity());
+  std::fill_n(high, along.count, -std::numeric_limits<T>::infinity());
+  std::size_t dropped = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    T v[3];
+    load(i, v);
+    const T x = std::abs(v[0]), y = std::abs(v[1]), z = std::abs(v[2]);
+    // One test for nearly all: a sum that is small enough has valid terms.
+    if (!(x + y + z <= limit<T>)&&!(x <= limit<T> && y <= limit<T> && z <= limit<T>)) {
+      ++dropped;
+      continue;
+    }
+    T p[3 + kMaxSupportDirections];
+    along(v[0], v[1], v[2], p);
+    for (std::size_t k = 0; k < along.count; ++k) {
+      low[k] = p[k] < low[k] ? p[k] : low[k];
+      high[k] = p[k] > high[k] ? p[k] : high[k];
+    }
+  }
+  std::copy_n(low, along.count, out.low);
+  std::copy_n(high, along.count, out.high);
+  return dropped;
+}
+
+// T may be double for points that are floats.
+template <typename T, typename Along>
+std::size_t project_block(const PointView& points, const Along& along, Block<T>& out) {
+  const bool stored = points.scalar == (sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64);
+  if (stored && points.order == PointOrder::records && points.indices == nullptr) {
+    const auto load = [data = points.data, stride = points.stride](std::size_t i, T(&v)[3]) {
+      std::memcpy(v, data + stride * i, sizeof v);
+    };
+    return project_block<T>(points.count, load, along, out);
+  }
+  const auto load = [&](std::size_t i, T(&v)[3]) {
+    const Coordinates p = load_point(points, i);
+    v[0] = static_cast<T>(p.x), v[1] = static_cast<T>(p.y), v[2] = static_cast<T>(p.z);
+  };
+  return project_block<T>(points.count, load, along, out);
+}
+
+// How far the projections of two points, of coordinates up to `m` in magnitude, may be off together. Of the
+// cube: u per addition for each, and once more for the difference itself and its rounding; sums that may
+// overflow say nothing. Of others: each 3.01 * 2^-53 of the magnitudes; then what underflow may take from
+// products and from the direction's tiny components.
+template <typename T>
+double pair_error(const SupportDirections& set, std::size_t k, const Coordinates& m) {
+  const Direction& d = set.scaled[k];
+  const double size = (std::abs(d[0]) * m.x + std::abs(d[1]) * m.y) + std::abs(d[2]) * m.z;
+  if (!set.cube) return 0x1p-50 * size + (0x1p-1072 * (m.x + m.y + m.z) + std::numeric_limits<double>::min());
+  const int terms = (d[0] != 0) + (d[1] != 0) + (d[2] != 0);
+  if (terms == 1) return 0;
+  if (size > static_cast<double>(std::numeric_limits<T>::max())) return std::numeric_limits<double>::infinity();
+  return (terms == 2 ? 4.1 : 6.1) * (sizeof(T) == 4 ? 0x1p-24 : 0x1p-53) * size;
+}
+
+void search(const PointView& block, const SupportDirections& set, std::size_t end, double threshold,
+            SupportPoint& best) {
+  const Direction exact = set.end_direction(end), d = set.scaled_end_direction(end);
+  for (std::size_t i = 0; i < block.count; ++i) {
+    const Coordinates p = load_point(block, i);
+    if (!is_valid(p) || (d[0] * p.x + d[1] * p.y) + d[2] * p.z < threshold) continue;
+    keep_farther(exact, {true, p, block.index(i)}, best);
+  }
+}
+
+// `first` is the number of the end 0 among those of the blocks.
+template <typename T, typename Along>
+void supports(const PointView& chunk, const SupportDirections& set, const Along& along, std::size_t first,
+              const ReachedSupports& reached, ChunkSupports& out) {
+  Block<T> blocks[kChunkPoints / kBlockPoints];
+  const std::size_t count = (chunk.count + kBlockPoints - 1) / kBlockPoints;
+  for (std::size_t b = 0; b < count; ++b)
+    out.dropped += project_block(block_of(chunk, b), along, blocks[b]);
+  if (out.dropped == chunk.count) return;
+  const auto top = [&](std::size_t end) {
+    double greatest = blocks[0].reach(end);
+    for (std::size_t b = 1; b < count; ++b)
+      greatest = std::max(greatest, blocks[b].reach(end));
+    return greatest;
+  };
+  const auto magnitude = [&](std::size_t axis) {
+    return std::max(std::abs(top(2 * axis)), std::abs(top(2 * axis + 1)));
+  };
+  const Coordinates greatest{magnitude(0), magnitude(1), magnitude(2)};
+  for (std::size_t end = 0; end < 2 * set.count; ++end) {
+    const double reach = top(first + end), error = pair_error<T>(set, end / 2, greatest);
+    if (reach + error < reached[end]) continue;
+    const double threshold = std::isinf(error) ? -error : reach - error;
+    for (std::size_t b = 0; b < count; ++b) {
+      if (blocks[b].reach(first + end) >= threshold)
+        search(block_of(chunk, b), set, end, threshold, out.ends[end]);
+    }
+  }
+}
+
+template <DirectionSet cube>
+void supports_of(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+                 ChunkSupports& out) {
+  if (chunk.scalar == ScalarType::float32)
+    return supports<float>(chunk, set, AlongCube<cube>(), 0, reached, out);
+  supports<double>(chunk, set, AlongCube<cube>(), 0, reached, out);
+}
+
+template <typename T>
+AxisExtents axis_extents_of(const PointView& points) {
+  Block<T> block;
+  AxisExtents out;
+  out.dropped = project_block(points, AlongCube<DirectionSet::dop6>(), block);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    out.low[axis] = block.low[axis] + 0.0;
+    out.high[axis] = block.high[axis] + 0.0;
+  }
+  return out;
+}
+
+}  // namespace
+
+void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
+                              const ReachedSupports& reached, ChunkSupports& out) {
+  if (!set.cube) return supports<double>(chunk, set, AlongOwn{set}, 6, reached, out);
+  switch (*set.cube) {
+    case DirectionSet::dop6:
+      return supports_of<DirectionSet::dop6>(chunk, set, reached, out);
+    case DirectionSet::dop14:
+      return supports_of<DirectionSet::dop14>(chunk, set, reached, out);
+    case DirectionSet::dop18:
+      return supports_of<DirectionSet::dop18>(chunk, set, reached, out);
+    case DirectionSet::dop26:
+      return supports_of<DirectionSet::dop26>(chunk, set, reached, out);
+  }
+}
+
+AxisExtents axis_extents_reference(const PointView& points) {
+  return points.scalar == ScalarType::float32 ? axis_extents_of<float>(points)
+                                              : axis_extents_of<double>(points);
+}
+
+}  // namespace pcl_bv
