@@ -22,7 +22,8 @@ Supports extremes_with_points(const Cloud& cloud, const Execution& execution) {
 
 bool same_points(const Supports& a, const Supports& b) {
   for (std::size_t k = 0; k < kMaxDirections; ++k) {
-    if (a.along[k].low_point.index != b.along[k].low_point.index || a.along[k].high_point.index != b.along[k].high_point.index) {
+    if (a.along[k].low_point.index != b.along[k].low_point.index ||
+        a.along[k].high_point.index != b.along[k].high_point.index) {
       return false;
     }
   }

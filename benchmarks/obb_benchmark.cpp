@@ -15,9 +15,8 @@
 #include "obb_clouds.h"
 #include "obb_peers.h"
 #include "pcl_bv/fitting/batch.h"
-#include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/fitting/supports.h"
 #include "timing.h"
 
 namespace pcl_bv::bench {

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "pcl_bv/fitting/batch.h"
-#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/fitting/summary.h"
+#include "pcl_bv/fitting/supports.h"
 #include "sources.h"
 
 namespace pcl_bv {

@@ -31,7 +31,8 @@ void expect_same(const CloudSummary& a, const CloudSummary& b) {
     EXPECT_EQ(a.supports.along[k].low, b.supports.along[k].low) << "direction " << k;
     EXPECT_EQ(a.supports.along[k].high, b.supports.along[k].high) << "direction " << k;
     EXPECT_EQ(a.supports.along[k].low_point.index, b.supports.along[k].low_point.index) << "direction " << k;
-    EXPECT_EQ(a.supports.along[k].high_point.index, b.supports.along[k].high_point.index) << "direction " << k;
+    EXPECT_EQ(a.supports.along[k].high_point.index, b.supports.along[k].high_point.index)
+        << "direction " << k;
   }
   EXPECT_EQ(a.scale, b.scale);
   EXPECT_EQ(std::memcmp(a.centroid.data(), b.centroid.data(), 3 * sizeof(double)), 0)

@@ -15,15 +15,13 @@
 #include "clouds.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/distances.h"
-#include "pcl_bv/kernels/support.h"
-#include "pcl_bv/kernels/support.h"
 #include "pcl_bv/kernels/half_spaces.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/kernels/point_records.h"
 #include "pcl_bv/kernels/point_source.h"
-#include "pcl_bv/kernels/support.h"
 #include "pcl_bv/kernels/slab_extents.h"
+#include "pcl_bv/kernels/support.h"
 
 namespace pcl_bv {
 namespace {

@@ -3,8 +3,8 @@
 
 // Boxes: the supports along three axes are the answer.
 
-#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {

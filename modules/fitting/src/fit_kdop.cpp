@@ -5,9 +5,8 @@
 
 #include <optional>
 
-#include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {

@@ -14,9 +14,9 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/exact_sum.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "support_search.h"
 #include "same_points.h"
 #include "summarize_bounds.h"
+#include "support_search.h"
 #include "symmetric_eigen.h"
 
 namespace pcl_bv {

@@ -11,9 +11,8 @@
 
 #include "exact_sphere.h"
 #include "growth.h"
-#include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "sphere_seed.h"
 

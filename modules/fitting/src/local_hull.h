@@ -14,8 +14,8 @@
 #include "local_frame.h"
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/supports.h"
-#include "point_rank.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "point_rank.h"
 
 namespace pcl_bv {
 

@@ -9,8 +9,8 @@
 
 #include "local_frame.h"
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/summary.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/volumes/obb.h"
 #include "small_vector.h"
 

@@ -18,8 +18,8 @@ inline void require_same_points(bool same) {
 
 /// Whether a point is in the box of all points.
 inline bool within(const Supports& all, const Coordinates& p) {
-  return p.x >= all.along[0].low && p.x <= all.along[0].high && p.y >= all.along[1].low && p.y <= all.along[1].high &&
-         p.z >= all.along[2].low && p.z <= all.along[2].high;
+  return p.x >= all.along[0].low && p.x <= all.along[0].high && p.y >= all.along[1].low &&
+         p.y <= all.along[1].high && p.z >= all.along[2].low && p.z <= all.along[2].high;
 }
 
 /// Calls visit(index, p) for the valid points of a view of at most kChunkPoints.

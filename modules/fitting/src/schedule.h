@@ -31,8 +31,8 @@ enum class Work {
   box_turns  ///< Some ten turns of a box about each vertex of a hull: a sort and the calipers.
 };
 
-/// Nanoseconds of one thread for a point, of supports for each direction, of hulls for a plane or vertex. Only their order of magnitude
-/// matters. Measured on a Zen 5 with the points in the third-level cache.
+/// Nanoseconds of one thread for a point, of supports for each direction, of hulls for a plane or vertex.
+/// Only their order of magnitude matters. Measured on a Zen 5 with the points in the third-level cache.
 constexpr double nanoseconds(Work work, Isa isa) {
   struct Cost {
     double scalar, bits128, avx2, avx512;

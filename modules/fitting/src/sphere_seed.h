@@ -5,8 +5,8 @@
 #pragma once
 
 #include "local_frame.h"
-#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/small_ball.h"
+#include "pcl_bv/fitting/supports.h"
 #include "small_vector.h"
 
 namespace pcl_bv {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support_search.h"
 #include "local_frame.h"
 #include "map_chunks.h"
 #include "moment_tree.h"
@@ -19,6 +18,7 @@
 #include "point_rank.h"
 #include "schedule.h"
 #include "summarize_bounds.h"
+#include "support_search.h"
 
 namespace pcl_bv {
 namespace {
@@ -47,8 +47,8 @@ void finish(Moments moments, CloudSummary& summary) {
   double mean[3];
   for (int axis = 0; axis < 3; ++axis) {
     mean[axis] = moments.sum[axis] / n;
-    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.scale, summary.supports.along[axis].low,
-                                        summary.supports.along[axis].high) +
+    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.scale,
+                                        summary.supports.along[axis].low, summary.supports.along[axis].high) +
                              0.0;
   }
   std::size_t k = 0;

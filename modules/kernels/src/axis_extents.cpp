@@ -10,9 +10,9 @@
 
 #include <limits>
 
-#include "references.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "preconditions.h"
+#include "references.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,8 +6,8 @@
 
 #include "pcl_bv/kernels/distances.h"
 
-#include "references.h"
 #include "preconditions.h"
+#include "references.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE

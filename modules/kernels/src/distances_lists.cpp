@@ -3,9 +3,9 @@
 
 // UPDATESPHERE's side of the paper's EXPANDSPHERE (Figure 3): which points are outside.
 
-#include "references.h"
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
+#include "references.h"
 #include "square.h"
 #include "targets.h"
 

@@ -4,9 +4,9 @@
 // The farthest points in each octant, for the smallest sphere: float arithmetic rejects runs of points, as
 // the mask of the paper's EXPANDSPHERE (Figure 3) does groups of four, and double arithmetic decides.
 
-#include "references.h"
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
+#include "references.h"
 #include "square.h"
 #include "targets.h"
 

@@ -5,8 +5,8 @@
 
 #include "pcl_bv/kernels/half_spaces.h"
 
-#include "references.h"
 #include "preconditions.h"
+#include "references.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE

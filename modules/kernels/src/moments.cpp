@@ -9,9 +9,9 @@
 
 #include <cmath>
 
-#include "references.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "preconditions.h"
+#include "references.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE

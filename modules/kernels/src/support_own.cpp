@@ -136,8 +136,8 @@ std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneRe
 // As many points as the lanes' reach has room for; what they reach spares the later parts, if there are
 // `more`, the search.
 template <Layout layout, typename T>
-void supports_of_part(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach, bool more,
-                      Workspace<T>& work, ReachedSupports& reached, ChunkSupports& out) {
+void supports_of_part(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach,
+                      bool more, Workspace<T>& work, ReachedSupports& reached, ChunkSupports& out) {
   Spread spread;
   if (!central_point(part, spread.center)) {
     out.dropped += part.count;

@@ -128,7 +128,8 @@ double pair_error(const SupportDirections& set, std::size_t k, const Coordinates
   if (!set.cube) return 0x1p-50 * size + (0x1p-1072 * (m.x + m.y + m.z) + std::numeric_limits<double>::min());
   const int terms = (d[0] != 0) + (d[1] != 0) + (d[2] != 0);
   if (terms == 1) return 0;
-  if (size > static_cast<double>(std::numeric_limits<T>::max())) return std::numeric_limits<double>::infinity();
+  if (size > static_cast<double>(std::numeric_limits<T>::max()))
+    return std::numeric_limits<double>::infinity();
   return (terms == 2 ? 4.1 : 6.1) * (sizeof(T) == 4 ? 0x1p-24 : 0x1p-53) * size;
 }
 

@@ -22,7 +22,8 @@ namespace HWY_NAMESPACE {
 /// supports reach is noted in `later`, if it is not null, for parts that come later.
 template <Layout layout, typename T>
 void search_ends(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach,
-                 const Spread& spread, const ReachedSupports& reached, ReachedSupports* later, ChunkSupports& out) {
+                 const Spread& spread, const ReachedSupports& reached, ReachedSupports* later,
+                 ChunkSupports& out) {
   for (std::size_t end = 0; end < 2 * set.count; ++end) {
     const SupportPlan plan(set, end / 2, spread, part.scalar);
     const EndSearch what = plan.of(end % 2 != 0, greatest_reach(reach, end, part.count), reached[end]);

@@ -16,10 +16,10 @@
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/report/meshes.h"
 #include "pcl_bv/io/pcd.h"
-#include "pcl_bv/report/picture.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/report/meshes.h"
+#include "pcl_bv/report/picture.h"
 #include "segment.h"
 
 namespace pcl_bv {

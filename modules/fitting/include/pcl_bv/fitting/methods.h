@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

@@ -48,8 +48,8 @@ struct Supports {
 /// Finds the supports of all valid points; `used` is 0 and nothing else but `dropped` is set if there is
 /// none. The same bits for every execution. One SIMD pass over the points in chunks, which also looks exactly
 /// at the few points of each chunk that can be extreme (docs/numerics.md). None if Execution::supports has
-/// them; throws std::invalid_argument if those are of other points. Points that are flat but for 2^-30 of their
-/// extent, and not just across a coordinate axis, are passed over up to five times more for their rank.
+/// them; throws std::invalid_argument if those are of other points. Points that are flat but for 2^-30 of
+/// their extent, and not just across a coordinate axis, are passed over up to five times more for their rank.
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const Execution& execution);
 
