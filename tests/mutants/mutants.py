@@ -25,7 +25,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seed", type=int, default=1, help="of the order in which mutants are tried")
     parser.add_argument("--minutes", type=float, default=20, help="for trying mutants, once all is built")
-    parser.add_argument("--count", type=int, default=0, help="mutants to try at most (0: as many as fit)")
+    parser.add_argument("--sample", type=int, default=0, help="how many of that order to judge the tests by (0: all)")
     parser.add_argument("--only", default="", metavar="PART", help="of the paths of files to mutate")
     parser.add_argument("--results", type=Path, default=build.BUILD / "results.json", metavar="FILE")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="mutants at a time, and compilers")
@@ -54,8 +54,7 @@ def try_all(mutants, cases, results, options):
     def try_one(mutant):
         nonlocal tried
         with lock:
-            over = time.monotonic() > deadline or (options.count and tried >= options.count)
-            if over or results.is_settled(mutant):
+            if time.monotonic() > deadline or results.is_settled(mutant):
                 return
             tried += 1
         reaching = covering.get(mutant.slot, [])
@@ -99,6 +98,7 @@ def main():
     else:
         programs = build.build(sources, options.jobs, say)
     mutants = [m for m in in_random_order(sources.mutants, options.seed) if options.only in m.file]
+    mutants = mutants[: options.sample or None]
     if options.list:
         print("\n".join(map(line_of, mutants)))
         return 0

@@ -12,7 +12,7 @@
 
 namespace pcl_bv::test {
 
-/// An exact fraction: Boost.Multiprecision's cpp_rational, behind functions that are compiled once.
+/// An exact fraction of Boost.Multiprecision's integers, behind functions that are compiled once.
 class Rational {
  public:
   Rational();
@@ -42,7 +42,7 @@ class Rational {
 
   /// Negative, 0 or positive.
   int compare(const Rational& other) const;
-  int sign() const { return compare(0); }
+  int sign() const;
 
   /// Rounded.
   explicit operator double() const;
