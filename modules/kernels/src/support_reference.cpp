@@ -66,8 +66,8 @@ struct AlongOwn {
 // Least and greatest projection of one block's valid points.
 template <typename T>
 struct Block {
-  T low[3 + kMaxSupportDirections];
-  T high[3 + kMaxSupportDirections];
+  T low[3 + kMaxSupportDirections] = {};
+  T high[3 + kMaxSupportDirections] = {};
 
   double reach(std::size_t end) const { return end % 2 == 0 ? -low[end / 2] : high[end / 2]; }
 };
