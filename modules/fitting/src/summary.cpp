@@ -85,19 +85,16 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
   require_own_supports(points, execution);
   CloudSummary summary;
-  Supports& supports = summary.supports;
-  supports.set = DirectionSet::dop26;
-  supports.detail = SupportDetail::points;
-  supports.points = points;
-  const SupportDirections& directions = SupportDirections::of(supports.set);
+  constexpr DirectionSet set = DirectionSet::dop26;
+  const SupportDirections& directions = SupportDirections::of(set);
   SupportSearch search(execution.isa, directions, points.count);
   // Moments cost about as much again as the supports.
   const Moments moments = pass<ChunkSupports>(
       points, execution, 2 * directions.count * points.count,
       [&](const PointView& chunk) { return search.find(chunk); },
       [&](const ChunkSupports& found) { search.merge(found); });
-  finish(search, points.count, supports);
-  supports.rank = point_rank(points, supports, execution);
+  summary.supports = of_search(search, set, points);
+  summary.supports.rank = point_rank(points, summary.supports, execution);
   finish(moments, summary);
   return summary;
 }

@@ -47,8 +47,8 @@ class SupportSearch {
   ChunkSupports all_;
 };
 
-/// From the merged chunks of a cloud along the directions of supports.set to the numbers.
-void finish(const SupportSearch& search, std::size_t points, Supports& supports);
+/// What a search along the directions of a set has found among all of these points, but for the rank.
+Supports of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
 
 /// Lets a box, of no points at first, grow by that of a chunk.
 Supports no_bounds(const PointView& points);

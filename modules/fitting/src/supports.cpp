@@ -34,6 +34,22 @@ Supports part_of(const Supports& known, DirectionSet set) {
   return part;
 }
 
+Supports find_bounds(const PointView& points, const Execution& execution) {
+  Supports supports = no_bounds(points);
+  map_chunks<AxisExtents>(
+      points, worthwhile(execution, Work::box, points.count),
+      [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
+      [&](const AxisExtents& part) { merge_bounds(part, supports); });
+  finish_bounds(supports);
+  return supports;
+}
+
+Supports find_points(const PointView& points, DirectionSet set, const Execution& execution) {
+  SupportSearch search(execution.isa, SupportDirections::of(set), points.count);
+  search.run(points, execution);
+  return of_search(search, set, points);
+}
+
 }  // namespace
 
 void require_own_supports(const PointView& points, const Execution& execution) {
@@ -82,11 +98,16 @@ Support SupportSearch::along(std::size_t k) const {
   return {project_down(n, low.point), project_up(n, high.point), low, high};
 }
 
-void finish(const SupportSearch& search, std::size_t points, Supports& supports) {
+Supports of_search(const SupportSearch& search, DirectionSet set, const PointView& points) {
+  Supports supports;
+  supports.set = set;
+  supports.detail = SupportDetail::points;
+  supports.points = points;
   supports.dropped = search.dropped();
-  supports.used = points - supports.dropped;
-  for (std::size_t k = 0; k < direction_count(supports.set) && supports.used > 0; ++k)
+  supports.used = points.count - supports.dropped;
+  for (std::size_t k = 0; k < direction_count(set) && supports.used > 0; ++k)
     supports.along[k] = search.along(k);
+  return supports;
 }
 
 Supports no_bounds(const PointView& points) {
@@ -117,22 +138,8 @@ Supports find_supports(const PointView& points, DirectionSet set, SupportDetail 
   require_own_supports(points, execution);
   if (execution.supports != nullptr && holds(*execution.supports, set, detail))
     return part_of(*execution.supports, set);
-  Supports supports;
-  if (set == DirectionSet::dop6 && detail == SupportDetail::bounds) {
-    supports = no_bounds(points);
-    map_chunks<AxisExtents>(
-        points, worthwhile(execution, Work::box, points.count),
-        [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
-        [&](const AxisExtents& part) { merge_bounds(part, supports); });
-    finish_bounds(supports);
-  } else {
-    SupportSearch search(execution.isa, SupportDirections::of(set), points.count);
-    search.run(points, execution);
-    supports.set = set;
-    supports.detail = SupportDetail::points;
-    supports.points = points;
-    finish(search, points.count, supports);
-  }
+  const bool bounds = set == DirectionSet::dop6 && detail == SupportDetail::bounds;
+  Supports supports = bounds ? find_bounds(points, execution) : find_points(points, set, execution);
   supports.rank = point_rank(points, supports, execution);
   return supports;
 }

@@ -27,33 +27,37 @@ bool central_point(const PointView& points, Coordinates& center) {
 
 SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread,
                          ScalarType scalar)
-    : is_float_(scalar == ScalarType::float32) {
+    : scaled_(set.scaled[direction]), center_(spread.center), is_float_(scalar == ScalarType::float32) {
   const double unit = is_float_ ? 0x1p-24 : kU;
   const double least = is_float_ ? 0x1p-149 : 0x1p-1074;
   const double greatest = is_float_ ? static_cast<double>(std::numeric_limits<float>::max()) : 1e300;
-  const Direction& scaled = set.scaled[direction];
   const auto& s = spread.greatest;
   const auto flat = [&](std::size_t axis) { return set.exact[direction][axis] == 0 || s[axis] == 0; };
   constant_ = flat(0) && flat(1) && flat(2);  // p - c is 0 only if p is c
-  const double size = dot3(magnitudes(scaled), s);
-  overflow_ = !(size <= 0.99 * greatest);  // of infinite spreads it may be NaN
-  // Of one projection, and of the difference of two: products, or only additions. A single term without a
-  // product cannot swap two points, since x - c is monotone.
-  double error = 5.1 * unit * size + least * ((s[0] + s[1]) + s[2] + 4);
-  pair_error_ = 2 * error + unit * size;
+  size_ = dot3(magnitudes(scaled_), s);
+  overflow_ = !(size_ <= 0.99 * greatest);  // of infinite spreads it may be NaN
   if (set.cube) {
-    const double terms = taxicab3(scaled);
-    error = 4 * unit * size;
-    pair_error_ = (terms == 1 ? 0 : terms == 2 ? 5.2 : 7.2) * unit * size;
+    // Only additions. A single term cannot swap two points, since x - c is monotone.
+    const double terms = taxicab3(scaled_);
+    error_ = 4 * unit * size_;
+    pair_error_ = (terms == 1 ? 0 : terms == 2 ? 5.2 : 7.2) * unit * size_;
+  } else {
+    error_ = 5.1 * unit * size_ + least * ((s[0] + s[1]) + s[2] + 4);
+    pair_error_ = 2 * error_ + unit * size_;
   }
-  offset_ = dot3(scaled, spread.center);
-  offset_error_ = error + 0x1p-49 * size + double_error(scaled, spread.center);
+}
+
+bool SupportPlan::reaches(bool high, double top, double reached) const {
+  if (reached == -kInfinity) return true;
+  const double offset = dot3(scaled_, center_);
+  const double error = error_ + 0x1p-49 * size_ + double_error(scaled_, center_);
+  return !(top + (high ? offset : -offset) + error < reached);
 }
 
 EndSearch SupportPlan::of(bool high, double top, double reached) const {
   if (constant_) return {EndSearch::Kind::every, 0};
   if (overflow_) return {EndSearch::Kind::some, -kInfinity};  // sums say nothing
-  if (top + (high ? offset_ : -offset_) + offset_error_ < reached) return {EndSearch::Kind::none, 0};
+  if (!reaches(high, top, reached)) return {EndSearch::Kind::none, 0};
   const double threshold = top - pair_error_;
   return {EndSearch::Kind::some, is_float_ ? float_down(threshold) : threshold};
 }

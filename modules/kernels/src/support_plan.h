@@ -33,7 +33,7 @@ struct EndSearch {
   double threshold = 0;  ///< A value of the view's scalar type.
 };
 
-/// What follows for the two ends of a direction.
+/// What follows for the two ends of a direction. Keeps the set and the spread.
 class SupportPlan {
  public:
   SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread, ScalarType scalar);
@@ -42,12 +42,16 @@ class SupportPlan {
   EndSearch of(bool high, double top, double reached) const;
 
  private:
+  bool reaches(bool high, double top, double reached) const;
+
+  const Direction& scaled_;
+  const Coordinates& center_;
   bool is_float_;
   bool constant_;
   bool overflow_;
-  double offset_;        // the projection of the centre
-  double offset_error_;  // of a point's rounded projection plus that offset
-  double pair_error_;    // of the difference of two points' rounded projections
+  double size_;        // what a projection of p - center can be
+  double error_;       // of such a projection
+  double pair_error_;  // of the difference of two
 };
 
 /// The valid point with the smallest index: what competes for an end at which all are equal.

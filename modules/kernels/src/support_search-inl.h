@@ -9,6 +9,8 @@
 #define PCL_BV_SUPPORT_SEARCH_INL_H_
 #endif
 
+#include <optional>
+
 #include "lanes-inl.h"
 #include "support_plan.h"
 
@@ -24,9 +26,10 @@ template <Layout layout, typename T>
 void search_ends(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach,
                  const Spread& spread, const ReachedSupports& reached, ReachedSupports* later,
                  ChunkSupports& out) {
+  std::optional<SupportPlan> plan;  // for both ends of a direction
   for (std::size_t end = 0; end < 2 * set.count; ++end) {
-    const SupportPlan plan(set, end / 2, spread, part.scalar);
-    const EndSearch what = plan.of(end % 2 != 0, greatest_reach(reach, end, part.count), reached[end]);
+    if (end % 2 == 0) plan.emplace(set, end / 2, spread, part.scalar);
+    const EndSearch what = plan->of(end % 2 != 0, greatest_reach(reach, end, part.count), reached[end]);
     if (what.kind == EndSearch::Kind::none) continue;
     SupportPoint& best = out.ends[end];
     if (what.kind == EndSearch::Kind::every) {

@@ -193,6 +193,12 @@ double project(const Direction& n, const Coordinates& p, bool up) {
 }  // namespace
 
 int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q) {
+  // Along an axis the coordinates tell: of a wall all points tie.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) continue;
+    const int order = (p[axis] > q[axis]) - (p[axis] < q[axis]);
+    return n[axis] < 0 ? -order : n[axis] > 0 ? order : 0;
+  }
   const Rounded a(n, p);
   const Rounded b(n, q);
   const double difference = a.value() - b.value();
