@@ -9,12 +9,12 @@
 #include <functional>
 #include <limits>
 
+#include "box/symmetric_eigen.h"
 #include "clouds.h"
 #include "exact.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
-#include "smallest_ellipsoid.h"
-#include "symmetric_eigen.h"
+#include "round/smallest_ellipsoid.h"
 
 namespace pcl_bv {
 namespace {
