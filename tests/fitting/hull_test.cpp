@@ -75,7 +75,7 @@ struct Found {
 LocalHull hull_of(const PointView& points, const Execution& execution = {}) {
   const FloatEnvironment environment;
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
-  return local_hull(points, supports, LocalFrame(points, supports), execution);
+  return local_hull(points, supports, LocalFrame(supports), execution);
 }
 
 Hull fit(const PointView& points, const Execution& execution = {}) {

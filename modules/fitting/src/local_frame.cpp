@@ -21,10 +21,10 @@ double unit_scale(double extent) {
   return extent > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(extent), -1000, 1000)) : 1.0;
 }
 
-LocalFrame::LocalFrame(const PointView& points, const Supports& supports)
+LocalFrame::LocalFrame(const Supports& supports)
     : origin_(vector(supports.along[0].low_point.point)),
       extent_(widest_side(supports)),
       scale_(unit_scale(extent_)),
-      kernel_scale_(points.scalar == ScalarType::float64 ? scale_ : 1.0) {}
+      kernel_scale_(supports.points.scalar == ScalarType::float64 ? scale_ : 1.0) {}
 
 }  // namespace pcl_bv

@@ -30,7 +30,7 @@ double unit_scale(double extent);
 class LocalFrame {
  public:
   /// Of a cloud with at least one valid point.
-  LocalFrame(const PointView& points, const Supports& supports);
+  explicit LocalFrame(const Supports& supports);
 
   /// As widest_side() says.
   double extent() const { return extent_; }

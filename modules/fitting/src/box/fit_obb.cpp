@@ -41,7 +41,7 @@ EstimationResult fit_pca(const PointView& points, Obb& box, const Execution& exe
 EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& execution) {
   const Supports supports = find_supports(points, DirectionSet::dop14, SupportDetail::points, execution);
   if (supports.used > 0) {
-    const LocalFrame frame(points, supports);
+    const LocalFrame frame(supports);
     const Eigen::Matrix3d axes = dito_axes(few_points(points, supports, frame), supports, frame);
     const Aabb upright = aabb_of(supports);
     if (!axes.isIdentity(0)) box = measured_box(axes, points, supports, execution);
@@ -53,7 +53,7 @@ EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& 
 EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution& execution) {
   const CloudSummary summary = summarize(points, execution);
   if (summary.supports.used > 0) {
-    const LocalFrame frame(points, summary.supports);
+    const LocalFrame frame(summary.supports);
     box = measured_box(minimal_axes(points, summary, frame, execution), points, summary.supports, execution);
   }
   return summary.result();
@@ -64,7 +64,7 @@ EstimationResult fit_upright(const PointView& points, const ObbOptions& options,
   const Eigen::Vector3d up = unit_up(options.up);
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   if (supports.used > 0) {
-    const LocalFrame frame(points, supports);
+    const LocalFrame frame(supports);
     const auto axes = options.method == ObbMethod::yaw ? yaw_axes : lshape_axes;
     box = measured_box(axes(points, supports, frame, up, execution), points, supports, execution);
   }

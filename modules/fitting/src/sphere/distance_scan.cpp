@@ -7,13 +7,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
+#include <mutex>
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "same_points.h"
 #include "schedule.h"
 
 namespace pcl_bv {
@@ -122,8 +121,8 @@ void DistanceScan::list(const DistanceCenter& center, double limit, Positions& p
   }
 }
 
-// The greatest distance in each octant of all that has been scanned, by any thread. Points nearer than all
-// eight do not matter any more: results do not depend on who raised them when.
+// The farthest point in each octant of all that has been scanned, by any thread. Which chunks find theirs
+// depends on timing, which one is left does not. Points nearer than all eight do not matter any more.
 class DistanceScan::SharedOctants {
  public:
   SharedOctants() {
@@ -148,29 +147,46 @@ class DistanceScan::SharedOctants {
     }
   }
 
+  void compete(const FarPoint& candidate, std::size_t octant) {
+    const std::lock_guard lock(mutex_);
+    if (beats(candidate, points_[octant])) points_[octant] = candidate;
+  }
+
+  void filtered() { chunks_filtered_.fetch_add(1, std::memory_order_relaxed); }
+
+  /// Once all threads are done.
+  const OctantPoints& points() const { return points_; }
+  std::size_t chunks_filtered() const { return chunks_filtered_; }
+
  private:
   std::array<std::atomic<double>, 8> best_;
-};
-
-// The greatest distances in each octant of a chunk's blocks; the points are looked for when all chunks are
-// known.
-struct DistanceScan::ChunkOctants {
-  std::array<std::array<double, 8>, kBlocksPerChunk> blocks;
-  bool filtered;  // whether floats rejected points
+  std::mutex mutex_;
+  OctantPoints points_;
+  std::atomic<std::size_t> chunks_filtered_ = 0;
 };
 
 void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center,
-                              double limit, SharedOctants& best, ChunkOctants& result) {
+                              double limit, SharedOctants& best) {
   OctantScan scan{center, limit, filter_};
+  std::array<std::array<double, 8>, kBlocksPerChunk> greatest;
   const LoadedPoints points = blocks(first, count);
   for (std::size_t b = 0; b < count; ++b) {
     scan.bounds = bounds_ == nullptr ? nullptr : &bounds_[(first + b) * kBlockBounds];
     scan.limit = std::max(limit, best.least());
     scan_octants(isa_, block_of(points.view(), b), scan);
-    result.blocks[b] = scan.greatest;
+    greatest[b] = scan.greatest;
     best.raise(scan.greatest);
   }
-  result.filtered = scan.filter == FloatFilter::reject;
+  if (scan.filter == FloatFilter::reject) best.filtered();
+  // Nothing of a chunk is kept: of a source it would have to be read again, and a billion points have 31 000.
+  for (std::size_t o = 0; o < 8; ++o) {
+    for (std::size_t b = 0; b < count; ++b) {
+      if (greatest[b][o] < 0 || greatest[b][o] < best[o]) continue;
+      FarPoint farthest;
+      find_in_block(isa_, block_of(points.view(), b), center, o, greatest[b][o], filter_, farthest);
+      best.compete(farthest, o);
+    }
+  }
 }
 
 void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
@@ -180,21 +196,12 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
   scanned_ = true;
   first_center_ = center;
   SharedOctants best;
-  SmallVector<ChunkOctants, 1> chunks((blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk);
-  visit_chunks(blocks_, [&](std::size_t chunk, std::size_t first, std::size_t count) {
-    scan_chunk(first, count, center, limit, best, chunks[chunk]);
+  visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
+    scan_chunk(first, count, center, limit, best);
   });
-  for (std::size_t o = 0; o < 8; ++o) {
-    for (std::size_t block = 0; block < blocks_ && best[o] >= 0; ++block) {
-      if (chunks[block / kBlocksPerChunk].blocks[block % kBlocksPerChunk][o] != best[o]) continue;
-      find_in_block(isa_, blocks(block, 1).view(), center, o, best[o], filter_, found[o]);
-    }
-    require_same_points(found[o].squared_distance == best[o]);
-  }
-  const auto filtered =
-      std::count_if(chunks.begin(), chunks.end(), [](const ChunkOctants& c) { return c.filtered; });
+  found = best.points();
   // Where floats reject nothing, all points are near the surface, and bounds do not help either.
-  if (2 * static_cast<std::size_t>(filtered) < chunks.size()) {
+  if (2 * best.chunks_filtered() < (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk) {
     filter_ = FloatFilter::off;
     bounds_.reset();
   }

@@ -11,21 +11,12 @@
 #include <vector>
 
 #include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/point_source.h"
 #include "small_vector.h"
 
 namespace pcl_bv {
-
-/// A point outside, or none (squared_distance < 0).
-struct FarPoint {
-  double squared_distance = -1;
-  std::size_t index = 0;  ///< The cloud's number of the point.
-  Coordinates point{};
-};
-
-/// The farthest point in each octant around a centre.
-using OctantPoints = std::array<FarPoint, 8>;
 
 /// Positions of points in a view. The inline part is for small clusters.
 using Positions = SmallVector<std::size_t, 512>;
@@ -64,16 +55,13 @@ class DistanceScan {
       visit(listed[i], load_point(part.view(), listed[i]));
   }
 
-  /// Of the valid points with a squared distance of at least `limit` the farthest in each octant, of equally
-  /// far ones that with the smallest index. Whether there is any.
-  ///
-  /// For spheres that hardly move between calls: the first one keeps how far every few points reach, and
-  /// later ones look only at those that can have come to reach the limit, if they are few.
+  /// As FarthestPoints says. For spheres that hardly move between calls: the first one keeps how far every
+  /// few points reach, and later ones look only at those that can have come to reach the limit, if they are
+  /// few.
   bool farthest(const DistanceCenter& center, double limit, OctantPoints& found);
 
  private:
   class SharedOctants;
-  struct ChunkOctants;
 
   ParallelPolicy policy(std::size_t expected_blocks) const;
   template <typename Visit>
@@ -81,7 +69,7 @@ class DistanceScan {
   LoadedPoints blocks(std::size_t first, std::size_t count) const;
   void scan_all(const DistanceCenter& center, double limit, OctantPoints& found);
   void scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center, double limit,
-                  SharedOctants& best, ChunkOctants& result);
+                  SharedOctants& best);
   bool list_shell(const DistanceCenter& center, double distance);
   void scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const;
 

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <functional>
 #include <vector>
 
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "sphere/exact_sphere.h"
+#include "sphere/distance_scan.h"
 #include "sphere/growth.h"
 #include "sphere/sphere_seed.h"
 
@@ -107,7 +109,7 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
       find_supports(points, seed_directions(options.method), SupportDetail::points, execution);
   sphere = Sphere();
   if (supports.used > 0) {
-    const LocalFrame frame(points, supports);
+    const LocalFrame frame(supports);
     sphere = frame.extent() > 0 ? grown_sphere(points, options, supports, frame, execution)
                                 : Sphere(vector(supports.along[0].low_point.point), 0.0);
   }
@@ -118,20 +120,11 @@ EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, Sp
                                      const Execution& execution) {
   const FloatEnvironment environment;
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
-  sphere = Sphere();
-  certificate = SphereCertificate();
-  if (supports.used > 0) {
-    const LocalFrame frame(points, supports);
-    if (frame.extent() > 0) {
-      DistanceScan scan(points, execution);
-      sphere = exact_sphere(scan, frame, SeedPoints(supports), certificate);
-    } else {
-      sphere = Sphere(vector(supports.along[0].low_point.point), 0.0);
-      certificate.support_size = 1;
-      certificate.support[0] = supports.along[0].low_point.index;
-      certificate.weights[0] = 1;
-    }
-  }
+  DistanceScan scan(points, execution);
+  const auto farthest = [&scan](const DistanceCenter& center, double limit, OctantPoints& found) {
+    return scan.farthest(center, limit, found);
+  };
+  sphere = smallest_sphere(supports, std::cref(farthest), certificate);
   return result_of(supports);
 }
 

@@ -4,12 +4,15 @@
 // Larsson, Capannini and Kallberg's orthant scan: the exact ball of some points, all points against it, and
 // again with the farthest one outside in each octant, until none is outside.
 
-#include "sphere/exact_sphere.h"
+#include "pcl_bv/fitting/smallest_sphere.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "sphere/sphere_seed.h"
 
 namespace pcl_bv {
 namespace {
@@ -42,10 +45,8 @@ bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
   return added;
 }
 
-}  // namespace
-
-Sphere exact_sphere(DistanceScan& scan, const LocalFrame& frame, SeedPoints candidates,
-                    SphereCertificate& certificate) {
+Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints candidates,
+             SphereCertificate& certificate) {
   Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
   double best_distance = -1;  // squared, of the farthest point
   double kept_bound = -1;     // of the ball when candidates were last dropped
@@ -56,7 +57,7 @@ Sphere exact_sphere(DistanceScan& scan, const LocalFrame& frame, SeedPoints cand
     const Eigen::Vector3d center = frame.global(ball.center);
     const double limit = candidates.greatest_distance(frame.center(center)) * kNotOutside;
     OctantPoints found;
-    const bool outside = scan.farthest(frame.center(center), next_up(limit), found);
+    const bool outside = farthest(frame.center(center), next_up(limit), found);
     ++certificate.passes;
     double distance = limit;
     for (const FarPoint& far : found)
@@ -75,6 +76,30 @@ Sphere exact_sphere(DistanceScan& scan, const LocalFrame& frame, SeedPoints cand
     if (!add_candidates(found, candidates)) break;
   }
   return {best_center, frame.radius(std::sqrt(best_distance) * kOutward)};
+}
+
+}  // namespace
+
+void keep_farthest(const OctantPoints& other, OctantPoints& best) {
+  for (std::size_t o = 0; o < best.size(); ++o) {
+    const double greater = other[o].squared_distance - best[o].squared_distance;
+    if (greater > 0 || (greater == 0 && other[o].index < best[o].index)) best[o] = other[o];
+  }
+}
+
+Sphere smallest_sphere(const Supports& supports, const FarthestPoints& farthest,
+                       SphereCertificate& certificate) {
+  const FloatEnvironment environment;
+  certificate = SphereCertificate();
+  if (supports.used == 0) return {};
+  if (supports.set != DirectionSet::dop26 || supports.detail != SupportDetail::points)
+    throw std::invalid_argument("smallest_sphere: supports must be along dop26, with points");
+  const LocalFrame frame(supports);
+  if (frame.extent() > 0) return solve(farthest, frame, SeedPoints(supports), certificate);
+  certificate.support_size = 1;
+  certificate.support[0] = supports.along[0].low_point.index;
+  certificate.weights[0] = 1;
+  return {vector(supports.along[0].low_point.point), 0.0};
 }
 
 }  // namespace pcl_bv
