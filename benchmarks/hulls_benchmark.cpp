@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "hull_triangles.h"
+#include "hull/hull_triangles.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "rows.h"
 

@@ -3,7 +3,7 @@
 
 // The internals behind upright and minimal boxes, against slow judges.
 
-#include "flat_box.h"
+#include "box/flat_box.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "planar_hull.h"
+#include "hull/planar_hull.h"
 
 namespace pcl_bv {
 namespace {

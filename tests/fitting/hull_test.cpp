@@ -15,12 +15,12 @@
 #include "clouds.h"
 #include "exact.h"
 #include "executions.h"
-#include "inner_polytope.h"
-#include "local_hull.h"
+#include "hull/inner_polytope.h"
+#include "hull/local_hull.h"
+#include "hull/reach_tree.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "reach_tree.h"
 
 namespace pcl_bv {
 namespace {

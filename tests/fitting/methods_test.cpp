@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "clouds.h"
-#include "hull_fit.h"
+#include "hull/hull_fit.h"
 #include "pcl_bv/numeric/directions.h"
 
 namespace pcl_bv {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planar_hull.h"
+#include "hull/planar_hull.h"
 
 #include <gtest/gtest.h>
 

@@ -11,14 +11,14 @@
 #include <limits>
 #include <set>
 
-#include "axis_search.h"
+#include "box/symmetric_eigen.h"
 #include "clouds.h"
 #include "directions.h"
 #include "exact.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
-#include "smallest_ellipsoid.h"
-#include "symmetric_eigen.h"
+#include "round/axis_search.h"
+#include "round/smallest_ellipsoid.h"
 
 namespace pcl_bv {
 namespace {

@@ -15,11 +15,11 @@
 #include "allocations.h"
 #include "clouds.h"
 #include "exact.h"
-#include "exact_sphere.h"
 #include "executions.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "sphere/exact_sphere.h"
 
 namespace pcl_bv {
 namespace {

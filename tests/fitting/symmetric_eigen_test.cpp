@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "symmetric_eigen.h"
+#include "box/symmetric_eigen.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rewrites a source so that one program holds all its mutants, each of which the environment can wake."""
 import hashlib
+import re
 from typing import NamedTuple
 
 from points import points_in
@@ -33,6 +34,7 @@ class Arm(NamedTuple):
 def mutants_of(text, path):
     """Lists of mutants by slot: [(slot, [Mutant])], in order."""
     finder = Finder(text)
+    home = re.sub("(?<=/src/).*/", "", path)  # which folder below src a file lies in changes no mutant
     seen = {}
     result = []
     for slot in finder.slots():
@@ -44,7 +46,7 @@ def mutants_of(text, path):
         seen[key] = ordinal = seen.get(key, -1) + 1
         made = []
         for point in points:
-            place = f"{path}|{slot.function}|{original}|{ordinal}|{point.index - slot.first}"
+            place = f"{home}|{slot.function}|{original}|{ordinal}|{point.index - slot.first}"
             draw = int(hashlib.sha256(place.encode()).hexdigest(), 16)
             replacement = point.options[draw % len(point.options)]
             identity = hashlib.sha256(f"{place}|{replacement}".encode()).hexdigest()[:16]

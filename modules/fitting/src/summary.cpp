@@ -18,7 +18,7 @@
 #include "point_rank.h"
 #include "schedule.h"
 #include "summarize_bounds.h"
-#include "support_search.h"
+#include "support/support_search.h"
 
 namespace pcl_bv {
 namespace {

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Upright boxes: of least area, or close to the points (Zhang, Xu, Dong, Dolan 2017).
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "box/flat_box.h"
+#include "box/obb_axes.h"
+#include "box/outline.h"
+#include "pcl_bv/numeric/constants.h"
+#include "same_points.h"
+
+namespace pcl_bv {
+namespace {
+
+// As directions: a quarter turn as t goes from 0 to 1, without a sine, which libraries round differently.
+Eigen::Vector2d direction(double t) {
+  const double x = 1 - t, length = std::sqrt(x * x + t * t);
+  return {x / length, t / length};
+}
+
+constexpr std::size_t kCoarseSteps = 20;  // 3 to 6 degrees apart
+constexpr std::size_t kCoarsePoints = 512;
+constexpr std::size_t kFinePoints = 4096;
+constexpr int kStarts = 3;
+constexpr int kHalvings = 7;  // to 0.02 to 0.05 degrees
+
+// Sides count as equally near below this part of the rectangle's diagonal: 12 cm for a car.
+constexpr double kNear = 1.0 / 40;
+
+// Points from above, every so many of the cloud, in floats: they only choose an angle.
+struct Sample {
+  Sample(const PointView& points, const Supports& supports, const LocalFrame& frame, const Ground& ground,
+         const Eigen::Vector2d& origin, std::size_t size) {
+    const std::size_t step = std::max<std::size_t>(1, (points.count + size - 1) / size);
+    for (std::size_t i = 0; i < points.count; i += step) {
+      const Coordinates p = load_point(LoadedPoints(points, i, 1).view(), 0);
+      if (!is_valid(p)) continue;
+      require_same_points(within(supports, p));
+      const Eigen::Vector2d at = ground.flat(frame.local(p)) - origin;
+      x.push_back(static_cast<float>(at.x()));
+      y.push_back(static_cast<float>(at.y()));
+    }
+  }
+
+  std::vector<float> x, y;
+};
+
+// The sum over the points of 1 / max(d, near)^2, d their distance to the nearest side.
+class Closeness {
+ public:
+  Closeness(const Outline& outline, double diagonal)
+      : outline_(outline),
+        origin_(outline[0]),
+        near_(static_cast<float>((diagonal * kNear) * (diagonal * kNear))) {}
+
+  double operator()(const Sample& sample, const Eigen::Vector2d& side) const {
+    const Sides sides = sides_along(side);
+    using Lanes = Eigen::Array<float, 8, 1>;
+    const auto term = [&](const auto& x, const auto& y) -> Lanes {
+      const Lanes u = sides.x * x + sides.y * y, v = sides.x * y - sides.y * x;
+      const Lanes across = (u - sides.left).min(sides.right - u),
+                  along = (v - sides.bottom).min(sides.top - v);
+      const Lanes d = across.min(along);
+      return (d * d).max(near_).inverse();
+    };
+    Lanes sum = Lanes::Zero();
+    const std::size_t whole = sample.x.size() / 8 * 8;
+    for (std::size_t i = 0; i < whole; i += 8)
+      sum += term(Eigen::Map<const Lanes>(&sample.x[i]), Eigen::Map<const Lanes>(&sample.y[i]));
+    double total = 0;
+    for (const float s : sum)
+      total += s;
+    for (std::size_t i = whole; i < sample.x.size(); ++i)
+      total += term(Lanes::Constant(sample.x[i]), Lanes::Constant(sample.y[i]))[0];
+    return total;
+  }
+
+ private:
+  struct Sides {
+    float x, y, left, right, bottom, top;
+  };
+
+  Sides sides_along(const Eigen::Vector2d& side) const {
+    double left = kInfinity, right = -kInfinity, bottom = kInfinity, top = -kInfinity;
+    for (const Eigen::Vector2d& corner : outline_) {
+      const Eigen::Vector2d p = corner - origin_;
+      const double u = side.x() * p.x() + side.y() * p.y(), v = side.x() * p.y() - side.y() * p.x();
+      left = std::min(left, u);
+      right = std::max(right, u);
+      bottom = std::min(bottom, v);
+      top = std::max(top, v);
+    }
+    const auto f = [](double d) { return static_cast<float>(d); };
+    return {f(side.x()), f(side.y()), f(left), f(right), f(bottom), f(top)};
+  }
+
+  const Outline& outline_;
+  Eigen::Vector2d origin_;
+  float near_;
+};
+
+struct Turn {
+  double t;
+  double closeness;
+};
+
+// Ever smaller steps to either side, kept where they come closer.
+Turn refined(Turn best, const Closeness& closeness, const Sample& sample) {
+  best.closeness = closeness(sample, direction(best.t));
+  double step = 0.5 / static_cast<double>(kCoarseSteps);
+  for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
+    const double middle = best.t;
+    for (const double shifted : {middle - step, middle + step}) {
+      const double t = shifted < 0 ? shifted + 1 : shifted >= 1 ? shifted - 1 : shifted;
+      const double value = closeness(sample, direction(t));
+      if (value > best.closeness) best = {t, value};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
+                         const Eigen::Vector3d& up, const Execution& execution) {
+  const Ground ground(up);
+  const Outline outline = outline_from_above(points, supports, frame, ground, execution);
+  return ground.axes_along(least_rectangle(outline.data(), outline.size()).side);
+}
+
+Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
+                            const Eigen::Vector3d& up, const Execution& execution) {
+  const Ground ground(up);
+  const Outline outline = outline_from_above(points, supports, frame, ground, execution);
+  const FlatBox rectangle = least_rectangle(outline.data(), outline.size());
+  if (outline.size() < 3) return ground.axes_along(rectangle.side);
+  const Closeness closeness(outline, rectangle.diagonal);
+  const Sample coarse(points, supports, frame, ground, outline[0], kCoarsePoints);
+  std::array<Turn, kCoarseSteps> turns;
+  for (std::size_t k = 0; k < kCoarseSteps; ++k) {
+    const double t = static_cast<double>(k) / static_cast<double>(kCoarseSteps);
+    turns[k] = {t, closeness(coarse, direction(t))};
+  }
+  std::stable_sort(turns.begin(), turns.end(),
+                   [](const Turn& a, const Turn& b) { return a.closeness > b.closeness; });
+  const Sample fine(points, supports, frame, ground, outline[0], kFinePoints);
+  Turn best{0, -1};
+  for (std::size_t k = 0; k < kStarts; ++k) {
+    const Turn turn = refined(turns[k], closeness, fine);
+    if (turn.closeness > best.closeness) best = turn;
+  }
+  return ground.axes_along(direction(best.t));
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Cyclic sweeps; three to six are enough.
+
+#include "box/symmetric_eigen.h"
+
+#include <cmath>
+#include <utility>
+
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv {
+namespace {
+
+// Zeroes a(p, q).
+void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
+  if (a(p, q) == 0) return;
+  const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));
+  const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+  const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+  for (int k = 0; k < 3; ++k) {
+    const double x = a(k, p), y = a(k, q);
+    a(k, p) = c * x - s * y;
+    a(k, q) = s * x + c * y;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const double x = a(p, k), y = a(q, k);
+    a(p, k) = c * x - s * y;
+    a(q, k) = s * x + c * y;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const double x = v(k, p), y = v(k, q);
+    v(k, p) = c * x - s * y;
+    v(k, q) = s * x + c * y;
+  }
+}
+
+}  // namespace
+
+SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix) {
+  Eigen::Matrix3d a = matrix, v = Eigen::Matrix3d::Identity();
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    const double off = (std::abs(a(0, 1)) + std::abs(a(0, 2))) + std::abs(a(1, 2));
+    const double on = (std::abs(a(0, 0)) + std::abs(a(1, 1))) + std::abs(a(2, 2));
+    if (!(off > 0x1p-70 * on)) break;
+    rotate(a, v, 0, 1);
+    rotate(a, v, 0, 2);
+    rotate(a, v, 1, 2);
+  }
+  int order[3] = {0, 1, 2};
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2 - i; ++j) {
+      if (a(order[j], order[j]) < a(order[j + 1], order[j + 1])) std::swap(order[j], order[j + 1]);
+    }
+  }
+  SymmetricEigen result;
+  for (int k = 0; k < 3; ++k) {
+    result.values[k] = a(order[k], order[k]);
+    result.vectors.col(k) = v.col(order[k]);
+  }
+  result.vectors.col(0) = unit3(result.vectors.col(0));
+  const Eigen::Vector3d first = result.vectors.col(0), second = result.vectors.col(1);
+  result.vectors.col(1) = unit3(second - dot3(first, second) * first);
+  result.vectors.col(2) = cross3(first, result.vectors.col(1));
+  return result;
+}
+
+}  // namespace pcl_bv

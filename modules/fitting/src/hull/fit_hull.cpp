@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// From the local hull to the volume: normals of its faces, and offsets that hold every point.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "hull/hull_fit.h"
+#include "hull/reach_tree.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "schedule.h"
+
+namespace pcl_bv {
+namespace {
+
+using Normals = std::vector<Eigen::Vector3d>;
+
+// Nothing for vectors that have no direction.
+void add_unit(const Eigen::Vector3d& v, Normals& normals) {
+  const double length = norm3(v);
+  if (length > 0) normals.push_back((v / length).array() + 0.0);
+}
+
+void add_both(const Eigen::Vector3d& v, Normals& normals) {
+  add_unit(v, normals);
+  add_unit(-v, normals);
+}
+
+// Of the faces; of a flat hull of both sides along each flat direction, then of the edges.
+Normals normals_of(const LocalHull& hull) {
+  Normals normals;
+  const auto at = [&](std::int32_t i) { return hull.vertices[static_cast<std::size_t>(i)].local; };
+  for (const Triangle& t : hull.triangles)
+    add_unit((at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])), normals);
+  for (int k = 2; k >= hull.rank && hull.rank < 3; --k)
+    add_both(hull.axes.col(k), normals);
+  if (hull.rank == 1) add_both(hull.axes.col(0), normals);
+  if (hull.rank == 2) {
+    const auto corners = static_cast<std::int32_t>(hull.vertices.size());
+    for (std::int32_t i = 0; i < corners; ++i)
+      add_unit((at((i + 1) % corners) - at(i)).cross(hull.axes.col(2)), normals);
+  }
+  return normals;
+}
+
+// Equal ones once, in the order of their first appearance.
+void drop_repeated(Normals& normals) {
+  std::vector<std::size_t> order(normals.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = i;
+  const auto key = [&](std::size_t i) {
+    return std::make_tuple(normals[i].x(), normals[i].y(), normals[i].z(), i);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
+  const auto equal = [&](std::size_t i, std::size_t j) { return normals[i] == normals[j]; };
+  order.erase(std::unique(order.begin(), order.end(), equal), order.end());
+  std::sort(order.begin(), order.end());
+  Normals kept;
+  for (const std::size_t i : order)
+    kept.push_back(normals[i]);
+  normals = std::move(kept);
+}
+
+// The vertices, and should rounding have lost the one that reaches farthest along an axis, that one, too.
+std::vector<Eigen::Vector3d> vertices_of(const LocalHull& hull, const Supports& supports) {
+  std::vector<Eigen::Vector3d> vertices;
+  Aabb box;
+  const auto add = [&](const Coordinates& p) {
+    vertices.push_back(vector(p));
+    box.extend(vertices.back());
+  };
+  for (const HullPoint& v : hull.vertices)
+    add(v.point);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    if (box.min()[k] > supports.along[axis].low) add(supports.along[axis].low_point.point);
+    if (box.max()[k] < supports.along[axis].high) add(supports.along[axis].high_point.point);
+  }
+  return vertices;
+}
+
+// By the hundred: some 10 us each where a surface is smooth.
+template <typename Measure>
+void for_each_plane(const Execution& execution, std::size_t planes, const Measure& measure) {
+  constexpr std::size_t kTogether = 100;
+  const ParallelPolicy policy = worthwhile(execution, Work::hull_plane, planes);
+  for_each_chunk(policy, (planes + kTogether - 1) / kTogether, [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    for (std::size_t i = kTogether * chunk; i < std::min(kTogether * (chunk + 1), planes); ++i)
+      measure(i);
+  });
+}
+
+}  // namespace
+
+EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution) {
+  hull = Hull();
+  return fit_on_hull(
+      points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports& supports) {
+        Normals normals = normals_of(local);
+        drop_repeated(normals);
+        const ReachTree tree(local.candidates, normals.size());
+        std::vector<HullPlane> planes(normals.size());
+        const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
+        for_each_plane(execution, normals.size(), measure);
+        hull = Hull(vertices_of(local, supports), local.triangles, std::move(planes), local.rank);
+      });
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Why a point that passes is inside: the triangles form a closed surface, and the exact volume that the point
+// spans with each of them is positive. So each is seen under a positive solid angle, their sum is 4 pi or a
+// multiple, and the surface winds around the point; what a surface winds around is in the hull of its
+// vertices. Whether Qhull's triangles are the hull, or convex at all, does not matter.
+
+#include "hull/inner_polytope.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "hull/hull_triangles.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv {
+namespace {
+
+struct Corners {
+  std::vector<Coordinates> points;
+  std::vector<Eigen::Vector3d> local;
+};
+
+Corners distinct_extremes(const Supports& supports, const LocalFrame& frame) {
+  Corners corners;
+  for (std::size_t k = 0; k < direction_count(supports.set); ++k) {
+    for (const SupportPoint& extreme : {supports.along[k].low_point, supports.along[k].high_point}) {
+      const Eigen::Vector3d p = frame.local(extreme.point);
+      if (std::find(corners.local.begin(), corners.local.end(), p) != corners.local.end()) continue;
+      corners.points.push_back(extreme.point);
+      corners.local.push_back(p);
+    }
+  }
+  return corners;
+}
+
+// What half_spaces.h computes with: numbers of the points' own type.
+struct Scalar {
+  explicit Scalar(ScalarType type) : is_float(type == ScalarType::float32) {}
+
+  bool is_float;
+  double unit() const { return is_float ? 0x1p-24 : kU; }
+  double least() const {
+    return is_float ? 0x1p-140 : 0x1p-1000;
+  }  // more than what products may underflow by
+
+  double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }
+  double down(double x) const { return is_float ? static_cast<double>(float_down(x)) : x; }
+
+  // Where squares of lengths of a cloud neither over- nor underflow.
+  bool squares(double extent) const {
+    return is_float ? extent > 1e-15 && extent < 1e18 : extent > 1e-140 && extent < 1e140;
+  }
+};
+
+Coordinates middle(const Corners& corners, const LocalFrame& frame, const Scalar& scalar) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : corners.local)
+    sum += p;
+  const Eigen::Vector3d c = frame.global(sum / static_cast<double>(corners.local.size()));
+  return {scalar.nearest(c.x()), scalar.nearest(c.y()), scalar.nearest(c.z())};
+}
+
+// Local coordinates of 2 at most are off by 4 U (U = 2^-53), edges by 12 U, the components of their product m
+// by 112 U, and the rounded unit normal n by 112 U / |m| + 2 u, with u of the scalar type. For a point p of
+// the cloud, whose widest extent is D, n . (p - a) is then off by 3 D times that, n . (p - c) as the kernel
+// rounds it by 16 u D, n . (a - c) by 24 U D: less than D (512 U / |m| + 64 u) together.
+HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinates& center, double extent,
+                     const Scalar& scalar) {
+  const auto at = [&](std::size_t i) { return corners.local[static_cast<std::size_t>(t[i])]; };
+  const Eigen::Vector3d m = (at(1) - at(0)).cross(at(2) - at(0));
+  const double length = norm3(m);
+  HalfSpace h{scalar.nearest(m.x() / length), scalar.nearest(m.y() / length), scalar.nearest(m.z() / length),
+              0};
+  const Coordinates& a = corners.points[static_cast<std::size_t>(t[0])];
+  const double reach = (h.x * (a.x - center.x) + h.y * (a.y - center.y)) + h.z * (a.z - center.z);
+  const double doubt = extent * (0x1p-44 / length + 64 * scalar.unit()) + scalar.least();
+  h.limit = scalar.down(reach - doubt);  // NaN if the triangle has no area: then nothing is inside
+  return h;
+}
+
+}  // namespace
+
+HalfSpaces inner_polytope(const PointView& points, const Supports& supports, const LocalFrame& frame) {
+  HalfSpaces result;
+  const Corners corners = distinct_extremes(supports, frame);
+  if (corners.points.size() < 4) return result;
+  const std::vector<Triangle> triangles = hull_triangles(corners.local);
+  if (triangles.empty() || triangles.size() > kMaxHalfSpaces) return result;
+  const Scalar scalar(points.scalar);
+  result.center = middle(corners, frame, scalar);
+  double ball = kInfinity;
+  for (const Triangle& t : triangles) {
+    const HalfSpace h = half_space(corners, t, result.center, frame.extent(), scalar);
+    if (!(h.limit > 0)) return {};  // too flat for the centre to be inside: it would pay little
+    ball = std::min(ball, h.limit);
+    result.planes[result.count++] = h;
+  }
+  // In the ball n . (p - c) is below each limit by a 2^-9th, as kernels round it, too.
+  if (scalar.squares(frame.extent())) result.squared_ball = scalar.down(ball * ball * (1 - 0x1p-8));
+  return result;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The convex hull as other fits use it: few points instead of many, in coordinates of about 1.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hull/hull_triangles.h"
+#include "local_frame.h"
+#include "pcl_bv/fitting/execution.h"
+#include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "point_rank.h"
+
+namespace pcl_bv {
+
+/// A point of the cloud, as it is stored and in local coordinates.
+struct HullPoint {
+  Coordinates point;
+  Eigen::Vector3d local;
+  std::size_t index;  ///< The cloud's number of the point.
+};
+
+/// The span is that of the candidates, its rank that of the points.
+struct LocalHull : Span {
+  /// Rank 3: ascending by position in the view; 2: the corners of a polygon, counter-clockwise seen from
+  /// where axes.col(2) points; 1: the two ends; 0: one point.
+  std::vector<HullPoint> vertices;
+
+  /// Numbers of vertices, counter-clockwise seen from outside. Rank 3 only, and even then none if Qhull
+  /// fails.
+  std::vector<Triangle> triangles;
+
+  /// All points that are not proven to be strictly inside the hull of others. Every valid point of the cloud
+  /// is, by exact arithmetic, in the hull of these: a convex set that holds them holds the cloud, and a
+  /// convex function is greatest on one of them. Ascending by position in the view.
+  std::vector<HullPoint> candidates;
+
+  /// A point along the axes, in units of what the candidates reach along each: coordinates of about 1 in
+  /// which no cloud is thin.
+  Eigen::Vector3d spread(const Eigen::Vector3d& local) const {
+    const Eigen::Vector3d q = local - candidates.front().local;
+    return Eigen::Vector3d(dot3(axes.col(0), q), dot3(axes.col(1), q), dot3(axes.col(2), q))
+        .cwiseQuotient(reach);
+  }
+};
+
+/// For a cloud with at least one valid point; `supports` are those along dop26, with points. The same bits
+/// for every execution. `vertices` and `triangles` are the hull up to rounding (hull_triangles.h);
+/// `candidates` are exact. Needs a FloatEnvironment. O(n) for the points inside the polytope of the extremal
+/// ones, O(m log m) for the m others.
+LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
+                     const Execution& execution);
+
+}  // namespace pcl_bv

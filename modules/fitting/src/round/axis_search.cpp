@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Compass search in the plane that touches the sphere of directions.
+
+#include "round/axis_search.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "across.h"
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv {
+namespace {
+
+struct Rated {
+  double size;
+  Eigen::Vector3d axis;
+};
+
+// Components 0, +-1, +-2, none a multiple of another: 49, no direction farther than 15 degrees from one of
+// them.
+std::vector<Eigen::Vector3d> hemisphere() {
+  std::vector<Eigen::Vector3d> axes;
+  for (int a = 0; a <= 2; ++a) {
+    for (int b = -2; b <= 2; ++b) {
+      for (int c = -2; c <= 2; ++c) {
+        const bool upper = a > 0 || b > 0 || (b == 0 && c > 0);
+        const bool reduced = a % 2 != 0 || b % 2 != 0 || c % 2 != 0;
+        if (upper && reduced) axes.push_back(unit3(Eigen::Vector3d(a, b, c)));
+      }
+    }
+  }
+  return axes;
+}
+
+// Moves to the best of eight neighbours while one is better, then halves the step and turns the pattern by
+// what 3/5, 4/5 make, so that ridges along it do not hold for long.
+void improve(Rated& best, double step, double last_step,
+             const std::function<double(const Eigen::Vector3d&)>& size) {
+  constexpr int kMostMoves = 400;
+  double c = 1, s = 0;
+  for (int moves = 0; step > last_step && moves < kMostMoves;) {
+    const Across across(best.axis);
+    Rated found = best;
+    for (int k = 0; k < 8; ++k) {
+      static constexpr double x[] = {1, -1, 0, 0, 0.7, -0.7, 0.7, -0.7},
+                              y[] = {0, 0, 1, -1, 0.7, -0.7, -0.7, 0.7};
+      const double right = step * (c * x[k] - s * y[k]), up = step * (s * x[k] + c * y[k]);
+      const Eigen::Vector3d axis = unit3(best.axis + (right * across.u + up * across.v));
+      const double rated = size(axis);
+      if (rated < found.size) found = {rated, axis};
+    }
+    if (found.size < best.size) {
+      best = found;
+      ++moves;
+    } else {
+      step /= 2;
+      const double turned = 0.6 * c - 0.8 * s;
+      s = 0.8 * c + 0.6 * s;
+      c = turned;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<bool> essential(const std::vector<Eigen::Vector3d>& points) {
+  constexpr std::size_t kMany = 1000;
+  std::vector<bool> taken(points.size(), points.size() <= kMany);
+  if (points.size() <= kMany) return taken;
+  for (const Eigen::Vector3d& axis : hemisphere()) {
+    std::size_t low = 0, high = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (dot3(axis, points[i]) < dot3(axis, points[low])) low = i;
+      if (dot3(axis, points[i]) > dot3(axis, points[high])) high = i;
+    }
+    taken[low] = taken[high] = true;
+  }
+  return taken;
+}
+
+std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull) {
+  std::vector<Eigen::Vector3d> all, chosen;
+  for (const HullPoint& v : hull.vertices)
+    all.push_back(v.local);
+  const std::vector<bool> taken = essential(all);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (taken[i]) chosen.push_back(all[i]);
+  }
+  return chosen;
+}
+
+Eigen::Vector3d search_axis(const LocalHull& hull,
+                            const std::function<double(const Eigen::Vector3d&)>& size) {
+  constexpr std::size_t kStarts = 4;
+  const std::vector<Eigen::Vector3d> spread = hemisphere();
+  std::vector<Rated> rated;
+  rated.reserve(3 + spread.size());
+  for (int k = 0; k < 3; ++k)
+    rated.push_back({size(hull.axes.col(k)), hull.axes.col(k)});
+  for (const Eigen::Vector3d& axis : spread)
+    rated.push_back({size(axis), axis});
+  std::stable_sort(rated.begin(), rated.end(),
+                   [](const Rated& a, const Rated& b) { return a.size < b.size; });
+  rated.resize(kStarts);
+  for (Rated& start : rated)
+    improve(start, 0x1p-3, 0x1p-7, size);
+  Rated best = *std::min_element(rated.begin(), rated.end(),
+                                 [](const Rated& a, const Rated& b) { return a.size < b.size; });
+  improve(best, 0x1p-7, 0x1p-27, size);
+  return best.axis;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The search for the axis of a cylinder or capsule: some all around, the best of them improved.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "hull/local_hull.h"
+
+namespace pcl_bv {
+
+/// Which of the points are farthest along one of 49 directions, or all where there are not thousands.
+std::vector<bool> essential(const std::vector<Eigen::Vector3d>& points);
+
+/// Local coordinates of the vertices, or where there are thousands, of those that are essential:
+/// the search needs no more, as what it finds is measured on all points.
+std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull);
+
+/// A unit vector at which `size`, which is the same for opposite ones, is small: the best of 49 directions
+/// over the hemisphere and of the hull's own axes, moved by ever smaller steps while that helps. Neither libm
+/// nor chance has a part in it.
+Eigen::Vector3d search_axis(const LocalHull& hull, const std::function<double(const Eigen::Vector3d&)>& size);
+
+}  // namespace pcl_bv

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Chunks of blocks; results by chunk, merged in order.
+
+#include "sphere/distance_scan.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "same_points.h"
+#include "schedule.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t kBlocksPerChunk = 32;
+
+// With so few blocks, each is likely to hold a point on the sphere, which float arithmetic cannot reject.
+constexpr std::size_t kFewBlocks = 4;
+
+// Room for the rounding of distances and of their sums, of which there are a few dozen at most.
+constexpr double kRoundUp = 1 + 0x1p-44;
+constexpr double kRoundDown = 1 - 0x1p-44;
+
+double distance_up(const DistanceCenter& a, const DistanceCenter& b) {
+  return std::sqrt(squared_distance({a.x, a.y, a.z}, b)) * kRoundUp;
+}
+
+bool beats(const FarPoint& a, const FarPoint& b) {
+  if (a.squared_distance != b.squared_distance) return a.squared_distance > b.squared_distance;
+  return a.squared_distance >= 0 && a.index < b.index;
+}
+
+// The block's points of that octant and distance compete for `best`.
+void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& center, std::size_t in_octant,
+                   double squared, FloatFilter filter, FarPoint& best) {
+  std::array<std::uint32_t, kBlockPoints> positions;
+  const std::size_t count = list_distant(isa, block, center, squared, filter, positions.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Coordinates p = load_point(block, positions[i]);
+    if (octant(p, center) != in_octant) continue;
+    const FarPoint candidate{squared_distance(p, center), block.index(positions[i]), p};
+    if (beats(candidate, best)) best = candidate;
+  }
+}
+
+}  // namespace
+
+DistanceScan::DistanceScan(const PointView& points, const Execution& execution)
+    : points_(points),
+      parallel_(execution.parallel),
+      isa_(execution.isa),
+      filter_(FloatFilter::off),
+      blocks_(block_count(points.count)) {
+  if (points.scalar == ScalarType::float32 && blocks_ > kFewBlocks) filter_ = FloatFilter::reject;
+}
+
+bool DistanceScan::serial() const {
+  return thread_count(policy(blocks_)) == 1;
+}
+
+LoadedPoints DistanceScan::blocks(std::size_t first, std::size_t count) const {
+  const std::size_t begin = first * kBlockPoints;
+  return {points_, begin, std::min(count * kBlockPoints, points_.count - begin)};
+}
+
+ParallelPolicy DistanceScan::policy(std::size_t expected) const {
+  return worthwhile({parallel_, isa_}, Work::distance, expected * kBlockPoints);
+}
+
+// visit(chunk, first block, number of blocks) for all chunks; `expected` blocks are looked at in them.
+template <typename Visit>
+void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const {
+  const std::size_t chunks = (blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk;
+  for_each_chunk(policy(expected), chunks, [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    const std::size_t first = chunk * kBlocksPerChunk;
+    visit(chunk, first, std::min(kBlocksPerChunk, blocks_ - first));
+  });
+}
+
+void DistanceScan::bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const {
+  bounds.resize(blocks_);
+  visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
+    block_distances(isa_, blocks(first, count).view(), center, limit, filter_, bounds.data() + first);
+  });
+}
+
+double DistanceScan::greatest(const DistanceCenter& center, double at_least) const {
+  BlockNumbers found;
+  bound(center, at_least, found);
+  // Below at_least, a block's entry may be only a bound.
+  return std::max(at_least, *std::max_element(found.begin(), found.end()));
+}
+
+void DistanceScan::list(const DistanceCenter& center, double limit, Positions& positions) const {
+  const auto list_block = [&](std::size_t block, Positions& found) {
+    visit_block(block, center, limit,
+                [&](std::size_t i, const Coordinates&) { found.push_back(block * kBlockPoints + i); });
+  };
+  if (blocks_ <= kBlocksPerChunk) {
+    for (std::size_t block = 0; block < blocks_; ++block)
+      list_block(block, positions);
+    return;
+  }
+  std::vector<std::vector<std::size_t>> lists((blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk);
+  visit_chunks(blocks_, [&](std::size_t chunk, std::size_t first, std::size_t count) {
+    Positions found;
+    for (std::size_t block = first; block < first + count; ++block)
+      list_block(block, found);
+    lists[chunk].assign(found.begin(), found.end());
+  });
+  for (const auto& part : lists) {
+    for (const std::size_t position : part)
+      positions.push_back(position);
+  }
+}
+
+// The greatest distance in each octant of all that has been scanned, by any thread. Points nearer than all
+// eight do not matter any more: results do not depend on who raised them when.
+class DistanceScan::SharedOctants {
+ public:
+  SharedOctants() {
+    for (std::atomic<double>& b : best_)
+      b.store(-1, std::memory_order_relaxed);
+  }
+
+  double least() const {
+    double least = kInfinity;
+    for (const std::atomic<double>& b : best_)
+      least = std::min(least, b.load(std::memory_order_relaxed));
+    return least;
+  }
+
+  double operator[](std::size_t octant) const { return best_[octant].load(std::memory_order_relaxed); }
+
+  void raise(const std::array<double, 8>& greatest) {
+    for (std::size_t o = 0; o < 8; ++o) {
+      double known = (*this)[o];
+      while (greatest[o] > known && !best_[o].compare_exchange_weak(known, greatest[o])) {
+      }
+    }
+  }
+
+ private:
+  std::array<std::atomic<double>, 8> best_;
+};
+
+// The greatest distances in each octant of a chunk's blocks; the points are looked for when all chunks are
+// known.
+struct DistanceScan::ChunkOctants {
+  std::array<std::array<double, 8>, kBlocksPerChunk> blocks;
+  bool filtered;  // whether floats rejected points
+};
+
+void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const DistanceCenter& center,
+                              double limit, SharedOctants& best, ChunkOctants& result) {
+  OctantScan scan{center, limit, filter_};
+  const LoadedPoints points = blocks(first, count);
+  for (std::size_t b = 0; b < count; ++b) {
+    scan.bounds = bounds_ == nullptr ? nullptr : &bounds_[(first + b) * kBlockBounds];
+    scan.limit = std::max(limit, best.least());
+    scan_octants(isa_, block_of(points.view(), b), scan);
+    result.blocks[b] = scan.greatest;
+    best.raise(scan.greatest);
+  }
+  result.filtered = scan.filter == FloatFilter::reject;
+}
+
+void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
+  // Written whole by the kernel: no need to clear it. Points of a source come past in each scan anyway.
+  if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr)
+    bounds_.reset(new float[blocks_ * kBlockBounds]);
+  scanned_ = true;
+  first_center_ = center;
+  SharedOctants best;
+  SmallVector<ChunkOctants, 1> chunks((blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk);
+  visit_chunks(blocks_, [&](std::size_t chunk, std::size_t first, std::size_t count) {
+    scan_chunk(first, count, center, limit, best, chunks[chunk]);
+  });
+  for (std::size_t o = 0; o < 8; ++o) {
+    for (std::size_t block = 0; block < blocks_ && best[o] >= 0; ++block) {
+      if (chunks[block / kBlocksPerChunk].blocks[block % kBlocksPerChunk][o] != best[o]) continue;
+      find_in_block(isa_, blocks(block, 1).view(), center, o, best[o], filter_, found[o]);
+    }
+    require_same_points(found[o].squared_distance == best[o]);
+  }
+  const auto filtered =
+      std::count_if(chunks.begin(), chunks.end(), [](const ChunkOctants& c) { return c.filtered; });
+  // Where floats reject nothing, all points are near the surface, and bounds do not help either.
+  if (2 * static_cast<std::size_t>(filtered) < chunks.size()) {
+    filter_ = FloatFilter::off;
+    bounds_.reset();
+  }
+}
+
+// Lists the points that matter, now and to spheres that move an eighth as far again. False if they are not
+// few.
+bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
+  if (bounds_ == nullptr) return false;
+  const double moved = distance_up(center, first_center_);
+  shell_.clear();
+  shell_center_ = center;
+  shell_distance_ = distance - moved / 8;
+  const double least = (shell_distance_ - moved) * kRoundDown;
+  if (!(least > 0)) return false;
+  KeptBounds kept{first_center_, nullptr, least * least * kRoundDown};
+  const double limit = shell_distance_ * shell_distance_ * kRoundDown;
+  std::array<std::uint32_t, kBlockPoints> positions;
+  for (std::size_t block = 0; block < blocks_; ++block) {
+    kept.bounds = &bounds_[block * kBlockBounds];
+    const std::size_t count =
+        list_reaching(isa_, blocks(block, 1).view(), kept, center, limit, positions.data());
+    for (std::size_t i = 0; i < count; ++i)
+      shell_.push_back(block * kBlockPoints + positions[i]);
+    if (shell_.size() > 64 + points_.count / 16) return false;
+  }
+  return true;
+}
+
+void DistanceScan::scan_shell(const DistanceCenter& center, double limit, OctantPoints& found) const {
+  for (const std::size_t i : shell_) {
+    const Coordinates p = load_point(points_, i);
+    const double squared = squared_distance(p, center);
+    if (!(squared >= limit) || !is_valid(p)) continue;
+    const FarPoint candidate{squared, points_.index(i), p};
+    FarPoint& best = found[octant(p, center)];
+    if (beats(candidate, best)) best = candidate;
+  }
+}
+
+bool DistanceScan::farthest(const DistanceCenter& center, double limit, OctantPoints& found) {
+  const double distance = std::sqrt(limit) * kRoundDown;
+  found = {};
+  // What is not in the shell can have come to shell_distance_ and the way of the centre together.
+  listed_ = listed_ && (shell_distance_ + distance_up(center, shell_center_)) * kRoundUp < distance;
+  listed_ = listed_ || (scanned_ && list_shell(center, distance));
+  if (listed_) {
+    scan_shell(center, limit, found);
+  } else {
+    scan_all(center, limit, found);
+  }
+  return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
+}
+
+}  // namespace pcl_bv

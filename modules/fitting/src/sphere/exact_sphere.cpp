@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Larsson, Capannini and Kallberg's orthant scan: the exact ball of some points, all points against it, and
+// again with the farthest one outside in each octant, until none is outside.
+
+#include "sphere/exact_sphere.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pcl_bv/numeric/directed.h"
+
+namespace pcl_bv {
+namespace {
+
+// A squared distance that is greater by less than this is not greater: half is the rounding of the distances,
+// half that of the ball.
+constexpr double kNotOutside = 1 + 0x1p-48;
+
+// More candidates than this, and those that do not support the ball are dropped.
+constexpr std::size_t kManyCandidates = 120;
+
+// The radius is stated with room for the rounding of the weights, of the bound itself and of local
+// coordinates.
+void certify(const SmallBall& ball, const SeedPoints& candidates, const LocalFrame& frame,
+             SphereCertificate& certificate) {
+  certificate.support_size = ball.support_size;
+  certificate.weights = ball.weights;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(ball.support_size); ++i)
+    certificate.support[i] = candidates[ball.support[i]].index;
+  certificate.lower_bound =
+      frame.length_down(std::sqrt(std::max(0.0, ball.squared_lower_bound)) * (1 - 0x1p-48));
+}
+
+// Adds the points found outside; false if all of them were candidates already.
+bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
+  bool added = false;
+  for (const FarPoint& far : found) {
+    if (far.squared_distance >= 0 && candidates.add(far.index, far.point)) added = true;
+  }
+  return added;
+}
+
+}  // namespace
+
+Sphere exact_sphere(DistanceScan& scan, const LocalFrame& frame, SeedPoints candidates,
+                    SphereCertificate& certificate) {
+  Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
+  double best_distance = -1;  // squared, of the farthest point
+  double kept_bound = -1;     // of the ball when candidates were last dropped
+  SmallBall ball;
+  for (;;) {
+    ball = candidates.smallest_ball(frame, &ball);
+    certify(ball, candidates, frame, certificate);
+    const Eigen::Vector3d center = frame.global(ball.center);
+    const double limit = candidates.greatest_distance(frame.center(center)) * kNotOutside;
+    OctantPoints found;
+    const bool outside = scan.farthest(frame.center(center), next_up(limit), found);
+    ++certificate.passes;
+    double distance = limit;
+    for (const FarPoint& far : found)
+      distance = std::max(distance, far.squared_distance);
+    if (best_distance < 0 || distance < best_distance) {
+      best_distance = distance;
+      best_center = center;
+    }
+    // Each pass adds a point or is the last; points are only dropped once the ball has grown.
+    if (!outside) break;
+    if (candidates.size() > kManyCandidates) {
+      if (!(ball.squared_lower_bound > kept_bound)) break;
+      kept_bound = ball.squared_lower_bound;
+      candidates.keep_support(ball);
+    }
+    if (!add_candidates(found, candidates)) break;
+  }
+  return {best_center, frame.radius(std::sqrt(best_distance) * kOutward)};
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Ritter's sphere, EPOS (Larsson 2008) and the smallest one: a first ball of few points, then what the method
+// does about those outside.
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <vector>
+
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/supports.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "sphere/exact_sphere.h"
+#include "sphere/growth.h"
+#include "sphere/sphere_seed.h"
+
+namespace pcl_bv {
+namespace {
+
+DirectionSet seed_directions(SphereMethod method) {
+  switch (method) {
+    case SphereMethod::ritter:
+    case SphereMethod::epos6:
+      return DirectionSet::dop6;
+    case SphereMethod::epos14:
+      return DirectionSet::dop14;
+    default:
+      return DirectionSet::dop26;
+  }
+}
+
+struct FirstBall {
+  Eigen::Vector3d center;
+  double squared_radius;  // as the kernels measure
+};
+
+// Half-way between the ends of the axis whose ends are farthest apart.
+FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
+  FirstBall ball{Eigen::Vector3d::Zero(), -1};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Coordinates& low = supports.along[axis].low_point.point;
+    const Coordinates& high = supports.along[axis].high_point.point;
+    const Eigen::Vector3d center = frame.global((frame.local(low) + frame.local(high)) / 2);
+    const DistanceCenter from = frame.center(center);
+    const double squared = std::max(squared_distance(low, from), squared_distance(high, from));
+    if (squared > ball.squared_radius) ball = {center, squared};
+  }
+  return ball;
+}
+
+// Types (0,1,2), (1,1,2) and (1,2,2) of Larsson 2008 in all places and signs, of opposite ones one: 36.
+std::vector<std::array<double, 3>> epos98_directions() {
+  std::vector<std::array<double, 3>> directions;
+  for (int a = 0; a <= 2; ++a) {
+    for (int b = -2; b <= 2; ++b) {
+      for (int c = -2; c <= 2; ++c) {
+        const int ones = (a == 1) + (std::abs(b) == 1) + (std::abs(c) == 1);
+        const int twos = (a == 2) + (std::abs(b) == 2) + (std::abs(c) == 2);
+        const bool first_positive = a > 0 || b > 0 || (b == 0 && c > 0);
+        if (twos > 0 && ones > 0 && ones + twos >= 2 && first_positive) {
+          directions.push_back({static_cast<double>(a), static_cast<double>(b), static_cast<double>(c)});
+        }
+      }
+    }
+  }
+  return directions;
+}
+
+// EPOS of no more points than it has ends of directions is the ball of all of them (Larsson 2008).
+FirstBall epos_ball(const PointView& points, SphereMethod method, const Supports& supports,
+                    const LocalFrame& frame, const Execution& execution) {
+  const std::size_t ends = method == SphereMethod::epos98 ? 98 : 2 * direction_count(supports.set);
+  const bool few = points.count <= ends;
+  SeedPoints seeds = few ? SeedPoints(points, supports) : SeedPoints(supports);
+  if (method == SphereMethod::epos98 && !few) {
+    static const std::vector<std::array<double, 3>> directions = epos98_directions();
+    for (const Support& along : find_supports(points, directions, execution).along) {
+      seeds.add(along.low_point.index, along.low_point.point);
+      seeds.add(along.high_point.index, along.high_point.point);
+    }
+  }
+  const Eigen::Vector3d center = frame.global(seeds.smallest_ball(frame).center);
+  return {center, seeds.greatest_distance(frame.center(center))};
+}
+
+Sphere grown_sphere(const PointView& points, const SphereOptions& options, const Supports& supports,
+                    const LocalFrame& frame, const Execution& execution) {
+  const FirstBall ball = options.method == SphereMethod::ritter
+                             ? ritter_ball(supports, frame)
+                             : epos_ball(points, options.method, supports, frame, execution);
+  const DistanceScan scan(points, execution);
+  return grow_sphere(scan, frame, ball.center, ball.squared_radius, options.growth);
+}
+
+}  // namespace
+
+EstimationResult fit_sphere(const PointView& points, const SphereOptions& options, Sphere& sphere,
+                            const Execution& execution) {
+  if (options.method == SphereMethod::exact) {
+    SphereCertificate certificate;
+    return fit_smallest_sphere(points, sphere, certificate, execution);
+  }
+  const FloatEnvironment environment;
+  const Supports supports =
+      find_supports(points, seed_directions(options.method), SupportDetail::points, execution);
+  sphere = Sphere();
+  if (supports.used > 0) {
+    const LocalFrame frame(points, supports);
+    sphere = frame.extent() > 0 ? grown_sphere(points, options, supports, frame, execution)
+                                : Sphere(vector(supports.along[0].low_point.point), 0.0);
+  }
+  return result_of(supports);
+}
+
+EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
+                                     const Execution& execution) {
+  const FloatEnvironment environment;
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
+  sphere = Sphere();
+  certificate = SphereCertificate();
+  if (supports.used > 0) {
+    const LocalFrame frame(points, supports);
+    if (frame.extent() > 0) {
+      DistanceScan scan(points, execution);
+      sphere = exact_sphere(scan, frame, SeedPoints(supports), certificate);
+    } else {
+      sphere = Sphere(vector(supports.along[0].low_point.point), 0.0);
+      certificate.support_size = 1;
+      certificate.support[0] = supports.along[0].low_point.index;
+      certificate.weights[0] = 1;
+    }
+  }
+  return result_of(supports);
+}
+
+}  // namespace pcl_bv

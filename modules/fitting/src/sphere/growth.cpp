@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Ritter's step for one point after another (Ritter 1990, Larsson 2008), in the orders of the paper's §5.
+
+#include "sphere/growth.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_bv {
+namespace {
+
+// A sphere that only grows. Each one holds, by exact arithmetic, the one before, so that points once inside
+// stay inside.
+class GrowingSphere {
+ public:
+  GrowingSphere(const LocalFrame& frame, const Eigen::Vector3d& center, double squared_radius)
+      : frame_(frame), center_(center), radius_(std::sqrt(squared_radius) * kOutward) {}
+
+  DistanceCenter center() const { return frame_.center(center_); }
+
+  // Squared distances below this one do not make it grow.
+  double squared_radius() const { return radius_ * radius_ * (1 - 0x1p-50); }
+
+  // The sphere through p and the far side of the old one, with what rounding may have moved. A point that is
+  // inside by exact arithmetic never does anything, so it does not matter which of them are asked.
+  void grow(const Coordinates& p) {
+    const double d = std::sqrt(squared_distance(p, center()));
+    if (!(d > radius_ * kInside)) return;
+    const double grown = (d + radius_) / 2;
+    const Eigen::Vector3d old = center_;
+    center_ = old + (d - grown) / d * (vector(p) - old);
+    const double moved = std::sqrt(squared_distance({old.x(), old.y(), old.z()}, center())) * kOutward;
+    const double reach = std::sqrt(squared_distance(p, center())) * kOutward;
+    radius_ = std::max({grown, (moved + radius_) * kOutward, reach});
+  }
+
+  // With the margin for points that kInside let pass.
+  Sphere finish() const { return {center_, frame_.radius(radius_ * kOutward)}; }
+
+ private:
+  static constexpr double kInside = 1 + 0x1p-50;
+
+  const LocalFrame& frame_;
+  Eigen::Vector3d center_;
+  double radius_;  // in the kernels' unit
+};
+
+void grow_over_block(const DistanceScan& scan, std::size_t block, GrowingSphere& sphere) {
+  scan.visit_block(block, sphere.center(), sphere.squared_radius(),
+                   [&](std::size_t, const Coordinates& p) { sphere.grow(p); });
+}
+
+void grow_in_order(const DistanceScan& scan, GrowingSphere& sphere) {
+  for (std::size_t block = 0; block < block_count(scan.points().count); ++block)
+    grow_over_block(scan, block, sphere);
+}
+
+// The blocks that the first sphere leaves points of outside are found in parallel; then it grows over what
+// grown spheres still leave outside of them: in the end, of the collected points those that matter.
+void grow_over_marked_blocks(const DistanceScan& scan, GrowingSphere& sphere) {
+  const double limit = sphere.squared_radius();
+  BlockNumbers bounds;
+  scan.bound(sphere.center(), limit, bounds);
+  for (std::size_t block = 0; block < bounds.size(); ++block) {
+    if (bounds[block] >= limit) grow_over_block(scan, block, sphere);
+  }
+}
+
+// An index list may name the points in any order.
+void grow_by_index(const DistanceScan& scan, GrowingSphere& sphere) {
+  const PointView& points = scan.points();
+  Positions outside;
+  scan.list(sphere.center(), sphere.squared_radius(), outside);
+  std::sort(outside.begin(), outside.end(),
+            [&](std::size_t a, std::size_t b) { return points.index(a) < points.index(b); });
+  for (const std::size_t i : outside)
+    sphere.grow(load_point(points, i));
+}
+
+bool ascending(const PointView& points) {
+  return points.indices == nullptr || std::is_sorted(points.indices, points.indices + points.count);
+}
+
+}  // namespace
+
+Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eigen::Vector3d& center,
+                   double squared_radius, SphereGrowth growth) {
+  if (growth == SphereGrowth::stationary) {
+    const double greatest = scan.greatest(frame.center(center), squared_radius);
+    return {center, frame.radius(std::sqrt(greatest) * kOutward)};
+  }
+  GrowingSphere sphere(frame, center, squared_radius);
+  if (growth == SphereGrowth::deferred && !ascending(scan.points())) {
+    grow_by_index(scan, sphere);
+  } else if (growth == SphereGrowth::deferred && !scan.serial()) {
+    grow_over_marked_blocks(scan, sphere);
+  } else {
+    grow_in_order(scan, sphere);  // gives the same bits as the deferred ways, and is faster in one thread
+  }
+  return sphere.finish();
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// EXPANDSPHERE of the paper: a first sphere grows over the points that it leaves outside.
+#pragma once
+
+#include "local_frame.h"
+#include "pcl_bv/fitting/fit.h"
+#include "sphere/distance_scan.h"
+
+namespace pcl_bv {
+
+/// Grows the sphere of `center` and `squared_radius` (a measure of the kernels) until it holds every valid
+/// point by exact arithmetic.
+Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eigen::Vector3d& center,
+                   double squared_radius, SphereGrowth growth);
+
+}  // namespace pcl_bv

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Chunks over the cores, merged exactly.
+
+#include "pcl_bv/fitting/supports.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "map_chunks.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "point_rank.h"
+#include "schedule.h"
+#include "support/support_search.h"
+
+namespace pcl_bv {
+namespace {
+
+// Whether all directions of a set are among those that were searched, with what is asked of them.
+bool holds(const Supports& known, DirectionSet set, SupportDetail detail) {
+  const bool directions = known.set == set || known.set == DirectionSet::dop26 || set == DirectionSet::dop6;
+  return directions && (known.detail == SupportDetail::points || detail == SupportDetail::bounds);
+}
+
+// The same with fewer directions.
+Supports part_of(const Supports& known, DirectionSet set) {
+  Supports part = known;
+  part.set = set;
+  if (known.set != DirectionSet::dop26) return part;
+  for (std::size_t k = 0; k < direction_count(set); ++k)
+    part.along[k] = known.along[cube_direction(set, k)];
+  return part;
+}
+
+Supports find_bounds(const PointView& points, const Execution& execution) {
+  Supports supports = no_bounds(points);
+  map_chunks<AxisExtents>(
+      points, worthwhile(execution, Work::box, points.count),
+      [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
+      [&](const AxisExtents& part) { merge_bounds(part, supports); });
+  finish_bounds(supports);
+  return supports;
+}
+
+Supports find_points(const PointView& points, DirectionSet set, const Execution& execution) {
+  SupportSearch search(execution.isa, SupportDirections::of(set), points.count);
+  search.run(points, execution);
+  return of_search(search, set, points);
+}
+
+}  // namespace
+
+void require_own_supports(const PointView& points, const Execution& execution) {
+  if (execution.supports != nullptr && !same_places(execution.supports->points, points))
+    throw std::invalid_argument("Execution::supports are those of other points");
+}
+
+SupportSearch::SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points)
+    : isa_(isa), directions_(directions), shared_(chunk_count(points) > 1) {
+  for (std::size_t end = 0; end < 2 * directions.count; ++end)
+    reached_[end].store(-kInfinity, std::memory_order_relaxed);
+}
+
+ChunkSupports SupportSearch::find(const PointView& chunk) {
+  ReachedSupports reached = nothing_reached();
+  for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end)
+    reached[end] = reached_[end].load(std::memory_order_relaxed);
+  ChunkSupports found;
+  chunk_supports(isa_, chunk, directions_, reached, found);
+  for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end) {
+    if (!found.ends[end].found) continue;
+    const double reach = surely_reached(directions_, end, found.ends[end].point);
+    while (reached[end] < reach &&
+           !reached_[end].compare_exchange_weak(reached[end], reach, std::memory_order_relaxed)) {
+    }
+  }
+  return found;
+}
+
+void SupportSearch::merge(const ChunkSupports& part) {
+  all_.dropped += part.dropped;
+  for (std::size_t end = 0; end < 2 * directions_.count; ++end)
+    keep_farther(directions_.end_direction(end), part.ends[end], all_.ends[end]);
+}
+
+void SupportSearch::run(const PointView& points, const Execution& execution) {
+  const Work work = directions_.cube ? Work::cube_support : Work::own_support;
+  map_chunks<ChunkSupports>(
+      points, worthwhile(execution, work, directions_.count * points.count),
+      [&](const PointView& chunk) { return find(chunk); }, [&](const ChunkSupports& part) { merge(part); });
+}
+
+Support SupportSearch::along(std::size_t k) const {
+  const SupportPoint &low = all_.ends[2 * k], &high = all_.ends[2 * k + 1];
+  const Direction& n = directions_.exact[k];
+  return {project_down(n, low.point), project_up(n, high.point), low, high};
+}
+
+Supports of_search(const SupportSearch& search, DirectionSet set, const PointView& points) {
+  Supports supports;
+  supports.set = set;
+  supports.detail = SupportDetail::points;
+  supports.points = points;
+  supports.dropped = search.dropped();
+  supports.used = points.count - supports.dropped;
+  for (std::size_t k = 0; k < direction_count(set) && supports.used > 0; ++k)
+    supports.along[k] = search.along(k);
+  return supports;
+}
+
+Supports no_bounds(const PointView& points) {
+  Supports supports;
+  supports.points = points;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    supports.along[axis] = {kInfinity, -kInfinity, {}, {}};
+  return supports;
+}
+
+void merge_bounds(const AxisExtents& part, Supports& supports) {
+  supports.dropped += part.dropped;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Support& along = supports.along[axis];
+    along.low = std::min(along.low, part.low[axis]);
+    along.high = std::max(along.high, part.high[axis]);
+  }
+}
+
+void finish_bounds(Supports& supports) {
+  supports.used = supports.points.count - supports.dropped;
+  if (supports.used == 0) supports.along = {};
+}
+
+Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
+                       const Execution& execution) {
+  const FloatEnvironment environment;
+  require_own_supports(points, execution);
+  if (execution.supports != nullptr && holds(*execution.supports, set, detail))
+    return part_of(*execution.supports, set);
+  const bool bounds = set == DirectionSet::dop6 && detail == SupportDetail::bounds;
+  Supports supports = bounds ? find_bounds(points, execution) : find_points(points, set, execution);
+  supports.rank = point_rank(points, supports, execution);
+  return supports;
+}
+
+OwnSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
+                          const Execution& execution) {
+  const FloatEnvironment environment;
+  require_own_supports(points, execution);
+  if (directions.empty()) throw std::invalid_argument("find_supports: no directions");
+  SupportDirections set;
+  for (const Direction& direction : directions)
+    set.add(direction);
+  SupportSearch search(execution.isa, set, points.count);
+  search.run(points, execution);
+  OwnSupports result{points.count - search.dropped(), search.dropped(), {}};
+  for (std::size_t k = 0; k < directions.size() && result.used > 0; ++k)
+    result.along.push_back(search.along(k));
+  return result;
+}
+
+Aabb aabb_of(const Supports& supports) {
+  if (supports.used == 0) return {};
+  const Support &x = supports.along[0], &y = supports.along[1], &z = supports.along[2];
+  return {{x.low, y.low, z.low}, {x.high, y.high, z.high}};
+}
+
+Kdop kdop_of(const Supports& supports) {
+  const std::shared_ptr<const KdopSet>& set = KdopSet::of(supports.set);
+  if (supports.used == 0) return Kdop(set);
+  SlabVector low(static_cast<Eigen::Index>(set->size())), high = low;
+  for (std::size_t k = 0; k < set->size(); ++k) {
+    low[static_cast<Eigen::Index>(k)] = supports.along[k].low;
+    high[static_cast<Eigen::Index>(k)] = supports.along[k].high;
+  }
+  return {set, low, high};
+}
+
+EstimationResult result_of(const Supports& supports) {
+  const EstimationStatus status = supports.used == 0   ? EstimationStatus::no_valid_points
+                                  : supports.rank == 3 ? EstimationStatus::ok
+                                                       : EstimationStatus::degenerate;
+  return {status, supports.rank, supports.used, supports.dropped, {}};
+}
+
+}  // namespace pcl_bv
