@@ -179,6 +179,19 @@ TEST(Obb, LShapeFindsTheSidesOfAnLThatTheLeastAreaMisses) {
   EXPECT_GT(yaw_misses, 10) << "the cases are too easy";
 }
 
+TEST(Obb, LShapeFindsTheSidesOfAnLOfSevenPointsInAnyCornerOfTheBox) {
+  for (int corner = 0; corner < 4; ++corner) {
+    const Matrix3d turn = yaw_turn(0.3 + corner * 1.5707963267948966);
+    TestCloud<double> cloud{"seven points", {}};
+    for (const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(1.5, 0, 0), Vector3d(3, 0, 0), Vector3d(4, 0, 1),
+                              Vector3d(0, 1, 0), Vector3d(0, 1.5, 0), Vector3d(0, 2, 0)}) {
+      for (const double c : Vector3d(turn * p))
+        cloud.xyz.push_back(c);
+    }
+    EXPECT_LT(misalignment(fit(cloud, ObbMethod::lshape), turn), 0.05) << corner;
+  }
+}
+
 TEST(Obb, MinimalIsNoGreaterThanTheOthers) {
   constexpr double rounding = 1 + 1e-9;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {

@@ -258,6 +258,17 @@ TEST(Hull, FacesAreClosedVerticesAreTheCloudsAndTheBoxIsExact) {
   }
 }
 
+// Not a square's, whose edges turned by a right angle are edges again.
+TEST(Hull, OfATriangleEndsAtItsEdges) {
+  const TestCloud<double> cloud{"triangle", {0, 0, 0, 8, 0, 0, 0, 6, 0}};
+  const Hull hull = fit(cloud.view());
+  for (const auto& [x, y] : {std::pair{4.0, 3.0}, {4.0, 0.0}, {0.0, 3.0}}) {
+    const Eigen::Vector3d edge(x, y, 0), inside(2, 2, 0);
+    EXPECT_TRUE(hull.contains(edge + 0x1p-20 * (inside - edge))) << edge.transpose();
+    EXPECT_FALSE(hull.contains(edge - 0x1p-20 * (inside - edge))) << edge.transpose();
+  }
+}
+
 TEST(Hull, PlanesTouchTheirFaces) {
   const TestCloud<float> cloud = test::gaussian<float>(3000, 8, 20, 5e6);
   const Hull hull = fit(cloud.view());

@@ -56,6 +56,16 @@ TEST(Methods, EachGivesTheShapeItSays) {
   }
 }
 
+TEST(Methods, UprightAreThoseThatUpTurns) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(100, 1);
+  for (const Method& method : methods()) {
+    AnyVolume upright, lying;
+    method.fit(cloud.view(), upright, {}, {SphereGrowth::deferred, Eigen::Vector3d::UnitZ()});
+    method.fit(cloud.view(), lying, {}, {SphereGrowth::deferred, Eigen::Vector3d(1, 2, 3)});
+    EXPECT_EQ(!(upright == lying), method.upright) << method.name;
+  }
+}
+
 TEST(Methods, OfNothingHaveNoRank) {
   const float nan[] = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
   for (const Method& method : methods()) {

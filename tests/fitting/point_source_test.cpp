@@ -190,6 +190,18 @@ TEST(PointSource, ABoxTakesOnePassAndASphereTwo) {
   EXPECT_LE(source.loads.exchange(0), chunks + 1 + (kCount + kBlockPoints - 1) / kBlockPoints);
 }
 
+TEST(PointSource, ABoxOfPointsFlatAcrossAnAxisTakesOnePassToo) {
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    test::TestCloud<float> cloud = test::gaussian<float>(kCount, 7);
+    for (std::size_t i = 0; i < kCount; ++i)
+      cloud.xyz[3 * i + axis] = 5;
+    const CopyingSource<float> source(cloud);
+    AnyVolume volume;
+    EXPECT_EQ(find_method("aabb")->fit(source.view(), volume, {}).rank, 2);
+    EXPECT_EQ(source.loads, chunk_count(kCount) + 1) << axis;
+  }
+}
+
 TEST(PointSource, APartOfAViewIsThatPart) {
   const test::TestCloud<double> cloud = test::gaussian<double>(kCount, 8);
   const CopyingSource<double> source(cloud);

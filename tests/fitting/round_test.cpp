@@ -6,14 +6,18 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <functional>
 #include <limits>
+#include <set>
 
 #include "box/symmetric_eigen.h"
 #include "clouds.h"
+#include "directions.h"
 #include "exact.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
+#include "round/axis_search.h"
 #include "round/smallest_ellipsoid.h"
 
 namespace pcl_bv {
@@ -174,6 +178,15 @@ TEST(Ellipsoid, ItsCertificateProvesThatItIsNearlyTheSmallest) {
   }
 }
 
+TEST(Ellipsoid, OfOnePointHasItWithWeightOne) {
+  const TestCloud<float> cloud{"one", {1, 2, 3}};
+  Ellipsoid ellipsoid;
+  EllipsoidCertificate certificate;
+  fit_ellipsoid(cloud.view(), ellipsoid, certificate);
+  EXPECT_EQ(certificate.support, std::vector<std::size_t>{0});
+  EXPECT_EQ(certificate.weights, std::vector<double>{1});
+}
+
 TEST(Ellipsoid, OfTwoHalfSpheresApartIsWithinItsTolerance) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Ellipsoid ellipsoid;
@@ -273,6 +286,33 @@ TEST(RoundFits, OfFlatFloatPointsAreFlat) {
 }
 TEST(RoundFits, OfFlatDoublePointsAreFlat) {
   expect_flat_results<double>();
+}
+
+TEST(AxisSearch, LooksAtAllOfFewVertices) {
+  LocalHull hull;
+  for (int i = 0; i < 3; ++i)
+    hull.vertices.push_back({{}, Eigen::Vector3d::Unit(i), 0});
+  EXPECT_EQ(essential_vertices(hull),
+            (std::vector<Eigen::Vector3d>{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
+                                          Eigen::Vector3d::UnitZ()}));
+}
+
+TEST(AxisSearch, LooksAtThoseOfManyPointsThatReachFarthestAlongEachOf49Directions) {
+  Random random(12);
+  std::vector<Eigen::Vector3d> points(2000);
+  for (Eigen::Vector3d& p : points)
+    p = random.direction();
+  const std::vector<bool> taken = essential(points);
+  std::set<std::size_t> expected;
+  for (const auto& [x, y, z] : test::integer_directions()) {
+    const Eigen::Vector3d d(x, y, z);
+    const auto less = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.dot(d) < b.dot(d); };
+    const auto [low, high] = std::minmax_element(points.begin(), points.end(), less);
+    expected.insert(
+        {static_cast<std::size_t>(low - points.begin()), static_cast<std::size_t>(high - points.begin())});
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_EQ(taken[i], expected.count(i) == 1) << "seed 12, " << i;
 }
 
 TEST(RoundFits, OfNothingAreEmpty) {

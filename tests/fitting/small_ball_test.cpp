@@ -194,6 +194,7 @@ TEST(SmallBall, StartsFromABallOfSomeOfThePoints) {
 TEST(SmallBall, OfNoPointIsEmpty) {
   Points none;
   EXPECT_LT(smallest_ball(none.data(), none.size()).squared_radius, 0);
+  EXPECT_EQ(smallest_ball(none.data(), none.size()).squared_lower_bound, 0);
 }
 
 // Walking solvers stop for ever on this one: three points almost on a line, one beside them.

@@ -18,6 +18,8 @@
 #include "executions.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "sphere/exact_sphere.h"
 
 namespace pcl_bv {
 namespace {
@@ -122,6 +124,35 @@ TEST(SmallestSphere, IsProvenOptimalByItsCertificate) {
   for (const TestCloud<double>& cloud : test::nasty_clouds<double>()) {
     SCOPED_TRACE(cloud.name + ", double");
     expect_certified(cloud.view());
+  }
+}
+
+TEST(SmallestSphere, OfOnePointIsCertifiedByItWithoutAPass) {
+  const TestCloud<float> cloud{"one", {1, 2, 3}};
+  Sphere sphere;
+  SphereCertificate certificate;
+  fit_smallest_sphere(cloud.view(), sphere, certificate);
+  EXPECT_EQ(certificate.support_size, 1);
+  EXPECT_EQ(certificate.weights[0], 1);
+  EXPECT_EQ(certificate.passes, 0);
+}
+
+// So many that most are dropped before those outside are added, which fits of clouds hardly come to.
+TEST(SmallestSphere, FromManyPointsToBeginWithIsProvenOptimalToo) {
+  const FloatEnvironment environment;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const TestCloud<double> cloud = test::gaussian<double>(3000, seed);
+    const PointView points = cloud.view(), first = points.slice(0, 150);
+    const auto supports_of = [](const PointView& view) {
+      return find_supports(view, DirectionSet::dop26, SupportDetail::points, {});
+    };
+    const LocalFrame frame(points, supports_of(points));
+    DistanceScan scan(points, {});
+    SphereCertificate certificate;
+    const Sphere sphere = exact_sphere(scan, frame, SeedPoints(first, supports_of(first)), certificate);
+    EXPECT_GT(certificate.passes, 1) << "seed " << seed;
+    EXPECT_LE(sphere.radius(), certificate.lower_bound * (1 + 1e-12)) << "seed " << seed;
+    EXPECT_EQ(verify(sphere, points).outside, 0u) << "seed " << seed;
   }
 }
 

@@ -214,6 +214,11 @@ TEST(Supports, RankIsThatOfThePointsAlongWhateverDirections) {
   EXPECT_EQ(rank({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, DirectionSet::dop26), 3);
 }
 
+TEST(Supports, OfNoCloudAreThoseOfNothing) {
+  EXPECT_EQ(result_of(Supports()).status, EstimationStatus::no_valid_points);
+  EXPECT_EQ(result_of(Supports()).rank, 0);
+}
+
 TEST(Supports, AnUnusableInstructionSetIsAnError) {
   const TestCloud<float> cloud = test::gaussian<float>(10, 1);
   const Isa foreign =

@@ -50,6 +50,10 @@ TEST(SymmetricEigen, ValuesDecrease) {
   }
 }
 
+TEST(SymmetricEigen, OfEqualValuesTheAxesKeepTheirOrder) {
+  EXPECT_EQ(symmetric_eigen(Eigen::Matrix3d::Identity()).vectors, Eigen::Matrix3d::Identity());
+}
+
 TEST(SymmetricEigen, VectorsAreARightHandedFrame) {
   for (const Eigen::Matrix3d& m : matrices()) {
     const Eigen::Matrix3d v = symmetric_eigen(m).vectors;

@@ -30,6 +30,17 @@ TEST(Verify, CountsPointsThatAreOneDoubleOutside) {
   EXPECT_EQ(result.worst, 0x1p-53);
 }
 
+TEST(Verify, DecidesBoxesThatRoundingCannotTell) {
+  const Obb box(Aabb({-1, -1, -1}, {1, 1, 1}));
+  for (const double sign : {-1.0, 1.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d on = sign * Eigen::Vector3d::Unit(axis), beyond = (1 + 0x1p-52) * on;
+      EXPECT_EQ(verify(box, PointView::of(on.data(), 24, 1)).outside, 0U) << on.transpose();
+      EXPECT_EQ(verify(box, PointView::of(beyond.data(), 24, 1)).outside, 1U) << on.transpose();
+    }
+  }
+}
+
 TEST(Verify, DecidesSlabsThatRoundingCannotTell) {
   // x + y - z is exactly 1, which double arithmetic computes as 0.
   const double p[] = {1e20, 1, 1e20};

@@ -247,6 +247,18 @@ TEST_P(DistanceParity, FloatRejectsWhatIsClearlyInside) {
   }
 }
 
+TEST_P(DistanceParity, TheFilterComesBackOffWhereFloatsRejectLittleAndOnlyThere) {
+  const TestCloud<float> cloud = test::gaussian<float>(kBlockPoints, 3);
+  OctantScan all{{}, 0, FloatFilter::reject};
+  scan_octants(GetParam(), cloud.view(), all);
+  // The reference has no floats that could reject.
+  EXPECT_EQ(all.filter, GetParam() == Isa::scalar ? FloatFilter::reject : FloatFilter::off);
+  const double greatest = run(Isa::scalar, cloud.view(), {}, 0, FloatFilter::off)[0];
+  OctantScan farthest{{}, greatest, FloatFilter::reject};
+  scan_octants(GetParam(), cloud.view(), farthest);
+  EXPECT_EQ(farthest.filter, FloatFilter::reject);
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryUsableSet, DistanceParity, testing::ValuesIn(usable_isas()),
                          [](const auto& param) { return std::string(isa_name(param.param)); });
 

@@ -82,6 +82,14 @@ TEST(HalfSpaces, WhatIsNotFiniteIsOutsideAndWithoutPlanesAllIs) {
   }
 }
 
+TEST(HalfSpaces, OfZerosHasNothingInside) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(100, 2);
+  HalfSpaces zeros;
+  zeros.count = 1;
+  for (const Isa isa : usable_isas())
+    EXPECT_EQ(outside(isa, cloud.view(), zeros).size(), 100u) << isa_name(isa);
+}
+
 TEST(HalfSpaces, AnIndexListIsFollowed) {
   const test::TestCloud<float> cloud = test::gaussian<float>(500, 3);
   std::vector<std::int32_t> indices;

@@ -283,6 +283,18 @@ TEST_P(OwnSupports, DoublesBeyondTheLimitAreDropped) {
   EXPECT_EQ(run(GetParam(), cloud.view(), set_of({{1, 1, 1}})).dropped, 3U);
 }
 
+TEST_P(OwnSupports, DoublesHardlyBeyondTheLimitAreDroppedAlsoNearTheCentre) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      SCOPED_TRACE(testing::Message() << "axis " << axis << ", sign " << sign);
+      TestCloud<double> cloud{"limit", std::vector<double>(3 * 60, 1)};
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        cloud.xyz[3 * i + axis] = sign * (i == 7 ? 1.01e100 : 0.99e100);
+      expect_definition(cloud.view(), test::nasty_directions());
+    }
+  }
+}
+
 TEST_P(OwnSupports, OfDoublesAreRightWhereProductsVanish) {
   for (const double scale : {1e-300, 1e-310, 1e-322, 1e-160, 1e95}) {
     SCOPED_TRACE(testing::Message() << "scale " << scale);

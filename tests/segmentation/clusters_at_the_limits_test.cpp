@@ -120,6 +120,22 @@ TEST(ClustersAtTheLimits, AreExactWhereTheSquareOfTheToleranceIsAFewSmallestFloa
   }
 }
 
+TEST(ClustersAtTheLimits, AreExactWherePointsOfOneCellAreApart) {
+  // The tolerance squared is two of the smallest floats, and squares of most of a cell's side are rounded up
+  // to one.
+  const float r = 5.29e-23F, near = 6e-25F, far = 2.96e-23F, middle = 1.5e-23F, below = -3e-24F;
+  EXPECT_EQ(cluster(Cloud<float>{{near, near, middle}, {far, far, middle}, {far, far, below}}, r),
+            (ClusterList{{1, 2}, {0}}));
+  for (int axis = 0; axis < 3; ++axis) {
+    Cloud<float> cloud{{near, near, middle}, {far, far, middle}, {far, far, below}};
+    for (auto& p : cloud)
+      std::swap(p[axis], p[2]);
+    expect_exact(cloud, r);
+    std::swap(cloud[0], cloud[1]);
+    expect_exact(cloud, r);
+  }
+}
+
 TEST(ClustersAtTheLimits, AreExactWhereAllMagnitudesMeet) {
   std::mt19937 random(15);
   std::uniform_real_distribution<float> exponent(-126.F, 127.F);

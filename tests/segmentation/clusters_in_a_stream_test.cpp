@@ -111,4 +111,33 @@ TEST(ClustersInAStream, TakeNoMemoryInTheSecondPass) {
   }
 }
 
+// Two full cells that are compared point by point, if they are neighbours, and lone points for more than one
+// thread.
+Cloud<float> with_two_full_cells(float apart) {
+  Cloud<float> cloud;
+  for (int i = 0; i < 5000; ++i)
+    cloud.push_back({100.F + 10 * static_cast<float>(i), 0, 0});
+  for (int i = 0; i < 500; ++i) {
+    const float t = 0.1F + 0.0016F * static_cast<float>(i);
+    cloud.push_back({t, 1 - t, 0.5F});
+    cloud.push_back({apart + t, apart + 1 - t, 0.5F});
+  }
+  return cloud;
+}
+
+TEST(ClustersInAStream, TakeNoMemoryWhereFullCellsBecomeNeighbours) {
+  for (const ParallelPolicy& policy : {ParallelPolicy(OpenMP{2}), ParallelPolicy(Threads{2})}) {
+    EuclideanClusterer clusterer;
+    Clusters clusters;
+    const Cloud<float> far = with_two_full_cells(20), near = with_two_full_cells(2);
+    for (int pass = 0; pass < 2; ++pass)
+      clusterer.extract(test::view_of(far), {1.7321F}, clusters, policy);
+    EXPECT_EQ(clusters.size(), 5002U);
+    const std::size_t before = allocations();
+    clusterer.extract(test::view_of(near), {1.7321F}, clusters, policy);
+    EXPECT_EQ(allocations(), before);
+    EXPECT_EQ(clusters.size(), 5002U);
+  }
+}
+
 }  // namespace

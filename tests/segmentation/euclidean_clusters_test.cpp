@@ -49,6 +49,12 @@ TEST(EuclideanClusters, CountThePointsOfDroppedClusters) {
   EXPECT_EQ(clusters.large_points, 3U);
 }
 
+TEST(EuclideanClusters, AreNoneBeforeAnyAreFound) {
+  EXPECT_EQ(Clusters().size(), 0U);
+  EXPECT_EQ(Clusters().small_points, 0U);
+  EXPECT_EQ(Clusters().large_points, 0U);
+}
+
 TEST(EuclideanClusters, AreNoneWithoutValidPoints) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(cluster(Cloud<float>{}, 1.F), IsEmpty());

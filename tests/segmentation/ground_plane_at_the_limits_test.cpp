@@ -120,6 +120,29 @@ TEST(GroundPlaneAtTheLimits, HoldsInUtmCoordinates) {
   EXPECT_NEAR(-result.normal.x() / result.normal.z(), 0.125, 1e-9);
 }
 
+TEST(GroundPlaneAtTheLimits, HasTheSameBitsWhereverThePointsLie) {
+  Cloud<double> cloud;
+  std::mt19937 random(4);
+  for (int i = 0; i < 3000; ++i)
+    cloud.push_back({double(random() % 1000) / 64, double(random() % 1000) / 64, double(random() % 8) / 64});
+  const GroundSplit expected = split(cloud);
+  ASSERT_TRUE(expected.found);
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    Cloud<double> moved = cloud;
+    for (auto& p : moved)
+      p[axis] += 0x1p40;
+    EXPECT_EQ(split(moved).normal, expected.normal) << axis;
+  }
+}
+
+TEST(GroundPlaneAtTheLimits, EachPointOfFewCountsOnce) {
+  // A saddle: level by symmetry.
+  const GroundSplit result = split(Cloud<double>{{1, 0, 0.01}, {0, 1, -0.01}, {-1, 0, 0.01}, {0, -1, -0.01}});
+  ASSERT_TRUE(result.found);
+  EXPECT_NEAR(result.offset, 0, 1e-15);
+  EXPECT_NEAR(result.normal.z(), 1, 1e-15);
+}
+
 TEST(GroundPlaneAtTheLimits, ScalesExactlyByPowersOfTwo) {
   Cloud<float> cloud;
   std::mt19937 random(3);

@@ -36,6 +36,20 @@ inline std::vector<std::int32_t> numbers(std::size_t begin, std::size_t end) {
   return result;
 }
 
+/// A cloud whose z is up, turned so that `up` is.
+inline Cloud<float> turned(const Cloud<float>& upright, UpAxis up) {
+  const auto axis = static_cast<std::size_t>(up);
+  Cloud<float> result;
+  for (const auto& p : upright) {
+    std::array<float, 3> q;
+    q[axis % 3] = axis < 3 ? p[2] : -p[2];
+    q[(axis + 1) % 3] = p[0];
+    q[(axis + 2) % 3] = p[1];
+    result.push_back(q);
+  }
+  return result;
+}
+
 /// `count` points on the rectangle of `half` metres around (x, y), at the heights slope * x + height + noise.
 template <typename T>
 void add_plane(Cloud<T>& cloud, std::size_t count, T half, T x, T y, T height, T slope = 0, T noise = 0) {

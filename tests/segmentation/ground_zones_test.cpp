@@ -50,6 +50,18 @@ double wavy(double x, double y) {
 double camber(double x, double y) {
   return -1.7 + 0.05 * x - 0.08 * y;
 }
+double steep_along_x(double x, double) {
+  return -1.7 + 0.6 * x;
+}
+double steep_along_y(double, double y) {
+  return -1.7 + 0.6 * y;
+}
+double bank_along_x(double x, double) {
+  return -1.7 + 0.45 * std::max(0.0, x - 5);
+}
+double bank_along_y(double, double y) {
+  return -1.7 + 0.45 * std::max(0.0, y - 5);
+}
 double curb(double, double y) {
   return y > 4 || y < -3 ? -1.58 : -1.7;
 }
@@ -67,6 +79,25 @@ TEST(GroundZones, FollowTheGround) {
 TEST(GroundZones, ClimbARampThatBeginsWithinAPatch) {
   const GroundSplit result = split(view(ground_of(ramp)));
   EXPECT_GE(result.ground.size(), 39'400U);  // of 40'500; 36'641 without a look for ramps
+}
+
+TEST(GroundZones, FollowASlopeAsSteepAsAllowed) {
+  GroundZonesSettings settings;
+  settings.max_slope_degrees = 45;
+  for (const Height height : {steep_along_x, steep_along_y}) {
+    const Cloud<float> cloud = ground_of(height);
+    expect_split(split(view(cloud), settings), cloud.size(), cloud.size());
+  }
+}
+
+TEST(GroundZones, EndWhereASlopeIsSteeperThanAllowed) {
+  for (const Height height : {bank_along_x, bank_along_y}) {
+    const Cloud<float> cloud = ground_of(height);
+    const GroundSplit result = split(view(cloud));
+    ASSERT_TRUE(result.found);
+    for (const std::int32_t i : result.ground)
+      ASSERT_LT(cloud[static_cast<std::size_t>(i)][2], 0) << i;
+  }
 }
 
 TEST(GroundZones, GoWhereOnePlaneCannot) {
@@ -180,17 +211,9 @@ TEST(GroundZones, FollowTheUpAxis) {
     SCOPED_TRACE(axis);
     GroundZonesSettings settings;
     settings.up = static_cast<UpAxis>(axis);
-    Cloud<float> turned;
-    for (const auto& p : upright) {
-      std::array<float, 3> q;
-      q[static_cast<std::size_t>(axis) % 3] = axis < 3 ? p[2] : -p[2];
-      q[static_cast<std::size_t>(axis + 1) % 3] = p[0];
-      q[static_cast<std::size_t>(axis + 2) % 3] = p[1];
-      turned.push_back(q);
-    }
-    const GroundSplit result = split(view(turned), settings);
+    const GroundSplit result = split(view(turned(upright, settings.up)), settings);
     EXPECT_GT(result.normal.dot(up_direction(settings.up)), 0.99);
-    expect_split(result, ground, turned.size());
+    expect_split(result, ground, upright.size());
   }
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "exact.h"
+#include "meshes.h"
 #include "pcl_bv/volumes/aabb.h"
 
 #if defined(__SSE__)
@@ -131,6 +132,10 @@ TEST(Aabb, MeshFacesLookOutward) {
     const Vector3d a = mesh.vertices[f[0]], b = mesh.vertices[f[1]], c = mesh.vertices[f[2]];
     EXPECT_GT((b - a).cross(c - b).dot(a - box.center()), 0);
   }
+}
+
+TEST(Aabb, MeshIsClosed) {
+  expect_closed(Aabb({1, 1, 1}, {2, 3, 4}).mesh());
 }
 
 TEST(Aabb, MergeWithEmptyIsIdentity) {

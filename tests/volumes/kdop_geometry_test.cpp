@@ -6,11 +6,10 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
-#include <utility>
 
 #include "exact.h"
 #include "kdop_sets.h"
+#include "meshes.h"
 #include "pcl_bv/volumes/kdop.h"
 
 namespace pcl_bv {
@@ -27,20 +26,6 @@ Kdop cut_cube(const std::shared_ptr<const KdopSet>& set, double diagonal, double
     max[static_cast<Eigen::Index>(i)] = ones == 1 ? 1 : ones == 2 ? edge : diagonal;
   }
   return {set, -max, max};
-}
-
-// Every edge is met once in each direction, and V - E + F = 2.
-void expect_closed(const Mesh& mesh) {
-  std::multiset<std::pair<int, int>> edges;
-  for (const auto& f : mesh.faces) {
-    for (std::size_t i = 0; i < f.size(); ++i)
-      edges.emplace(f[i], f[(i + 1) % f.size()]);
-  }
-  for (const auto& [a, b] : edges) {
-    EXPECT_EQ(edges.count({a, b}), 1u);
-    EXPECT_EQ(edges.count({b, a}), 1u);
-  }
-  EXPECT_EQ(mesh.vertices.size() + mesh.faces.size(), edges.size() / 2 + 2);
 }
 
 double mesh_volume(const Mesh& mesh) {

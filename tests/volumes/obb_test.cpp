@@ -90,6 +90,17 @@ TEST(Obb, MeasuresAreThoseOfTheFormulas) {
   EXPECT_EQ(half_turn.quaternion().coeffs(), Eigen::Vector4d(1, 0, 0, 0));
 }
 
+TEST(Obb, QuaternionHasAPositiveRealPartAlsoNearAHalfTurn) {
+  for (int k = 0; k < 3; ++k) {
+    for (const double angle : {-3.0, 3.0}) {
+      const Matrix3d axes = Eigen::AngleAxisd(angle, Vector3d::Unit(k)).toRotationMatrix();
+      const Eigen::Quaterniond q = Obb({0, 0, 0}, axes, {1, 1, 1}).quaternion();
+      EXPECT_GT(q.w(), 0) << k << ", " << angle;
+      EXPECT_TRUE(q.toRotationMatrix().isApprox(axes, 1e-15)) << k << ", " << angle;
+    }
+  }
+}
+
 TEST(Obb, MeshFacesLookOutward) {
   Random random(3);
   for (int i = 0; i < 20; ++i) {

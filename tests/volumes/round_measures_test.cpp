@@ -38,6 +38,8 @@ TEST(RoundVolumes, RaysEnterAndLeaveWhereTheyShould) {
   expect_interval(capsule, {0, 0, -3}, {0, 0, 1}, 2, 8);
   expect_interval(capsule, {-3, 0, 2}, {1, 0, 0}, 2, 4);
   EXPECT_FALSE(capsule.intersect({-3, 0, 5.1}, {1, 0, 0}));
+  expect_interval(Capsule({1, 2, 10}, {1, 2, 14}, 1), {1, 2, 7}, {0, 0, 1}, 2, 8);
+  expect_interval(Capsule({1, 2, -2}, {1, 2, 2}, 1), {-2, 2, 0}, {1, 0, 0}, 2, 4);
   const Ellipsoid ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {1, 2, 3});
   expect_interval(ellipsoid, {-3, 0, 0}, {1, 0, 0}, 2, 4);
   expect_interval(ellipsoid, {0, 0, -4}, {0, 0, 2}, 0.5, 3.5);
@@ -73,6 +75,24 @@ TEST(RoundVolumes, HaveTheirKnownMeasures) {
   EXPECT_DOUBLE_EQ(hull.distance({4, 3, 4}), 1);
   EXPECT_DOUBLE_EQ(hull.distance({6, 8, 4}), 5);
   EXPECT_EQ(hull.support({1, -1, 2}), Vector3d(3, 2, 5));
+}
+
+TEST(RoundVolumes, DistancesAreMeasuredFromWhereTheVolumeIs) {
+  EXPECT_DOUBLE_EQ(Cylinder({10, 20, 30}, {0, 0, 1}, 2, 3).distance({15, 20, 37}), 5);
+  EXPECT_DOUBLE_EQ(Capsule({10, 20, 30}, {10, 23, 30}, 2).distance({13, 27, 30}), 3);
+  EXPECT_DOUBLE_EQ(Ellipsoid({10, 20, 30}, Eigen::Matrix3d::Identity(), {1, 2, 3}).distance({10, 20, 35}), 2);
+}
+
+TEST(RoundVolumes, AHullOfAnySizeIsMeasuredAsOneOfSizeOne) {
+  // Products of lengths must neither vanish nor overflow.
+  for (const double unit : {0x1p-300, 0x1p-100, 0x1p100, 0x1p300}) {
+    SCOPED_TRACE(unit);
+    const Hull hull = cube(unit * Vector3d(1, 2, 3), 2 * unit);
+    EXPECT_DOUBLE_EQ(hull.volume() / unit / unit / unit, 8);
+    EXPECT_DOUBLE_EQ(hull.surface_area() / unit / unit, 24);
+    EXPECT_TRUE((hull.center() / unit).isApprox(Vector3d(2, 3, 4)));
+    EXPECT_DOUBLE_EQ(hull.distance(unit * Vector3d(6, 8, 4)) / unit, 5);
+  }
 }
 
 TEST(RoundVolumes, AnAxisIsMadeAUnitOnceAndThenStays) {
@@ -121,14 +141,15 @@ TEST(RoundVolumes, PlanesOfAMovedHullTouchItsFacesAtRightAngles) {
 }
 
 TEST(RoundVolumes, StoreNoNegativeZero) {
-  const Vector3d zero(-0.0, -0.0, -0.0), up(0, 0, 1);
+  const Vector3d zero(-0.0, -0.0, -0.0), up(-0.0, -0.0, 1);
   const Capsule capsule(zero, zero, -0.0);
   const Cylinder cylinder(zero, up, -0.0, -0.0);
   const Ellipsoid ellipsoid(zero, Eigen::Matrix3d::Identity(), zero);
   const Hull hull({zero}, {}, {{Vector3d(-0.0, -0.0, 1), -0.0}}, 0);
   for (int k = 0; k < 3; ++k) {
-    for (const double stored : {capsule.a()[k], capsule.b()[k], cylinder.center()[k], ellipsoid.center()[k],
-                                ellipsoid.radii()[k], hull.vertices()[0][k], hull.planes()[0].normal[k]})
+    for (const double stored :
+         {capsule.a()[k], capsule.b()[k], cylinder.center()[k], cylinder.axis()[k], ellipsoid.center()[k],
+          ellipsoid.radii()[k], hull.vertices()[0][k], hull.planes()[0].normal[k]})
       EXPECT_FALSE(std::signbit(stored)) << k;
   }
   for (const double stored :
@@ -180,6 +201,14 @@ TEST(RoundVolumes, EmptyOnesAreEmpty) {
     EXPECT_TRUE(mesh(volume).vertices.empty());
     EXPECT_TRUE(empty(transformed(volume, Eigen::Isometry3d::Identity())));
   }
+}
+
+TEST(RoundVolumes, AxesOfAnEllipsoidMayBeOffByWhatIsSaidAndNoMore) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  axes(0, 1) = 1e-12;  // axis 0 . axis 1, without rounding
+  EXPECT_NO_THROW(Ellipsoid({0, 0, 0}, axes, {1, 1, 1}));
+  axes(0, 1) = std::nextafter(1e-12, 1);
+  EXPECT_THROW(Ellipsoid({0, 0, 0}, axes, {1, 1, 1}), std::invalid_argument);
 }
 
 TEST(RoundVolumes, BadNumbersAreRefused) {

@@ -19,6 +19,7 @@ using Eigen::Vector3d;
 using testing::exact;
 using testing::ExactPoint;
 using testing::Random;
+using testing::Rational;
 using testing::volumes;
 
 bool exactly_inside(const AnyVolume& volume, const ExactPoint& p) {
@@ -140,6 +141,34 @@ TEST_P(RoundVolumesAtScales, AreHitByRaysThroughPointsInside) {
         EXPECT_LE(hit->enter, 1 + 1e-12) << shape_name(volume);
         EXPECT_GE(hit->exit, 1 - 1e-12) << shape_name(volume);
       }
+    }
+  }
+}
+
+TEST(RoundVolumes, ACapsuleContainsPointsOnItWhoseTaxicabLengthIsHardlyItsRadius) {
+  // Then size and radius are alike: no difference of them would do for what rounding may take.
+  Random random(6);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d p(random.uniform(1, 2), random.uniform(0, 1e-3), random.uniform(0, 1e-3));
+    const double radius = test::least_root_above(testing::product(exact(p), exact(p)), p.norm());
+    ASSERT_TRUE(Capsule({0, 0, 0}, {0, 0, 0}, radius).contains(p)) << "seed 6, " << i;
+  }
+}
+
+TEST(RoundVolumes, RaysEndInAnEllipsoidThatIsGreaterByNoMoreThanIsSaid) {
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Matrix3d axes = random.isometry(1).linear();
+    const Vector3d origin = random.vector(20), radii(1, 1, i % 2 == 0 ? 1 : 0.5);
+    // Through the centre, where the sphere of a ball's coordinates is cut at right angles.
+    const auto hit = Ellipsoid({0, 0, 0}, axes, radii).intersect(origin, -origin);
+    ASSERT_TRUE(hit);
+    const double room = 0x1p-44 * (origin.lpNorm<1>() + 1) / radii.minCoeff();
+    const Ellipsoid greater({0, 0, 0}, axes, radii + Vector3d::Constant(room));
+    for (const double t : {hit->enter, hit->exit}) {
+      const Rational left = Rational(1) - Rational(t);
+      const ExactPoint o = exact(origin);
+      EXPECT_TRUE(testing::inside(greater, {o[0] * left, o[1] * left, o[2] * left})) << "seed 7, " << i;
     }
   }
 }

@@ -100,6 +100,13 @@ TEST(Sphere, ContainsPointsExactlyOnItAtEverySize) {
   EXPECT_TRUE(Sphere({5e6, 5e6, 5e6}, 3).contains({5e6 + 1, 5e6 - 2, 5e6 + 2}));
 }
 
+TEST(Sphere, ContainsAsMuchMoreAsItSaysAndNoMore) {
+  const Sphere unit({0, 0, 0}, 1);
+  const double farthest = 1 + 0x1p-50;  // its square, rounded, is 1 + 16 2^-53
+  EXPECT_TRUE(unit.contains({farthest, 0, 0}));
+  EXPECT_FALSE(unit.contains({std::nextafter(farthest, 2), 0, 0}));
+}
+
 TEST(Sphere, ContainsNoNaN) {
   for (int i = 0; i < 3; ++i)
     EXPECT_FALSE(Sphere(Vector3d::Zero(), 1).contains(nan * Vector3d::Unit(i)));
