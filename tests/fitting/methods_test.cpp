@@ -108,7 +108,7 @@ TEST(Methods, TheSmallestOfAListSaysWhichItIs) {
 }
 
 // The least that one chunk of sharing can get wrong is one direction of one set.
-TEST(Methods, SharedExtremesChangeNoBit) {
+TEST(Methods, WhatIsSharedChangesNoBit) {
   for (const std::size_t points : {0UL, 1UL, 20UL, 3000UL, 40'000UL}) {
     test::TestCloud<float> cloud = test::gaussian<float>(points, 11);
     if (points > 10) cloud.xyz[30] = std::numeric_limits<float>::quiet_NaN();
@@ -116,7 +116,7 @@ TEST(Methods, SharedExtremesChangeNoBit) {
     for (const Method& method : methods()) {
       AnyVolume alone;
       const EstimationResult expected = method.fit(view, alone, {});
-      for (const char* other : {"aabb", "dop14", "dop18", "dop26", "obb-dito14"}) {
+      for (const char* other : {"aabb", "dop14", "dop18", "dop26", "obb-dito14", "capsule"}) {
         Supports supports;
         const Execution shared = share_supports(view, {&method, find_method(other)}, {}, supports);
         AnyVolume together;
@@ -131,7 +131,7 @@ TEST(Methods, SharedExtremesChangeNoBit) {
   }
 }
 
-TEST(Methods, ExtremesAreSharedOnlyWhereTwoWantThem) {
+TEST(Methods, SupportsAndHullsAreSharedOnlyWhereTwoWantThem) {
   const test::TestCloud<float> cloud = test::gaussian<float>(100, 12);
   Supports supports;
   const auto shares = [&](std::vector<const Method*> among) {
@@ -146,6 +146,10 @@ TEST(Methods, ExtremesAreSharedOnlyWhereTwoWantThem) {
   EXPECT_EQ(supports.set, DirectionSet::dop14);
   EXPECT_TRUE(shares({named("dop14"), named("dop18")}));
   EXPECT_EQ(supports.set, DirectionSet::dop26);
+  EXPECT_TRUE(shares({named("sphere-exact"), named("capsule")}));
+  EXPECT_EQ(supports.hull, nullptr);
+  EXPECT_TRUE(shares({named("obb-min"), named("capsule")}));
+  EXPECT_NE(supports.hull, nullptr);
 }
 
 TEST(Methods, TheKernelsDirectionsAreTheVolumes) {

@@ -17,9 +17,9 @@
 #include "exact.h"
 #include "executions.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "sphere/exact_sphere.h"
 
 namespace pcl_bv {
 namespace {
@@ -137,22 +137,57 @@ TEST(SmallestSphere, OfOnePointIsCertifiedByItWithoutAPass) {
   EXPECT_EQ(certificate.passes, 0);
 }
 
-// So many that most are dropped before those outside are added, which fits of clouds hardly come to.
-TEST(SmallestSphere, FromManyPointsToBeginWithIsProvenOptimalToo) {
+// The definition of FarthestPoints, for a part of a cloud.
+OctantPoints farthest_by_definition(const PointView& part, const DistanceCenter& center, double limit) {
+  OctantPoints found;
+  for (std::size_t i = 0; i < part.count; ++i) {
+    const Coordinates p = load_point(part, i);
+    if (!is_valid(p) || !(squared_distance(p, center) >= limit)) continue;
+    FarPoint& best = found[octant(p, center)];
+    const FarPoint candidate{squared_distance(p, center), part.index(i), p};
+    if (candidate.squared_distance > best.squared_distance) best = candidate;
+  }
+  return found;
+}
+
+template <typename T>
+void expect_same_from_two_halves(const TestCloud<T>& cloud) {
+  SCOPED_TRACE(cloud.name);
+  const PointView points = cloud.view();
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, {});
+  int questions = 0;
+  const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& found) {
+    ++questions;
+    const std::size_t half = points.count / 2;
+    found = farthest_by_definition(points.slice(half, points.count - half), center, limit);
+    keep_farthest(farthest_by_definition(points.slice(0, half), center, limit), found);
+    return std::any_of(found.begin(), found.end(), [](const FarPoint& p) { return p.squared_distance >= 0; });
+  };
+  Sphere expected;
+  SphereCertificate certificate, of_fit;
+  fit_smallest_sphere(points, expected, of_fit);
+  EXPECT_EQ(smallest_sphere(supports, ask, certificate), expected);
+  EXPECT_EQ(certificate.support, of_fit.support);
+  EXPECT_EQ(certificate.passes, questions);
+}
+
+TEST(SmallestSphere, HasTheSameBitsWhoeverAnswersForThePoints) {
   const FloatEnvironment environment;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    const TestCloud<double> cloud = test::gaussian<double>(3000, seed);
-    const PointView points = cloud.view(), first = points.slice(0, 150);
-    const auto supports_of = [](const PointView& view) {
-      return find_supports(view, DirectionSet::dop26, SupportDetail::points, {});
-    };
-    const LocalFrame frame(points, supports_of(points));
-    DistanceScan scan(points, {});
-    SphereCertificate certificate;
-    const Sphere sphere = exact_sphere(scan, frame, SeedPoints(first, supports_of(first)), certificate);
-    EXPECT_GT(certificate.passes, 1) << "seed " << seed;
-    EXPECT_LE(sphere.radius(), certificate.lower_bound * (1 + 1e-12)) << "seed " << seed;
-    EXPECT_EQ(verify(sphere, points).outside, 0u) << "seed " << seed;
+  for (const TestCloud<float>& cloud : test::nasty_clouds<float>())
+    expect_same_from_two_halves(cloud);
+  for (const TestCloud<double>& cloud : test::nasty_clouds<double>())
+    expect_same_from_two_halves(cloud);
+  for (const char* shape : {"ball", "surface", "hemisphere"})
+    expect_same_from_two_halves(points_of(shape, 5000));
+}
+
+TEST(SmallestSphere, RefusesSupportsThatSayTooLittle) {
+  const TestCloud<float> cloud = test::gaussian<float>(100, 1);
+  const auto ask = [](const DistanceCenter&, double, OctantPoints&) { return false; };
+  SphereCertificate certificate;
+  for (const DirectionSet set : {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18}) {
+    const Supports supports = find_supports(cloud.view(), set, SupportDetail::points, {});
+    EXPECT_THROW(smallest_sphere(supports, ask, certificate), std::invalid_argument);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "hull/local_hull.h"
 #include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {
@@ -86,13 +87,13 @@ const std::vector<Method>& methods() {
       {"sphere-exact", {"sphere"}, "sphere", sphere<SphereMethod::exact>, DirectionSet::dop26},
       {"obb-pca", {}, "obb", obb<ObbMethod::pca>, {}},
       {"obb-dito14", {}, "obb", obb<ObbMethod::dito14>, DirectionSet::dop14},
-      {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>, {}},
+      {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>, {}, false, true},
       {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>, DirectionSet::dop26, true},
       {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>, DirectionSet::dop26, true},
-      {"cylinder", {}, "cylinder", cylinder, DirectionSet::dop26},
-      {"capsule", {}, "capsule", capsule, DirectionSet::dop26},
-      {"ellipsoid", {}, "ellipsoid", ellipsoid, DirectionSet::dop26},
-      {"hull", {}, "hull", hull, DirectionSet::dop26},
+      {"cylinder", {}, "cylinder", cylinder, DirectionSet::dop26, false, true},
+      {"capsule", {}, "capsule", capsule, DirectionSet::dop26, false, true},
+      {"ellipsoid", {}, "ellipsoid", ellipsoid, DirectionSet::dop26, false, true},
+      {"hull", {}, "hull", hull, DirectionSet::dop26, false, true},
       {"best", {}, "", best, DirectionSet::dop26},
   };
   return table;
@@ -109,16 +110,21 @@ const Method* find_method(std::string_view name) {
 
 Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
                          const Execution& execution, Supports& supports) {
-  std::size_t askers = 0;
+  const FloatEnvironment environment;
+  std::size_t askers = 0, hull_askers = 0;
   std::optional<DirectionSet> widest;
   for (const Method* method : among) {
+    hull_askers += method->on_hull ? 1 : 0;
     if (!method->begins_with) continue;
     ++askers;
     widest = !widest ? *method->begins_with : union_of(*widest, *method->begins_with);
   }
+  const bool hull = hull_askers > 1;
   Execution shared = execution;
-  if (askers < 2 || *widest == DirectionSet::dop6) return shared;
-  supports = find_supports(points, *widest, SupportDetail::points, execution);
+  if (!hull && (askers < 2 || *widest == DirectionSet::dop6)) return shared;
+  supports = find_supports(points, hull ? DirectionSet::dop26 : *widest, SupportDetail::points, execution);
+  if (hull && supports.used > 0)
+    supports.hull = shared_hull(points, supports, LocalFrame(supports), execution);
   shared.supports = &supports;
   return shared;
 }

@@ -194,7 +194,8 @@ Eigen::Matrix3d solid_axes(const Vertices& vertices, std::vector<Eigen::Matrix3d
 Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
                              const Execution& execution) {
   if (!(frame.extent() > 0)) return Eigen::Matrix3d::Identity();
-  const LocalHull hull = local_hull(points, summary.supports, frame, execution);
+  const std::shared_ptr<const LocalHull> shared = shared_hull(points, summary.supports, frame, execution);
+  const LocalHull& hull = *shared;
   if (hull.rank < 2) return orthonormal_axes(hull.axes);
   if (hull.rank == 2) return flat_axes(hull);
   Vertices vertices;

@@ -27,9 +27,9 @@ EstimationResult fit_on_hull(const PointView& points, const Execution& execution
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   if (supports.used == 0) return result_of(supports);
   const LocalFrame frame(supports);
-  const LocalHull hull = local_hull(points, supports, frame, execution);
-  const EstimationResult result = result_of(supports, hull);
-  if (result.status != EstimationStatus::failed) fit(hull, frame, supports);
+  const std::shared_ptr<const LocalHull> hull = shared_hull(points, supports, frame, execution);
+  const EstimationResult result = result_of(supports, *hull);
+  if (result.status != EstimationStatus::failed) fit(*hull, frame, supports);
   return result;
 }
 

@@ -137,4 +137,10 @@ LocalHull local_hull(const PointView& points, const Supports& supports, const Lo
   return hull;
 }
 
+std::shared_ptr<const LocalHull> shared_hull(const PointView& points, const Supports& supports,
+                                             const LocalFrame& frame, const Execution& execution) {
+  if (execution.supports != nullptr && execution.supports->hull) return execution.supports->hull;
+  return std::make_shared<LocalHull>(local_hull(points, supports, frame, execution));
+}
+
 }  // namespace pcl_bv

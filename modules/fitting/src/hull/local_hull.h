@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "hull/hull_triangles.h"
@@ -56,5 +57,9 @@ struct LocalHull : Span {
 /// ones, O(m log m) for the m others.
 LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
                      const Execution& execution);
+
+/// The same, or what the execution's supports have of it.
+std::shared_ptr<const LocalHull> shared_hull(const PointView& points, const Supports& supports,
+                                             const LocalFrame& frame, const Execution& execution);
 
 }  // namespace pcl_bv

@@ -21,9 +21,6 @@ namespace {
 // half that of the ball.
 constexpr double kNotOutside = 1 + 0x1p-48;
 
-// More candidates than this, and those that do not support the ball are dropped.
-constexpr std::size_t kManyCandidates = 120;
-
 // The radius is stated with room for the rounding of the weights, of the bound itself and of local
 // coordinates.
 void certify(const SmallBall& ball, const SeedPoints& candidates, const LocalFrame& frame,
@@ -49,7 +46,6 @@ Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints
              SphereCertificate& certificate) {
   Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
   double best_distance = -1;  // squared, of the farthest point
-  double kept_bound = -1;     // of the ball when candidates were last dropped
   SmallBall ball;
   for (;;) {
     ball = candidates.smallest_ball(frame, &ball);
@@ -66,14 +62,8 @@ Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints
       best_distance = distance;
       best_center = center;
     }
-    // Each pass adds a point or is the last; points are only dropped once the ball has grown.
-    if (!outside) break;
-    if (candidates.size() > kManyCandidates) {
-      if (!(ball.squared_lower_bound > kept_bound)) break;
-      kept_bound = ball.squared_lower_bound;
-      candidates.keep_support(ball);
-    }
-    if (!add_candidates(found, candidates)) break;
+    // Each pass adds a point or is the last.
+    if (!outside || !add_candidates(found, candidates)) break;
   }
   return {best_center, frame.radius(std::sqrt(best_distance) * kOutward)};
 }

@@ -40,17 +40,6 @@ bool SeedPoints::add(std::size_t index, const Coordinates& point) {
   return true;
 }
 
-void SeedPoints::keep_support(SmallBall& ball) {
-  const auto count = static_cast<std::size_t>(ball.support_size);
-  std::array<Seed, 4> kept{};
-  for (std::size_t i = 0; i < count; ++i) {
-    kept[i] = seeds_[ball.support[i]];
-    ball.support[i] = i;
-  }
-  seeds_.resize(count);
-  std::copy_n(kept.begin(), count, seeds_.begin());
-}
-
 SmallBall SeedPoints::smallest_ball(const LocalFrame& frame, const SmallBall* start) const {
   SmallVector<Eigen::Vector3d, 128> local(seeds_.size());
   for (std::size_t i = 0; i < seeds_.size(); ++i)

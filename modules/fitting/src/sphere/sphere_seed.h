@@ -31,9 +31,6 @@ class SeedPoints {
   /// False, and nothing changes, if the point is there already.
   bool add(std::size_t index, const Coordinates& point);
 
-  /// Keeps only the support of their ball, whose positions change.
-  void keep_support(SmallBall& ball);
-
   /// Their smallest ball, in local coordinates. `start`: that of all but the last of them.
   SmallBall smallest_ball(const LocalFrame& frame, const SmallBall* start = nullptr) const;
 

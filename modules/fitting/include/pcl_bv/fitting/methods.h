@@ -28,6 +28,7 @@ struct Method {
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
   std::optional<DirectionSet> begins_with;  ///< The supports that it looks for first, if it does.
   bool upright = false;                     ///< Whether it asks for MethodOptions::up.
+  bool on_hull = false;                     ///< Whether it needs the convex hull.
 
   EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,
                        const MethodOptions& options = {}) const {
@@ -43,6 +44,7 @@ const Method* find_method(std::string_view name);
 
 /// For fitting several methods to the same points: if two or more begin with supports, and not only with
 /// those along the axes, finds them once, in `supports`, which must outlive the execution that is returned.
+/// So with the convex hull, if two or more need it.
 Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
                          const Execution& execution, Supports& supports);
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "pcl_bv/fitting/execution.h"
@@ -33,6 +34,8 @@ enum class SupportDetail {
   points   ///< Also the points.
 };
 
+struct LocalHull;
+
 /// Along the cube's directions.
 struct Supports {
   DirectionSet set = DirectionSet::dop6;
@@ -42,7 +45,8 @@ struct Supports {
   int rank = 0;  ///< Of the points, as result.h defines it.
   /// The first direction_count(set) count; they follow kCubeDirections as cube_direction() says.
   std::array<Support, kMaxDirections> along{};
-  PointView points;  ///< Whose supports they are: only compared with, never read again.
+  PointView points;                       ///< Whose supports they are: only compared with, never read again.
+  std::shared_ptr<const LocalHull> hull;  ///< For the fits that need it, where share_supports() found it.
 };
 
 /// Finds the supports of all valid points; `used` is 0 and nothing else but `dropped` is set if there is
