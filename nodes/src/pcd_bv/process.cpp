@@ -62,9 +62,10 @@ void fit(const Segmentation& segmentation, const Options& options, Report& repor
 Status check(const Segmentation& segmentation, const Options& options, Report& report) {
   Status status = Status::done;
   for (ClusterEntry& cluster : report.clusters) {
-    const std::string where = report.file + ": cluster " + std::to_string(cluster.id) + ": ";
     const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
-      complain(where + entry.method + ": " + problem);
+      std::string said = report.file + ": cluster " + std::to_string(cluster.id) + ": ";
+      said.append(entry.method).append(": ").append(problem);
+      complain(said);
       status = worse(status, what);
     };
     for (VolumeEntry& entry : cluster.volumes) {
