@@ -69,15 +69,14 @@ def try_all(mutants, cases, results, options):
     return tried
 
 
-def report(mutants, results, reasons):
-    """Prints what no test noticed and nothing explains. True if there is none of that."""
+def report(mutants, results, reasons, there):
+    """Prints what no test noticed and nothing explains. True if there is none of that. `there`: the keys of all."""
     known = [(m, results.get(m)) for m in mutants]
     known = [(m, r) for m, r in known if r is not None]
     missed = [(m, r) for m, r in known if not r["noticed_by"]]
     unexplained = [(m, r) for m, r in missed if key_of(m) not in reasons]
     for mutant, result in unexplained:
         print(f"{line_of(mutant)}, reached by {result['reached']} tests")
-    there = {key_of(m) for m in mutants}
     for key in reasons:
         if key not in there:
             print(f"explained.txt: no such mutant any more: {' | '.join(key)}")
@@ -98,6 +97,7 @@ def main():
     else:
         programs = build.build(sources, options.jobs, say)
     mutants = [m for m in in_random_order(sources.mutants, options.seed) if options.only in m.file]
+    there = {key_of(m) for m in mutants}
     mutants = mutants[: options.sample or None]
     if options.list:
         print("\n".join(map(line_of, mutants)))
@@ -107,7 +107,7 @@ def main():
     reasons = explained_in((HERE / "explained.txt").read_text())
     results = Results(options.results, reasons)
     say(f"{try_all(results.with_unsettled_first(mutants), cases, results, options)} mutants tried in this run")
-    return 0 if report(mutants, results, reasons) else 1
+    return 0 if report(mutants, results, reasons, there) else 1
 
 
 if __name__ == "__main__":
