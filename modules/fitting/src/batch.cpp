@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Big clouds are chunked, small ones handed out.
-
 #include "pcl_bv/fitting/batch.h"
 
 #include <algorithm>

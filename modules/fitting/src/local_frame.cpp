@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Powers of two and one origin.
-
 #include "local_frame.h"
 
 #include <algorithm>

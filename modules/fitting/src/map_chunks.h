@@ -14,17 +14,16 @@
 namespace pcl_bv {
 
 /// merge(map(chunk)) for each chunk of the points: the maps in parallel, each under a FloatEnvironment, the
-/// merges in order, 256 chunks at a time, so that what they give takes little memory whatever the cloud's
-/// size (up to 16 KiB each). Clouds of one chunk, of which there are many in a sweep, need no allocation; for
+/// merges in order, `most` chunks at a time, so that what they give takes little memory whatever the cloud's
+/// size. Clouds of one chunk, of which there are many in a sweep, need no allocation; for
 /// them the caller's FloatEnvironment counts.
-template <typename Partial, typename Map, typename Merge>
+template <typename Partial, std::size_t most = 256, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);
   if (chunks <= 1) {
     if (chunks == 1) merge(map(load_chunk(points, 0).view()));
     return;
   }
-  constexpr std::size_t most = 256;
   std::vector<Partial> partials(std::min(chunks, most));
   for (std::size_t first = 0; first < chunks; first += most) {
     const std::size_t count = std::min(most, chunks - first);

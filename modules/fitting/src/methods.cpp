@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of methods.
-
 #include "pcl_bv/fitting/methods.h"
 
 #include <algorithm>

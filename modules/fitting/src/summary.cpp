@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The moments ride on the search for supports, chunk by chunk.
-
 #include "pcl_bv/fitting/summary.h"
 
 #include <algorithm>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sizes are held against the file before anything is allocated or read.
-
 #include "binary_points.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Huge pages are a request: where the system has none, nothing changes but the time.
 #include "pcl_bv/io/byte_buffer.h"
 
 #include <sys/mman.h>

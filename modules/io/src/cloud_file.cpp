@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parts of files into the buffers of those who fit them.
-
 #include "pcl_bv/io/cloud_file.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Shared by the view of the coordinates and by those who pack them.
 #pragma once
 
 #include <array>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From the letter and size of a field to the C++ type of its elements.
 #pragma once
 
 #include <cstdint>

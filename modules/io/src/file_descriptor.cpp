@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Descriptors close themselves; the error of close() is kept, because a full disk may show only there.
 #include "file_descriptor.h"
 
 #include <fcntl.h>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Blanks are what C calls so, whatever the locale.
 #include "header_words.h"
 
 #include <algorithm>

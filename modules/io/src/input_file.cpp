@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reading of whole ranges: short reads and interruptions are dealt with here.
 #include "input_file.h"
 
 #include <fcntl.h>

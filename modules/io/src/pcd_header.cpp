@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Header lines are first gathered by keyword, in whatever order they come, and then understood and held
-// against each other.
 #include "pcd_header.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A row of text for each vertex; every error names the vertex.
 #include <cstdint>
 #include <string>
 #include <vector>

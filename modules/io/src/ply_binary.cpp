@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Vertices without lists are read in one piece; elements with lists have to be walked through.
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lines are understood as they come: elements own the properties that follow them.
 #include "ply_header.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The vertices of a .ply file, by way of the elements before them.
 #pragma once
 
 #include "input_file.h"

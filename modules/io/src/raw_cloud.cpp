@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the coordinates of a record are.
 #include "pcl_bv/io/raw_cloud.h"
 
 #include <algorithm>

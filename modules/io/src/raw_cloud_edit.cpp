@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// New records are built field by field beside the old ones, which stay intact if memory runs out.
 #include "pcl_bv/io/raw_cloud_edit.h"
 
 #include <cstring>

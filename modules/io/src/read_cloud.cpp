@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// File names decide the format: the one place that knows which extensions are clouds.
 #include "pcl_bv/io/read_cloud.h"
 
 #include "pcl_bv/io/kitti_bin.h"

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Records of four floats and nothing else: the size of the file is the only thing that can be wrong.
 #include <new>
 
 #include "binary_points.h"

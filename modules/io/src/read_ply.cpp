@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Nothing is allocated for points before the header's sizes have been held against the size of the file.
 #include <algorithm>
 #include <bit>
 #include <new>

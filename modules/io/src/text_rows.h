@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows of numbers as text, for every format that has them.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud is checked before it is written: what comes out can always be read back.
 #include <charconv>
 #include <stdexcept>
 

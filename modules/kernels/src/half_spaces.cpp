@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A packet of points at a time, dropped as a whole where all of it is inside.
-
 #include "pcl_bv/kernels/half_spaces.h"
 
 #include "preconditions.h"

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Point after point, until a half-space denies it.
-
 #include "references.h"
 
 namespace pcl_bv {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Names of instruction sets and what this machine has of them.
-
 #include "pcl_bv/kernels/isa.h"
 
 #include <array>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scalar reference: the sums as moments.h defines them, one point at a time.
-
 #include "references.h"
 
 #include <cmath>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scalar reference: point by point, coordinate by coordinate.
-
 #include "references.h"
 
 namespace pcl_bv {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The only OpenMP pragma of the repository, and its twins on our threads and on the host's.
-
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 #include <omp.h>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Thread counts of policies.
-
 #include "pcl_bv/parallel/policy.h"
 
 #include <omp.h>

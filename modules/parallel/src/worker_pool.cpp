@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One lock, held for a few lines: calls are worth 200 us and more.
-
 #include "worker_pool.h"
 
 #include <pthread.h>

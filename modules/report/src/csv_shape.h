@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which numbers of a shape go into which column of a CSV line.
 #pragma once
 
 #include <Eigen/Core>

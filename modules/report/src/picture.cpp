@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Strokes the volumes over the points with Cairo and encodes PNG or SVG.
-
 #include "pcl_bv/report/picture.h"
 
 #include <cairo-svg.h>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What tells the reader of a picture how big things are and which way they lie.
 #pragma once
 
 #include <cairo.h>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The points of a picture, drawn straight into pixels.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A row formatter for whoever has clusters; files and streams differ only in the first columns.
 #include "pcl_bv/report/csv.h"
 
 #include <array>

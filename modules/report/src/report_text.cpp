@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reports as a table that a person reads at a terminal.
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The parts that results of files and of streams have in common.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Meshes one after another; a volume that is only a point has no face, and gets a cell of its own.
 #include "volume_cells.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Binary, because text would round or be three times as long.
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// XML with the numbers as text: every reader of VTK takes it, and a person too.
 #include <string_view>
 
 #include "pcl_bv/report/meshes.h"

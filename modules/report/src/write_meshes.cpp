@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The files behind the meshes' formats, and the index of a time series.
 #include <stdexcept>
 
 #include "pcl_bv/io/atomic_file.h"

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The rare and the once-a-call half of the cell grid.
 #include "cell_grid.h"
 
 #include <algorithm>

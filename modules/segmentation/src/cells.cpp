@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cells by hashing blocks in scan order, sorting the blocks, and counting.
 #include "cells.h"
 
 namespace pcl_bv {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact Euclidean clusters: the steps in order, and the collecting of the result.
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reading of the view, the only place that knows of strides, index lists and invalid points.
 #include "gather.h"
 
 #include <algorithm>

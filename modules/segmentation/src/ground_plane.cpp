@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The split: settings checked, a plane found, every point put on its side.
 #include "pcl_bv/segmentation/ground_plane.h"
 
 #include <algorithm>

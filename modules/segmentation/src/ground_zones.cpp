@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The steps in order: points to patches, the plane around the sensor, the patches' planes from the inside
-// out, and every point on its side.
 #include "pcl_bv/segmentation/ground_zones.h"
 
 #include <algorithm>

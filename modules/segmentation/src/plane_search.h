@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The search of the ground's plane among a few thousand points.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Aabb's arithmetic, compiled here so that the user's compiler flags cannot change it.
 #include "pcl_bv/volumes/aabb.h"
 
 #include <stdexcept>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The one place that visits the variant.
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace pcl_bv {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Topology first: a vertex is above, on or below the plane once and for all, and the rest follows from that.
 #include "clipped_cube.h"
 
 #include <algorithm>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ellipsoid's arithmetic, compiled here so that the user's compiler flags cannot change it. What needs more
-// than its definition is in ellipsoid_geometry.cpp.
 #include "pcl_bv/volumes/ellipsoid.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Area and distance of ellipsoids, for which there is no closed form; and their mesh.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

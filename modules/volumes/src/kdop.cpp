@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a Kdop does slab by slab; the verbs that need its shape are in kdop_geometry.cpp.
 #include "pcl_bv/volumes/kdop.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The verbs of Kdop that look at the polytope as a whole.
 #include <algorithm>
 #include <utility>
 

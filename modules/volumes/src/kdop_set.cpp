@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The built-in direction sets and the checks of a user's own.
 #include "pcl_bv/volumes/kdop_set.h"
 
 #include <Eigen/Geometry>

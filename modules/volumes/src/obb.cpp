@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Obb's arithmetic, compiled here so that the user's compiler flags cannot change it. Which way its axes are
-// named is in obb_orientation.cpp.
 #include "pcl_bv/volumes/obb.h"
 
 #include <algorithm>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What an Obb's axes are and what they are called: made orthonormal, named in a standard way, or as those of
-// another box.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Choose axes, measure.
-
 #include "pcl_bv/fitting/fit_obb.h"
 
 #include <cmath>

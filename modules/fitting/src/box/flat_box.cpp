@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The monotone chain and the rotating calipers.
-
 #include "box/flat_box.h"
 
 #include <algorithm>

@@ -201,10 +201,6 @@ Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summar
   Vertices vertices;
   for (const HullPoint& vertex : hull.vertices)
     vertices.push_back(vertex.local);
-  if (vertices.empty()) {  // Qhull gave up: the box will not be the smallest, but a box
-    const FewPoints few = few_points(points, summary.supports, frame);
-    vertices.assign(few.begin(), few.end());
-  }
   return solid_axes(vertices, start_frames(points, summary, frame), execution);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Eigenvectors of a symmetric matrix, in one stated order of operations.
 #pragma once
 
 #include <Eigen/Core>

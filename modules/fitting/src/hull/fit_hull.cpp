@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From the local hull to the volume: normals of its faces, and offsets that hold every point.
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -67,24 +65,6 @@ void drop_repeated(Normals& normals) {
   normals = std::move(kept);
 }
 
-// The vertices, and should rounding have lost the one that reaches farthest along an axis, that one, too.
-std::vector<Eigen::Vector3d> vertices_of(const LocalHull& hull, const Supports& supports) {
-  std::vector<Eigen::Vector3d> vertices;
-  Aabb box;
-  const auto add = [&](const Coordinates& p) {
-    vertices.push_back(vector(p));
-    box.extend(vertices.back());
-  };
-  for (const HullPoint& v : hull.vertices)
-    add(v.point);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    if (box.min()[k] > supports.along[axis].low) add(supports.along[axis].low_point.point);
-    if (box.max()[k] < supports.along[axis].high) add(supports.along[axis].high_point.point);
-  }
-  return vertices;
-}
-
 // By the hundred: some 10 us each where a surface is smooth.
 template <typename Measure>
 void for_each_plane(const Execution& execution, std::size_t planes, const Measure& measure) {
@@ -102,14 +82,17 @@ void for_each_plane(const Execution& execution, std::size_t planes, const Measur
 EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution) {
   hull = Hull();
   return fit_on_hull(
-      points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports& supports) {
+      points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports&) {
         Normals normals = normals_of(local);
         drop_repeated(normals);
         const ReachTree tree(local.candidates, normals.size());
         std::vector<HullPlane> planes(normals.size());
         const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
         for_each_plane(execution, normals.size(), measure);
-        hull = Hull(vertices_of(local, supports), local.triangles, std::move(planes), local.rank);
+        std::vector<Eigen::Vector3d> vertices;
+        for (const HullPoint& v : local.vertices)
+          vertices.push_back(vector(v.point));
+        hull = Hull(std::move(vertices), local.triangles, std::move(planes), local.rank);
       });
 }
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Qhull's messages go to memory, its errors come back as status.
-
 #include "hull/hull_triangles.h"
 
 #include <libqhull_r/qhull_ra.h>

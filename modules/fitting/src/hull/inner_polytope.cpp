@@ -1,17 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Why a point that passes is inside: the triangles form a closed surface, and the exact volume that the point
-// spans with each of them is positive. So each is seen under a positive solid angle, their sum is 4 pi or a
-// multiple, and the surface winds around the point; what a surface winds around is in the hull of its
-// vertices. Whether Qhull's triangles are the hull, or convex at all, does not matter.
-
 #include "hull/inner_polytope.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "hull/hull_triangles.h"
+#include "hull/convex_hull.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
@@ -24,16 +19,19 @@ struct Corners {
   std::vector<Eigen::Vector3d> local;
 };
 
-Corners distinct_extremes(const Supports& supports, const LocalFrame& frame) {
-  Corners corners;
+Corners corners_of(const Supports& supports, const LocalFrame& frame, std::vector<Triangle>& triangles) {
+  std::vector<Coordinates> points;
   for (std::size_t k = 0; k < direction_count(supports.set); ++k) {
-    for (const SupportPoint& extreme : {supports.along[k].low_point, supports.along[k].high_point}) {
-      const Eigen::Vector3d p = frame.local(extreme.point);
-      if (std::find(corners.local.begin(), corners.local.end(), p) != corners.local.end()) continue;
-      corners.points.push_back(extreme.point);
-      corners.local.push_back(p);
-    }
+    points.push_back(supports.along[k].low_point.point);
+    points.push_back(supports.along[k].high_point.point);
   }
+  ConvexHull hull = convex_hull(points);
+  Corners corners;
+  for (const std::size_t i : hull.vertices) {
+    corners.points.push_back(points[i]);
+    corners.local.push_back(frame.local(points[i]));
+  }
+  triangles = std::move(hull.triangles);
   return corners;
 }
 
@@ -86,9 +84,8 @@ HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinate
 
 HalfSpaces inner_polytope(const PointView& points, const Supports& supports, const LocalFrame& frame) {
   HalfSpaces result;
-  const Corners corners = distinct_extremes(supports, frame);
-  if (corners.points.size() < 4) return result;
-  const std::vector<Triangle> triangles = hull_triangles(corners.local);
+  std::vector<Triangle> triangles;
+  const Corners corners = corners_of(supports, frame, triangles);
   if (triangles.empty() || triangles.size() > kMaxHalfSpaces) return result;
   const Scalar scalar(points.scalar);
   result.center = middle(corners, frame, scalar);

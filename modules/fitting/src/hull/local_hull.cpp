@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Drops the points inside, finds out how many dimensions the others span, and hands them to the hull of that
-// many.
-
 #include "hull/local_hull.h"
 
 #include <algorithm>
 
+#include "hull/convex_hull.h"
 #include "hull/inner_polytope.h"
 #include "hull/planar_hull.h"
 #include "map_chunks.h"
@@ -22,9 +20,24 @@ namespace {
 // the filter (AVX-512).
 constexpr std::size_t kFewPoints = 500;
 
+// Of more points found in a chunk, or in all so far, only the extreme ones are kept.
+constexpr std::size_t kManyPoints = 1 << 12;
+
+std::vector<Triangle> keep_extreme(std::vector<HullPoint>& points) {
+  std::vector<Coordinates> coordinates;
+  for (const HullPoint& p : points)
+    coordinates.push_back(p.point);
+  ConvexHull hull = convex_hull(coordinates);
+  for (std::size_t i = 0; i < hull.vertices.size(); ++i)
+    points[i] = points[hull.vertices[i]];
+  points.resize(hull.vertices.size());
+  return std::move(hull.triangles);
+}
+
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
                                        const LocalFrame& frame, const Execution& execution) {
   std::vector<HullPoint> all;
+  std::size_t most = kManyPoints * 8;
   const auto list = [&](const PointView& chunk) {
     std::vector<std::uint32_t> positions(chunk.count);
     positions.resize(list_outside(execution.isa, chunk, inside, positions.data()));
@@ -33,17 +46,18 @@ std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces
       const Coordinates p = load_point(chunk, i);
       if (is_valid(p)) found.push_back({p, frame.local(p), chunk.index(i)});
     }
+    if (found.size() > kManyPoints) keep_extreme(found);
     return found;
   };
-  const auto append = [&](std::vector<HullPoint> part) {
-    if (all.empty()) {
-      all = std::move(part);
-    } else {
-      all.insert(all.end(), part.begin(), part.end());
-    }
+  const auto append = [&](auto&& part) {
+    const std::vector<HullPoint> found = std::move(part);
+    all.insert(all.end(), found.begin(), found.end());
+    if (all.size() <= most) return;
+    keep_extreme(all);
+    most = std::max(most, 2 * all.size());
   };
-  map_chunks<std::vector<HullPoint>>(points, worthwhile(execution, Work::half_spaces, points.count), list,
-                                     append);
+  map_chunks<std::vector<HullPoint>, 16>(points, worthwhile(execution, Work::half_spaces, points.count), list,
+                                         append);
   return all;
 }
 
@@ -83,31 +97,6 @@ void find_ends(LocalHull& hull) {
   keep_vertices({low, high}, hull);
 }
 
-// Qhull joggles by 1e-11 and more, and would lose the third dimension of a cloud that is not much thicker.
-// The hull of the spread points is the spread hull.
-void find_solid(LocalHull& hull) {
-  constexpr double kThin = 0x1p-10;
-  std::vector<Eigen::Vector3d> coordinates;
-  for (const HullPoint& candidate : hull.candidates)
-    coordinates.push_back(hull.reach[2] < kThin ? hull.spread(candidate.local) : candidate.local);
-  hull.triangles = hull_triangles(coordinates);
-  std::vector<std::int32_t> number(coordinates.size(), -1);
-  for (const Triangle& t : hull.triangles) {
-    for (const std::int32_t corner : t)
-      number[static_cast<std::size_t>(corner)] = 0;
-  }
-  std::int32_t next = 0;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (number[i] < 0) continue;
-    number[i] = next++;
-    hull.vertices.push_back(hull.candidates[i]);
-  }
-  for (Triangle& t : hull.triangles) {
-    for (std::int32_t& corner : t)
-      corner = number[static_cast<std::size_t>(corner)];
-  }
-}
-
 }  // namespace
 
 LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
@@ -117,13 +106,16 @@ LocalHull local_hull(const PointView& points, const Supports& supports, const Lo
   if (supports.used > kFewPoints) inside = inner_polytope(points, supports, frame);
   hull.candidates = find_candidates(points, inside, frame, execution);
   require_same_points(box_of(hull.candidates) == aabb_of(supports));
+  hull.triangles = keep_extreme(hull.candidates);
   const PointView view =
       PointView::of(&hull.candidates.front().point.x, sizeof(HullPoint), hull.candidates.size());
   static_cast<Span&>(hull) = span_of(view, frame.scale(), execution);
   hull.rank = supports.rank;
+  if (hull.rank < 3) hull.triangles.clear();
   switch (hull.rank) {
     case 3:
-      find_solid(hull);
+      hull.vertices = hull.candidates;
+      require_same_points(!hull.triangles.empty());
       break;
     case 2:
       find_polygon(hull);

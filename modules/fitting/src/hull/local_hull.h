@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "hull/hull_triangles.h"
+#include "hull/convex_hull.h"
 #include "local_frame.h"
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/supports.h"
@@ -33,13 +33,12 @@ struct LocalHull : Span {
   /// where axes.col(2) points; 1: the two ends; 0: one point.
   std::vector<HullPoint> vertices;
 
-  /// Numbers of vertices, counter-clockwise seen from outside. Rank 3 only, and even then none if Qhull
-  /// fails.
+  /// As ConvexHull has them. Rank 3 only.
   std::vector<Triangle> triangles;
 
-  /// All points that are not proven to be strictly inside the hull of others. Every valid point of the cloud
-  /// is, by exact arithmetic, in the hull of these: a convex set that holds them holds the cloud, and a
-  /// convex function is greatest on one of them. Ascending by position in the view.
+  /// The extreme points, by exact arithmetic. Every valid point of the cloud is in the hull of these: a convex
+  /// set that holds them holds the cloud, and a convex function is greatest on one of them. Ascending by
+  /// position in the view.
   std::vector<HullPoint> candidates;
 
   /// A point along the axes, in units of what the candidates reach along each: coordinates of about 1 in
@@ -52,9 +51,8 @@ struct LocalHull : Span {
 };
 
 /// For a cloud with at least one valid point; `supports` are those along dop26, with points. The same bits
-/// for every execution. `vertices` and `triangles` are the hull up to rounding (hull_triangles.h);
-/// `candidates` are exact. Needs a FloatEnvironment. O(n) for the points inside the polytope of the extremal
-/// ones, O(m log m) for the m others.
+/// for every execution. Needs a FloatEnvironment. O(n) for the points inside the polytope of the extremal
+/// ones (Akl, Toussaint 1978), O(m log m) for the m others.
 LocalHull local_hull(const PointView& points, const Supports& supports, const LocalFrame& frame,
                      const Execution& execution);
 

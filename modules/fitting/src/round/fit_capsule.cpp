@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A small capsule: the axis by search, caps as near as the points allow, and how much wider pays for shorter.
-
 #include <algorithm>
 #include <cmath>
 

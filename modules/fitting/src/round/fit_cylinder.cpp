@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The smallest cylinder that the search for an axis finds, then measured on every point.
-
 #include <algorithm>
 #include <cmath>
 

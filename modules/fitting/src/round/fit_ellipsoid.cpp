@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The smallest ellipsoid of the hull's vertices, then scaled until it holds every point.
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The minimum-volume enclosing ellipsoid of points in one to three dimensions.
 #pragma once
 
 #include <Eigen/Core>

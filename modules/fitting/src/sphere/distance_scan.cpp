@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Chunks of blocks; results by chunk, merged in order.
-
 #include "sphere/distance_scan.h"
 
 #include <algorithm>

@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ritter's sphere, EPOS (Larsson 2008) and the smallest one: a first ball of few points, then what the method
-// does about those outside.
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>

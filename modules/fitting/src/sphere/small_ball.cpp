@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Farthest point in, best support of five out, until nothing is outside.
-
 #include "pcl_bv/fitting/small_ball.h"
 
 #include <algorithm>

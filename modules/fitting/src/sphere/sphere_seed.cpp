@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lists of at most about a hundred points.
-
 #include "sphere/sphere_seed.h"
 
 #include <algorithm>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Boxes: the supports along three axes are the answer.
-
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// k-DOPs: the paper's direction sets by the kernel that knows them, any other set by the one that multiplies.
-
 #include <optional>
 
 #include "pcl_bv/fitting/fit.h"

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Chunks over the cores, merged exactly.
-
 #include "pcl_bv/fitting/supports.h"
 
 #include <algorithm>

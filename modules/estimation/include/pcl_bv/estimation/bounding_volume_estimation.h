@@ -76,18 +76,29 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   Execution execution_;
 };
 
-/// The axis-aligned box. See fit_aabb().
-template <typename PointT>
-class AabbEstimation : public BoundingVolumeEstimation<PointT, Aabb> {
+/// The estimator of a fit without settings.
+template <typename PointT, typename VolumeT,
+          EstimationResult (*fit_points)(const PointView&, VolumeT&, const Execution&)>
+class FitEstimation : public BoundingVolumeEstimation<PointT, VolumeT> {
  public:
-  using Ptr = pcl::shared_ptr<AabbEstimation>;
-  using ConstPtr = pcl::shared_ptr<const AabbEstimation>;
+  using Ptr = pcl::shared_ptr<FitEstimation>;
+  using ConstPtr = pcl::shared_ptr<const FitEstimation>;
 
  protected:
-  EstimationResult fit(const PointView& points, Aabb& box, const Execution& execution) const override {
-    return fit_aabb(points, box, execution);
+  EstimationResult fit(const PointView& points, VolumeT& volume, const Execution& execution) const override {
+    return fit_points(points, volume, execution);
   }
 };
+
+/// The axis-aligned box, the convex hull, a small cylinder, a small capsule. See fit_aabb() and so on.
+template <typename PointT>
+using AabbEstimation = FitEstimation<PointT, Aabb, fit_aabb>;
+template <typename PointT>
+using HullEstimation = FitEstimation<PointT, Hull, fit_hull>;
+template <typename PointT>
+using CylinderEstimation = FitEstimation<PointT, Cylinder, fit_cylinder>;
+template <typename PointT>
+using CapsuleEstimation = FitEstimation<PointT, Capsule, fit_capsule>;
 
 /// The k-DOP along K / 2 directions, K = 6, 14, 18 or 26, or along your own. See fit_kdop().
 template <typename PointT, int K = 26>
@@ -170,46 +181,6 @@ class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
 
  private:
   ObbOptions options_;
-};
-
-/// The convex hull. See fit_hull().
-template <typename PointT>
-class HullEstimation : public BoundingVolumeEstimation<PointT, Hull> {
- public:
-  using Ptr = pcl::shared_ptr<HullEstimation>;
-  using ConstPtr = pcl::shared_ptr<const HullEstimation>;
-
- protected:
-  EstimationResult fit(const PointView& points, Hull& hull, const Execution& execution) const override {
-    return fit_hull(points, hull, execution);
-  }
-};
-
-/// A small cylinder. See fit_cylinder().
-template <typename PointT>
-class CylinderEstimation : public BoundingVolumeEstimation<PointT, Cylinder> {
- public:
-  using Ptr = pcl::shared_ptr<CylinderEstimation>;
-  using ConstPtr = pcl::shared_ptr<const CylinderEstimation>;
-
- protected:
-  EstimationResult fit(const PointView& points, Cylinder& cylinder,
-                       const Execution& execution) const override {
-    return fit_cylinder(points, cylinder, execution);
-  }
-};
-
-/// A small capsule. See fit_capsule().
-template <typename PointT>
-class CapsuleEstimation : public BoundingVolumeEstimation<PointT, Capsule> {
- public:
-  using Ptr = pcl::shared_ptr<CapsuleEstimation>;
-  using ConstPtr = pcl::shared_ptr<const CapsuleEstimation>;
-
- protected:
-  EstimationResult fit(const PointView& points, Capsule& capsule, const Execution& execution) const override {
-    return fit_capsule(points, capsule, execution);
-  }
 };
 
 /// The smallest ellipsoid. See fit_ellipsoid().

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How a fit runs, as one argument.
 #pragma once
 
 #include "pcl_bv/kernels/isa.h"

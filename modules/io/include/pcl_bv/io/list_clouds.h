@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The recorded frames of a folder, in the order in which a person counts them.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The axis-aligned box: the simplest volume, and the frame in which all others are compared.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Any one of the volumes, for code that handles them alike: tables of methods, writers, commands.
 #pragma once
 
 #include <Eigen/Core>

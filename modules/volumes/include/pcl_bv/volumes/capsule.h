@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The capsule: all points near a segment. What swept spheres and the quick tests of robots use.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The solid cylinder with flat ends: pipes, poles, trunks.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ellipsoid: the smallest smooth volume that turns and stretches with its points.
 #pragma once
 
 #include <Eigen/Core>

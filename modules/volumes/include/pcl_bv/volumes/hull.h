@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The convex hull: the tightest convex volume, and the only one here that grows with its points.
 #pragma once
 
 #include <Eigen/Core>

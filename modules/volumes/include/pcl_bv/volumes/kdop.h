@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The discrete orientation polytope: the intersection of slabs along a fixed set of directions.
 #pragma once
 
 #include <Eigen/Core>

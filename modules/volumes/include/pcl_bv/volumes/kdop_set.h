@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The directions of a k-DOP, shared by all k-DOPs that look along them.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The surface of a volume, for drawing and export.
 #pragma once
 
 #include <Eigen/Core>

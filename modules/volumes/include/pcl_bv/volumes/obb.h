@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The oriented box: what perception hands on as "the object", with a place, a heading and three sizes.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a ray test answers, the same for every volume.
 #pragma once
 
 namespace [[gnu::visibility("default")]] pcl_bv {
