@@ -12,9 +12,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "hull/hull_triangles.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "rows.h"
+#ifdef PCL_BV_BENCH_QHULL
+#include "qhull_triangles.h"
+#endif
 
 namespace pcl_bv::bench {
 namespace {
@@ -28,6 +30,7 @@ void add_hull_fit(const std::string& work, Isa isa, const CloudName& name) {
   add_fit(work, {Serial{}, isa}, std::string(isa_name(isa)), name, describe_volume);
 }
 
+#ifdef PCL_BV_BENCH_QHULL
 // As whoever calls Qhull does it: a copy in double of all points.
 void add_plain_qhull(const CloudName& name) {
   add("qhull-of-all-points", "peer", name, [=](benchmark::State& state) {
@@ -40,10 +43,11 @@ void add_plain_qhull(const CloudName& name) {
         const Coordinates p = load_point(points.view, i);
         copy.emplace_back(p.x, p.y, p.z);
       }
-      benchmark::DoNotOptimize(hull_triangles(copy));
+      benchmark::DoNotOptimize(qhull_triangles(copy));
     });
   });
 }
+#endif
 
 #ifdef PCL_BV_BENCH_SURFACE
 // By arithmetic in double: points more than 1e-12 of the cloud's size beyond a triangle's plane.
@@ -96,7 +100,9 @@ void add_pcl(const CloudName&) {}
 void add_cloud(const CloudName& name) {
   for (const Isa isa : {Isa::scalar, usable_isas().back()})
     add_hull_fit("hull", isa, name);
+#ifdef PCL_BV_BENCH_QHULL
   add_plain_qhull(name);
+#endif
   add_pcl(name);
   for (const std::string work : {"cylinder", "capsule", "ellipsoid", "best"})
     add_hull_fit(work, usable_isas().back(), name);

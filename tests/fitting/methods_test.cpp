@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "clouds.h"
-#include "hull/hull_fit.h"
 #include "pcl_bv/numeric/directions.h"
 
 namespace pcl_bv {
@@ -211,27 +210,6 @@ TEST(Methods, AllSayTheSameRankHoweverPointsAreTiltedAndOrdered) {
       }
     }
   }
-}
-
-TEST(Methods, ASolidWithoutTrianglesIsAFailureWithItsReason) {
-  Supports supports;
-  supports.used = 4;
-  supports.dropped = 1;
-  supports.rank = 3;
-  LocalHull hull;
-  hull.rank = 3;
-  const EstimationResult failed = result_of(supports, hull);
-  EXPECT_EQ(failed.status, EstimationStatus::failed);
-  EXPECT_EQ(failed.reason, "Qhull finds no hull");
-  EXPECT_EQ(failed.rank, 3);
-  EXPECT_EQ(failed.used, 4u);
-  EXPECT_EQ(failed.dropped, 1u);
-  hull.triangles = {{0, 1, 2}};
-  EXPECT_EQ(result_of(supports, hull).status, EstimationStatus::ok);
-  supports.rank = hull.rank = 2;
-  hull.triangles.clear();
-  EXPECT_EQ(result_of(supports, hull).status, EstimationStatus::degenerate) << "a polygon has no triangles";
-  EXPECT_EQ(result_of(supports, hull).reason, "");
 }
 
 }  // namespace

@@ -325,8 +325,7 @@ TEST(RoundFits, OfNothingAreEmpty) {
   EXPECT_TRUE(cylinder.empty() && capsule.empty() && ellipsoid.empty());
 }
 
-// Joggled by 1e-11, Qhull would leave out the one vertex off the plane, and the ellipsoid's matrix be
-// singular.
+// Without the one vertex off the plane the ellipsoid's matrix would be singular.
 TEST(RoundFits, OfAPlaneWithOnePointOffItNeverThrow) {
   for (const double off : {1e-9, 0x1p-34, -0x1p-34, 0x1p-33}) {
     SCOPED_TRACE(off);

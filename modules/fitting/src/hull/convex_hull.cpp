@@ -15,7 +15,7 @@ namespace {
 
 struct Facet {
   Triangle corners;
-  Triangle beside;                   // the facets behind the edges from corner k to corner k + 1
+  Triangle beside;                  // the facets behind the edges from corner k to corner k + 1
   std::vector<std::int32_t> above;  // points that see it and wait to be added
   std::int32_t visited = -1;        // the last point that asked whether it sees it
   bool removed = false;
@@ -117,10 +117,14 @@ class Quickhull {
     corners = {0};
     const Eigen::Vector3d a = vector(points_[0]);
     const auto distance = [&](const Eigen::Vector3d& p) { return (p - a).cwiseAbs().maxCoeff(); };
-    if (!find(distance, [&](std::size_t i) { return !(points_[i] == points_[0]); }, corners)) return false;
+    if (!find(
+            distance, [&](std::size_t i) { return !(points_[i] == points_[0]); }, corners))
+      return false;
     const Eigen::Vector3d ab = vector(points_[corners[1]]) - a;
     const auto across = [&](const Eigen::Vector3d& p) { return ab.cross(p - a).cwiseAbs().maxCoeff(); };
-    if (!find(across, [&](std::size_t i) { return !in_line(0, corners[1], i); }, corners)) return false;
+    if (!find(
+            across, [&](std::size_t i) { return !in_line(0, corners[1], i); }, corners))
+      return false;
     const Eigen::Vector3d normal = ab.cross(vector(points_[corners[2]]) - a);
     const auto height = [&](const Eigen::Vector3d& p) { return std::abs(normal.dot(p - a)); };
     const auto off = [&](std::size_t i) {
@@ -155,8 +159,7 @@ class Quickhull {
   // Of equally far ones the first, which of equal points is the one that counts.
   std::int32_t farthest(const Facet& facet) const {
     const Eigen::Vector3d a = vector(at(facet.corners[0]));
-    const Eigen::Vector3d normal =
-        (vector(at(facet.corners[1])) - a).cross(vector(at(facet.corners[2])) - a);
+    const Eigen::Vector3d normal = (vector(at(facet.corners[1])) - a).cross(vector(at(facet.corners[2])) - a);
     const auto height = [&](std::int32_t i) { return normal.dot(vector(at(i)) - a); };
     std::int32_t best = facet.above.front();
     double greatest = height(best);

@@ -81,19 +81,18 @@ void for_each_plane(const Execution& execution, std::size_t planes, const Measur
 
 EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution) {
   hull = Hull();
-  return fit_on_hull(
-      points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports&) {
-        Normals normals = normals_of(local);
-        drop_repeated(normals);
-        const ReachTree tree(local.candidates, normals.size());
-        std::vector<HullPlane> planes(normals.size());
-        const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
-        for_each_plane(execution, normals.size(), measure);
-        std::vector<Eigen::Vector3d> vertices;
-        for (const HullPoint& v : local.vertices)
-          vertices.push_back(vector(v.point));
-        hull = Hull(std::move(vertices), local.triangles, std::move(planes), local.rank);
-      });
+  return fit_on_hull(points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports&) {
+    Normals normals = normals_of(local);
+    drop_repeated(normals);
+    const ReachTree tree(local.candidates, normals.size());
+    std::vector<HullPlane> planes(normals.size());
+    const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
+    for_each_plane(execution, normals.size(), measure);
+    std::vector<Eigen::Vector3d> vertices;
+    for (const HullPoint& v : local.vertices)
+      vertices.push_back(vector(v.point));
+    hull = Hull(std::move(vertices), local.triangles, std::move(planes), local.rank);
+  });
 }
 
 }  // namespace pcl_bv

@@ -36,9 +36,9 @@ struct LocalHull : Span {
   /// As ConvexHull has them. Rank 3 only.
   std::vector<Triangle> triangles;
 
-  /// The extreme points, by exact arithmetic. Every valid point of the cloud is in the hull of these: a convex
-  /// set that holds them holds the cloud, and a convex function is greatest on one of them. Ascending by
-  /// position in the view.
+  /// The extreme points, by exact arithmetic. Every valid point of the cloud is in the hull of these: a
+  /// convex set that holds them holds the cloud, and a convex function is greatest on one of them. Ascending
+  /// by position in the view.
   std::vector<HullPoint> candidates;
 
   /// A point along the axes, in units of what the candidates reach along each: coordinates of about 1 in

@@ -77,8 +77,7 @@ int by_integers(const Coordinates& a, const Coordinates& b, const Coordinates& c
       bits.add((*q)[k]);
   }
   // Differences of integers of up to 160 bits: products of three of them have less than 490.
-  if (bits.highest - bits.lowest < 160)
-    return by_integers<boost::multiprecision::int512_t>(a, b, c, p, bits);
+  if (bits.highest - bits.lowest < 160) return by_integers<boost::multiprecision::int512_t>(a, b, c, p, bits);
   return by_integers<boost::multiprecision::cpp_int>(a, b, c, p, bits);
 }
 

@@ -121,14 +121,14 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
 EstimationResult fit_smallest_sphere(const PointView& points, Sphere& sphere, SphereCertificate& certificate,
                                      const Execution& execution = {});
 
-/// The convex hull of the points. Its vertices are points of the cloud (of equal ones any; axis by axis they
-/// reach as far as the cloud), its triangles the hull of them up to the rounding of doubles, and each plane's
-/// offset is the exact greatest projection of all points on its normal, rounded up. Same rules as fit_aabb().
-/// The hull has the rank of the points (result.h); the planes enclose all the same. Should Qhull fail, the
-/// hull is empty and the status `failed`.
+/// The convex hull of the points. Its vertices are exactly the extreme points of the cloud, those that are
+/// not in the hull of others (of equal ones the first), its triangles their surface, and each plane's offset
+/// is the exact greatest projection of all points on its normal, rounded up. Same rules as fit_aabb(). The
+/// hull has the rank of the points (result.h); of one that is flat to 2^-36 the vertices are the corners of a
+/// polygon, up to that, and the planes enclose all the same.
 ///
 /// Akl and Toussaint 1978 drop the points inside the hull of the extremal ones, O(n); of the m others Barber,
-/// Dobkin and Huhdanpaa 1996 find the hull, O(m log m) where not most of them are vertices.
+/// Dobkin and Huhdanpaa 1996 find the hull, O(m log m) as a rule.
 EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& execution = {});
 
 /// A small cylinder around the points: of the axes that a search over the hemisphere and steps from the best

@@ -13,7 +13,7 @@ enum class EstimationStatus : std::uint8_t {
   ok,               ///< The points span three dimensions.
   degenerate,       ///< The points lie in a plane, on a line or in one point: rank < 3.
   no_valid_points,  ///< Nothing to enclose: the volume is empty.
-  failed            ///< A library below gave up (Qhull, for what needs a hull): the volume is empty.
+  failed            ///< A library below gave up: the volume is empty.
 };
 
 /// `rank` is how many dimensions the points span, whatever is fitted to them, however they are tilted and in

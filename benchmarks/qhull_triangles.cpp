@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "hull/hull_triangles.h"
+#include "qhull_triangles.h"
 
 #include <libqhull_r/qhull_ra.h>
 
@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-namespace pcl_bv {
+namespace pcl_bv::bench {
 namespace {
 
 // A stream that keeps what is written to it away from everybody: Qhull stops the process without one.
@@ -81,7 +81,7 @@ std::vector<Triangle> triangles_of(std::vector<Eigen::Vector3d>& points, const c
 
 }  // namespace
 
-std::vector<Triangle> hull_triangles(const std::vector<Eigen::Vector3d>& points) {
+std::vector<Triangle> qhull_triangles(const std::vector<Eigen::Vector3d>& points) {
   std::vector<Eigen::Vector3d> copy = points;
   // Where merging facets fails, joggled input (with Qhull's fixed seed) does not; planes are measured anew
   // anyway. A merged facet with k corners costs k^2: the rims of a cylinder of 8000 points took 1.5 s. So
@@ -91,23 +91,9 @@ std::vector<Triangle> hull_triangles(const std::vector<Eigen::Vector3d>& points)
   const bool many = points.size() > many_points;
   for (const char* options : {many ? joggled : merged, many ? merged : joggled}) {
     std::vector<Triangle> triangles = triangles_of(copy, options);
-    if (!triangles.empty() && is_closed(triangles)) return triangles;
+    if (!triangles.empty()) return triangles;
   }
   return {};
 }
 
-bool is_closed(const std::vector<Triangle>& triangles) {
-  using Edge = std::pair<std::int32_t, std::int32_t>;
-  std::vector<Edge> edges, reversed;
-  for (const Triangle& t : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      edges.emplace_back(t[i], t[(i + 1) % 3]);
-      reversed.emplace_back(t[(i + 1) % 3], t[i]);
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  std::sort(reversed.begin(), reversed.end());
-  return edges == reversed && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
-}
-
-}  // namespace pcl_bv
+}  // namespace pcl_bv::bench
