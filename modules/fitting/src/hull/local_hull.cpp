@@ -20,7 +20,8 @@ namespace {
 // the filter (AVX-512).
 constexpr std::size_t kFewPoints = 500;
 
-// Of more points found in a chunk, or in all so far, only the extreme ones are kept.
+// Of more points of a source, found in a chunk or in all so far, only the extreme ones are kept. In memory
+// they are a few times what is there anyway, and all of a smooth surface would be asked for twice.
 constexpr std::size_t kManyPoints = 1 << 12;
 
 std::vector<Triangle> keep_extreme(std::vector<HullPoint>& points) {
@@ -37,6 +38,7 @@ std::vector<Triangle> keep_extreme(std::vector<HullPoint>& points) {
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
                                        const LocalFrame& frame, const Execution& execution) {
   std::vector<HullPoint> all;
+  const bool held = points.source == nullptr;
   std::size_t most = kManyPoints * 8;
   const auto list = [&](const PointView& chunk) {
     std::vector<std::uint32_t> positions(chunk.count);
@@ -46,13 +48,13 @@ std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces
       const Coordinates p = load_point(chunk, i);
       if (is_valid(p)) found.push_back({p, frame.local(p), chunk.index(i)});
     }
-    if (found.size() > kManyPoints) keep_extreme(found);
+    if (!held && found.size() > kManyPoints) keep_extreme(found);
     return found;
   };
   const auto append = [&](auto&& part) {
     const std::vector<HullPoint> found = std::move(part);
     all.insert(all.end(), found.begin(), found.end());
-    if (all.size() <= most) return;
+    if (held || all.size() <= most) return;
     keep_extreme(all);
     most = std::max(most, 2 * all.size());
   };
