@@ -35,6 +35,9 @@ TEST(Fork, AChildAndAGrandchildHaveThreadsLikeAnyProcess) {
 }
 
 // The pool's lock is then often held by a thread that the child does not have.
+// Locks that other threads hold at a fork stay locked in the child: the C library frees its own,
+// AddressSanitizer's allocator of g++ 12 and qemu do not, and the child hangs in theirs.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(PCL_BV_EMULATED)
 TEST(Fork, WhileOtherThreadsWorkTheChildStillWorksWithThreads) {
   std::atomic<bool> enough{false};
   std::atomic<std::size_t> calls{0};
@@ -48,6 +51,7 @@ TEST(Fork, WhileOtherThreadsWorkTheChildStillWorksWithThreads) {
   enough = true;
   EXPECT_GT(calls, 0U);
 }
+#endif
 
 TEST(Fork, InsideABodyTheChildIsInsideNoCall) {
   std::atomic<int> good{0};
