@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "hull/exact_difference.h"
 #include "pcl_bv/numeric/constants.h"
 
 namespace pcl_bv {
@@ -28,12 +29,6 @@ int compare(double a, double b) {
   return a < b ? -1 : a > b ? 1 : 0;
 }
 
-// Whether b - a is a double.
-bool exact_difference(double b, double a, double difference) {
-  const double back = difference - b;
-  return b - (difference - back) == 0 && -a - back == 0;
-}
-
 }  // namespace
 
 int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
@@ -45,8 +40,8 @@ int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector
   // Lattices have many points in a row, and differences that are doubles: then each product is one and its
   // rounding error, and the rounded ones decide unless they are equal.
   const double bx = b.x() - a.x(), by = b.y() - a.y(), cx = c.x() - a.x(), cy = c.y() - a.y();
-  const bool doubles = exact_difference(b.x(), a.x(), bx) && exact_difference(b.y(), a.y(), by) &&
-                       exact_difference(c.x(), a.x(), cx) && exact_difference(c.y(), a.y(), cy);
+  const bool doubles = is_exact_difference(b.x(), a.x(), bx) && is_exact_difference(b.y(), a.y(), by) &&
+                       is_exact_difference(c.x(), a.x(), cx) && is_exact_difference(c.y(), a.y(), cy);
   constexpr double tiny = 0x1p-900;  // below, errors of products are no doubles
   const auto fine = [](double u, double v, double product) {
     return u == 0 || v == 0 || (std::abs(product) > tiny && std::isfinite(product));

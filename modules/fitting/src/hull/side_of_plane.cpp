@@ -8,25 +8,20 @@
 #include <limits>
 
 #include "hull/convex_hull.h"
+#include "hull/exact_difference.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
 namespace {
 
-// Whether b - a is a double.
-bool is_exact(double b, double a, double difference) {
-  const double back = difference - b;
-  return b - (difference - back) == 0 && -a - back == 0;
-}
-
 Coordinates minus(const Coordinates& b, const Coordinates& a) {
   return {b.x - a.x, b.y - a.y, b.z - a.z};
 }
 
 bool is_exact(const Coordinates& b, const Coordinates& a, const Coordinates& difference) {
-  return is_exact(b.x, a.x, difference.x) && is_exact(b.y, a.y, difference.y) &&
-         is_exact(b.z, a.z, difference.z);
+  return is_exact_difference(b.x, a.x, difference.x) && is_exact_difference(b.y, a.y, difference.y) &&
+         is_exact_difference(b.z, a.z, difference.z);
 }
 
 // Adds a b c to the sum; false if products are so small that their errors may be no doubles.

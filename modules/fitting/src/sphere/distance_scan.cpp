@@ -29,11 +29,6 @@ double distance_up(const DistanceCenter& a, const DistanceCenter& b) {
   return std::sqrt(squared_distance({a.x, a.y, a.z}, b)) * kRoundUp;
 }
 
-bool beats(const FarPoint& a, const FarPoint& b) {
-  if (a.squared_distance != b.squared_distance) return a.squared_distance > b.squared_distance;
-  return a.squared_distance >= 0 && a.index < b.index;
-}
-
 // The block's points of that octant and distance compete for `best`.
 void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& center, std::size_t in_octant,
                    double squared, FloatFilter filter, FarPoint& best) {
@@ -42,8 +37,7 @@ void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& 
   for (std::size_t i = 0; i < count; ++i) {
     const Coordinates p = load_point(block, positions[i]);
     if (octant(p, center) != in_octant) continue;
-    const FarPoint candidate{squared_distance(p, center), block.index(positions[i]), p};
-    if (beats(candidate, best)) best = candidate;
+    keep_farthest({squared_distance(p, center), block.index(positions[i]), p}, best);
   }
 }
 
@@ -147,7 +141,7 @@ class DistanceScan::SharedOctants {
 
   void compete(const FarPoint& candidate, std::size_t octant) {
     const std::lock_guard lock(mutex_);
-    if (beats(candidate, points_[octant])) points_[octant] = candidate;
+    keep_farthest(candidate, points_[octant]);
   }
 
   void filtered() { chunks_filtered_.fetch_add(1, std::memory_order_relaxed); }
@@ -234,9 +228,7 @@ void DistanceScan::scan_shell(const DistanceCenter& center, double limit, Octant
     const Coordinates p = load_point(points_, i);
     const double squared = squared_distance(p, center);
     if (!(squared >= limit) || !is_valid(p)) continue;
-    const FarPoint candidate{squared, points_.index(i), p};
-    FarPoint& best = found[octant(p, center)];
-    if (beats(candidate, best)) best = candidate;
+    keep_farthest({squared, points_.index(i), p}, found[octant(p, center)]);
   }
 }
 

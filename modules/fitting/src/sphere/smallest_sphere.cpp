@@ -70,11 +70,14 @@ Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints
 
 }  // namespace
 
+void keep_farthest(const FarPoint& other, FarPoint& best) {
+  const bool tie = other.squared_distance == best.squared_distance;
+  if (tie ? other.index < best.index : other.squared_distance > best.squared_distance) best = other;
+}
+
 void keep_farthest(const OctantPoints& other, OctantPoints& best) {
-  for (std::size_t o = 0; o < best.size(); ++o) {
-    const double greater = other[o].squared_distance - best[o].squared_distance;
-    if (greater > 0 || (greater == 0 && other[o].index < best[o].index)) best[o] = other[o];
-  }
+  for (std::size_t o = 0; o < best.size(); ++o)
+    keep_farthest(other[o], best[o]);
 }
 
 Sphere smallest_sphere(const Supports& supports, const FarthestPoints& farthest,

@@ -25,7 +25,8 @@ struct FarPoint {
 /// The farthest point in each octant() around a centre; of equally far ones that with the smallest index.
 using OctantPoints = std::array<FarPoint, 8>;
 
-/// Lets the farthest points of some of the points compete with those of others.
+/// Lets the farthest of some of the points compete with those of others.
+void keep_farthest(const FarPoint& other, FarPoint& best);
 void keep_farthest(const OctantPoints& other, OctantPoints& best);
 
 /// Of the valid points with a squared distance of at least `limit` the farthest in each octant, in `found`,

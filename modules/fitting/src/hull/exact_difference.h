@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+namespace pcl_bv {
+
+/// Whether b - a, which was rounded to `difference`, is a double.
+inline bool is_exact_difference(double b, double a, double difference) {
+  const double back = difference - b;
+  return b - (difference - back) == 0 && -a - back == 0;
+}
+
+}  // namespace pcl_bv
