@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pcl_bv/kernels/chunks.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -62,11 +64,11 @@ Moments merged(const Moments& first, const Moments& second) {
   return result;
 }
 
-void MomentTree::append(const Node& next) {
+void MomentTree::append(const MomentNode& next) {
   nodes_.push_back(next);
   for (std::size_t n = nodes_.size(); n > 1; --n) {
-    Node& left = nodes_[n - 2];
-    const Node& right = nodes_[n - 1];
+    MomentNode& left = nodes_[n - 2];
+    const MomentNode& right = nodes_[n - 1];
     const bool siblings = left.blocks == right.blocks && left.first + left.blocks == right.first &&
                           left.first % (2 * left.blocks) == 0;
     if (!siblings) return;
@@ -76,8 +78,15 @@ void MomentTree::append(const Node& next) {
 }
 
 void MomentTree::append(std::size_t first, const MomentTree& tree) {
-  for (const Node& node : tree.nodes_)
-    append(Node{first + node.first, node.blocks, node.moments});
+  for (const MomentNode& node : tree)
+    append(MomentNode{first + node.first, node.blocks, node.moments});
+}
+
+MomentTree moments_of(UsableIsa isa, const PointView& chunk, std::size_t first_block) {
+  MomentTree tree;
+  for (std::size_t block = 0; block * kBlockPoints < chunk.count; ++block)
+    tree.append(first_block + block, block_moments(isa, block_of(chunk, block)));
+  return tree;
 }
 
 Moments MomentTree::total() const {

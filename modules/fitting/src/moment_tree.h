@@ -16,12 +16,22 @@ void coarsen(int exponent, Moments& moments);
 /// About the origin of the first one, with the lesser exponent that leaves room for both.
 Moments merged(const Moments& first, const Moments& second);
 
+/// Of 2^k blocks, the first of which is a multiple of 2^k.
+struct MomentNode {
+  std::size_t first;
+  std::size_t blocks;
+  Moments moments;
+};
+
 /// Adds up the moments of blocks in pairs, of those pairs in pairs, and so on: which sums are formed depends
 /// on the blocks' numbers alone. So parts of a cloud that are summed apart give the bits of the whole.
 class MomentTree {
  public:
   /// Of block number `block`, which comes after those that are here.
-  void append(std::size_t block, const Moments& moments) { append(Node{block, 1, moments}); }
+  void append(std::size_t block, const Moments& moments) { append(MomentNode{block, 1, moments}); }
+
+  /// Of blocks that come after those that are here.
+  void append(const MomentNode& next);
 
   /// Of blocks that `tree` numbers from 0 on, here from `first` on: 0 or a power of two times its blocks.
   void append(std::size_t first, const MomentTree& tree);
@@ -29,17 +39,15 @@ class MomentTree {
   /// Of all blocks; a count of 0 if there is none.
   Moments total() const;
 
+  /// Ascending. Which ones there are depends on the blocks alone.
+  const MomentNode* begin() const { return nodes_.begin(); }
+  const MomentNode* end() const { return nodes_.end(); }
+
  private:
-  // 2^k blocks, the first a multiple of 2^k.
-  struct Node {
-    std::size_t first;
-    std::size_t blocks;
-    Moments moments;
-  };
-
-  void append(const Node& next);
-
-  SmallVector<Node, 6> nodes_;  // a chunk's 32 blocks are at most 5 nodes, and one that is being added
+  SmallVector<MomentNode, 6> nodes_;  // a chunk's 32 blocks are at most 5 nodes, and one that is being added
 };
+
+/// Of the blocks of a chunk, the first of which has this number.
+MomentTree moments_of(UsableIsa isa, const PointView& chunk, std::size_t first_block);
 
 }  // namespace pcl_bv

@@ -28,13 +28,6 @@ struct Part {
   MomentTree moments;
 };
 
-MomentTree moments_of(UsableIsa isa, const PointView& chunk) {
-  MomentTree tree;
-  for (std::size_t block = 0; block * kBlockPoints < chunk.count; ++block)
-    tree.append(block, block_moments(isa, block_of(chunk, block)));
-  return tree;
-}
-
 void finish(Moments moments, CloudSummary& summary) {
   if (moments.count == 0) return;
   const double extent = widest_side(summary.supports);
@@ -67,7 +60,7 @@ Moments pass(const PointView& points, const Execution& execution, std::size_t co
   map_chunks<Part<Found>>(
       points, worthwhile(execution, Work::cube_support, count),
       [&](const PointView& chunk) {
-        return Part<Found>{search(chunk), moments_of(execution.isa, chunk)};
+        return Part<Found>{search(chunk), moments_of(execution.isa, chunk, 0)};
       },
       [&](const Part<Found>& part) {
         merge(part.supports);
@@ -77,11 +70,20 @@ Moments pass(const PointView& points, const Execution& execution, std::size_t co
   return moments.total();
 }
 
+// Of points whose moments are known, as their supports are.
+CloudSummary known_summary(const Supports& supports) {
+  CloudSummary summary;
+  summary.supports = supports;
+  finish(*supports.moments, summary);
+  return summary;
+}
+
 }  // namespace
 
 CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
   require_own_supports(points, execution);
+  if (stand_for_all(execution)) return known_summary(*execution.supports);
   CloudSummary summary;
   constexpr DirectionSet set = DirectionSet::dop26;
   const SupportDirections& directions = SupportDirections::of(set);
@@ -99,6 +101,7 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
 
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution) {
   require_own_supports(points, execution);
+  if (stand_for_all(execution)) return known_summary(*execution.supports);
   CloudSummary summary;
   summary.supports = no_bounds(points);
   // Moments cost about as much as a 26-DOP, the box next to nothing.

@@ -61,6 +61,7 @@ EstimationResult fit_upright(const PointView& points, const ObbOptions& options,
                              const Execution& execution) {
   const Eigen::Vector3d up = unit_up(options.up);
   const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
+  if (options.method == ObbMethod::lshape) require_all_points(execution, "obb-lshape");
   if (supports.used > 0) {
     const LocalFrame frame(supports);
     const auto axes = options.method == ObbMethod::yaw ? yaw_axes : lshape_axes;
@@ -120,7 +121,7 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
     directions.add(direction(axes.col(i)));
   SupportSearch search(execution.isa, directions, points.count);
   search.run(points, execution);
-  require_same_points(search.dropped() == supports.dropped);
+  require_same_points(supports.moments || search.dropped() == supports.dropped);
   Eigen::Vector3d low, high;
   for (int i = 0; i < 3; ++i) {
     const Support along = search.along(static_cast<std::size_t>(i));
@@ -135,8 +136,9 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution) {
   constexpr std::size_t few_points = 2048;
-  const Obb box = points.count <= few_points ? measure_few(axes, points, supports, execution.isa)
-                                             : measure_many(axes, points, supports, execution);
+  const Obb box = supports.used + supports.dropped <= few_points
+                      ? measure_few(axes, points, supports, execution.isa)
+                      : measure_many(axes, points, supports, execution);
   return box.canonical();
 }
 

@@ -106,7 +106,7 @@ Eigen::Matrix3d along_line(const Eigen::Vector3d& e) {
 FewPoints few_points(const PointView& points, const Supports& supports, const LocalFrame& frame) {
   FewPoints few;
   const std::size_t directions = direction_count(supports.set);
-  if (points.count <= 2 * directions) {
+  if (supports.used + supports.dropped <= 2 * directions) {
     for_each_valid(points, supports,
                    [&](std::size_t, const Coordinates& p) { few.push_back(frame.local(p)); });
     return few;

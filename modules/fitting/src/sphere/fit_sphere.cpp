@@ -14,6 +14,7 @@
 #include "sphere/distance_scan.h"
 #include "sphere/growth.h"
 #include "sphere/sphere_seed.h"
+#include "support/support_search.h"
 
 namespace pcl_bv {
 namespace {
@@ -102,6 +103,7 @@ EstimationResult fit_sphere(const PointView& points, const SphereOptions& option
     return fit_smallest_sphere(points, sphere, certificate, execution);
   }
   const FloatEnvironment environment;
+  require_all_points(execution, "a sphere that grows");
   const Supports supports =
       find_supports(points, seed_directions(options.method), SupportDetail::points, execution);
   sphere = Sphere();

@@ -18,6 +18,14 @@ namespace pcl_bv {
 /// also where it does not use them.
 void require_own_supports(const PointView& points, const Execution& execution);
 
+/// Whether the points are few that stand for a cloud.
+inline bool stand_for_all(const Execution& execution) {
+  return execution.supports != nullptr && execution.supports->moments != nullptr;
+}
+
+/// Throws std::invalid_argument if they do, for a fit whose volume depends on all points.
+void require_all_points(const Execution& execution, const char* fit);
+
 class SupportSearch {
  public:
   /// For a cloud of so many points. Keeps the directions.
@@ -46,6 +54,10 @@ class SupportSearch {
   std::array<std::atomic<double>, kMaxSupportEnds> reached_;
   ChunkSupports all_;
 };
+
+/// Along the k-th direction, for points that reach farthest at its two ends.
+Support support_between(const SupportDirections& directions, std::size_t k, const SupportPoint& low,
+                        const SupportPoint& high);
 
 /// What a search along the directions of a set has found among all of these points, but for the rank.
 Supports of_search(const SupportSearch& search, DirectionSet set, const PointView& points);

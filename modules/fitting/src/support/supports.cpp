@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "map_chunks.h"
 #include "pcl_bv/numeric/constants.h"
@@ -55,6 +56,11 @@ void require_own_supports(const PointView& points, const Execution& execution) {
     throw std::invalid_argument("Execution::supports are those of other points");
 }
 
+void require_all_points(const Execution& execution, const char* fit) {
+  if (stand_for_all(execution))
+    throw std::invalid_argument(std::string(fit) + " needs all points of a cloud, not partial results");
+}
+
 SupportSearch::SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points)
     : isa_(isa), directions_(directions), shared_(chunk_count(points) > 1) {
   for (std::size_t end = 0; end < 2 * directions.count; ++end)
@@ -91,8 +97,12 @@ void SupportSearch::run(const PointView& points, const Execution& execution) {
 }
 
 Support SupportSearch::along(std::size_t k) const {
-  const SupportPoint &low = all_.ends[2 * k], &high = all_.ends[2 * k + 1];
-  const Direction& n = directions_.exact[k];
+  return support_between(directions_, k, all_.ends[2 * k], all_.ends[2 * k + 1]);
+}
+
+Support support_between(const SupportDirections& directions, std::size_t k, const SupportPoint& low,
+                        const SupportPoint& high) {
+  const Direction& n = directions.exact[k];
   return {project_down(n, low.point), project_up(n, high.point), low, high};
 }
 

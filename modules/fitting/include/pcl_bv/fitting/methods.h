@@ -29,6 +29,7 @@ struct Method {
   std::optional<DirectionSet> begins_with;  ///< The supports that it looks for first, if it does.
   bool upright = false;                     ///< Whether it asks for MethodOptions::up.
   bool on_hull = false;                     ///< Whether it needs the convex hull.
+  bool needs_all_points = false;            ///< Whether points deep inside can change the volume.
 
   EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,
                        const MethodOptions& options = {}) const {

@@ -35,6 +35,7 @@ enum class SupportDetail {
 };
 
 struct LocalHull;
+struct Moments;
 
 /// Along the cube's directions.
 struct Supports {
@@ -47,6 +48,8 @@ struct Supports {
   std::array<Support, kMaxDirections> along{};
   PointView points;                       ///< Whose supports they are: only compared with, never read again.
   std::shared_ptr<const LocalHull> hull;  ///< For the fits that need it, where share_supports() found it.
+  /// Where `points` are few that stand for a cloud (partial.h), of all points of the cloud, as `used` is.
+  std::shared_ptr<const Moments> moments;
 };
 
 /// Finds the supports of all valid points; `used` is 0 and nothing else but `dropped` is set if there is

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "partial/numbered_points.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "hull/convex_hull.h"
+
+namespace pcl_bv {
+namespace {
+
+template <typename T>
+PointView view_of(const NumberedPoints& points, std::vector<T>& held) {
+  held.reserve(3 * points.size());
+  for (const NumberedPoint& p : points) {
+    for (std::size_t k = 0; k < 3; ++k)
+      held.push_back(static_cast<T>(p.point[k]));
+  }
+  return PointView::of(held.data(), 3 * sizeof(T), points.size());
+}
+
+}  // namespace
+
+NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b) {
+  NumberedPoints both(a.size() + b.size());
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), both.begin());
+  const auto same = [](const NumberedPoint& p, const NumberedPoint& q) { return p.number == q.number; };
+  if (std::adjacent_find(both.begin(), both.end(), same) != both.end())
+    throw std::invalid_argument("Partial: a point is in two parts");
+  return both;
+}
+
+NumberedPoints extreme_points(const NumberedPoints& points) {
+  std::vector<Coordinates> coordinates;
+  for (const NumberedPoint& p : points)
+    coordinates.push_back(p.point);
+  NumberedPoints extreme;
+  for (const std::size_t i : convex_hull(coordinates).vertices)
+    extreme.push_back(points[i]);
+  return extreme;
+}
+
+HeldPoints::HeldPoints(const NumberedPoints& points, ScalarType scalar)
+    : view_(scalar == ScalarType::float32 ? view_of(points, floats_) : view_of(points, doubles_)) {}
+
+}  // namespace pcl_bv

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "pcl_bv/kernels/point_view.h"
+
+namespace pcl_bv {
+
+/// A point and its number in the whole cloud.
+struct NumberedPoint {
+  std::size_t number;
+  Coordinates point;
+};
+
+inline bool operator<(const NumberedPoint& a, const NumberedPoint& b) {
+  return a.number < b.number;
+}
+
+/// Ascending by number.
+using NumberedPoints = std::vector<NumberedPoint>;
+
+/// Throws std::invalid_argument for a number that is in both: parts of a cloud have no point in common.
+NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b);
+
+/// Those that convex_hull() says.
+NumberedPoints extreme_points(const NumberedPoints& points);
+
+/// The points one after another, as kernels read them.
+class HeldPoints {
+ public:
+  HeldPoints(const NumberedPoints& points, ScalarType scalar);
+  HeldPoints(const HeldPoints&) = delete;
+  HeldPoints& operator=(const HeldPoints&) = delete;
+
+  const PointView& view() const { return view_; }
+
+ private:
+  std::vector<float> floats_;
+  std::vector<double> doubles_;
+  PointView view_;
+};
+
+}  // namespace pcl_bv

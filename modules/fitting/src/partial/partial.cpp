@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/fitting/partial.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "hull/local_hull.h"
+#include "map_chunks.h"
+#include "partial/partial_state.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "point_rank.h"
+#include "schedule.h"
+#include "support/support_search.h"
+
+namespace pcl_bv {
+
+void require_apart(const PartialState& state) {
+  bool apart = true;
+  std::size_t free = 0;
+  for (const MomentNode& node : state.blocks) {
+    const NumberedPoint first{node.first * kBlockPoints, {}};
+    const auto loose = std::lower_bound(state.loose.begin(), state.loose.end(), first);
+    apart = apart && node.first >= free;
+    free = node.first + node.blocks;
+    apart = apart && (loose == state.loose.end() || block_of_number(loose->number) >= free);
+  }
+  if (!apart) throw std::invalid_argument("Partial: a point is in two parts");
+}
+
+namespace {
+
+const SupportDirections& directions() {
+  return SupportDirections::of(DirectionSet::dop26);
+}
+
+// What of these points is needed where more are than can be kept, but for their moments: number(i) is that of
+// the i-th in the whole cloud.
+template <typename Number>
+void add_extremes(const PointView& points, const Execution& execution, const Number& number,
+                  PartialState& state) {
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
+  state.used = supports.used;
+  state.dropped = supports.dropped;
+  if (supports.used == 0) return;
+  for (std::size_t k = 0; k < kMaxDirections; ++k) {
+    state.ends[2 * k] = supports.along[k].low_point;
+    state.ends[2 * k + 1] = supports.along[k].high_point;
+  }
+  for (SupportPoint& end : state.ends)
+    end.index = number(end.index);
+  for (const HullPoint& p : local_hull(points, supports, LocalFrame(supports), execution).candidates)
+    state.extreme.push_back({number(p.index), p.point});
+}
+
+void add_loose(const PointView& points, std::size_t first, NumberedPoints& loose) {
+  const LoadedPoints loaded(points, 0, points.count);
+  for (std::size_t i = 0; i < points.count; ++i)
+    loose.push_back({first + points.index(i), load_point(loaded.view(), i)});
+}
+
+MomentTree block_moments_of(const PointView& points, std::size_t first_block, const Execution& execution) {
+  MomentTree blocks;
+  const auto policy = worthwhile(execution, Work::cube_support, kMaxDirections * points.count);
+  map_chunks<MomentTree>(
+      points, policy,
+      [&](const PointView& chunk) {
+        const std::size_t before = chunk.index(0) - points.index(0);
+        return moments_of(execution.isa, chunk, first_block + block_of_number(before));
+      },
+      [&](const MomentTree& part) { blocks.append(0, part); });
+  return blocks;
+}
+
+// Of more points than can be kept.
+PartialState state_of(const PointView& points, std::size_t first, const Execution& execution) {
+  PartialState state;
+  state.scalar = points.scalar;
+  add_extremes(
+      points, execution, [&](std::size_t index) { return first + index; }, state);
+  const std::size_t number = first + points.index(0);
+  const std::size_t head = (kBlockPoints - number % kBlockPoints) % kBlockPoints;
+  const std::size_t whole = (points.count - head) / kBlockPoints * kBlockPoints;
+  add_loose(points.slice(0, head), first, state.loose);
+  state.blocks = block_moments_of(points.slice(head, whole), block_of_number(number + head), execution);
+  add_loose(points.slice(head + whole, points.count - head - whole), first, state.loose);
+  return state;
+}
+
+// The same points as those of more than can be kept.
+PartialState reduced(PartialState state) {
+  if (!state.all_kept() || state.loose.empty()) return state;
+  const HeldPoints held(state.loose, state.scalar);
+  add_extremes(
+      held.view(), {}, [&](std::size_t index) { return state.loose[index].number; }, state);
+  return state;
+}
+
+// Calls visit(block, first, last) for the loose points of each block.
+template <typename Visit>
+void for_each_block(const NumberedPoints& loose, const Visit& visit) {
+  for (auto first = loose.begin(); first != loose.end();) {
+    const std::size_t block = block_of_number(first->number);
+    const auto last = std::find_if(
+        first, loose.end(), [&](const NumberedPoint& p) { return block_of_number(p.number) != block; });
+    visit(block, NumberedPoints(first, last));
+    first = last;
+  }
+}
+
+Moments moments_of_block(const NumberedPoints& points, ScalarType scalar) {
+  return block_moments(Isa::automatic, HeldPoints(points, scalar).view());
+}
+
+using MomentNodes = std::vector<MomentNode>;
+
+MomentTree tree_of(MomentNodes nodes) {
+  std::sort(nodes.begin(), nodes.end(),
+            [](const MomentNode& a, const MomentNode& b) { return a.first < b.first; });
+  MomentTree tree;
+  for (const MomentNode& node : nodes)
+    tree.append(node);
+  return tree;
+}
+
+// Lets blocks that have become whole leave the loose points.
+void sum_whole_blocks(PartialState& state, MomentNodes nodes) {
+  NumberedPoints loose;
+  for_each_block(state.loose, [&](std::size_t block, const NumberedPoints& points) {
+    if (points.size() == kBlockPoints) {
+      nodes.push_back({block, 1, moments_of_block(points, state.scalar)});
+    } else {
+      loose.insert(loose.end(), points.begin(), points.end());
+    }
+  });
+  state.loose = std::move(loose);
+  state.blocks = tree_of(std::move(nodes));
+}
+
+PartialState merged(const PartialState& one, const PartialState& other) {
+  PartialState both;
+  both.scalar = one.scalar;
+  both.loose = merged(one.loose, other.loose);
+  if (one.size() + other.size() > Partial::kAllKept) {
+    const PartialState a = reduced(one), b = reduced(other);
+    both.used = a.used + b.used;
+    both.dropped = a.dropped + b.dropped;
+    for (std::size_t end = 0; end < both.ends.size(); ++end) {
+      both.ends[end] = a.ends[end];
+      keep_farther(directions().end_direction(end), b.ends[end], both.ends[end]);
+    }
+    both.extreme = extreme_points(merged(a.extreme, b.extreme));
+    MomentNodes nodes(a.blocks.begin(), a.blocks.end());
+    nodes.insert(nodes.end(), b.blocks.begin(), b.blocks.end());
+    sum_whole_blocks(both, std::move(nodes));
+    require_apart(both);
+  }
+  return both;
+}
+
+// The extreme points and the ends, which of a flat side may be any point of it.
+NumberedPoints standing_for_all(const PartialState& state) {
+  NumberedPoints points = state.extreme;
+  for (const SupportPoint& end : state.ends) {
+    if (end.found) points.push_back({end.index, end.point});
+  }
+  std::sort(points.begin(), points.end());
+  const auto same = [](const NumberedPoint& a, const NumberedPoint& b) { return a.number == b.number; };
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
+  return points;
+}
+
+std::shared_ptr<const Moments> moments_of_all(const PartialState& state) {
+  MomentNodes nodes(state.blocks.begin(), state.blocks.end());
+  for_each_block(state.loose, [&](std::size_t block, const NumberedPoints& points) {
+    nodes.push_back({block, 1, moments_of_block(points, state.scalar)});
+  });
+  return std::make_shared<Moments>(tree_of(std::move(nodes)).total());
+}
+
+// Of the cloud, as those of points that stand for it.
+Supports supports_of(const PartialState& state, const NumberedPoints& points, const PointView& view,
+                     const Execution& execution) {
+  Supports supports;
+  supports.set = DirectionSet::dop26;
+  supports.detail = SupportDetail::points;
+  supports.used = state.used;
+  supports.dropped = state.dropped;
+  supports.points = view;
+  supports.moments = moments_of_all(state);
+  const auto position = [&](const SupportPoint& end) {
+    const auto found = std::lower_bound(points.begin(), points.end(), NumberedPoint{end.index, {}});
+    return static_cast<std::size_t>(found - points.begin());
+  };
+  for (std::size_t k = 0; k < kMaxDirections && state.used > 0; ++k) {
+    supports.along[k] = support_between(directions(), k, state.ends[2 * k], state.ends[2 * k + 1]);
+    supports.along[k].low_point.index = position(state.ends[2 * k]);
+    supports.along[k].high_point.index = position(state.ends[2 * k + 1]);
+  }
+  supports.rank = point_rank(view, supports, execution);
+  return supports;
+}
+
+}  // namespace
+
+Partial::Partial() : state_(std::make_shared<PartialState>()) {}
+
+Partial::Partial(const PointView& points, std::size_t first, const Execution& execution) {
+  const FloatEnvironment environment;
+  require_own_supports(points, execution);
+  if (points.indices != nullptr) throw std::invalid_argument("Partial: the view has an index list");
+  PartialState state;
+  state.scalar = points.scalar;
+  if (points.count > kAllKept) {
+    state = state_of(points, first, execution);
+  } else {
+    add_loose(points, first, state.loose);
+  }
+  state_ = std::make_shared<PartialState>(std::move(state));
+}
+
+void Partial::merge(const Partial& other) {
+  const FloatEnvironment environment;
+  if (other.size() == 0) return;
+  if (size() > 0 && state_->scalar != other.state_->scalar)
+    throw std::invalid_argument("Partial::merge: one has floats, the other doubles");
+  state_ = size() == 0 ? other.state_ : std::make_shared<PartialState>(merged(*state_, *other.state_));
+}
+
+bool Partial::serves(const Method& method) {
+  return !method.needs_all_points;
+}
+
+EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Execution& execution,
+                              const MethodOptions& options) const {
+  const FloatEnvironment environment;
+  if (!serves(method))
+    throw std::invalid_argument(std::string(method.name) +
+                                " needs all points of a cloud, not partial results");
+  if (execution.supports != nullptr)
+    throw std::invalid_argument("Execution::supports are those of other points");
+  if (state_->all_kept()) {
+    const HeldPoints all(state_->loose, state_->scalar);
+    return method.fit(all.view(), volume, execution, options);
+  }
+  const NumberedPoints points = standing_for_all(*state_);
+  const HeldPoints held(points, state_->scalar);
+  const Supports supports = supports_of(*state_, points, held.view(), execution);
+  Execution informed = execution;
+  informed.supports = &supports;
+  return method.fit(held.view(), volume, informed, options);
+}
+
+std::size_t Partial::size() const {
+  return state_->size();
+}
+
+}  // namespace pcl_bv
