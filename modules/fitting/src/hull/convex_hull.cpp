@@ -92,6 +92,7 @@ std::vector<std::size_t> extreme_in_plane(const std::vector<Coordinates>& points
     if (spans) dropped = k;
   }
   std::vector<Eigen::Vector2d> flat;
+  flat.reserve(points.size());
   for (const Coordinates& p : points)
     flat.emplace_back(p[(dropped + 1) % 3], p[(dropped + 2) % 3]);
   std::vector<std::size_t> extreme = planar_hull(flat);

@@ -26,12 +26,15 @@ constexpr std::size_t kManyPoints = 1 << 12;
 
 std::vector<Triangle> keep_extreme(std::vector<HullPoint>& points) {
   std::vector<Coordinates> coordinates;
+  coordinates.reserve(points.size());
   for (const HullPoint& p : points)
     coordinates.push_back(p.point);
   ConvexHull hull = convex_hull(coordinates);
-  for (std::size_t i = 0; i < hull.vertices.size(); ++i)
-    points[i] = points[hull.vertices[i]];
-  points.resize(hull.vertices.size());
+  std::vector<HullPoint> extreme;  // of its own, as `points` would keep the memory of all
+  extreme.reserve(hull.vertices.size());
+  for (const std::size_t i : hull.vertices)
+    extreme.push_back(points[i]);
+  points = std::move(extreme);
   return std::move(hull.triangles);
 }
 
@@ -44,6 +47,7 @@ std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces
     std::vector<std::uint32_t> positions(chunk.count);
     positions.resize(list_outside(execution.isa, chunk, inside, positions.data()));
     std::vector<HullPoint> found;
+    found.reserve(positions.size());
     for (const std::uint32_t i : positions) {
       const Coordinates p = load_point(chunk, i);
       if (is_valid(p)) found.push_back({p, frame.local(p), chunk.index(i)});
