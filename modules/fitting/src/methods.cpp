@@ -14,9 +14,10 @@
 namespace pcl_bv {
 namespace {
 
-EstimationResult aabb(const PointView& points, const MethodOptions&, AnyVolume& volume,
-                      const Execution& execution) {
-  return fit_aabb(points, volume.emplace<Aabb>(), execution);
+template <typename Volume, EstimationResult (*fit)(const PointView&, Volume&, const Execution&)>
+EstimationResult plain(const PointView& points, const MethodOptions&, AnyVolume& volume,
+                       const Execution& execution) {
+  return fit(points, volume.emplace<Volume>(), execution);
 }
 
 template <const std::shared_ptr<const KdopSet>& (*set)()>
@@ -37,26 +38,6 @@ EstimationResult obb(const PointView& points, const MethodOptions& options, AnyV
   return fit_obb(points, {method, options.up}, volume.emplace<Obb>(), execution);
 }
 
-EstimationResult cylinder(const PointView& points, const MethodOptions&, AnyVolume& volume,
-                          const Execution& execution) {
-  return fit_cylinder(points, volume.emplace<Cylinder>(), execution);
-}
-
-EstimationResult capsule(const PointView& points, const MethodOptions&, AnyVolume& volume,
-                         const Execution& execution) {
-  return fit_capsule(points, volume.emplace<Capsule>(), execution);
-}
-
-EstimationResult ellipsoid(const PointView& points, const MethodOptions&, AnyVolume& volume,
-                           const Execution& execution) {
-  return fit_ellipsoid(points, volume.emplace<Ellipsoid>(), execution);
-}
-
-EstimationResult hull(const PointView& points, const MethodOptions&, AnyVolume& volume,
-                      const Execution& execution) {
-  return fit_hull(points, volume.emplace<Hull>(), execution);
-}
-
 EstimationResult best(const PointView& points, const MethodOptions& options, AnyVolume& volume,
                       const Execution& execution) {
   return fit_smallest(points, best_candidates(), volume, execution, options);
@@ -72,7 +53,7 @@ DirectionSet union_of(DirectionSet a, DirectionSet b) {
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> table = {
-      {"aabb", {}, "aabb", aabb, DirectionSet::dop6},
+      {"aabb", {}, "aabb", plain<Aabb, fit_aabb>, DirectionSet::dop6},
       {"dop6", {}, "kdop", kdop<KdopSet::dop6>, DirectionSet::dop6},
       {"dop14", {}, "kdop", kdop<KdopSet::dop14>, DirectionSet::dop14},
       {"dop18", {}, "kdop", kdop<KdopSet::dop18>, DirectionSet::dop18},
@@ -88,10 +69,10 @@ const std::vector<Method>& methods() {
       {"obb-min", {"obb"}, "obb", obb<ObbMethod::minimal>, {}, false, true},
       {"obb-yaw", {}, "obb", obb<ObbMethod::yaw>, DirectionSet::dop26, true},
       {"obb-lshape", {}, "obb", obb<ObbMethod::lshape>, DirectionSet::dop26, true, false, true},
-      {"cylinder", {}, "cylinder", cylinder, DirectionSet::dop26, false, true},
-      {"capsule", {}, "capsule", capsule, DirectionSet::dop26, false, true},
-      {"ellipsoid", {}, "ellipsoid", ellipsoid, DirectionSet::dop26, false, true},
-      {"hull", {}, "hull", hull, DirectionSet::dop26, false, true},
+      {"cylinder", {}, "cylinder", plain<Cylinder, fit_cylinder>, DirectionSet::dop26, false, true},
+      {"capsule", {}, "capsule", plain<Capsule, fit_capsule>, DirectionSet::dop26, false, true},
+      {"ellipsoid", {}, "ellipsoid", plain<Ellipsoid, fit_ellipsoid>, DirectionSet::dop26, false, true},
+      {"hull", {}, "hull", plain<Hull, fit_hull>, DirectionSet::dop26, false, true},
       {"best", {}, "", best, DirectionSet::dop26},
   };
   return table;

@@ -198,10 +198,7 @@ Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summar
   const LocalHull& hull = *shared;
   if (hull.rank < 2) return orthonormal_axes(hull.axes);
   if (hull.rank == 2) return flat_axes(hull);
-  Vertices vertices;
-  for (const HullPoint& vertex : hull.vertices)
-    vertices.push_back(vertex.local);
-  return solid_axes(vertices, start_frames(points, summary, frame), execution);
+  return solid_axes(hull.local_vertices(), start_frames(points, summary, frame), execution);
 }
 
 }  // namespace pcl_bv

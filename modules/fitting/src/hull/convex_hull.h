@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "pcl_bv/numeric/coordinates.h"
@@ -32,6 +33,22 @@ struct ConvexHull {
 ///
 /// Barber, Dobkin, Huhdanpaa 1996 (Quickhull), with predicates of Shewchuk 1997.
 ConvexHull convex_hull(const std::vector<Coordinates>& points);
+
+/// Keeps the extreme ones of things that have a `point`, and gives the triangles of their hull.
+template <typename Thing>
+std::vector<Triangle> keep_extreme(std::vector<Thing>& things) {
+  std::vector<Coordinates> points;
+  points.reserve(things.size());
+  for (const Thing& thing : things)
+    points.push_back(thing.point);
+  ConvexHull hull = convex_hull(points);
+  std::vector<Thing> extreme;  // of its own, as `things` would keep the memory of all
+  extreme.reserve(hull.vertices.size());
+  for (const std::size_t i : hull.vertices)
+    extreme.push_back(things[i]);
+  things = std::move(extreme);
+  return std::move(hull.triangles);
+}
 
 /// -1, 0 or 1: the side of the plane through a, b and c that p is on, exactly; 1 where they are
 /// counter-clockwise seen from p.

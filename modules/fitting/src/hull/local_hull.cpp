@@ -24,20 +24,6 @@ constexpr std::size_t kFewPoints = 500;
 // they are a few times what is there anyway, and all of a smooth surface would be asked for twice.
 constexpr std::size_t kManyPoints = 1 << 12;
 
-std::vector<Triangle> keep_extreme(std::vector<HullPoint>& points) {
-  std::vector<Coordinates> coordinates;
-  coordinates.reserve(points.size());
-  for (const HullPoint& p : points)
-    coordinates.push_back(p.point);
-  ConvexHull hull = convex_hull(coordinates);
-  std::vector<HullPoint> extreme;  // of its own, as `points` would keep the memory of all
-  extreme.reserve(hull.vertices.size());
-  for (const std::size_t i : hull.vertices)
-    extreme.push_back(points[i]);
-  points = std::move(extreme);
-  return std::move(hull.triangles);
-}
-
 std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces& inside,
                                        const LocalFrame& frame, const Execution& execution) {
   std::vector<HullPoint> all;

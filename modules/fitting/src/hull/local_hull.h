@@ -41,6 +41,13 @@ struct LocalHull : Span {
   /// by position in the view.
   std::vector<HullPoint> candidates;
 
+  std::vector<Eigen::Vector3d> local_vertices() const {
+    std::vector<Eigen::Vector3d> local;
+    for (const HullPoint& vertex : vertices)
+      local.push_back(vertex.local);
+    return local;
+  }
+
   /// A point along the axes, in units of what the candidates reach along each: coordinates of about 1 in
   /// which no cloud is thin.
   Eigen::Vector3d spread(const Eigen::Vector3d& local) const {

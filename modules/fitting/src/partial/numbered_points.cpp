@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "hull/convex_hull.h"
-
 namespace pcl_bv {
 namespace {
 
@@ -30,16 +28,6 @@ NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b) {
   if (std::adjacent_find(both.begin(), both.end(), same) != both.end())
     throw std::invalid_argument("Partial: a point is in two parts");
   return both;
-}
-
-NumberedPoints extreme_points(const NumberedPoints& points) {
-  std::vector<Coordinates> coordinates;
-  for (const NumberedPoint& p : points)
-    coordinates.push_back(p.point);
-  NumberedPoints extreme;
-  for (const std::size_t i : convex_hull(coordinates).vertices)
-    extreme.push_back(points[i]);
-  return extreme;
 }
 
 HeldPoints::HeldPoints(const NumberedPoints& points, ScalarType scalar)

@@ -26,9 +26,6 @@ using NumberedPoints = std::vector<NumberedPoint>;
 /// Throws std::invalid_argument for a number that is in both: parts of a cloud have no point in common.
 NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b);
 
-/// Those that convex_hull() says.
-NumberedPoints extreme_points(const NumberedPoints& points);
-
 /// The points one after another, as kernels read them.
 class HeldPoints {
  public:

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "hull/convex_hull.h"
 #include "hull/local_hull.h"
 #include "map_chunks.h"
 #include "partial/partial_state.h"
@@ -151,7 +152,8 @@ PartialState merged(const PartialState& one, const PartialState& other) {
       both.ends[end] = a.ends[end];
       keep_farther(directions().end_direction(end), b.ends[end], both.ends[end]);
     }
-    both.extreme = extreme_points(merged(a.extreme, b.extreme));
+    both.extreme = merged(a.extreme, b.extreme);
+    keep_extreme(both.extreme);
     MomentNodes nodes(a.blocks.begin(), a.blocks.end());
     nodes.insert(nodes.end(), b.blocks.begin(), b.blocks.end());
     sum_whole_blocks(both, std::move(nodes));

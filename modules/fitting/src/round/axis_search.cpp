@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "across.h"
+#include "pcl_bv/fitting/small_ball.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
@@ -66,6 +67,27 @@ void improve(Rated& best, double step, double last_step,
 
 }  // namespace
 
+void Profile::look(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points) {
+  const Across across(axis);
+  flat_.clear();
+  squared.clear();
+  along.clear();
+  low = high = dot3(axis, points.front());
+  for (const Eigen::Vector3d& p : points) {
+    flat_.emplace_back(dot3(across.u, p), dot3(across.v, p), 0.0);
+    along.push_back(dot3(axis, p));
+    low = std::min(low, along.back());
+    high = std::max(high, along.back());
+  }
+  const SmallBall circle = smallest_ball(flat_.data(), flat_.size());
+  for (const Eigen::Vector3d& f : flat_) {
+    const double x = f.x() - circle.center.x(), y = f.y() - circle.center.y();
+    squared.push_back(x * x + y * y);
+  }
+  foot = circle.center.x() * across.u + circle.center.y() * across.v;
+  squared_radius = circle.squared_radius;
+}
+
 std::vector<bool> essential(const std::vector<Eigen::Vector3d>& points) {
   constexpr std::size_t kMany = 1000;
   std::vector<bool> taken(points.size(), points.size() <= kMany);
@@ -82,9 +104,8 @@ std::vector<bool> essential(const std::vector<Eigen::Vector3d>& points) {
 }
 
 std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull) {
-  std::vector<Eigen::Vector3d> all, chosen;
-  for (const HullPoint& v : hull.vertices)
-    all.push_back(v.local);
+  const std::vector<Eigen::Vector3d> all = hull.local_vertices();
+  std::vector<Eigen::Vector3d> chosen;
   const std::vector<bool> taken = essential(all);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (taken[i]) chosen.push_back(all[i]);

@@ -12,6 +12,20 @@
 
 namespace pcl_bv {
 
+/// Points in local coordinates as they are seen along an axis.
+struct Profile {
+  /// Takes the place of what was seen before. O(points).
+  void look(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points);
+
+  Eigen::Vector3d foot;       ///< The middle of the smallest circle, on the plane through the origin.
+  double squared_radius = 0;  ///< Of that circle.
+  double low = 0, high = 0;   ///< From where to where along the axis.
+  std::vector<double> squared, along;  ///< Of each point: the squared distance from the middle, and where.
+
+ private:
+  std::vector<Eigen::Vector3d> flat_;
+};
+
 /// Which of the points are farthest along one of 49 directions, or all where there are not thousands.
 std::vector<bool> essential(const std::vector<Eigen::Vector3d>& points);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "across.h"
 #include "hull/hull_fit.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/small_ball.h"
@@ -15,46 +14,20 @@
 namespace pcl_bv {
 namespace {
 
-// The points seen along an axis: their squared distances from it and how far along they are.
-struct Seen {
-  Eigen::Vector3d foot;  // of the axis, on the plane through the origin across it
-  double squared_radius = 0;
-  std::vector<double> squared, along;
-};
-
 struct Candidate {
   double low = 0, high = 0;  // the ends along the axis
   double radius = 0;
   double volume() const { return radius * radius * ((high - low) + 4 * radius / 3); }  // over pi
 };
 
-void see(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& vertices,
-         std::vector<Eigen::Vector3d>& flat, Seen& seen) {
-  const Across across(axis);
-  flat.clear();
-  seen.squared.clear();
-  seen.along.clear();
-  for (const Eigen::Vector3d& v : vertices) {
-    flat.emplace_back(dot3(across.u, v), dot3(across.v, v), 0.0);
-    seen.along.push_back(dot3(axis, v));
-  }
-  const SmallBall circle = smallest_ball(flat.data(), flat.size());
-  for (const Eigen::Vector3d& f : flat) {
-    const double x = f.x() - circle.center.x(), y = f.y() - circle.center.y();
-    seen.squared.push_back(x * x + y * y);
-  }
-  seen.foot = circle.center.x() * across.u + circle.center.y() * across.v;
-  seen.squared_radius = circle.squared_radius;
-}
-
 // The shortest one of this radius: each cap's centre is as far in as the points leave it.
-Candidate shortest(const Seen& seen, double squared_radius) {
-  double low = seen.along.front(), high = low;
+Candidate shortest(const Profile& profile, double squared_radius) {
+  double low = profile.along.front(), high = low;
   bool first = true;
-  for (std::size_t i = 0; i < seen.along.size(); ++i) {
-    const double reach = std::sqrt(std::max(0.0, squared_radius - seen.squared[i]));
-    low = first ? seen.along[i] + reach : std::min(low, seen.along[i] + reach);
-    high = first ? seen.along[i] - reach : std::max(high, seen.along[i] - reach);
+  for (std::size_t i = 0; i < profile.along.size(); ++i) {
+    const double reach = std::sqrt(std::max(0.0, squared_radius - profile.squared[i]));
+    low = first ? profile.along[i] + reach : std::min(low, profile.along[i] + reach);
+    high = first ? profile.along[i] - reach : std::max(high, profile.along[i] - reach);
     first = false;
   }
   if (low > high) low = high = low + (high - low) / 2;
@@ -62,13 +35,13 @@ Candidate shortest(const Seen& seen, double squared_radius) {
 }
 
 // Wider ones can be so much shorter that they are smaller.
-Candidate widened(const Seen& seen) {
-  Candidate best = shortest(seen, seen.squared_radius);
+Candidate widened(const Profile& profile) {
+  Candidate best = shortest(profile, profile.squared_radius);
   constexpr int kHalvings = 18;  // down to 2e-6 of the radius
   double width = 1, step = 0.25;
   for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
     for (const double next : {width * (1 + step), std::max(1.0, width / (1 + step))}) {
-      const Candidate candidate = shortest(seen, seen.squared_radius * (next * next));
+      const Candidate candidate = shortest(profile, profile.squared_radius * (next * next));
       if (!(candidate.volume() < best.volume())) continue;
       best = candidate;
       width = next;
@@ -93,27 +66,25 @@ Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const E
 }
 
 Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
-  std::vector<Eigen::Vector3d> vertices = essential_vertices(hull), flat;
-  Seen seen;
+  Profile profile;
   Eigen::Vector3d axis = hull.axes.col(0);
   if (hull.rank >= 2) {
+    const std::vector<Eigen::Vector3d> essential = essential_vertices(hull);
     axis = search_axis(hull, [&](const Eigen::Vector3d& tried) {
-      see(tried, vertices, flat, seen);
-      return shortest(seen, seen.squared_radius).volume();
+      profile.look(tried, essential);
+      return shortest(profile, profile.squared_radius).volume();
     });
   }
-  vertices.clear();
-  for (const HullPoint& v : hull.vertices)
-    vertices.push_back(v.local);
-  see(axis, vertices, flat, seen);
-  const Candidate best = widened(seen);
+  const std::vector<Eigen::Vector3d> vertices = hull.local_vertices();
+  profile.look(axis, vertices);
+  const Candidate best = widened(profile);
   const SmallBall ball = smallest_ball(vertices.data(), vertices.size());
   if (ball.squared_radius * std::sqrt(ball.squared_radius) * 4 / 3 <= best.volume()) {
     const Eigen::Vector3d center = frame.global(ball.center);
     return measured_capsule(hull, frame, center, center);
   }
-  return measured_capsule(hull, frame, frame.global(seen.foot + best.low * axis),
-                          frame.global(seen.foot + best.high * axis));
+  return measured_capsule(hull, frame, frame.global(profile.foot + best.low * axis),
+                          frame.global(profile.foot + best.high * axis));
 }
 
 }  // namespace

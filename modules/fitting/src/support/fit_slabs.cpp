@@ -61,6 +61,13 @@ EstimationResult fit(const PointView& points, const std::shared_ptr<const KdopSe
 
 }  // namespace
 
+EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution) {
+  const FloatEnvironment environment;
+  const Supports supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
+  box = aabb_of(supports);
+  return result_of(supports);
+}
+
 EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
                           const Execution& execution) {
   return fit(points, set, kdop, nullptr, execution);
