@@ -302,17 +302,21 @@ TEST(AxisSearch, LooksAtThoseOfManyPointsThatReachFarthestAlongEachOf49Direction
   std::vector<Eigen::Vector3d> points(2000);
   for (Eigen::Vector3d& p : points)
     p = random.direction();
-  const std::vector<bool> taken = essential(points);
-  std::set<std::size_t> expected;
+  LocalHull hull;
+  for (const Eigen::Vector3d& p : points)
+    hull.vertices.push_back({{}, p, 0});
+  std::set<std::size_t> farthest;
   for (const auto& [x, y, z] : test::integer_directions()) {
     const Eigen::Vector3d d(x, y, z);
     const auto less = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.dot(d) < b.dot(d); };
     const auto [low, high] = std::minmax_element(points.begin(), points.end(), less);
-    expected.insert(
+    farthest.insert(
         {static_cast<std::size_t>(low - points.begin()), static_cast<std::size_t>(high - points.begin())});
   }
-  for (std::size_t i = 0; i < points.size(); ++i)
-    EXPECT_EQ(taken[i], expected.count(i) == 1) << "seed 12, " << i;
+  std::vector<Eigen::Vector3d> expected;
+  for (const std::size_t i : farthest)
+    expected.push_back(points[i]);
+  EXPECT_EQ(essential_vertices(hull), expected) << "seed 12";
 }
 
 TEST(RoundFits, OfNothingAreEmpty) {

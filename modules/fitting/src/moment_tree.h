@@ -40,8 +40,8 @@ class MomentTree {
   Moments total() const;
 
   /// Ascending. Which ones there are depends on the blocks alone.
-  const MomentNode* begin() const { return nodes_.begin(); }
-  const MomentNode* end() const { return nodes_.end(); }
+  const MomentNode* begin() const { return nodes_.data(); }
+  const MomentNode* end() const { return begin() + nodes_.size(); }
 
  private:
   SmallVector<MomentNode, 6> nodes_;  // a chunk's 32 blocks are at most 5 nodes, and one that is being added

@@ -132,7 +132,7 @@ Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const 
     return normal.dot(a - p0) < normal.dot(b - p0);
   };
   const auto [lowest, highest] = std::minmax_element(few.begin(), few.end(), below);
-  for (const Eigen::Vector3d* apex : {lowest, highest}) {
+  for (const auto& apex : {lowest, highest}) {
     if (std::abs(normal.dot(*apex - p0)) < kThin * normal.norm()) continue;
     best.compete(p0, p1, *apex);
     best.compete(p1, p2, *apex);

@@ -19,6 +19,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "scattered.h"
 #include "schedule.h"
 
 namespace pcl_bv {
@@ -141,26 +142,6 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
   return orthonormal_axes(axes);
 }
 
-// Those that are farthest along scattered directions: what nearly all of the shape is made of.
-Vertices salient(const Vertices& vertices, const std::vector<Eigen::Matrix3d>& frames) {
-  std::vector<bool> chosen(vertices.size());
-  for (const Eigen::Matrix3d& frame : frames) {
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d n = frame.col(i);
-      const auto less = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-        return n.dot(a) < n.dot(b);
-      };
-      const auto [low, high] = std::minmax_element(vertices.begin(), vertices.end(), less);
-      chosen[static_cast<std::size_t>(low - vertices.begin())] = true;
-      chosen[static_cast<std::size_t>(high - vertices.begin())] = true;
-    }
-  }
-  Vertices result;
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (chosen[i]) result.push_back(vertices[i]);
-  return result;
-}
-
 // Each start turned as far as it gets, best first.
 std::vector<Frame> searched(const std::vector<Eigen::Matrix3d>& starts, const Vertices& vertices,
                             const Execution& execution) {
@@ -175,13 +156,21 @@ std::vector<Frame> searched(const std::vector<Eigen::Matrix3d>& starts, const Ve
   return found;
 }
 
-// Many vertices are searched in two rounds: all starts on the salient ones, the best of them on all.
+std::vector<Eigen::Vector3d> axes_of(const std::vector<Eigen::Matrix3d>& frames) {
+  std::vector<Eigen::Vector3d> axes;
+  for (const Eigen::Matrix3d& frame : frames)
+    axes.insert(axes.end(), {frame.col(0), frame.col(1), frame.col(2)});
+  return axes;
+}
+
+// Many vertices are searched in two rounds: all starts on those that are farthest along scattered directions,
+// what nearly all of the shape is made of, the best of them on all.
 Eigen::Matrix3d solid_axes(const Vertices& vertices, std::vector<Eigen::Matrix3d> starts,
                            const Execution& execution) {
   constexpr std::size_t kManyVertices = 300, kFinalists = 6;
   if (vertices.size() > kManyVertices) {
-    static const std::vector<Eigen::Matrix3d> directions = scattered_frames(60);
-    const std::vector<Frame> found = searched(starts, salient(vertices, directions), execution);
+    static const std::vector<Eigen::Vector3d> directions = axes_of(scattered_frames(60));
+    const std::vector<Frame> found = searched(starts, farthest_along(directions, vertices), execution);
     starts.resize(kSureStarts);
     for (std::size_t i = 0; i < kFinalists; ++i)
       starts.push_back(found[i].axes);

@@ -11,6 +11,7 @@
 #include "across.h"
 #include "pcl_bv/fitting/small_ball.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "scattered.h"
 
 namespace pcl_bv {
 namespace {
@@ -20,19 +21,10 @@ struct Rated {
   Eigen::Vector3d axis;
 };
 
-// Components 0, +-1, +-2, none a multiple of another: 49, no direction farther than 15 degrees from one of
-// them.
 std::vector<Eigen::Vector3d> hemisphere() {
   std::vector<Eigen::Vector3d> axes;
-  for (int a = 0; a <= 2; ++a) {
-    for (int b = -2; b <= 2; ++b) {
-      for (int c = -2; c <= 2; ++c) {
-        const bool upper = a > 0 || b > 0 || (b == 0 && c > 0);
-        const bool reduced = a % 2 != 0 || b % 2 != 0 || c % 2 != 0;
-        if (upper && reduced) axes.push_back(unit3(Eigen::Vector3d(a, b, c)));
-      }
-    }
-  }
+  for (const Direction& d : scattered_directions())
+    axes.push_back(unit3(Eigen::Vector3d(d[0], d[1], d[2])));
   return axes;
 }
 
@@ -88,29 +80,10 @@ void Profile::look(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3
   squared_radius = circle.squared_radius;
 }
 
-std::vector<bool> essential(const std::vector<Eigen::Vector3d>& points) {
-  constexpr std::size_t kMany = 1000;
-  std::vector<bool> taken(points.size(), points.size() <= kMany);
-  if (points.size() <= kMany) return taken;
-  for (const Eigen::Vector3d& axis : hemisphere()) {
-    std::size_t low = 0, high = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      if (dot3(axis, points[i]) < dot3(axis, points[low])) low = i;
-      if (dot3(axis, points[i]) > dot3(axis, points[high])) high = i;
-    }
-    taken[low] = taken[high] = true;
-  }
-  return taken;
-}
-
 std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull) {
+  constexpr std::size_t kMany = 1000;
   const std::vector<Eigen::Vector3d> all = hull.local_vertices();
-  std::vector<Eigen::Vector3d> chosen;
-  const std::vector<bool> taken = essential(all);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (taken[i]) chosen.push_back(all[i]);
-  }
-  return chosen;
+  return all.size() > kMany ? farthest_along(hemisphere(), all) : all;
 }
 
 Eigen::Vector3d search_axis(const LocalHull& hull,

@@ -26,11 +26,8 @@ struct Profile {
   std::vector<Eigen::Vector3d> flat_;
 };
 
-/// Which of the points are farthest along one of 49 directions, or all where there are not thousands.
-std::vector<bool> essential(const std::vector<Eigen::Vector3d>& points);
-
-/// Local coordinates of the vertices, or where there are thousands, of those that are essential:
-/// the search needs no more, as what it finds is measured on all points.
+/// Local coordinates of the vertices, or where there are thousands, of those that are farthest along one of
+/// 49 directions: the search needs no more, as what it finds is measured on all points.
 std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull);
 
 /// A unit vector at which `size`, which is the same for opposite ones, is small: the best of 49 directions

@@ -11,6 +11,7 @@
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "scattered.h"
 #include "sphere/distance_scan.h"
 #include "sphere/growth.h"
 #include "sphere/sphere_seed.h"
@@ -50,21 +51,13 @@ FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
   return ball;
 }
 
-// Types (0,1,2), (1,1,2) and (1,2,2) of Larsson 2008 in all places and signs, of opposite ones one: 36.
-std::vector<std::array<double, 3>> epos98_directions() {
-  std::vector<std::array<double, 3>> directions;
-  for (int a = 0; a <= 2; ++a) {
-    for (int b = -2; b <= 2; ++b) {
-      for (int c = -2; c <= 2; ++c) {
-        const int ones = (a == 1) + (std::abs(b) == 1) + (std::abs(c) == 1);
-        const int twos = (a == 2) + (std::abs(b) == 2) + (std::abs(c) == 2);
-        const bool first_positive = a > 0 || b > 0 || (b == 0 && c > 0);
-        if (twos > 0 && ones > 0 && ones + twos >= 2 && first_positive) {
-          directions.push_back({static_cast<double>(a), static_cast<double>(b), static_cast<double>(c)});
-        }
-      }
-    }
-  }
+// Of opposite ones one: what the cube's directions lack of those with components up to 2.
+std::vector<Direction> epos98_directions() {
+  std::vector<Direction> directions = scattered_directions();
+  const auto of_cube = [](const Direction& d) {
+    return std::none_of(d.begin(), d.end(), [](double c) { return std::abs(c) == 2; });
+  };
+  directions.erase(std::remove_if(directions.begin(), directions.end(), of_cube), directions.end());
   return directions;
 }
 
@@ -75,7 +68,7 @@ FirstBall epos_ball(const PointView& points, SphereMethod method, const Supports
   const bool few = points.count <= ends;
   SeedPoints seeds = few ? SeedPoints(points, supports) : SeedPoints(supports);
   if (method == SphereMethod::epos98 && !few) {
-    static const std::vector<std::array<double, 3>> directions = epos98_directions();
+    static const std::vector<Direction> directions = epos98_directions();
     for (const Support& along : find_supports(points, directions, execution).along) {
       seeds.add(along.low_point.index, along.low_point.point);
       seeds.add(along.high_point.index, along.high_point.point);

@@ -26,9 +26,8 @@ SeedPoints::SeedPoints(const PointView& points, const Supports& supports) {
 
 void SeedPoints::make_unique() {
   std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.index < b.index; });
-  const Seed* end = std::unique(seeds_.begin(), seeds_.end(),
-                                [](const Seed& a, const Seed& b) { return a.index == b.index; });
-  seeds_.resize(static_cast<std::size_t>(end - seeds_.begin()));
+  const auto same = [](const Seed& a, const Seed& b) { return a.index == b.index; };
+  seeds_.erase(std::unique(seeds_.begin(), seeds_.end(), same), seeds_.end());
 }
 
 bool SeedPoints::add(std::size_t index, const Coordinates& point) {
