@@ -67,8 +67,4 @@ void InputFile::expect(std::size_t offset, std::size_t bytes) const {
   ::posix_fadvise(file_.get(), static_cast<off_t>(offset), static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
 }
 
-IoError not_enough_memory(const InputFile& file) {
-  return IoError("not enough memory for its points, file of " + std::to_string(file.size()) + " bytes");
-}
-
 }  // namespace pcl_bv

@@ -38,7 +38,4 @@ class InputFile {
   struct stat opened_ {};
 };
 
-/// What a reader throws where its points do not fit in memory.
-IoError not_enough_memory(const InputFile& file);
-
 }  // namespace pcl_bv

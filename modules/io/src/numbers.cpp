@@ -17,8 +17,7 @@ constexpr std::int64_t exponent_limit = std::int64_t{1} << 62;
 
 std::int64_t parse_exponent(std::string_view text) {
   std::int64_t exponent = 0;
-  if (!parse_number(text.data(), text.data() + text.size(), exponent) || exponent > exponent_limit ||
-      exponent < -exponent_limit) {
+  if (!read_number(text, exponent) || exponent > exponent_limit || exponent < -exponent_limit) {
     return text.front() == '-' ? -exponent_limit : exponent_limit;
   }
   return exponent;

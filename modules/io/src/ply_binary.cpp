@@ -7,9 +7,9 @@
 #include <cstring>
 #include <string>
 
+#include "element_type.h"
 #include "header_words.h"
-#include "pcl_bv/io/io_error.h"
-#include "ply_vertices.h"
+#include "ply_format.h"
 
 namespace pcl_bv {
 namespace {
@@ -107,15 +107,13 @@ class Walk {
   }
 
   std::int64_t list_size(const PointField& count) {
-    std::array<std::byte, 8> bytes{};
+    std::array<std::byte, 8> bytes;
     stream_.read_few(bytes.data(), count.size);
     if (swap_) std::reverse(bytes.begin(), bytes.begin() + count.size);
-    std::int64_t value = 0;
-    std::memcpy(&value, bytes.data(), sizeof value);
-    const int unused = 64 - 8 * static_cast<int>(count.size);
-    return count.type == 'I'
-               ? static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << unused) >> unused
-               : value;
+    return with_element_type(count, [&](auto value) {
+      std::memcpy(&value, bytes.data(), sizeof value);
+      return static_cast<std::int64_t>(value);
+    });
   }
 
   static void swap_fields(RawCloud& cloud) {

@@ -9,14 +9,13 @@
 
 #include "coordinate_fields.h"
 #include "copy_strided.h"
+#include "header_words.h"
 
 namespace pcl_bv {
 namespace {
 
 void check_new_field(const RawCloud& cloud, std::string_view name, std::size_t values) {
-  const bool usable = !name.empty() && name.find_first_of(" \t\r\n\v\f") == std::string_view::npos &&
-                      name != "_" && name != "x" && name != "y" && name != "z";
-  if (!usable) {
+  if (!is_word(name) || name == "_" || name == "x" || name == "y" || name == "z") {
     throw std::invalid_argument("field name '" + std::string(name) +
                                 "': must be a word other than _, x, y and z");
   }
