@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "picture_view.h"
+#include "picture_parts.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -46,19 +46,6 @@ std::vector<Corners> volume_corners(const Picture& picture) {
     if (!empty(entry.volume)) corners.push_back(mesh(entry.volume).vertices);
   }
   return corners;
-}
-
-/// The points that matter for the frame: those of clusters if there are labels, else all: a sample of
-/// them.
-Corners framed_points(const Picture& picture) {
-  Corners points;
-  const std::size_t step = sample_step(picture.points);
-  for (std::size_t i = 0; i < picture.points.count; i += step) {
-    const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
-    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
-    if (counts && is_drawn(p)) points.emplace_back(p.x, p.y, p.z);
-  }
-  return points;
 }
 
 Interval along(const Corners& corners, const Eigen::Vector3d& axis) {
@@ -128,6 +115,17 @@ View oriented(const Picture& picture) {
 }
 
 }  // namespace
+
+Corners framed_points(const Picture& picture) {
+  constexpr std::size_t enough = 100000;  // stand for any number of points
+  Corners points;
+  for (std::size_t i = 0; i < picture.points.count; i += picture.points.count / enough + 1) {
+    const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
+    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
+    if (counts && is_drawn(p)) points.emplace_back(p.x, p.y, p.z);
+  }
+  return points;
+}
 
 View fit_view(const Picture& picture) {
   View view = oriented(picture);
