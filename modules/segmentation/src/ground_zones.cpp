@@ -11,10 +11,8 @@
 #include <vector>
 
 #include "ground_checks.h"
-#include "ground_sample.h"
 #include "patch_fit.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/numeric/vector3.h"
 #include "plane_search.h"
 #include "zones.h"
 
@@ -113,7 +111,7 @@ struct GroundZones::Scratch {
   Slope expect(std::size_t ring, unsigned sector, const Slope& central) const;
   void fit(const Slope& central, double max_slope);
   void find_upright();
-  void classify(double distance, GroundSplit& split) const;
+  void classify(const std::optional<Plane>& central, double distance, GroundSplit& split) const;
 };
 
 void GroundZones::Scratch::read(const PointView& view, const Frame& frame) {
@@ -165,11 +163,7 @@ std::optional<Plane> GroundZones::Scratch::central_plane(const PointView& view,
   if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
   for (const std::size_t ring_count : central_rings) {
     near.count = begin[first_patch[ring_count]];
-    const Vector3d origin = sample_ground(near, settings.up, settings.seed, sample);
-    std::optional<Plane> plane = find_ground_plane(sample, settings.sensor - origin, search);
-    if (!plane) continue;
-    plane->offset += dot3(plane->normal, origin);
-    return plane;
+    if (const auto plane = find_ground_plane(near, settings.sensor, search, sample)) return plane;
   }
   return {};
 }
@@ -208,21 +202,13 @@ void GroundZones::Scratch::find_upright() {
   }
 }
 
-// Every number is written to both lists, and kept in one by moving its end, as in ground_plane.cpp.
-void GroundZones::Scratch::classify(double distance, GroundSplit& split) const {
-  split.ground.resize(points.size());
-  split.rest.resize(points.size());
+void GroundZones::Scratch::classify(const std::optional<Plane>& central, double distance,
+                                    GroundSplit& split) const {
   const std::array<float, 2> limit{static_cast<float>(distance), static_cast<float>(foot_share * distance)};
-  std::size_t ground = 0;
-  std::size_t rest = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool is_ground = split.found && above[i] <= limit[upright[place[i].cell]];
-    split.ground[ground] = split.rest[rest] = numbers[i];
-    ground += is_ground;
-    rest += !is_ground;
-  }
-  split.ground.resize(ground);
-  split.rest.resize(rest);
+  write_split(central, points.size(), split, [&](const auto& put) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      put(numbers[i], central && above[i] <= limit[upright[place[i].cell]]);
+  });
 }
 
 GroundZones::GroundZones() = default;
@@ -240,14 +226,11 @@ void GroundZones::split(const PointView& points, const GroundZonesSettings& sett
   scratch_->sort();
   std::optional<Plane> central = scratch_->central_plane(points, settings, split.scratch);
   if (!central && settings.sensor_height) central = frame.level(*settings.sensor_height);
-  split.found = central.has_value();
-  split.normal = central ? central->normal : Vector3d::Zero();
-  split.offset = central ? central->offset : 0;
   if (central) {
     scratch_->fit(frame.slope(*central), std::tan(settings.max_slope_degrees * std::numbers::pi / 180));
     scratch_->find_upright();
   }
-  scratch_->classify(settings.distance, split);
+  scratch_->classify(central, settings.distance, split);
 }
 
 }  // namespace pcl_bv

@@ -11,6 +11,8 @@
 #include <numbers>
 #include <random>
 
+#include "ground_sample.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -134,17 +136,19 @@ std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
 
 }  // namespace
 
-std::optional<Plane> find_ground_plane(const GroundScratch& points, const Vector3d& sensor,
-                                       const GroundPlaneSettings& settings) {
+std::optional<Plane> find_ground_plane(const PointView& points, const Vector3d& sensor,
+                                       const GroundPlaneSettings& settings, GroundScratch& scratch) {
+  const Vector3d origin = sample_ground(points, settings.up, settings.seed, scratch);
   const Limits limits{up_direction(settings.up),
-                      std::cos(settings.max_slope_degrees * std::numbers::pi / 180), sensor,
+                      std::cos(settings.max_slope_degrees * std::numbers::pi / 180), sensor - origin,
                       settings.sensor_height};
-  std::optional<Plane> best = search(points, limits, settings);
-  // Which plane it is, the area has said; where it is exactly, all points say, or the many near the sensor
-  // would be sacrificed to the few far off. No refined plane: the three points lay within the limits, but not
-  // what they stand for, a strip of a wall.
+  std::optional<Plane> best = search(scratch, limits, settings);
+  // The search counts points by area, so its plane fits the few far off as well as the many near the sensor;
+  // least squares over all points place it where most of them are. There is no refined plane where three
+  // points were within the limits but their neighbours are not: a strip of a wall.
   for (unsigned i = 0; best && i < refinements; ++i)
-    best = refine(*best, points.sample, settings.distance, limits);
+    best = refine(*best, scratch.sample, settings.distance, limits);
+  if (best) best->offset += dot3(best->normal, origin);
   return best;
 }
 
