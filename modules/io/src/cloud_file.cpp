@@ -41,11 +41,11 @@ std::optional<PcdHeader> binary_header(const InputFile& file, const std::filesys
   return header;
 }
 
-void expect_more(const InputFile& file, std::size_t from, std::size_t to) {
-  if (from / kAhead != to / kAhead) file.expect((to / kAhead + 1) * kAhead, kAhead);
+void prefetch(const InputFile& file, std::size_t from, std::size_t to) {
+  if (from / kAhead != to / kAhead) file.prefetch((to / kAhead + 1) * kAhead, kAhead);
 }
 
-// Never shrinks: what a vector grows by it clears first.
+// Never shrinks, since a vector that grows again would fill the new part with zeros first.
 void grow(std::vector<std::byte>& buffer, std::size_t bytes) {
   if (buffer.size() < bytes) buffer.resize(bytes);
 }
@@ -74,7 +74,7 @@ std::unique_ptr<CloudFile> CloudFile::open(const std::filesystem::path& path) {
   std::optional<PcdHeader> header = binary_header(file, path);
   if (!header || header->cloud.size() <= kChunkPoints) return nullptr;
   const CoordinateFields fields = coordinate_fields(header->cloud);
-  file.expect(header->data_offset, 2 * kAhead);
+  file.prefetch(header->data_offset, 2 * kAhead);
   return std::unique_ptr<CloudFile>(
       new CloudFile(std::make_unique<Opened>(Opened{std::move(file), std::move(*header), fields})));
 }
@@ -93,7 +93,7 @@ PointView CloudFile::xyz() const {
 PointView CloudFile::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
   const CoordinateFields& fields = file_->fields;
   const std::size_t step = header().point_step, from = file_->header.data_offset + first * step;
-  expect_more(file_->file, from, from + count * step);
+  prefetch(file_->file, from, from + count * step);
   PointView view;
   view.first = first;
   view.count = count;

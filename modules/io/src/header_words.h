@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "input_file.h"
+#include "posix_file.h"
 
 namespace pcl_bv {
 

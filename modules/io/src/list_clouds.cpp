@@ -9,9 +9,9 @@
 #include <string>
 #include <system_error>
 
-#include "file_descriptor.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "posix_file.h"
 
 namespace pcl_bv {
 namespace {

@@ -12,7 +12,7 @@
 namespace pcl_bv {
 namespace {
 
-// Exponents beyond this are as good as this: no text has so many digits that they could make up for it.
+// Greater exponents are taken for this one, so that no sum overflows: no text has 2^62 digits to balance it.
 constexpr std::int64_t exponent_limit = std::int64_t{1} << 62;
 
 std::int64_t parse_exponent(std::string_view text) {

@@ -3,13 +3,17 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 
-#include "input_file.h"
 #include "pcl_bv/io/pcd.h"
+#include "posix_file.h"
 
 namespace pcl_bv {
+
+/// By PcdEncoding.
+inline constexpr std::array pcd_encoding_names{"ascii", "binary", "binary_compressed"};
 
 /// What the header says. The sizes are consistent and do not overflow, but may be greater than the file.
 struct PcdHeader {
@@ -26,9 +30,6 @@ PcdHeader kitti_header(const InputFile& file);
 
 /// Throws IoError unless the file holds all records of a binary cloud.
 void require_records(const InputFile& file, const PcdHeader& header);
-
-/// The header of a file that holds the cloud. binary_compressed files have no padding fields.
-std::string format_pcd_header(const RawCloud& cloud, PcdEncoding encoding);
 
 /// Each reads the points behind the header into header.cloud.data. Throws IoError.
 void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelPolicy& policy);

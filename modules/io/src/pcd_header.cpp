@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -20,8 +19,6 @@ using KeywordLines = std::map<std::string_view, Words>;  // keyword -> the words
 
 constexpr std::string_view keywords[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                          "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
-
-constexpr std::array encoding_names{"ascii", "binary", "binary_compressed"};  // by PcdEncoding
 
 // Adds a line's words; returns its keyword, empty for a comment or an empty line.
 std::string_view add_line(std::string_view line, KeywordLines& lines) {
@@ -147,8 +144,8 @@ void check_version(const KeywordLines& lines) {
 
 PcdEncoding read_encoding(const KeywordLines& lines) {
   const std::string_view word = words_of(lines, "DATA", 1)[0];
-  const auto* const name = std::find(encoding_names.begin(), encoding_names.end(), word);
-  if (name != encoding_names.end()) return static_cast<PcdEncoding>(name - encoding_names.begin());
+  const auto* const name = std::find(pcd_encoding_names.begin(), pcd_encoding_names.end(), word);
+  if (name != pcd_encoding_names.end()) return static_cast<PcdEncoding>(name - pcd_encoding_names.begin());
   throw IoError("header: DATA: " + in_quotes(word) + " is not one of ascii, binary, binary_compressed");
 }
 
@@ -191,24 +188,6 @@ void require_records(const InputFile& file, const PcdHeader& header) {
   throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
                 std::to_string(cloud.point_step) + " bytes need " + std::to_string(needed) +
                 " bytes, the file has " + std::to_string(available));
-}
-
-std::string format_pcd_header(const RawCloud& cloud, PcdEncoding encoding) {
-  std::string names, sizes, types, counts, viewpoint;
-  for (const PointField& field : cloud.fields) {
-    if (encoding == PcdEncoding::binary_compressed && field.name == "_") continue;
-    names += ' ' + field.name;
-    sizes += ' ' + std::to_string(field.size);
-    types += {' ', field.type};
-    counts += ' ' + std::to_string(field.count);
-  }
-  for (const double value : cloud.viewpoint)
-    append_number(viewpoint += ' ', value);
-  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS" + names + "\nSIZE" + sizes +
-         "\nTYPE" + types + "\nCOUNT" + counts + "\nWIDTH " + std::to_string(cloud.width) + "\nHEIGHT " +
-         std::to_string(cloud.height) + "\nVIEWPOINT" + viewpoint + "\nPOINTS " +
-         std::to_string(cloud.size()) + "\nDATA " + encoding_names.at(static_cast<std::size_t>(encoding)) +
-         "\n";
 }
 
 }  // namespace pcl_bv

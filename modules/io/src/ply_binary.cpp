@@ -46,9 +46,10 @@ class ByteStream {
   std::array<std::byte, 65536> window_;
 };
 
-class Walk {
+// Reads elements in the order of the file.
+class ElementReader {
  public:
-  Walk(const InputFile& file, const PlyHeader& header)
+  ElementReader(const InputFile& file, const PlyHeader& header)
       : stream_(file, header.data_offset), swap_(header.encoding == PlyEncoding::big_endian) {}
 
   void skip(const PlyElement& element) {
@@ -132,10 +133,10 @@ class Walk {
 }  // namespace
 
 void read_ply_binary(const InputFile& file, PlyHeader& header) {
-  Walk walk(file, header);
+  ElementReader reader(file, header);
   for (const PlyElement& element : header.skipped)
-    walk.skip(element);
-  walk.read(header.vertex, header.cloud);
+    reader.skip(element);
+  reader.read(header.vertex, header.cloud);
 }
 
 }  // namespace pcl_bv

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "input_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/policy.h"
+#include "posix_file.h"
 
 namespace pcl_bv {
 

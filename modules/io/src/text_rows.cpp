@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One pass over the text: the numbers that clouds are full of by hand, all others by std::from_chars.
 #include "text_rows.h"
 
 #include <cstring>
@@ -14,7 +13,7 @@
 namespace pcl_bv {
 namespace {
 
-// Organised clouds have many of them.
+// "nan" as PCL writes it, of which organised clouds have many; std::from_chars reads all other forms.
 template <typename T>
 const char* read_nan(const char* at, T& value) {
   if (std::memcmp(at, "nan", 3) != 0 || !ends_value(at[3])) return nullptr;

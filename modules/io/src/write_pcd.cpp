@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "header_words.h"
+#include "numbers.h"
 #include "pcd_format.h"
 #include "pcl_bv/io/atomic_file.h"
 
@@ -35,11 +36,30 @@ void check_cloud(const RawCloud& cloud) {
       std::to_string(cloud.data.size()) + " bytes of data, must be " + std::to_string(cloud.size() * offset));
 }
 
+// binary_compressed files have no padding fields.
+std::string format_header(const RawCloud& cloud, PcdEncoding encoding) {
+  std::string names, sizes, types, counts, viewpoint;
+  for (const PointField& field : cloud.fields) {
+    if (encoding == PcdEncoding::binary_compressed && field.name == "_") continue;
+    names += ' ' + field.name;
+    sizes += ' ' + std::to_string(field.size);
+    types += {' ', field.type};
+    counts += ' ' + std::to_string(field.count);
+  }
+  for (const double value : cloud.viewpoint)
+    append_number(viewpoint += ' ', value);
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS" + names + "\nSIZE" + sizes +
+         "\nTYPE" + types + "\nCOUNT" + counts + "\nWIDTH " + std::to_string(cloud.width) + "\nHEIGHT " +
+         std::to_string(cloud.height) + "\nVIEWPOINT" + viewpoint + "\nPOINTS " +
+         std::to_string(cloud.size()) + "\nDATA " +
+         pcd_encoding_names.at(static_cast<std::size_t>(encoding)) + "\n";
+}
+
 }  // namespace
 
 void write_pcd(const std::filesystem::path& path, const RawCloud& cloud, PcdEncoding encoding) {
   check_cloud(cloud);
-  const std::string header = format_pcd_header(cloud, encoding);
+  const std::string header = format_header(cloud, encoding);
   require(header.size() <= max_header_size, "its fields need a header of more than 65536 bytes");
   if (encoding == PcdEncoding::binary) {
     const char* data = reinterpret_cast<const char*>(cloud.data.data());

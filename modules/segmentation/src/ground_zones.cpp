@@ -31,8 +31,8 @@ constexpr double max_gate = 0.7;       // metres; bonnets are higher
 
 constexpr double tilt_loss = 0.15;  // from ring to ring
 
-// Where something stands, a fifth of the distance makes ground: else the feet of walls, hedges and cars, two
-// of a hundred points in a street, would go with it.
+// In cells where something stands, points up to a fifth of the distance are ground: else the feet of walls,
+// hedges and cars, two of a hundred points in a street, would be, too.
 constexpr double upright_from = 0.3, upright_to = 2;  // metres above the plane
 constexpr double foot_share = 0.2;
 
