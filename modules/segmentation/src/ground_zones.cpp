@@ -104,112 +104,101 @@ struct GroundZones::Scratch {
   std::array<std::uint32_t, patch_count + 1> begin;
   std::array<Slope, patch_count> planes;
 
-  void read(const PointView& view, const Frame& frame);
-  void sort();
-  std::optional<Plane> central_plane(const PointView& view, const GroundZonesSettings& settings,
-                                     GroundScratch& sample) const;
-  Slope expect(std::size_t ring, unsigned sector, const Slope& central) const;
-  void fit(const Slope& central, double max_slope);
-  void find_upright();
-  void classify(const std::optional<Plane>& central, double distance, GroundSplit& split) const;
-};
-
-void GroundZones::Scratch::read(const PointView& view, const Frame& frame) {
-  points.resize(view.count);
-  numbers.resize(view.count);
-  place.resize(view.count);
-  begin.fill(0);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < view.count; ++i) {
-    const Coordinates p = load_point(view, i);
-    if (!is_valid(p)) continue;
-    points[kept] = frame.point(p);
-    numbers[kept] = static_cast<std::int32_t>(view.index(i));
-    place[kept] = place_of(points[kept].u, points[kept].v);
-    ++begin[place[kept].patch + 1];
-    ++kept;
+  void read(const PointView& view, const Frame& frame) {
+    points.resize(view.count);
+    numbers.resize(view.count);
+    place.resize(view.count);
+    begin.fill(0);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < view.count; ++i) {
+      const Coordinates p = load_point(view, i);
+      if (!is_valid(p)) continue;
+      points[kept] = frame.point(p);
+      numbers[kept] = static_cast<std::int32_t>(view.index(i));
+      place[kept] = place_of(points[kept].u, points[kept].v);
+      ++begin[place[kept].patch + 1];
+      ++kept;
+    }
+    points.resize(kept);
+    numbers.resize(kept);
+    place.resize(kept);
   }
-  points.resize(kept);
-  numbers.resize(kept);
-  place.resize(kept);
-}
 
-void GroundZones::Scratch::sort() {
-  std::array<std::uint32_t, patch_count> next;
-  for (std::size_t i = 0; i < patch_count; ++i) {
-    begin[i + 1] += begin[i];
-    next[i] = begin[i];
-  }
-  sorted.resize(points.size());
-  sorted_numbers.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint32_t to = next[place[i].patch]++;
-    sorted[to] = points[i];
-    sorted_numbers[to] = numbers[i];
-  }
-}
-
-std::optional<Plane> GroundZones::Scratch::central_plane(const PointView& view,
-                                                         const GroundZonesSettings& settings,
-                                                         GroundScratch& sample) const {
-  GroundPlaneSettings search;
-  search.up = settings.up;
-  search.max_slope_degrees = settings.max_slope_degrees;
-  search.sensor_height = settings.sensor_height;
-  search.seed = settings.seed;
-  search.iterations = plane_tries;
-  PointView near = view;
-  near.indices = sorted_numbers.data();
-  if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
-  for (const std::size_t ring_count : central_rings) {
-    near.count = begin[first_patch[ring_count]];
-    if (const auto plane = find_ground_plane(near, settings.sensor, search, sample)) return plane;
-  }
-  return {};
-}
-
-// What the inner neighbour's plane says, but less tilted against the central one: tilts go on, but their
-// errors must not grow with the distance.
-Slope GroundZones::Scratch::expect(std::size_t ring, unsigned sector, const Slope& central) const {
-  const std::size_t inner = inner_neighbour(ring, sector);
-  const Slope& plane = planes[inner];
-  const PatchCenter& center = patch_centers[inner];
-  Slope expected{0, plane.slope_u + tilt_loss * (central.slope_u - plane.slope_u),
-                 plane.slope_v + tilt_loss * (central.slope_v - plane.slope_v)};
-  expected.offset = plane.height(center.u, center.v) - expected.height(center.u, center.v);
-  return expected;
-}
-
-void GroundZones::Scratch::fit(const Slope& central, double max_slope) {
-  for (std::size_t ring = 0; ring < rings.size(); ++ring) {
-    for (unsigned sector = 0; sector < rings[ring].sectors; ++sector) {
-      const std::size_t i = first_patch[ring] + sector;
-      const Patch seen{sorted.data() + begin[i], begin[i + 1] - begin[i], patch_centers[i].u,
-                       patch_centers[i].v};
-      const Slope expected = ring == 0 ? central : expect(ring, sector, central);
-      planes[i] = fit_patch(seen, expected, gate_of(ring), max_slope).value_or(expected);
+  void sort() {
+    std::array<std::uint32_t, patch_count> next;
+    for (std::size_t i = 0; i < patch_count; ++i) {
+      begin[i + 1] += begin[i];
+      next[i] = begin[i];
+    }
+    sorted.resize(points.size());
+    sorted_numbers.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::uint32_t to = next[place[i].patch]++;
+      sorted[to] = points[i];
+      sorted_numbers[to] = numbers[i];
     }
   }
-}
 
-void GroundZones::Scratch::find_upright() {
-  above.resize(points.size());
-  upright.assign(cell_rings * cell_sectors, 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double height = points[i].height - planes[place[i].patch].height(points[i].u, points[i].v);
-    above[i] = static_cast<float>(height);
-    upright[place[i].cell] |= height > upright_from && height < upright_to;
+  std::optional<Plane> central_plane(const PointView& view, const GroundZonesSettings& settings,
+                                     GroundScratch& sample) const {
+    GroundPlaneSettings search;
+    search.up = settings.up;
+    search.max_slope_degrees = settings.max_slope_degrees;
+    search.sensor_height = settings.sensor_height;
+    search.seed = settings.seed;
+    search.iterations = plane_tries;
+    PointView near = view;
+    near.indices = sorted_numbers.data();
+    if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
+    for (const std::size_t ring_count : central_rings) {
+      near.count = begin[first_patch[ring_count]];
+      if (const auto plane = find_ground_plane(near, settings.sensor, search, sample)) return plane;
+    }
+    return {};
   }
-}
 
-void GroundZones::Scratch::classify(const std::optional<Plane>& central, double distance,
-                                    GroundSplit& split) const {
-  const std::array<float, 2> limit{static_cast<float>(distance), static_cast<float>(foot_share * distance)};
-  write_split(central, points.size(), split, [&](const auto& put) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      put(numbers[i], central && above[i] <= limit[upright[place[i].cell]]);
-  });
-}
+  // What the inner neighbour's plane says, but less tilted against the central one: tilts go on, but their
+  // errors must not grow with the distance.
+  Slope expect(std::size_t ring, unsigned sector, const Slope& central) const {
+    const std::size_t inner = inner_neighbour(ring, sector);
+    const Slope& plane = planes[inner];
+    const PatchCenter& center = patch_centers[inner];
+    Slope expected{0, plane.slope_u + tilt_loss * (central.slope_u - plane.slope_u),
+                   plane.slope_v + tilt_loss * (central.slope_v - plane.slope_v)};
+    expected.offset = plane.height(center.u, center.v) - expected.height(center.u, center.v);
+    return expected;
+  }
+
+  void fit(const Slope& central, double max_slope) {
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+      for (unsigned sector = 0; sector < rings[ring].sectors; ++sector) {
+        const std::size_t i = first_patch[ring] + sector;
+        const Patch seen{sorted.data() + begin[i], begin[i + 1] - begin[i], patch_centers[i].u,
+                         patch_centers[i].v};
+        const Slope expected = ring == 0 ? central : expect(ring, sector, central);
+        planes[i] = fit_patch(seen, expected, gate_of(ring), max_slope).value_or(expected);
+      }
+    }
+  }
+
+  void find_upright() {
+    above.resize(points.size());
+    upright.assign(cell_rings * cell_sectors, 0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double height = points[i].height - planes[place[i].patch].height(points[i].u, points[i].v);
+      above[i] = static_cast<float>(height);
+      upright[place[i].cell] |= height > upright_from && height < upright_to;
+    }
+  }
+
+  void classify(const std::optional<Plane>& central, double distance, GroundSplit& split) const {
+    const std::array<float, 2> limit{static_cast<float>(distance), static_cast<float>(foot_share * distance)};
+    write_split(central, points.size(), split, [&](const auto& put) {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        put(numbers[i], central && above[i] <= limit[upright[place[i].cell]]);
+    });
+  }
+};
 
 GroundZones::GroundZones() = default;
 GroundZones::~GroundZones() = default;
