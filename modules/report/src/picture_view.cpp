@@ -69,8 +69,8 @@ Interval framed(const std::vector<Corners>& volumes, const Corners& points, cons
   parts.reserve(volumes.size());
   for (const Corners& corners : volumes)
     parts.push_back(along(corners, axis));
-  include(parts,
-          parts.size() / 16);  // of a street's hundred objects the few farthest would make all others small
+  // Of a street's hundred objects the few farthest would make all others small.
+  include(parts, parts.size() / 16);
   parts.clear();
   for (const Eigen::Vector3d& p : points)
     parts.push_back({p.dot(axis), p.dot(axis)});

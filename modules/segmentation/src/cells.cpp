@@ -20,8 +20,7 @@ void place_points(const std::vector<Point<T>>& points, const CellGrid& grid, Blo
   keys.index.reset(n);
   Key last = 0;  // Of no block that holds points: all of those have a spare block below them.
   std::uint32_t block = 0;
-  std::uint64_t occupied =
-      0;  // By the run of points in this block: not in memory, where each waits for the last.
+  std::uint64_t occupied = 0;  // By points of this block in a row: in a register, faster than in memory.
   for (std::size_t i = 0; i < n; ++i) {
     const CellPlace<Key> place = grid.template place<Key>(points[i]);
     if (place.block != last) {
@@ -91,8 +90,8 @@ void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, Cells
   const std::size_t n = points.size();
   cells.points.resize(n);
   cells.node.resize(n);
-  cells.begin.assign(count + 2,
-                     0);  // Cell c is counted at c + 2, so that c + 1 is where its next point goes.
+  // Cell c is counted at c + 2, so that c + 1 is where its next point goes.
+  cells.begin.assign(count + 2, 0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t cell = cells.blocks[keys.rank[keys.block_of_point[i]]].cell(keys.bit_of_point[i]);
     cells.node[i] = cell;
