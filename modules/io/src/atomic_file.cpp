@@ -12,8 +12,7 @@
 #include <random>
 #include <string>
 
-#include "file_descriptor.h"
-#include "pcl_bv/io/io_error.h"
+#include "posix_file.h"
 
 namespace pcl_bv {
 namespace {
@@ -23,8 +22,9 @@ using Pieces = std::initializer_list<std::string_view>;
 
 const char cannot_write[] = "cannot write: ";
 
-void fail_if(int error) {
-  if (error != 0) throw IoError(cannot_write + system_reason(error));
+// Throws the reason that errno holds unless a call succeeded.
+void require(bool success) {
+  if (!success) throw IoError(cannot_write + system_reason(errno));
 }
 
 void write_and_close(FileDescriptor& file, Pieces pieces) {
@@ -32,11 +32,11 @@ void write_and_close(FileDescriptor& file, Pieces pieces) {
     while (!rest.empty()) {
       const ssize_t written = ::write(file.get(), rest.data(), rest.size());
       if (written < 0 && errno == EINTR) continue;
-      fail_if(written < 0 ? errno : 0);
+      require(written >= 0);
       rest.remove_prefix(static_cast<std::size_t>(written));
     }
   }
-  fail_if(file.close());
+  require(file.close());
 }
 
 // 64 random bits, and O_EXCL when it is opened: no two writers, on whatever machines, share a temporary file.
@@ -59,7 +59,7 @@ class TemporaryFile {
   FileDescriptor& file() { return file_; }
 
   void rename_to(const fs::path& target) {
-    fail_if(::rename(path_.c_str(), target.c_str()) == 0 ? 0 : errno);
+    require(::rename(path_.c_str(), target.c_str()) == 0);
     renamed_ = true;
   }
 
@@ -89,9 +89,9 @@ void write_file_atomically(const fs::path& link_or_file, Pieces pieces) {
   std::error_code unresolved;
   const fs::path resolved = fs::weakly_canonical(link_or_file, unresolved);
   const fs::path path = exists && !unresolved ? resolved : link_or_file;
-  if (exists) fail_if(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? 0 : errno);
+  if (exists) require(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
   TemporaryFile temporary(path.parent_path());
-  if (exists) fail_if(::fchmod(temporary.file().get(), old.st_mode & 0777) == 0 ? 0 : errno);
+  if (exists) require(::fchmod(temporary.file().get(), old.st_mode & 0777) == 0);
   write_and_close(temporary.file(), pieces);
   temporary.rename_to(path);
 }

@@ -4,17 +4,19 @@
 #include "pcl_bv/io/cloud_file.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
-#include "binary_points.h"
 #include "coordinate_fields.h"
 #include "copy_strided.h"
+#include "pcd_format.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {
 
 struct CloudFile::Opened {
   InputFile file;
-  BinaryPoints points;
+  PcdHeader header;
   CoordinateFields fields;
 };
 
@@ -29,11 +31,21 @@ constexpr std::size_t kShortRecord = 64;
 // Of longer ones this much is read at a time.
 constexpr std::size_t kPiece = std::size_t{256} << 10;
 
-void expect_more(const InputFile& file, std::size_t from, std::size_t to) {
-  if (from / kAhead != to / kAhead) file.expect((to / kAhead + 1) * kAhead, kAhead);
+// The header of a binary .pcd or a KITTI .bin, by the file's name; none of any other format.
+std::optional<PcdHeader> binary_header(const InputFile& file, const std::filesystem::path& path) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".ply") return std::nullopt;
+  PcdHeader header = extension == ".bin" ? kitti_header(file) : read_pcd_header(file);
+  if (header.encoding != PcdEncoding::binary) return std::nullopt;
+  require_records(file, header);
+  return header;
 }
 
-// Never shrinks: what a vector grows by it clears first.
+void prefetch(const InputFile& file, std::size_t from, std::size_t to) {
+  if (from / kAhead != to / kAhead) file.prefetch((to / kAhead + 1) * kAhead, kAhead);
+}
+
+// Never shrinks, since a vector that grows again would fill the new part with zeros first.
 void grow(std::vector<std::byte>& buffer, std::size_t bytes) {
   if (buffer.size() < bytes) buffer.resize(bytes);
 }
@@ -59,19 +71,19 @@ void pack(const InputFile& file, std::size_t offset, std::size_t step, const Coo
 
 std::unique_ptr<CloudFile> CloudFile::open(const std::filesystem::path& path) {
   InputFile file(path);
-  std::optional<BinaryPoints> points = find_binary_points(file, path);
-  if (!points || points->header.size() <= kChunkPoints) return nullptr;
-  const CoordinateFields fields = coordinate_fields(points->header);
-  file.expect(points->offset, 2 * kAhead);
+  std::optional<PcdHeader> header = binary_header(file, path);
+  if (!header || header->cloud.size() <= kChunkPoints) return nullptr;
+  const CoordinateFields fields = coordinate_fields(header->cloud);
+  file.prefetch(header->data_offset, 2 * kAhead);
   return std::unique_ptr<CloudFile>(
-      new CloudFile(std::make_unique<Opened>(Opened{std::move(file), std::move(*points), fields})));
+      new CloudFile(std::make_unique<Opened>(Opened{std::move(file), std::move(*header), fields})));
 }
 
 CloudFile::CloudFile(std::unique_ptr<Opened> file) : file_(std::move(file)) {}
 CloudFile::~CloudFile() = default;
 
 const RawCloud& CloudFile::header() const {
-  return file_->points.header;
+  return file_->header.cloud;
 }
 
 PointView CloudFile::xyz() const {
@@ -80,8 +92,8 @@ PointView CloudFile::xyz() const {
 
 PointView CloudFile::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
   const CoordinateFields& fields = file_->fields;
-  const std::size_t step = header().point_step, from = file_->points.offset + first * step;
-  expect_more(file_->file, from, from + count * step);
+  const std::size_t step = header().point_step, from = file_->header.data_offset + first * step;
+  prefetch(file_->file, from, from + count * step);
   PointView view;
   view.first = first;
   view.count = count;

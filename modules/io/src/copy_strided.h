@@ -10,16 +10,14 @@ namespace pcl_bv {
 
 /// Where the elements of a strided copy lie: the first one `offset` bytes after `base`, each `stride` bytes
 /// after the one before it. `base` may be null if there are none.
-struct StridedSource {
-  const std::byte* base;
+template <typename Byte>
+struct Strided {
+  Byte* base;
   std::size_t offset;
   std::size_t stride;
 };
-struct StridedTarget {
-  std::byte* base;
-  std::size_t offset;
-  std::size_t stride;
-};
+using StridedSource = Strided<const std::byte>;
+using StridedTarget = Strided<std::byte>;
 
 /// Copies `count` elements of `bytes` bytes each. The two must not overlap.
 void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::size_t count);

@@ -7,6 +7,12 @@
 
 namespace pcl_bv {
 
+std::string read_start(const InputFile& file) {
+  std::string start(std::min(file.size(), max_header_size), '\0');
+  file.read(0, start.data(), start.size());
+  return start;
+}
+
 Words split(std::string_view line) {
   constexpr std::string_view blanks = " \t\r\v\f";
   Words words;
@@ -17,6 +23,10 @@ Words split(std::string_view line) {
     begin = line.find_first_not_of(blanks, end);
   }
   return words;
+}
+
+bool is_word(std::string_view text) {
+  return !text.empty() && text.find_first_of(" \t\r\n\v\f") == std::string_view::npos;
 }
 
 }  // namespace pcl_bv

@@ -9,9 +9,9 @@
 #include <string>
 #include <system_error>
 
-#include "file_descriptor.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "posix_file.h"
 
 namespace pcl_bv {
 namespace {
@@ -24,13 +24,9 @@ bool is_digit(char c) {
 
 // Takes the run of digits at the front of `text` away; returns it without leading zeros.
 std::string_view take_number(std::string_view& text) {
-  std::size_t length = 0;
-  while (length < text.size() && is_digit(text[length]))
-    ++length;
-  std::string_view number = text.substr(0, length);
-  text.remove_prefix(length);
-  while (!number.empty() && number.front() == '0')
-    number.remove_prefix(1);
+  std::string_view number = text.substr(0, text.find_first_not_of("0123456789"));
+  text.remove_prefix(number.size());
+  number.remove_prefix(std::min(number.find_first_not_of('0'), number.size()));
   return number;
 }
 

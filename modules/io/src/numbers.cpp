@@ -12,13 +12,12 @@
 namespace pcl_bv {
 namespace {
 
-// Exponents beyond this are as good as this: no text has so many digits that they could make up for it.
+// Greater exponents are taken for this one, so that no sum overflows: no text has 2^62 digits to balance it.
 constexpr std::int64_t exponent_limit = std::int64_t{1} << 62;
 
 std::int64_t parse_exponent(std::string_view text) {
   std::int64_t exponent = 0;
-  if (!parse_number(text.data(), text.data() + text.size(), exponent) || exponent > exponent_limit ||
-      exponent < -exponent_limit) {
+  if (!read_number(text, exponent) || exponent > exponent_limit || exponent < -exponent_limit) {
     return text.front() == '-' ? -exponent_limit : exponent_limit;
   }
   return exponent;

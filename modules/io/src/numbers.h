@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers read from text, whatever the locale, with the two things that std::from_chars leaves open: "+1" and
-// numbers beyond the range of the type.
+// Numbers from and to text, whatever the locale, with the two things that std::from_chars leaves open: "+1"
+// and numbers beyond the range of the type.
 #pragma once
 
 #include <charconv>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -29,6 +30,20 @@ const char* parse_number(const char* at, const char* end, T& value) {
     }
   }
   return nullptr;
+}
+
+/// Whether the whole word is a number of this type.
+template <typename T>
+bool read_number(std::string_view word, T& value) {
+  const char* end = word.data() + word.size();
+  return parse_number(word.data(), end, value) == end;
+}
+
+/// Appends the fewest digits that read back as the same number.
+template <typename T>
+void append_number(std::string& text, T value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
 }  // namespace pcl_bv

@@ -1,19 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcd_ascii.h"
-
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
-#include <type_traits>
 
 #include "element_type.h"
 #include "header_words.h"
-#include "pcl_bv/io/io_error.h"
+#include "numbers.h"
+#include "pcd_format.h"
 #include "read_text_rows.h"
 
 namespace pcl_bv {
@@ -74,37 +70,20 @@ class PointRow {
   std::vector<PointField> runs_;
 };
 
-template <typename T>
-bool is_nan(T value) {
-  if constexpr (std::is_floating_point_v<T>) return std::isnan(value);
-  return false;
-}
-
-template <typename T>
-void append_number(std::string& text, T value) {
-  if (is_nan(value)) {
-    text += "nan";
-    return;
-  }
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
 }  // namespace
 
-void read_ascii_points(const InputFile& file, std::size_t offset, RawCloud& cloud,
-                       const ParallelPolicy& policy) {
+void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelPolicy& policy) {
+  RawCloud& cloud = header.cloud;
   check_types(cloud);
-  const std::size_t available = file.size() - offset;
+  const std::size_t available = file.size() - header.data_offset;
   // A value takes a digit and a separator, which only the last one of the file may lack.
-  const std::size_t values = std::max<std::size_t>(values_per_point(cloud), 1);
+  const std::size_t values = values_per_point(cloud);
   if (cloud.size() > (available + 1) / (2 * values)) {
-    throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
-                  std::to_string(values_per_point(cloud)) + " values do not fit in the " +
-                  std::to_string(available) + " bytes after the header");
+    throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " + std::to_string(values) +
+                  " values do not fit in the " + std::to_string(available) + " bytes after the header");
   }
   cloud.data.resize(cloud.size() * cloud.point_step);
-  const RowsRead rows = read_text_rows({file, offset, false}, {1, cloud.size(), cloud.point_step},
+  const RowsRead rows = read_text_rows({file, header.data_offset, false}, {1, cloud.size(), cloud.point_step},
                                        PointRow(cloud), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: row " + std::to_string(rows.count + 1) + " is missing, of " +
@@ -122,7 +101,11 @@ std::string format_ascii_points(const RawCloud& cloud) {
       for (std::uint32_t i = 0; i < field.count; ++i, at += field.size) {
         with_element_type(field, [&](auto value) {
           std::memcpy(&value, at, sizeof value);
-          append_number(text, value);
+          if (std::isnan(static_cast<double>(value))) {
+            text += "nan";  // whatever its sign and payload
+          } else {
+            append_number(text, value);
+          }
         });
         text += ' ';
       }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The block is two uint32 sizes (packed, unpacked) and the LZF stream of all x, then all y, and so on.
-#include "pcd_compressed.h"
-
 #include <liblzf/lzf.h>
 
 #include <algorithm>
@@ -11,7 +9,7 @@
 #include <cstring>
 
 #include "copy_strided.h"
-#include "pcl_bv/io/io_error.h"
+#include "pcd_format.h"
 
 namespace pcl_bv {
 namespace {
@@ -82,10 +80,11 @@ ByteBuffer field_by_field(const RawCloud& cloud) {
 
 }  // namespace
 
-void read_compressed_points(const InputFile& file, std::size_t offset, RawCloud& cloud) {
+void read_compressed_points(const InputFile& file, PcdHeader& header) {
+  RawCloud& cloud = header.cloud;
   if (cloud.size() == 0) return;
   BlockSizes sizes;
-  const std::size_t available = file.size() - offset;
+  const std::size_t offset = header.data_offset, available = file.size() - offset;
   if (available < sizeof sizes) throw IoError("truncated: the sizes of the compressed data are missing");
   file.read(offset, &sizes, sizeof sizes);
   check_sizes(sizes, available - sizeof sizes, cloud.size() * cloud.point_step);

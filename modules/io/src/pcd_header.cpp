@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcd_header.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -12,6 +10,7 @@
 #include "coordinate_fields.h"
 #include "header_words.h"
 #include "numbers.h"
+#include "pcd_format.h"
 
 namespace pcl_bv {
 namespace {
@@ -46,7 +45,7 @@ KeywordLines gather_lines(std::string_view start, std::size_t& data_offset) {
     // A header that stops inside a line is cut off, whatever the piece of a word looks like.
     const bool stops_inside =
         newline == std::string_view::npos && !lines.empty() && !line.starts_with("DATA");
-    if (stops_inside || (newline == std::string_view::npos && start.size() == max_pcd_header_size)) break;
+    if (stops_inside || (newline == std::string_view::npos && start.size() == max_header_size)) break;
     const std::string_view keyword = add_line(line, lines);
     at = std::min(end + 1, start.size());
     if (keyword == "DATA") {
@@ -70,8 +69,7 @@ const Words& words_of(const KeywordLines& lines, std::string_view keyword, std::
 template <typename T>
 T number(std::string_view keyword, std::string_view word, const char* expected) {
   T value{};
-  const char* end = word.data() + word.size();
-  if (parse_number(word.data(), end, value) != end) {
+  if (!read_number(word, value)) {
     throw IoError("header: " + std::string(keyword) + ": " + in_quotes(word) + " is not " + expected);
   }
   return value;
@@ -146,15 +144,15 @@ void check_version(const KeywordLines& lines) {
 
 PcdEncoding read_encoding(const KeywordLines& lines) {
   const std::string_view word = words_of(lines, "DATA", 1)[0];
-  if (word == "ascii") return PcdEncoding::ascii;
-  if (word == "binary") return PcdEncoding::binary;
-  if (word == "binary_compressed") return PcdEncoding::binary_compressed;
+  const auto* const name = std::find(pcd_encoding_names.begin(), pcd_encoding_names.end(), word);
+  if (name != pcd_encoding_names.end()) return static_cast<PcdEncoding>(name - pcd_encoding_names.begin());
   throw IoError("header: DATA: " + in_quotes(word) + " is not one of ascii, binary, binary_compressed");
 }
 
 }  // namespace
 
-PcdHeader parse_pcd_header(std::string_view start) {
+PcdHeader read_pcd_header(const InputFile& file) {
+  const std::string start = read_start(file);
   PcdHeader header;
   const KeywordLines lines = gather_lines(start, header.data_offset);
   check_version(lines);
@@ -166,10 +164,30 @@ PcdHeader parse_pcd_header(std::string_view start) {
   return header;
 }
 
-PcdHeader read_pcd_header(const InputFile& file) {
-  std::string start(std::min(file.size(), max_pcd_header_size), '\0');
-  file.read(0, start.data(), start.size());
-  return parse_pcd_header(start);
+PcdHeader kitti_header(const InputFile& file) {
+  PcdHeader header;
+  header.encoding = PcdEncoding::binary;
+  RawCloud& cloud = header.cloud;
+  for (const char* name : {"x", "y", "z", "intensity"}) {
+    cloud.fields.push_back({name, 'F', 4, 1, cloud.point_step});
+    cloud.point_step += 4;
+  }
+  if (file.size() % cloud.point_step != 0) {
+    throw IoError("truncated: " + std::to_string(file.size()) + " bytes are no multiple of the " +
+                  std::to_string(cloud.point_step) + " of a point");
+  }
+  cloud.width = file.size() / cloud.point_step;
+  return header;
+}
+
+void require_records(const InputFile& file, const PcdHeader& header) {
+  const RawCloud& cloud = header.cloud;
+  const std::size_t needed = cloud.size() * cloud.point_step;
+  const std::size_t available = file.size() - header.data_offset;
+  if (needed <= available) return;
+  throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
+                std::to_string(cloud.point_step) + " bytes need " + std::to_string(needed) +
+                " bytes, the file has " + std::to_string(available));
 }
 
 }  // namespace pcl_bv

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "header_words.h"
-#include "pcl_bv/io/io_error.h"
-#include "ply_vertices.h"
+#include "ply_format.h"
 #include "read_text_rows.h"
 
 namespace pcl_bv {

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <string>
 
+#include "element_type.h"
 #include "header_words.h"
-#include "pcl_bv/io/io_error.h"
-#include "ply_vertices.h"
+#include "ply_format.h"
 
 namespace pcl_bv {
 namespace {
@@ -46,9 +46,10 @@ class ByteStream {
   std::array<std::byte, 65536> window_;
 };
 
-class Walk {
+// Reads elements in the order of the file.
+class ElementReader {
  public:
-  Walk(const InputFile& file, const PlyHeader& header)
+  ElementReader(const InputFile& file, const PlyHeader& header)
       : stream_(file, header.data_offset), swap_(header.encoding == PlyEncoding::big_endian) {}
 
   void skip(const PlyElement& element) {
@@ -107,15 +108,13 @@ class Walk {
   }
 
   std::int64_t list_size(const PointField& count) {
-    std::array<std::byte, 8> bytes{};
+    std::array<std::byte, 8> bytes;
     stream_.read_few(bytes.data(), count.size);
     if (swap_) std::reverse(bytes.begin(), bytes.begin() + count.size);
-    std::int64_t value = 0;
-    std::memcpy(&value, bytes.data(), sizeof value);
-    const int unused = 64 - 8 * static_cast<int>(count.size);
-    return count.type == 'I'
-               ? static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << unused) >> unused
-               : value;
+    return with_element_type(count, [&](auto value) {
+      std::memcpy(&value, bytes.data(), sizeof value);
+      return static_cast<std::int64_t>(value);
+    });
   }
 
   static void swap_fields(RawCloud& cloud) {
@@ -134,10 +133,10 @@ class Walk {
 }  // namespace
 
 void read_ply_binary(const InputFile& file, PlyHeader& header) {
-  Walk walk(file, header);
+  ElementReader reader(file, header);
   for (const PlyElement& element : header.skipped)
-    walk.skip(element);
-  walk.read(header.vertex, header.cloud);
+    reader.skip(element);
+  reader.read(header.vertex, header.cloud);
 }
 
 }  // namespace pcl_bv

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "ply_header.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -10,7 +8,7 @@
 #include "coordinate_fields.h"
 #include "header_words.h"
 #include "numbers.h"
-#include "pcl_bv/io/io_error.h"
+#include "ply_format.h"
 
 namespace pcl_bv {
 namespace {
@@ -79,8 +77,7 @@ PlyEncoding read_format(const Words& words, std::string_view line) {
 PlyElement read_element(const Words& words, std::string_view line) {
   if (words.size() != 3) refuse(line);
   PlyElement element{std::string(words[1]), 0, {}};
-  const char* end = words[2].data() + words[2].size();
-  if (parse_number(words[2].data(), end, element.count) == end) return element;
+  if (read_number(words[2], element.count)) return element;
   throw IoError("header: element " + in_quotes(words[1]) + ": " + in_quotes(words[2]) + " is not a number");
 }
 
@@ -146,7 +143,8 @@ std::string_view ply_type_name(const PointField& value) {
       ->name;
 }
 
-PlyHeader parse_ply_header(std::string_view start) {
+PlyHeader read_ply_header(const InputFile& file) {
+  const std::string start = read_start(file);
   Lines lines(start);
   if (!start.starts_with("ply") || split(lines.next()) != Words{"ply"}) {
     throw IoError("not a .ply file: it does not start with a line 'ply'");

@@ -3,20 +3,20 @@
 
 #include "pcl_bv/io/raw_cloud_edit.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 
 #include "coordinate_fields.h"
 #include "copy_strided.h"
+#include "header_words.h"
 
 namespace pcl_bv {
 namespace {
 
 void check_new_field(const RawCloud& cloud, std::string_view name, std::size_t values) {
-  const bool usable = !name.empty() && name.find_first_of(" \t\r\n\v\f") == std::string_view::npos &&
-                      name != "_" && name != "x" && name != "y" && name != "z";
-  if (!usable) {
+  if (!is_word(name) || name == "_" || name == "x" || name == "y" || name == "z") {
     throw std::invalid_argument("field name '" + std::string(name) +
                                 "': must be a word other than _, x, y and z");
   }
@@ -29,18 +29,16 @@ void check_new_field(const RawCloud& cloud, std::string_view name, std::size_t v
 
 // The fields with the new one in its place; those kept still have their old offsets.
 std::vector<PointField> fields_with(const RawCloud& cloud, std::string_view name) {
+  const auto named = [&](const PointField& field) { return field.name == name; };
   const PointField added{std::string(name), 'U', 4, 1, 0};
-  std::vector<PointField> fields;
-  bool placed = false;
-  for (const PointField& field : cloud.fields) {
-    if (field.name != name) {
-      fields.push_back(field);
-    } else if (!placed) {
-      fields.push_back(added);
-      placed = true;
-    }
+  std::vector<PointField> fields = cloud.fields;
+  const auto place = std::find_if(fields.begin(), fields.end(), named);
+  if (place == fields.end()) {
+    fields.push_back(added);
+  } else {
+    *place = added;
+    fields.erase(std::remove_if(place + 1, fields.end(), named), fields.end());
   }
-  if (!placed) fields.push_back(added);
   return fields;
 }
 

@@ -8,9 +8,9 @@
 #include <functional>
 #include <string>
 
-#include "input_file.h"
 #include "pcl_bv/io/byte_buffer.h"
 #include "pcl_bv/parallel/policy.h"
+#include "posix_file.h"
 #include "text_rows.h"
 
 namespace pcl_bv {

@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -65,29 +66,30 @@ inline constexpr std::array<double, greatest_power + 1> double_powers{
 struct Decimal {
   std::int64_t digits;
   int exponent;
+
+  bool has_power() const { return exponent <= greatest_power && exponent >= -greatest_power; }
+
+  /// With one rounding of the digits and one of the product; only if has_power().
+  double magnitude() const {
+    const double factor = double_powers[static_cast<unsigned>(std::abs(exponent))];
+    return exponent < 0 ? static_cast<double>(digits) / factor : static_cast<double>(digits) * factor;
+  }
 };
 
 /// Rounds to nearest, or says that it cannot.
 inline bool round_decimal(Decimal decimal, bool negative, double& value) {
   constexpr std::int64_t doubles_end = std::int64_t{1} << 53;
-  if (decimal.digits > doubles_end || decimal.exponent > greatest_power || decimal.exponent < -greatest_power)
-    return false;
-  const double digits = static_cast<double>(decimal.digits);
-  const double magnitude = decimal.exponent < 0
-                               ? digits / double_powers[static_cast<unsigned>(-decimal.exponent)]
-                               : digits * double_powers[static_cast<unsigned>(decimal.exponent)];
+  if (decimal.digits > doubles_end || !decimal.has_power()) return false;
+  const double magnitude = decimal.magnitude();
   value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | std::uint64_t{negative} << 63);
   return true;
 }
 
-/// By way of a double that is off by two units in its last place at most: one rounding of the digits, one of
-/// the product. Where it is nearer than that to the middle between two floats, the text has to decide.
+/// By way of a double that is off by two units in its last place at most. Where it is nearer than that to the
+/// middle between two floats, the text has to decide.
 inline bool round_decimal(Decimal decimal, bool negative, float& value) {
-  if (decimal.exponent > greatest_power || decimal.exponent < -greatest_power) return false;
-  const double digits = static_cast<double>(decimal.digits);
-  const double magnitude = decimal.exponent < 0
-                               ? digits / double_powers[static_cast<unsigned>(-decimal.exponent)]
-                               : digits * double_powers[static_cast<unsigned>(decimal.exponent)];
+  if (!decimal.has_power()) return false;
+  const double magnitude = decimal.magnitude();
   constexpr std::uint64_t middle = std::uint64_t{1} << 28, below_float = (middle << 1) - 1;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(magnitude);
   const bool near_middle = (bits & below_float) - (middle - 2) <= 4;

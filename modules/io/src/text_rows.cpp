@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One pass over the text: the numbers that clouds are full of by hand, all others by std::from_chars.
 #include "text_rows.h"
 
 #include <cstring>
@@ -14,7 +13,7 @@
 namespace pcl_bv {
 namespace {
 
-// Organised clouds have many of them.
+// "nan" as PCL writes it, of which organised clouds have many; std::from_chars reads all other forms.
 template <typename T>
 const char* read_nan(const char* at, T& value) {
   if (std::memcmp(at, "nan", 3) != 0 || !ends_value(at[3])) return nullptr;
@@ -34,25 +33,21 @@ const char* read_number(const char* at, const char* end, T& value) {
 
 }  // namespace
 
-template <typename T>
-std::uint32_t TextRows::read_elements(std::uint32_t count, std::byte* to) {
-  const char* at = at_;
-  std::uint32_t read = 0;
-  for (; read < count; ++read) {
-    while (is_blank(*at))
-      ++at;
-    T value;
-    const char* after = *at == '\n' ? nullptr : read_number(at, end_, value);
-    if (!after) break;
-    std::memcpy(to + read * sizeof value, &value, sizeof value);
-    at = after;
-  }
-  at_ = at;
-  return read;
-}
-
 std::uint32_t TextRows::read(const PointField& field, std::byte* to) {
-  return with_element_type(field, [&](auto type) { return read_elements<decltype(type)>(field.count, to); });
+  return with_element_type(field, [&, count = field.count](auto value) {
+    const char* at = at_;
+    std::uint32_t read = 0;
+    for (; read < count; ++read) {
+      while (is_blank(*at))
+        ++at;
+      const char* after = *at == '\n' ? nullptr : read_number(at, end_, value);
+      if (!after) break;
+      std::memcpy(to + read * sizeof value, &value, sizeof value);
+      at = after;
+    }
+    at_ = at;
+    return read;
+  });
 }
 
 std::string_view TextRows::value() const {

@@ -44,9 +44,6 @@ class TextRows {
   std::string_view value() const;
 
  private:
-  template <typename T>
-  std::uint32_t read_elements(std::uint32_t count, std::byte* to);
-
   const char* at_;
   const char* end_;
 };

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <charconv>
 #include <stdexcept>
 
 #include "header_words.h"
-#include "pcd_ascii.h"
-#include "pcd_compressed.h"
-#include "pcd_header.h"
+#include "numbers.h"
+#include "pcd_format.h"
 #include "pcl_bv/io/atomic_file.h"
-#include "pcl_bv/io/pcd.h"
 
 namespace pcl_bv {
 namespace {
@@ -23,8 +20,7 @@ void check_cloud(const RawCloud& cloud) {
   std::size_t offset = 0;
   for (const PointField& field : cloud.fields) {
     const std::string name = "field " + in_quotes(field.name) + ": ";
-    require(!field.name.empty() && field.name.find_first_of(" \t\r\n\v\f") == std::string::npos,
-            name + "its name must be a word");
+    require(is_word(field.name), name + "its name must be a word");
     require(field.type == 'F' || field.type == 'I' || field.type == 'U', name + "type must be F, I or U");
     require(field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8,
             name + "size " + std::to_string(field.size) + " must be 1, 2, 4 or 8");
@@ -40,21 +36,8 @@ void check_cloud(const RawCloud& cloud) {
       std::to_string(cloud.data.size()) + " bytes of data, must be " + std::to_string(cloud.size() * offset));
 }
 
-const char* encoding_name(PcdEncoding encoding) {
-  switch (encoding) {
-    case PcdEncoding::ascii:
-      return "ascii";
-    case PcdEncoding::binary:
-      return "binary";
-    case PcdEncoding::binary_compressed:
-      return "binary_compressed";
-  }
-  throw std::invalid_argument("unknown PcdEncoding");
-}
-
-}  // namespace
-
-std::string format_pcd_header(const RawCloud& cloud, PcdEncoding encoding) {
+// binary_compressed files have no padding fields.
+std::string format_header(const RawCloud& cloud, PcdEncoding encoding) {
   std::string names, sizes, types, counts, viewpoint;
   for (const PointField& field : cloud.fields) {
     if (encoding == PcdEncoding::binary_compressed && field.name == "_") continue;
@@ -63,21 +46,21 @@ std::string format_pcd_header(const RawCloud& cloud, PcdEncoding encoding) {
     types += {' ', field.type};
     counts += ' ' + std::to_string(field.count);
   }
-  for (const double value : cloud.viewpoint) {
-    char digits[32];
-    viewpoint += ' ';
-    viewpoint.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-  }
+  for (const double value : cloud.viewpoint)
+    append_number(viewpoint += ' ', value);
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS" + names + "\nSIZE" + sizes +
          "\nTYPE" + types + "\nCOUNT" + counts + "\nWIDTH " + std::to_string(cloud.width) + "\nHEIGHT " +
          std::to_string(cloud.height) + "\nVIEWPOINT" + viewpoint + "\nPOINTS " +
-         std::to_string(cloud.size()) + "\nDATA " + encoding_name(encoding) + "\n";
+         std::to_string(cloud.size()) + "\nDATA " +
+         pcd_encoding_names.at(static_cast<std::size_t>(encoding)) + "\n";
 }
+
+}  // namespace
 
 void write_pcd(const std::filesystem::path& path, const RawCloud& cloud, PcdEncoding encoding) {
   check_cloud(cloud);
-  const std::string header = format_pcd_header(cloud, encoding);
-  require(header.size() <= max_pcd_header_size, "its fields need a header of more than 65536 bytes");
+  const std::string header = format_header(cloud, encoding);
+  require(header.size() <= max_header_size, "its fields need a header of more than 65536 bytes");
   if (encoding == PcdEncoding::binary) {
     const char* data = reinterpret_cast<const char*>(cloud.data.data());
     return write_file_atomically(path, {header, {data, cloud.data.size()}});

@@ -18,10 +18,6 @@ struct CsvShape {
   std::optional<double> radius;
 };
 
-inline CsvShape box_of(const Aabb& box) {
-  return {box.max() - box.min(), {}, {}};
-}
-
 /// A round shape of this whole height along its axis, whichever way that points: upwards the turn from z is
 /// well conditioned, and needs no singular value decomposition as Eigen's FromTwoVectors() does.
 inline CsvShape round_shape(const Eigen::Vector3d& axis, double radius, double height) {
@@ -53,7 +49,8 @@ CsvShape csv_shape(const Shape& shape) {
   } else if constexpr (requires { shape.radius(); }) {
     return {{}, {}, shape.radius()};
   } else {
-    return box_of(shape.aabb());
+    const Aabb box = shape.aabb();
+    return {box.max() - box.min(), {}, {}};
   }
 }
 

@@ -16,9 +16,7 @@
 
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/read_cloud.h"
-#include "picture_marks.h"
-#include "picture_points.h"
-#include "picture_view.h"
+#include "picture_parts.h"
 
 namespace pcl_bv {
 namespace {

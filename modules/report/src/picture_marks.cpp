@@ -4,7 +4,7 @@
 // Letters are strokes of our own: fonts differ from machine to machine, and finding one takes longer than a
 // picture.
 
-#include "picture_marks.h"
+#include "picture_parts.h"
 
 #include <algorithm>
 #include <charconv>

@@ -5,7 +5,7 @@
 // depth (eye-dome lighting, Boucheny 2009) and averaged down. Cairo would need minutes for what this does in
 // 0.1 s.
 
-#include "picture_points.h"
+#include "picture_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,12 +129,10 @@ std::vector<std::uint32_t> shade(const Raster& raster) {
 }
 
 /// Central heights of the scene, for the colours by height.
-std::array<double, 2> height_range(const PointView& points) {
+std::array<double, 2> height_range(const Picture& picture) {
   std::vector<double> z;
-  for (std::size_t i = 0; i < points.count; i += sample_step(points)) {
-    const Coordinates p = load_point(LoadedPoints(points, i, 1).view(), 0);
-    if (is_drawn(p)) z.push_back(p.z);
-  }
+  for (const Eigen::Vector3d& p : framed_points(picture))
+    z.push_back(p.z());
   if (z.empty()) return {0, 1};
   const std::size_t cut = z.size() / 50;
   std::nth_element(z.begin(), z.begin() + cut, z.end());
@@ -153,7 +151,7 @@ std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view)
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(picture.points.count, 1)));
   const Offsets plain = disc(std::clamp(0.17 * spacing, 0.5, 6.0));
   const Offsets clustered = disc(std::clamp(0.26 * spacing, 1.0, 6.0));
-  const auto [low, high] = picture.labels ? std::array{0.0, 1.0} : height_range(picture.points);
+  const auto [low, high] = picture.labels ? std::array{0.0, 1.0} : height_range(picture);
   const auto draw = [&, low = low, high = high](const Coordinates& p, std::size_t index) {
     const Eigen::Vector3d at = view.project({p.x, p.y, p.z});
     const Eigen::Vector3d sample(at.x() * samples, at.y() * samples, at.z() * samples);

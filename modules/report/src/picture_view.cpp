@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "picture_view.h"
+#include "picture_parts.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -48,19 +48,6 @@ std::vector<Corners> volume_corners(const Picture& picture) {
   return corners;
 }
 
-/// The points that matter for the frame: those of clusters if there are labels, else all: a sample of
-/// them.
-Corners framed_points(const Picture& picture) {
-  Corners points;
-  const std::size_t step = sample_step(picture.points);
-  for (std::size_t i = 0; i < picture.points.count; i += step) {
-    const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
-    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
-    if (counts && is_drawn(p)) points.emplace_back(p.x, p.y, p.z);
-  }
-  return points;
-}
-
 Interval along(const Corners& corners, const Eigen::Vector3d& axis) {
   Interval interval{INFINITY, -INFINITY};
   for (const Eigen::Vector3d& p : corners) {
@@ -82,8 +69,8 @@ Interval framed(const std::vector<Corners>& volumes, const Corners& points, cons
   parts.reserve(volumes.size());
   for (const Corners& corners : volumes)
     parts.push_back(along(corners, axis));
-  include(parts,
-          parts.size() / 16);  // of a street's hundred objects the few farthest would make all others small
+  // Of a street's hundred objects the few farthest would make all others small.
+  include(parts, parts.size() / 16);
   parts.clear();
   for (const Eigen::Vector3d& p : points)
     parts.push_back({p.dot(axis), p.dot(axis)});
@@ -128,6 +115,17 @@ View oriented(const Picture& picture) {
 }
 
 }  // namespace
+
+Corners framed_points(const Picture& picture) {
+  constexpr std::size_t enough = 100000;  // stand for any number of points
+  Corners points;
+  for (std::size_t i = 0; i < picture.points.count; i += picture.points.count / enough + 1) {
+    const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
+    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
+    if (counts && is_drawn(p)) points.emplace_back(p.x, p.y, p.z);
+  }
+  return points;
+}
 
 View fit_view(const Picture& picture) {
   View view = oriented(picture);

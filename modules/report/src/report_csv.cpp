@@ -3,41 +3,28 @@
 
 #include "pcl_bv/report/csv.h"
 
-#include <array>
-
 #include "csv_shape.h"
 #include "shortest.h"
 
 namespace pcl_bv {
 namespace {
 
-/// Numbers of columns after the method.
-enum Column : std::size_t {
-  center_x = 0,
-  size_x = 3,
-  rotation_x = 6,
-  radius = 10,
-  volume_column = 11,
-  column_count = 12
-};
-using Columns = std::array<std::string, column_count>;
-
-template <typename Vector>
-void set(Columns& columns, std::size_t first, const Vector& vector) {
-  for (const double number : vector)
-    columns[first++] = shortest(number);
+// A column for each number; without numbers they stay empty.
+void append_columns(std::size_t count, const double* numbers, std::string& text) {
+  for (std::size_t i = 0; i < count; ++i) {
+    text += ',';
+    if (numbers) text += shortest(numbers[i]);
+  }
 }
 
-Columns columns_of(const AnyVolume& any) {
-  Columns columns;
-  if (empty(any)) return columns;
+void append_volume(const AnyVolume& any, std::string& text) {
+  if (empty(any)) return append_columns(12, nullptr, text);
   const CsvShape shape = std::visit([](const auto& s) { return csv_shape(s); }, any);
-  set(columns, center_x, center(any));
-  if (shape.size) set(columns, size_x, *shape.size);
-  if (shape.rotation) set(columns, rotation_x, shape.rotation->coeffs());
-  if (shape.radius) columns[radius] = shortest(*shape.radius);
-  columns[volume_column] = shortest(volume(any));
-  return columns;
+  append_columns(3, center(any).data(), text);
+  append_columns(3, shape.size ? shape.size->data() : nullptr, text);
+  append_columns(4, shape.rotation ? shape.rotation->coeffs().data() : nullptr, text);
+  append_columns(1, shape.radius ? &*shape.radius : nullptr, text);
+  text += ',' + shortest(volume(any));
 }
 
 }  // namespace
@@ -54,8 +41,7 @@ void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std
   for (const VolumeEntry& entry : cluster.volumes) {
     text += first_columns;
     text += ',' + std::to_string(cluster.id) + ',' + std::to_string(cluster.points) + ',' + entry.method;
-    for (const std::string& column : columns_of(entry.volume))
-      text += ',' + column;
+    append_volume(entry.volume, text);
     text += '\n';
   }
 }

@@ -5,13 +5,16 @@
 // always give the shortest digits, and only std::to_chars promises digits that read back exactly.
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "pcl_bv/report/frame_report.h"
 #include "pcl_bv/report/report.h"
-#include "report_tree.h"
 #include "shortest.h"
 
 namespace pcl_bv {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 void write(const Json& value, std::string& out);
 
@@ -49,71 +52,68 @@ void write(const Json& value, std::string& out) {
   }
 }
 
-Json array3(const Eigen::Vector3d& v) {
-  return Json::array({v.x(), v.y(), v.z()});
+// On one line; the fewest digits that read back exactly, never -0.
+std::string to_text(const Json& json) {
+  std::string text;
+  write(json, text);
+  return text;
+}
+
+// Eigen's vectors are ranges, which become arrays.
+Json columns(const Eigen::Matrix3d& axes) {
+  return {Eigen::Vector3d(axes.col(0)), Eigen::Vector3d(axes.col(1)), Eigen::Vector3d(axes.col(2))};
 }
 
 void add_numbers(const Aabb& box, Json& entry) {
-  entry["min"] = array3(box.min());
-  entry["max"] = array3(box.max());
+  entry["min"] = box.min();
+  entry["max"] = box.max();
 }
 
 void add_numbers(const Kdop& kdop, Json& entry) {
-  Json directions = Json::array(), min = Json::array(), max = Json::array();
-  for (std::size_t i = 0; i < kdop.size(); ++i) {
-    directions.push_back(array3(kdop.set()->direction(i)));
-    min.push_back(kdop.min(i));
-    max.push_back(kdop.max(i));
-  }
-  entry["directions"] = std::move(directions);
-  entry["min"] = std::move(min);
-  entry["max"] = std::move(max);
+  entry["directions"] = Json::array();
+  for (std::size_t i = 0; i < kdop.size(); ++i)
+    entry["directions"].push_back(kdop.set()->direction(i));
+  entry["min"] = kdop.min();
+  entry["max"] = kdop.max();
 }
 
 void add_numbers(const Sphere& sphere, Json& entry) {
-  entry["center"] = array3(sphere.center());
+  entry["center"] = sphere.center();
   entry["radius"] = sphere.radius();
 }
 
 void add_numbers(const Obb& box, Json& entry) {
-  entry["center"] = array3(box.center());
-  entry["axes"] = Json::array({array3(box.axis(0)), array3(box.axis(1)), array3(box.axis(2))});
-  entry["half_extents"] = array3(box.half_extents());
-  const Eigen::Quaterniond q = box.quaternion();
-  entry["quaternion"] = Json::array({q.x(), q.y(), q.z(), q.w()});
+  entry["center"] = box.center();
+  entry["axes"] = columns(box.axes());
+  entry["half_extents"] = box.half_extents();
+  entry["quaternion"] = box.quaternion().coeffs();  // x, y, z, w
 }
 
 void add_numbers(const Cylinder& cylinder, Json& entry) {
-  entry["center"] = array3(cylinder.center());
-  entry["axis"] = array3(cylinder.axis());
+  entry["center"] = cylinder.center();
+  entry["axis"] = cylinder.axis();
   entry["radius"] = cylinder.radius();
   entry["half_height"] = cylinder.half_height();
 }
 
 void add_numbers(const Capsule& capsule, Json& entry) {
-  entry["a"] = array3(capsule.a());
-  entry["b"] = array3(capsule.b());
+  entry["a"] = capsule.a();
+  entry["b"] = capsule.b();
   entry["radius"] = capsule.radius();
 }
 
 void add_numbers(const Ellipsoid& ellipsoid, Json& entry) {
-  entry["center"] = array3(ellipsoid.center());
-  const Eigen::Matrix3d& axes = ellipsoid.axes();
-  entry["axes"] = Json::array({array3(axes.col(0)), array3(axes.col(1)), array3(axes.col(2))});
-  entry["radii"] = array3(ellipsoid.radii());
+  entry["center"] = ellipsoid.center();
+  entry["axes"] = columns(ellipsoid.axes());
+  entry["radii"] = ellipsoid.radii();
 }
 
 void add_numbers(const Hull& hull, Json& entry) {
-  Json vertices = Json::array(), faces = Json::array(), planes = Json::array();
-  for (const Eigen::Vector3d& v : hull.vertices())
-    vertices.push_back(array3(v));
-  for (const Hull::Triangle& t : hull.triangles())
-    faces.push_back(Json::array({t[0], t[1], t[2]}));
+  entry["vertices"] = hull.vertices();
+  entry["faces"] = hull.triangles();
+  entry["planes"] = Json::array();
   for (const HullPlane& p : hull.planes())
-    planes.push_back(Json::array({p.normal.x(), p.normal.y(), p.normal.z(), p.offset}));
-  entry["vertices"] = std::move(vertices);
-  entry["faces"] = std::move(faces);
-  entry["planes"] = std::move(planes);
+    entry["planes"].push_back({p.normal.x(), p.normal.y(), p.normal.z(), p.offset});
   if (hull.rank() < 3) entry["rank"] = hull.rank();
 }
 
@@ -154,8 +154,6 @@ double microseconds_exact(double seconds) {
   return std::round(seconds * 1e6) / 1e6;
 }
 
-}  // namespace
-
 Json volumes_json(const ClusterEntry& cluster) {
   Json volumes = Json::array();
   for (const VolumeEntry& entry : cluster.volumes)
@@ -171,11 +169,7 @@ Json counts_json(const Counts& counts) {
           {"large", counts.large}};
 }
 
-std::string to_text(const Json& json) {
-  std::string text;
-  write(json, text);
-  return text;
-}
+}  // namespace
 
 std::string report_json(const Report& report) {
   Json json{{"schema", 1}, {"file", report.file}};
@@ -196,6 +190,27 @@ std::string report_json(const Report& report) {
                          {"fit", microseconds_exact(report.seconds->fit)}};
     }
   }
+  return to_text(json);
+}
+
+std::string frame_json(const FrameReport& report) {
+  Json json{{"schema", 1}, {"seq", report.seq}, {"stamp_ns", report.stamp_ns}, {"frame_id", report.frame_id}};
+  if (report.error) {
+    json["error"] = *report.error;
+    return to_text(json);
+  }
+  json["points"] = report.points;
+  json["counts"] = counts_json(report.counts);
+  json["clusters"] = Json::array();
+  for (const auto& [cluster, track] : report.clusters) {
+    json["clusters"].push_back({{"id", cluster.id},
+                                {"track", track ? Json(*track) : Json()},
+                                {"points", cluster.points},
+                                {"volumes", volumes_json(cluster)}});
+  }
+  json["ms"] = Json::object();
+  for (const auto& [stage, milliseconds] : report.ms)
+    json["ms"][stage] = std::round(milliseconds * 1e3) / 1e3;
   return to_text(json);
 }
 

@@ -85,14 +85,12 @@ std::vector<Row> table(const Report& report) {
   const int decimals = choose_decimals(report);
   bool checked = false;
   for (const ClusterEntry& cluster : report.clusters) {
-    bool first = true;
     for (const VolumeEntry& entry : cluster.volumes) {
       Row row = volume_row(entry, decimals);
-      if (first) {
+      if (&entry == &cluster.volumes.front()) {
         row[0] = std::to_string(cluster.id);
         row[1] = std::to_string(cluster.points);
       }
-      first = false;
       checked = checked || entry.outside;
       rows.push_back(std::move(row));
     }
@@ -122,15 +120,15 @@ std::string aligned(const std::vector<Row>& rows) {
   return text;
 }
 
-/// A name of somebody else's making, which must neither break a line nor steer a terminal.
-std::string harmless(std::string name) {
+/// Without control characters: a file's or field's name must neither break the line nor steer a terminal.
+std::string printable(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
   return name;
 }
 
 std::string header(const Report& report) {
-  std::string text = harmless(report.file) + ": " + std::to_string(report.points) + " points";
+  std::string text = printable(report.file) + ": " + std::to_string(report.points) + " points";
   const auto add = [&](std::size_t n, const char* what) {
     if (n > 0) text += ", " + std::to_string(n) + what;
   };
@@ -159,7 +157,7 @@ std::string info_text(const CloudInfo& info) {
   text +=
       std::to_string(info.nonfinite) + " not finite, " + std::to_string(info.zero) + " at 0,0,0\n  fields";
   for (const PointField& field : info.fields) {
-    text.append(" ").append(harmless(field.name)).append(":").append(1, field.type);
+    text.append(" ").append(printable(field.name)).append(":").append(1, field.type);
     text.append(std::to_string(8 * field.size));
     if (field.count > 1) text.append("x").append(std::to_string(field.count));
   }

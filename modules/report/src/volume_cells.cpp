@@ -7,6 +7,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/report/meshes.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -49,6 +53,18 @@ VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters) {
     }
   }
   return cells;
+}
+
+std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".ply") return MeshFormat::ply;
+  if (extension == ".vtp") return MeshFormat::vtp;
+  return std::nullopt;
+}
+
+void write_volumes(const std::filesystem::path& path, const std::vector<ClusterEntry>& clusters,
+                   MeshFormat format) {
+  write_file_atomically(path, format == MeshFormat::ply ? volumes_ply(clusters) : volumes_vtp(clusters));
 }
 
 }  // namespace pcl_bv

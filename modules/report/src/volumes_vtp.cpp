@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <string_view>
+#include <stdexcept>
 
+#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/report/meshes.h"
 #include "shortest.h"
 #include "volume_cells.h"
@@ -12,10 +13,20 @@ namespace {
 
 using Cells = std::vector<Cell>;
 
+std::string attribute(const std::string& name, const std::string& value) {
+  return " " + name + "=\"" + value + "\"";
+}
+
+std::string attribute(const std::string& name, std::size_t value) {
+  return attribute(name, std::to_string(value));
+}
+
 /// One <DataArray>, for whose numbers `append` is called with the text.
 template <typename Append>
-std::string data_array(const std::string& attributes, const Append& append) {
-  std::string text = "        <DataArray " + attributes + " format=\"ascii\">\n";
+std::string data_array(const std::string& type, const std::string& name, const Append& append,
+                       const std::string& more_attributes = "") {
+  std::string text = "        <DataArray" + attribute("type", type) + attribute("Name", name) +
+                     more_attributes + " format=\"ascii\">\n";
   append(text);
   return text + "\n        </DataArray>\n";
 }
@@ -32,13 +43,13 @@ std::string cells_element(const std::string& name, const Cells& cells) {
     for (const Cell& cell : cells)
       text += std::to_string(end += cell.vertices.size()) + ' ';
   };
-  return "      <" + name + ">\n" + data_array("type=\"Int64\" Name=\"connectivity\"", connectivity) +
-         data_array("type=\"Int64\" Name=\"offsets\"", offsets) + "      </" + name + ">\n";
+  return "      <" + name + ">\n" + data_array("Int64", "connectivity", connectivity) +
+         data_array("Int64", "offsets", offsets) + "      </" + name + ">\n";
 }
 
 std::string cell_data(const VolumeCells& cells) {
-  const auto column = [&](const std::string& attributes, const auto& value_of) {
-    return data_array(attributes, [&](std::string& text) {
+  const auto column = [&](const char* type, const char* name, const auto& value_of) {
+    return data_array(type, name, [&](std::string& text) {
       // VTK counts cells in this order.
       for (const Cells* kind : {&cells.points, &cells.lines, &cells.polygons}) {
         for (const Cell& cell : *kind)
@@ -47,11 +58,10 @@ std::string cell_data(const VolumeCells& cells) {
     });
   };
   return "      <CellData Scalars=\"cluster\">\n" +
-         column("type=\"Int64\" Name=\"cluster\"",
-                [](auto& owner) { return std::to_string(owner.cluster); }) +
-         column("type=\"Int64\" Name=\"method\"", [](auto& owner) { return std::to_string(owner.method); }) +
-         column("type=\"Int64\" Name=\"points\"", [](auto& owner) { return std::to_string(owner.points); }) +
-         column("type=\"Float64\" Name=\"volume\"", [](auto& owner) { return shortest(owner.volume); }) +
+         column("Int64", "cluster", [](auto& owner) { return std::to_string(owner.cluster); }) +
+         column("Int64", "method", [](auto& owner) { return std::to_string(owner.method); }) +
+         column("Int64", "points", [](auto& owner) { return std::to_string(owner.points); }) +
+         column("Float64", "volume", [](auto& owner) { return shortest(owner.volume); }) +
          "      </CellData>\n";
 }
 
@@ -61,7 +71,7 @@ std::string points_element(const VolumeCells& cells) {
       text += shortest(vertex.x()) + ' ' + shortest(vertex.y()) + ' ' + shortest(vertex.z()) + '\n';
   };
   return "      <Points>\n" +
-         data_array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", coordinates) +
+         data_array("Float64", "Points", coordinates, attribute("NumberOfComponents", 3)) +
          "      </Points>\n";
 }
 
@@ -75,27 +85,47 @@ std::string method_names(const VolumeCells& cells) {
     }
   };
   return "    <FieldData>\n" +
-         data_array("type=\"String\" Name=\"methods\" NumberOfTuples=\"" +
-                        std::to_string(cells.methods.size()) + "\"",
-                    characters) +
+         data_array("String", "methods", characters, attribute("NumberOfTuples", cells.methods.size())) +
          "    </FieldData>\n";
+}
+
+/// Text inside the quotes of an XML attribute.
+std::string escape(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if ((c >= 0 && c < ' ') || c == 0x7F) {
+      throw std::invalid_argument("file name " + in_quotes(text) + ": must not hold control characters");
+    }
+    escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  }
+  return escaped;
 }
 
 }  // namespace
 
 std::string volumes_vtp(const std::vector<ClusterEntry>& clusters) {
   const VolumeCells cells = volume_cells(clusters);
-  const auto count = [](const char* attribute, std::size_t n) {
-    return std::string(attribute) + "=\"" + std::to_string(n) + "\"";
-  };
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
          "  <PolyData>\n" +
-         method_names(cells) + "    <Piece " + count("NumberOfPoints", cells.vertices.size()) +
-         count(" NumberOfVerts", cells.points.size()) + count(" NumberOfLines", cells.lines.size()) +
-         " NumberOfStrips=\"0\"" + count(" NumberOfPolys", cells.polygons.size()) + ">\n" + cell_data(cells) +
-         points_element(cells) + cells_element("Verts", cells.points) + cells_element("Lines", cells.lines) +
-         cells_element("Polys", cells.polygons) + "    </Piece>\n  </PolyData>\n</VTKFile>\n";
+         method_names(cells) + "    <Piece" + attribute("NumberOfPoints", cells.vertices.size()) +
+         attribute("NumberOfVerts", cells.points.size()) + attribute("NumberOfLines", cells.lines.size()) +
+         attribute("NumberOfStrips", 0) + attribute("NumberOfPolys", cells.polygons.size()) + ">\n" +
+         cell_data(cells) + points_element(cells) + cells_element("Verts", cells.points) +
+         cells_element("Lines", cells.lines) + cells_element("Polys", cells.polygons) +
+         "    </Piece>\n  </PolyData>\n</VTKFile>\n";
+}
+
+void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  for (const PvdEntry& entry : entries) {
+    text += "    <DataSet" + attribute("timestep", shortest(entry.time_seconds)) + attribute("part", 0) +
+            attribute("file", escape(entry.file)) + "/>\n";
+  }
+  write_file_atomically(path, text + "  </Collection>\n</VTKFile>\n");
 }
 
 }  // namespace pcl_bv

@@ -31,9 +31,6 @@ struct LinkScratch {
 template <typename T>
 bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch);
 
-extern template bool any_link_of_many(PointRun<float>, PointRun<float>, float, LinkScratch<float>&);
-extern template bool any_link_of_many(PointRun<double>, PointRun<double>, double, LinkScratch<double>&);
-
 /// The same as any_link(), by testing pairs until one is linked.
 template <typename T>
 bool any_link_of_few(PointRun<T> a, PointRun<T> b, T r2) {

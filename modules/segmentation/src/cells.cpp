@@ -3,6 +3,9 @@
 
 #include "cells.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace pcl_bv {
 namespace {
 
@@ -17,8 +20,7 @@ void place_points(const std::vector<Point<T>>& points, const CellGrid& grid, Blo
   keys.index.reset(n);
   Key last = 0;  // Of no block that holds points: all of those have a spare block below them.
   std::uint32_t block = 0;
-  std::uint64_t occupied =
-      0;  // By the run of points in this block: not in memory, where each waits for the last.
+  std::uint64_t occupied = 0;  // By points of this block in a row: in a register, faster than in memory.
   for (std::size_t i = 0; i < n; ++i) {
     const CellPlace<Key> place = grid.template place<Key>(points[i]);
     if (place.block != last) {
@@ -59,6 +61,26 @@ std::uint32_t sort_blocks(const CellGrid& grid, Cells<T>& cells, BlockKeys<Key>&
 
 }  // namespace
 
+std::int64_t far_cell_number(double cells) {
+  // The bits of a positive double grow with it, 2^52 to an octave; 2^28 remain, the step being 2^12 cells at
+  // least.
+  const auto steps = [](double v) { return std::bit_cast<std::int64_t>(v) >> 24; };
+  const std::int64_t magnitude =
+      static_cast<std::int64_t>(far_cells) + steps(std::abs(cells)) - steps(far_cells);
+  return cells < 0 ? -magnitude : magnitude;
+}
+
+void CellGrid::add_axis(std::size_t axis, double min, double max) {
+  constexpr std::int64_t spare = 4;  // A block's worth of cells.
+  const std::int64_t low = cell_number(min, inverse_side);
+  const std::int64_t high = cell_number(max, inverse_side);
+  origin[axis] = low - spare;
+  shift[axis] = key_bits;
+  const std::int64_t last_block = (high + spare - origin[axis]) / 4;
+  key_bits += static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(last_block)));
+  near = near && static_cast<double>(std::max(std::abs(low), std::abs(high))) < near_cells;
+}
+
 template <typename T, typename Key>
 void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, Cells<T>& cells,
                 BlockKeys<Key>& keys) {
@@ -68,8 +90,8 @@ void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, Cells
   const std::size_t n = points.size();
   cells.points.resize(n);
   cells.node.resize(n);
-  cells.begin.assign(count + 2,
-                     0);  // Cell c is counted at c + 2, so that c + 1 is where its next point goes.
+  // Cell c is counted at c + 2, so that c + 1 is where its next point goes.
+  cells.begin.assign(count + 2, 0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t cell = cells.blocks[keys.rank[keys.block_of_point[i]]].cell(keys.bit_of_point[i]);
     cells.node[i] = cell;

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "any_link.h"
 #include "block_index.h"
 #include "cell_grid.h"
-#include "distance.h"
 #include "radix_sort.h"
 
 namespace pcl_bv {
@@ -42,6 +42,9 @@ struct Cells {
   bool by_point = false;             ///< Nodes are places in `points` if true, else cells.
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(begin.size() - 1); }
+  PointRun<T> run(std::uint32_t cell) const {
+    return {points.data() + begin[cell], begin[cell + 1] - begin[cell]};
+  }
 };
 
 /// Keys of one width, and the room to sort them.

@@ -129,29 +129,25 @@ struct EuclideanClusterer::Scratch {
 
   template <typename T>
   void extract(const PointView& view, const ClusterSettings& settings, const ParallelPolicy& policy,
-               Clusters& clusters);
-};
+               Clusters& clusters) {
+    auto& scratch = std::get<PointScratch<T>>(points);
+    const std::vector<Point<T>>& valid = scratch.valid.points;
+    gather(view, scratch.valid);
+    if (valid.empty()) return;
 
-template <typename T>
-void EuclideanClusterer::Scratch::extract(const PointView& view, const ClusterSettings& settings,
-                                          const ParallelPolicy& policy, Clusters& clusters) {
-  auto& scratch = std::get<PointScratch<T>>(points);
-  const std::vector<Point<T>>& valid = scratch.valid.points;
-  gather(view, scratch.valid);
-  if (valid.empty()) return;
-
-  const double r = settings.tolerance;
-  const T r2 = static_cast<T>(r * r);
-  const CellGrid grid(scratch.valid.box, inverse_cell_side(r2));
-  if (grid.key_bits <= 64) {
-    find_components(scratch, grid, r2, policy, keys, sets);
-  } else {
-    find_components(scratch, grid, r2, policy, wide_keys, sets);
+    const double r = settings.tolerance;
+    const T r2 = static_cast<T>(r * r);
+    const CellGrid grid(scratch.valid.box, inverse_cell_side(r2));
+    if (grid.key_bits <= 64) {
+      find_components(scratch, grid, r2, policy, keys, sets);
+    } else {
+      find_components(scratch, grid, r2, policy, wide_keys, sets);
+    }
+    const std::vector<std::uint32_t>& roots = sets.roots();
+    select(roots, scratch.cells.node, settings, collector, clusters);
+    write(roots, scratch.cells.node, scratch.valid.numbers, collector, clusters);
   }
-  const std::vector<std::uint32_t>& roots = sets.roots();
-  select(roots, scratch.cells.node, settings, collector, clusters);
-  write(roots, scratch.cells.node, scratch.valid.numbers, collector, clusters);
-}
+};
 
 EuclideanClusterer::EuclideanClusterer() = default;
 EuclideanClusterer::~EuclideanClusterer() = default;

@@ -25,7 +25,4 @@ struct ValidPoints {
 template <typename T>
 void gather(const PointView& view, ValidPoints<T>& valid);
 
-extern template void gather(const PointView&, ValidPoints<float>&);
-extern template void gather(const PointView&, ValidPoints<double>&);
-
 }  // namespace pcl_bv

@@ -11,10 +11,8 @@
 #include <vector>
 
 #include "ground_checks.h"
-#include "ground_sample.h"
 #include "patch_fit.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/numeric/vector3.h"
 #include "plane_search.h"
 #include "zones.h"
 
@@ -33,8 +31,8 @@ constexpr double max_gate = 0.7;       // metres; bonnets are higher
 
 constexpr double tilt_loss = 0.15;  // from ring to ring
 
-// Where something stands, a fifth of the distance makes ground: else the feet of walls, hedges and cars, two
-// of a hundred points in a street, would go with it.
+// In cells where something stands, points up to a fifth of the distance are ground: else the feet of walls,
+// hedges and cars, two of a hundred points in a street, would be, too.
 constexpr double upright_from = 0.3, upright_to = 2;  // metres above the plane
 constexpr double foot_share = 0.2;
 
@@ -106,124 +104,101 @@ struct GroundZones::Scratch {
   std::array<std::uint32_t, patch_count + 1> begin;
   std::array<Slope, patch_count> planes;
 
-  void read(const PointView& view, const Frame& frame);
-  void sort();
-  std::optional<Plane> central_plane(const PointView& view, const GroundZonesSettings& settings,
-                                     GroundScratch& sample) const;
-  Slope expect(std::size_t ring, unsigned sector, const Slope& central) const;
-  void fit(const Slope& central, double max_slope);
-  void find_upright();
-  void classify(double distance, GroundSplit& split) const;
-};
-
-void GroundZones::Scratch::read(const PointView& view, const Frame& frame) {
-  points.resize(view.count);
-  numbers.resize(view.count);
-  place.resize(view.count);
-  begin.fill(0);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < view.count; ++i) {
-    const Coordinates p = load_point(view, i);
-    if (!is_valid(p)) continue;
-    points[kept] = frame.point(p);
-    numbers[kept] = static_cast<std::int32_t>(view.index(i));
-    place[kept] = place_of(points[kept].u, points[kept].v);
-    ++begin[place[kept].patch + 1];
-    ++kept;
+  void read(const PointView& view, const Frame& frame) {
+    points.resize(view.count);
+    numbers.resize(view.count);
+    place.resize(view.count);
+    begin.fill(0);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < view.count; ++i) {
+      const Coordinates p = load_point(view, i);
+      if (!is_valid(p)) continue;
+      points[kept] = frame.point(p);
+      numbers[kept] = static_cast<std::int32_t>(view.index(i));
+      place[kept] = place_of(points[kept].u, points[kept].v);
+      ++begin[place[kept].patch + 1];
+      ++kept;
+    }
+    points.resize(kept);
+    numbers.resize(kept);
+    place.resize(kept);
   }
-  points.resize(kept);
-  numbers.resize(kept);
-  place.resize(kept);
-}
 
-void GroundZones::Scratch::sort() {
-  std::array<std::uint32_t, patch_count> next;
-  for (std::size_t i = 0; i < patch_count; ++i) {
-    begin[i + 1] += begin[i];
-    next[i] = begin[i];
-  }
-  sorted.resize(points.size());
-  sorted_numbers.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint32_t to = next[place[i].patch]++;
-    sorted[to] = points[i];
-    sorted_numbers[to] = numbers[i];
-  }
-}
-
-std::optional<Plane> GroundZones::Scratch::central_plane(const PointView& view,
-                                                         const GroundZonesSettings& settings,
-                                                         GroundScratch& sample) const {
-  GroundPlaneSettings search;
-  search.up = settings.up;
-  search.max_slope_degrees = settings.max_slope_degrees;
-  search.sensor_height = settings.sensor_height;
-  search.seed = settings.seed;
-  search.iterations = plane_tries;
-  PointView near = view;
-  near.indices = sorted_numbers.data();
-  if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
-  for (const std::size_t ring_count : central_rings) {
-    near.count = begin[first_patch[ring_count]];
-    const Vector3d origin = sample_ground(near, settings.up, settings.seed, sample);
-    std::optional<Plane> plane = find_ground_plane(sample, settings.sensor - origin, search);
-    if (!plane) continue;
-    plane->offset += dot3(plane->normal, origin);
-    return plane;
-  }
-  return {};
-}
-
-// What the inner neighbour's plane says, but less tilted against the central one: tilts go on, but their
-// errors must not grow with the distance.
-Slope GroundZones::Scratch::expect(std::size_t ring, unsigned sector, const Slope& central) const {
-  const std::size_t inner = inner_neighbour(ring, sector);
-  const Slope& plane = planes[inner];
-  const PatchCenter& center = patch_centers[inner];
-  Slope expected{0, plane.slope_u + tilt_loss * (central.slope_u - plane.slope_u),
-                 plane.slope_v + tilt_loss * (central.slope_v - plane.slope_v)};
-  expected.offset = plane.height(center.u, center.v) - expected.height(center.u, center.v);
-  return expected;
-}
-
-void GroundZones::Scratch::fit(const Slope& central, double max_slope) {
-  for (std::size_t ring = 0; ring < rings.size(); ++ring) {
-    for (unsigned sector = 0; sector < rings[ring].sectors; ++sector) {
-      const std::size_t i = first_patch[ring] + sector;
-      const Patch seen{sorted.data() + begin[i], begin[i + 1] - begin[i], patch_centers[i].u,
-                       patch_centers[i].v};
-      const Slope expected = ring == 0 ? central : expect(ring, sector, central);
-      planes[i] = fit_patch(seen, expected, gate_of(ring), max_slope).value_or(expected);
+  void sort() {
+    std::array<std::uint32_t, patch_count> next;
+    for (std::size_t i = 0; i < patch_count; ++i) {
+      begin[i + 1] += begin[i];
+      next[i] = begin[i];
+    }
+    sorted.resize(points.size());
+    sorted_numbers.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::uint32_t to = next[place[i].patch]++;
+      sorted[to] = points[i];
+      sorted_numbers[to] = numbers[i];
     }
   }
-}
 
-void GroundZones::Scratch::find_upright() {
-  above.resize(points.size());
-  upright.assign(cell_rings * cell_sectors, 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double height = points[i].height - planes[place[i].patch].height(points[i].u, points[i].v);
-    above[i] = static_cast<float>(height);
-    upright[place[i].cell] |= height > upright_from && height < upright_to;
+  std::optional<Plane> central_plane(const PointView& view, const GroundZonesSettings& settings,
+                                     GroundScratch& sample) const {
+    GroundPlaneSettings search;
+    search.up = settings.up;
+    search.max_slope_degrees = settings.max_slope_degrees;
+    search.sensor_height = settings.sensor_height;
+    search.seed = settings.seed;
+    search.iterations = plane_tries;
+    PointView near = view;
+    near.indices = sorted_numbers.data();
+    if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
+    for (const std::size_t ring_count : central_rings) {
+      near.count = begin[first_patch[ring_count]];
+      if (const auto plane = find_ground_plane(near, settings.sensor, search, sample)) return plane;
+    }
+    return {};
   }
-}
 
-// Every number is written to both lists, and kept in one by moving its end, as in ground_plane.cpp.
-void GroundZones::Scratch::classify(double distance, GroundSplit& split) const {
-  split.ground.resize(points.size());
-  split.rest.resize(points.size());
-  const std::array<float, 2> limit{static_cast<float>(distance), static_cast<float>(foot_share * distance)};
-  std::size_t ground = 0;
-  std::size_t rest = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool is_ground = split.found && above[i] <= limit[upright[place[i].cell]];
-    split.ground[ground] = split.rest[rest] = numbers[i];
-    ground += is_ground;
-    rest += !is_ground;
+  // What the inner neighbour's plane says, but less tilted against the central one: tilts go on, but their
+  // errors must not grow with the distance.
+  Slope expect(std::size_t ring, unsigned sector, const Slope& central) const {
+    const std::size_t inner = inner_neighbour(ring, sector);
+    const Slope& plane = planes[inner];
+    const PatchCenter& center = patch_centers[inner];
+    Slope expected{0, plane.slope_u + tilt_loss * (central.slope_u - plane.slope_u),
+                   plane.slope_v + tilt_loss * (central.slope_v - plane.slope_v)};
+    expected.offset = plane.height(center.u, center.v) - expected.height(center.u, center.v);
+    return expected;
   }
-  split.ground.resize(ground);
-  split.rest.resize(rest);
-}
+
+  void fit(const Slope& central, double max_slope) {
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+      for (unsigned sector = 0; sector < rings[ring].sectors; ++sector) {
+        const std::size_t i = first_patch[ring] + sector;
+        const Patch seen{sorted.data() + begin[i], begin[i + 1] - begin[i], patch_centers[i].u,
+                         patch_centers[i].v};
+        const Slope expected = ring == 0 ? central : expect(ring, sector, central);
+        planes[i] = fit_patch(seen, expected, gate_of(ring), max_slope).value_or(expected);
+      }
+    }
+  }
+
+  void find_upright() {
+    above.resize(points.size());
+    upright.assign(cell_rings * cell_sectors, 0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double height = points[i].height - planes[place[i].patch].height(points[i].u, points[i].v);
+      above[i] = static_cast<float>(height);
+      upright[place[i].cell] |= height > upright_from && height < upright_to;
+    }
+  }
+
+  void classify(const std::optional<Plane>& central, double distance, GroundSplit& split) const {
+    const std::array<float, 2> limit{static_cast<float>(distance), static_cast<float>(foot_share * distance)};
+    write_split(central, points.size(), split, [&](const auto& put) {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        put(numbers[i], central && above[i] <= limit[upright[place[i].cell]]);
+    });
+  }
+};
 
 GroundZones::GroundZones() = default;
 GroundZones::~GroundZones() = default;
@@ -240,14 +215,11 @@ void GroundZones::split(const PointView& points, const GroundZonesSettings& sett
   scratch_->sort();
   std::optional<Plane> central = scratch_->central_plane(points, settings, split.scratch);
   if (!central && settings.sensor_height) central = frame.level(*settings.sensor_height);
-  split.found = central.has_value();
-  split.normal = central ? central->normal : Vector3d::Zero();
-  split.offset = central ? central->offset : 0;
   if (central) {
     scratch_->fit(frame.slope(*central), std::tan(settings.max_slope_degrees * std::numbers::pi / 180));
     scratch_->find_upright();
   }
-  scratch_->classify(settings.distance, split);
+  scratch_->classify(central, settings.distance, split);
 }
 
 }  // namespace pcl_bv

@@ -27,12 +27,8 @@ struct Joining {
   // Of a cell's first point.
   std::uint32_t node(std::uint32_t cell) const { return cells.by_point ? cells.begin[cell] : cell; }
 
-  PointRun<T> points(std::uint32_t cell) const {
-    return {cells.points.data() + cells.begin[cell], cells.begin[cell + 1] - cells.begin[cell]};
-  }
-
   bool linked(std::uint32_t a, std::uint32_t b, LinkScratch<T>& scratch) const {
-    return any_link(points(a), points(b), r2, scratch);
+    return any_link(cells.run(a), cells.run(b), r2, scratch);
   }
 
   bool is_loose(std::uint32_t cell) const { return !loose.empty() && loose[cell]; }
@@ -55,10 +51,10 @@ bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit
 template <typename T>
 void join_loose(const Joining<T>& joining, std::uint32_t a, std::uint32_t b, LinkScratch<T>& scratch) {
   const auto parts = [&joining](std::uint32_t cell) {  // By node: each point, or the cell as a whole.
-    return joining.is_loose(cell) ? joining.points(cell).count : 1;
+    return joining.is_loose(cell) ? joining.cells.run(cell).count : 1;
   };
   const auto part = [&joining](std::uint32_t cell, std::size_t i) {
-    const PointRun<T> all = joining.points(cell);
+    const PointRun<T> all = joining.cells.run(cell);
     return joining.is_loose(cell) ? PointRun<T>{all.points + i, 1} : all;
   };
   for (std::uint32_t i = 0; i < parts(a); ++i) {
@@ -205,9 +201,9 @@ template <typename T>
 void find_loose(const Cells<T>& cells, T r2, std::vector<std::uint8_t>& loose) {
   loose.resize(cells.size());
   for (std::uint32_t c = 0; c < cells.size(); ++c) {
-    const std::uint32_t count = cells.begin[c + 1] - cells.begin[c];
-    const Box<T> box = box_of(cells.points.data() + cells.begin[c], count);
-    loose[c] = count > 1 && !(greatest_squared_distance(box, box) < r2);
+    const PointRun<T> run = cells.run(c);
+    const Box<T> box = box_of(run.points, run.count);
+    loose[c] = run.count > 1 && !(greatest_squared_distance(box, box) < r2);
   }
 }
 
@@ -227,10 +223,10 @@ void start_sets(const Joining<T>& joining) {
 // on their timing which cells are compared; what is allocated should not.
 template <typename T>
 void make_room(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
-  constexpr std::uint32_t very_many = 4096;
-  std::uint32_t most = 0;
+  constexpr std::size_t very_many = 4096;
+  std::size_t most = 0;
   for (std::uint32_t c = 0; c < cells.size(); ++c)
-    most = std::max(most, cells.begin[c + 1] - cells.begin[c]);
+    most = std::max(most, cells.run(c).count);
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
     links[chunk].a.reserve(std::min(most, very_many));
     links[chunk].b.reserve(std::min(most, very_many));

@@ -42,8 +42,8 @@ struct Histogram {
 
   std::uint32_t layer(std::size_t i) const { return count[i] + count[i + 1]; }
 
-  // Walls, hedges and cars are as full over the layer as in it, and over reflections is the ground; over the
-  // ground is little.
+  // Above a layer of a wall, hedge or car are as many points as in it, and above reflections is the ground;
+  // above the ground are few.
   bool is_ground(std::size_t i) const {
     std::uint32_t higher = 0;
     for (std::size_t k = i + 2; k < i + 2 + bins_above && k < count.size(); ++k)
@@ -74,7 +74,7 @@ std::optional<double> lowest_layer(const Histogram& heights, double gate) {
   return {};
 }
 
-// What a fit looks at, and how reluctant it is to part with the slopes expected.
+// Points of a fit are so far below and above the guess at most, metres; weight of the expected slopes.
 struct Reach {
   double below, above, tilt_weight;
 };

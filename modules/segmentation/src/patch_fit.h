@@ -28,8 +28,8 @@ struct Patch {
   double center_u, center_v;
 };
 
-/// The plane of the lowest layer of points within `gate` metres of `expected`; none if there is none worth
-/// the name, or it is steeper than `max_slope` (a tangent).
+/// The plane of the lowest layer of points within `gate` metres of `expected`; none if it has too few points
+/// or is steeper than `max_slope` (a tangent).
 std::optional<Slope> fit_patch(const Patch& patch, const Slope& expected, double gate, double max_slope);
 
 }  // namespace pcl_bv

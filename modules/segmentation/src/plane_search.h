@@ -22,9 +22,29 @@ inline double height_above(const Plane& plane, const Eigen::Vector3d& p) {
   return dot3(plane.normal, p) - plane.offset;
 }
 
-/// The ground of the points sampled by sample_ground(), in their frame, as split_ground() says. `sensor` is
-/// the origin of the cloud in that frame.
-std::optional<Plane> find_ground_plane(const GroundScratch& points, const Eigen::Vector3d& sensor,
-                                       const GroundPlaneSettings& settings);
+/// The ground's plane as split_ground() says; `sensor` is what settings.sensor_height is the height of.
+std::optional<Plane> find_ground_plane(const PointView& points, const Eigen::Vector3d& sensor,
+                                       const GroundPlaneSettings& settings, GroundScratch& scratch);
+
+/// Makes `plane` that of the split and fills its lists: visit(put) calls put(number, is_ground) for each
+/// valid point, at most `most` times. Every number is written to both lists, and kept in one by moving its
+/// end: half the time of a branch that a cloud in scan order makes unpredictable.
+template <typename Visit>
+void write_split(const std::optional<Plane>& plane, std::size_t most, GroundSplit& split,
+                 const Visit& visit) {
+  split.found = plane.has_value();
+  split.normal = plane ? plane->normal : Eigen::Vector3d::Zero();
+  split.offset = plane ? plane->offset : 0;
+  split.ground.resize(most);
+  split.rest.resize(most);
+  std::size_t ground = 0, rest = 0;
+  visit([&](std::int32_t number, bool is_ground) {
+    split.ground[ground] = split.rest[rest] = number;
+    ground += is_ground;
+    rest += !is_ground;
+  });
+  split.ground.resize(ground);
+  split.rest.resize(rest);
+}
 
 }  // namespace pcl_bv

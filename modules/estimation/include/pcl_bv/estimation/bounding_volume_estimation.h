@@ -10,9 +10,14 @@
 #include <pcl/impl/pcl_base.hpp>
 
 #include <cstddef>
+#include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/fit_obb.h"
 #include "pcl_bv/fitting/methods.h"
@@ -33,11 +38,16 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   using Ptr = pcl::shared_ptr<BoundingVolumeEstimation>;
   using ConstPtr = pcl::shared_ptr<const BoundingVolumeEstimation>;
 
-  /// Restricts the fit to some points, or, with a null pointer, lifts the restriction.
-  void setIndices(const pcl::IndicesPtr& indices) override;
-  void setIndices(const pcl::IndicesConstPtr& indices) override;
-  void setIndices(const pcl::PointIndicesConstPtr& indices) override;
-  void setIndices(std::nullptr_t);
+  /// Restricts the fit to some points, or, with a null pointer, lifts the restriction. (PCLBase remembers
+  /// that indices were set, but not that they were taken away again.)
+  void setIndices(const pcl::IndicesPtr& indices) override { this->indices_ = indices; }
+  void setIndices(const pcl::IndicesConstPtr& indices) override {
+    this->indices_ = indices ? pcl::make_shared<pcl::Indices>(*indices) : nullptr;
+  }
+  void setIndices(const pcl::PointIndicesConstPtr& indices) override {
+    this->indices_ = indices ? pcl::make_shared<pcl::Indices>(indices->indices) : nullptr;
+  }
+  void setIndices(std::nullptr_t) { this->indices_.reset(); }
   using Base::setIndices;
 
   /// Threads for compute(): 0 means all processors, 1 (the default) the calling thread. Never changes the
@@ -54,24 +64,40 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
   /// Points with a coordinate that is not finite are dropped, whatever is_dense says. No point left: an empty
   /// volume and `no_valid_points`. A fit that fails: an empty volume, `failed` and the reason. Throws
   /// std::logic_error if no cloud was set, std::out_of_range for an index outside the cloud.
-  EstimationResult compute(VolumeT& volume) const;
+  EstimationResult compute(VolumeT& volume) const { return fit(input(), volume, execution_); }
 
   /// Fits one volume to each cluster (index lists into the input cloud; setIndices() does not matter here),
   /// in order. The same bits as one compute() per cluster: one that fails takes no other with it. Throws as
   /// compute() does, before anything is written.
   std::vector<EstimationResult> compute(const std::vector<pcl::PointIndices>& clusters,
-                                        std::vector<VolumeT>& volumes) const;
+                                        std::vector<VolumeT>& volumes) const {
+    std::vector<PointView> views;
+    views.reserve(clusters.size());
+    for (const pcl::PointIndices& cluster : clusters)
+      views.push_back(point_view(cloud(), cluster.indices));
+    volumes.assign(clusters.size(), VolumeT());
+    std::vector<EstimationResult> results(clusters.size());
+    for_each_view(views, execution_, [&](std::size_t c, const Execution& execution) {
+      results[c] = fit(views[c], volumes[c], execution);
+    });
+    return results;
+  }
 
  protected:
   virtual EstimationResult fit(const PointView& points, VolumeT& volume,
                                const Execution& execution) const = 0;
 
   /// What compute() fits: the cloud or those points of it that the indices name. Throws as compute() does.
-  PointView input() const;
+  PointView input() const {
+    return this->indices_ ? point_view(cloud(), *this->indices_) : point_view(cloud());
+  }
   const Execution& execution() const { return execution_; }
 
  private:
-  const PointCloud& cloud() const;
+  const PointCloud& cloud() const {
+    if (!this->input_) throw std::logic_error("BoundingVolumeEstimation: compute() before setInputCloud()");
+    return *this->input_;
+  }
 
   Execution execution_;
 };
@@ -112,7 +138,10 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
 
   /// Other directions than those of K, which are the default. Throws std::invalid_argument for a null
   /// pointer.
-  void setDirections(std::shared_ptr<const KdopSet> directions);
+  void setDirections(std::shared_ptr<const KdopSet> directions) {
+    if (!directions) throw std::invalid_argument("KdopEstimation::setDirections: a null pointer");
+    directions_ = std::move(directions);
+  }
   const std::shared_ptr<const KdopSet>& getDirections() const { return directions_; }
 
   /// The same, and for each slab which points of the input cloud touch it; empty if there is no valid point.
@@ -126,7 +155,12 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   }
 
  private:
-  static const std::shared_ptr<const KdopSet>& of_k();
+  static const std::shared_ptr<const KdopSet>& of_k() {
+    return K == 6    ? KdopSet::dop6()
+           : K == 14 ? KdopSet::dop14()
+           : K == 18 ? KdopSet::dop18()
+                     : KdopSet::dop26();
+  }
 
   std::shared_ptr<const KdopSet> directions_ = of_k();
 };
@@ -148,7 +182,11 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
 
   /// The smallest sphere, and the proof that it is. See fit_smallest_sphere(). Throws as compute() does, and
   /// std::invalid_argument if another method than SphereMethod::exact is set: no other has a proof.
-  EstimationResult compute(Sphere& sphere, SphereCertificate& certificate) const;
+  EstimationResult compute(Sphere& sphere, SphereCertificate& certificate) const {
+    if (options_.method != SphereMethod::exact)
+      throw std::invalid_argument("SphereEstimation: only the method exact has a certificate");
+    return fit_smallest_sphere(this->input(), sphere, certificate, this->execution());
+  }
 
  protected:
   EstimationResult fit(const PointView& points, Sphere& sphere, const Execution& execution) const override {
@@ -212,7 +250,17 @@ class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
 
   /// The methods to choose from; best_candidates() by default. Throws std::invalid_argument, naming it, for a
   /// name that is no method, for `best` itself and for no names.
-  void setMethods(const std::vector<std::string>& names);
+  void setMethods(const std::vector<std::string>& names) {
+    std::vector<const Method*> among;
+    for (const std::string& name : names) {
+      among.push_back(find_method(name));
+      if (among.back() == nullptr || among.back()->name == "best") {
+        throw std::invalid_argument("BestEstimation::setMethods: '" + name + "' is no method to choose from");
+      }
+    }
+    if (among.empty()) throw std::invalid_argument("BestEstimation::setMethods: no names");
+    among_ = std::move(among);
+  }
 
  protected:
   EstimationResult fit(const PointView& points, AnyVolume& volume,
@@ -225,5 +273,3 @@ class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
 };
 
 }  // namespace pcl_bv
-
-#include "pcl_bv/estimation/impl/bounding_volume_estimation.hpp"

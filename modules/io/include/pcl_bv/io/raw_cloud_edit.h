@@ -20,8 +20,7 @@ RawCloud make_cloud(const std::vector<float>& xyz);
 /// the end of the record. All other fields keep their values and order.
 ///
 /// Throws std::invalid_argument if there is not one value per point, or if the name is empty, holds white
-/// space, is
-/// "_" (padding) or is that of a coordinate (x, y, z).
+/// space, is "_" (padding) or that of a coordinate (x, y, z).
 void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<std::uint32_t>& values);
 
 /// Brings `packed_xyz` in line with `data`, as every reader does last: filled if fields x, y and z that

@@ -78,10 +78,23 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   /// Throws std::logic_error without an input cloud, std::out_of_range for an index outside it,
   /// std::invalid_argument if the tolerance is not finite and > 0 as a float, or the minimum size exceeds the
   /// maximum.
-  void extract(std::vector<pcl::PointIndices>& clusters);
+  void extract(std::vector<pcl::PointIndices>& clusters) {
+    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_};
+    clusterer_.extract(view(), settings, found_, policy_);
+    clusters.resize(found_.size());
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      clusters[i].header = input_->header;
+      clusters[i].indices.assign(found_.cluster(i), found_.cluster(i) + found_.cluster_size(i));
+    }
+  }
 
  private:
-  PointView view() const;
+  PointView view() const {
+    static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t), "PCL is built with another index type");
+    if (!input_) throw std::logic_error("EuclideanClusterExtraction: extract() before setInputCloud()");
+    const PointView cloud = view_records(input_->points.data(), input_->size());
+    return indices_ ? select_points(cloud, indices_->data(), indices_->size()) : cloud;
+  }
 
   using pcl::PCLBase<PointT>::input_;
   using pcl::PCLBase<PointT>::indices_;
@@ -94,24 +107,5 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   EuclideanClusterer clusterer_;
   Clusters found_;
 };
-
-template <typename PointT>
-PointView EuclideanClusterExtraction<PointT>::view() const {
-  static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t), "PCL is built with another index type");
-  if (!input_) throw std::logic_error("EuclideanClusterExtraction: extract() before setInputCloud()");
-  const PointView cloud = view_records(input_->points.data(), input_->size());
-  return indices_ ? select_points(cloud, indices_->data(), indices_->size()) : cloud;
-}
-
-template <typename PointT>
-void EuclideanClusterExtraction<PointT>::extract(std::vector<pcl::PointIndices>& clusters) {
-  const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_};
-  clusterer_.extract(view(), settings, found_, policy_);
-  clusters.resize(found_.size());
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
-    clusters[i].header = input_->header;
-    clusters[i].indices.assign(found_.cluster(i), found_.cluster(i) + found_.cluster_size(i));
-  }
-}
 
 }  // namespace pcl_bv

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/parallel/policy.h"
+#include "posix_file.h"
 
 namespace pcl_bv {
-
-/// A header must end within this many bytes.
-inline constexpr std::size_t max_ply_header_size = 65536;
 
 /// A property is one value, or a list: a count, itself a value, and that many values.
 struct PlyProperty {
@@ -49,8 +48,11 @@ struct PlyHeader {
 /// The name of a property's type: "float".
 std::string_view ply_type_name(const PointField& value);
 
-/// Reads the header at the front of `start`, the file's first bytes (at most max_ply_header_size, fewer only
-/// if the file ends there). Throws IoError.
-PlyHeader parse_ply_header(std::string_view start);
+/// Throws IoError.
+PlyHeader read_ply_header(const InputFile& file);
+
+/// Each reads the data of the vertices into header.cloud.data; lists are left out. Throws IoError.
+void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy);
+void read_ply_binary(const InputFile& file, PlyHeader& header);
 
 }  // namespace pcl_bv

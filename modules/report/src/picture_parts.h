@@ -1,11 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the picture is taken from: world coordinates to pixels.
+// What a picture is put together from.
 #pragma once
 
-#include <Eigen/Core>
+#include <cairo.h>
 
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "palette.h"
 #include "pcl_bv/report/picture.h"
 
 namespace pcl_bv {
@@ -32,12 +37,17 @@ inline bool is_drawn(const Coordinates& p) {
   return is_valid(p) && (p.x != 0 || p.y != 0 || p.z != 0);
 }
 
-/// A hundred thousand points, every so many of them, stand for any number.
-inline std::size_t sample_step(const PointView& points) {
-  return points.count / 100000 + 1;
-}
-
 /// The view that frames what picture_png() promises.
 View fit_view(const Picture& picture);
+
+/// A sample of the drawn points that matter for the frame: those in clusters if there are labels, else all.
+std::vector<Eigen::Vector3d> framed_points(const Picture& picture);
+
+/// Rows of width x height pixels 0xffRRGGBB: the background and, nearest first, the points.
+std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view);
+
+/// Draws the axes that are not seen end-on and a scale bar, in the lower left corner. Nothing in pictures too
+/// small for them, below 480 x 320.
+void draw_marks(cairo_t* cairo, const View& view);
 
 }  // namespace pcl_bv

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "input_file.h"
+#include "posix_file.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
+#include <system_error>
 
 namespace pcl_bv {
 namespace {
@@ -25,6 +25,18 @@ bool same(const timespec& a, const timespec& b) {
 }
 
 }  // namespace
+
+std::string system_reason(int error) {
+  std::string reason = std::generic_category().message(error);
+  if (!reason.empty()) reason[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(reason[0])));
+  return reason;
+}
+
+FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags, unsigned mode,
+                               const std::string& context)
+    : fd_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {
+  if (fd_ < 0) throw IoError(context + system_reason(errno));
+}
 
 // O_NONBLOCK: a pipe without a writer must be refused, not waited for. Regular files ignore it.
 InputFile::InputFile(const std::filesystem::path& path) : file_(path, O_RDONLY | O_NONBLOCK, 0, "") {
@@ -63,12 +75,8 @@ void InputFile::require_unchanged() const {
   throw IoError("the file was changed while it was read");
 }
 
-void InputFile::expect(std::size_t offset, std::size_t bytes) const {
+void InputFile::prefetch(std::size_t offset, std::size_t bytes) const {
   ::posix_fadvise(file_.get(), static_cast<off_t>(offset), static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
-}
-
-IoError not_enough_memory(const InputFile& file) {
-  return IoError("not enough memory for its points, file of " + std::to_string(file.size()) + " bytes");
 }
 
 }  // namespace pcl_bv
