@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 
-#include "passing_points.h"
 #include "pcl_bv/kernels/support.h"
 
 namespace pcl_bv {
@@ -52,6 +51,13 @@ class SupportPlan {
   double size_;        // what a projection of p - center can be
   double error_;       // of such a projection
   double pair_error_;  // of the difference of two
+};
+
+/// Which points are worth an exact look: those whose rounded projection, relative to `center` and in the
+/// view's scalar type, is at least `threshold` (a value of that type).
+struct RoundedFilter {
+  Coordinates center;
+  double threshold;
 };
 
 /// The valid point with the smallest index: what competes for an end at which all are equal.
