@@ -14,7 +14,6 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "preconditions.h"
-#include "support_error.h"
 
 namespace pcl_bv {
 namespace {

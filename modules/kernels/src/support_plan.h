@@ -5,11 +5,24 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "pcl_bv/kernels/support.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
+
+template <typename Vector>
+Direction magnitudes(const Vector& v) {
+  return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2])};
+}
+
+/// How far the double dot product of a scaled direction and a point may be off: its own rounding, that of the
+/// direction's tiny components, underflow.
+inline double double_error(const Direction& scaled, const Coordinates& p) {
+  return (0x1p-50 * dot3(magnitudes(scaled), magnitudes(p)) + 0x1p-1074 * taxicab3(p)) + kSmallestNormal;
+}
 
 /// A valid point amid the others, to which projections are relative: then zero is reached at every end, and
 /// rounding errors are those of the extent, not of the place (UTM). False if there is no valid point.
