@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Bounds of what moving a volume may lose: internal, and what enclosure rests on.
-#include "motion.h"
+#include "bounds.h"
 
 #include <gtest/gtest.h>
 

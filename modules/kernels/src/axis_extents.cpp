@@ -27,13 +27,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-AxisExtents axis_extents(const PointView& points) {
-  return axis_extents_reference(points);
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 // Registers of a packet of lanes(d) points, and the axis of their lanes (3: not a coordinate).
 template <Layout layout>
@@ -230,8 +224,8 @@ AxisExtents extents_of(const PointView& points) {
     lanes.low[i] = inf, lanes.high[i] = -inf;
   std::size_t dropped = 0;
   bool clean = true;  // where there was an invalid point there will be more
-  for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
-    const PointView block = points.slice(begin, HWY_MIN(kBlockPoints, points.count - begin));
+  for (std::size_t b = 0; b < block_count(points.count); ++b) {
+    const PointView block = block_of(points, b);
     if (clean && block.count >= n && grow_over_block<layout>(block, lanes)) continue;
     const std::size_t bad = grow_over_valid<layout>(block, low, high);
     clean = bad == 0;
@@ -249,18 +243,8 @@ AxisExtents extents_of(const PointView& points) {
   return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}, dropped};
 }
 
-template <typename T>
-AxisExtents extents_of_layout(const PointView& points) {
-  AxisExtents out;
-#define PCL_BV_CALL(layout) out = extents_of<layout, T>(points)
-  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
-#undef PCL_BV_CALL
-  return out;
-}
-
 AxisExtents axis_extents(const PointView& points) {
-  return points.scalar == ScalarType::float64 ? extents_of_layout<double>(points)
-                                              : extents_of_layout<float>(points);
+  return for_layout(points, [&]<Layout layout, typename T>() { return extents_of<layout, T>(points); });
 }
 
 #undef PCL_BV_EACH_REGISTER
@@ -269,7 +253,7 @@ AxisExtents axis_extents(const PointView& points) {
 #undef PCL_BV_CHECK
 #undef PCL_BV_KEEP
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -279,8 +263,7 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 AxisExtents axis_extents(UsableIsa isa, const PointView& points) {
-  static constexpr KernelTable<AxisExtents(const PointView&)> kTable =
-      PCL_BV_KERNEL_TABLE(axis_extents, &axis_extents_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(axis_extents, &axis_extents_reference);
   require_in_memory(points);
   return kTable[isa](points);
 }

@@ -21,32 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-void block_distances(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
-                     double* greatest) {
-  block_distances_reference(points, center, limit, filter, greatest);
-}
-
-#else
-
-// The greatest squared distance in float. Infinite only if some point is not finite or floats overflow,
-// unless `masked`, which leaves only the latter.
-template <Layout layout, bool masked>
-float greatest_in_float(const PointView& points, const DistanceCenter& center) {
-  const Tag<float> d;
-  const FloatCenter float_center(center);
-  const auto none = hn::Set(d, -1.0F);
-  auto greatest = none;
-  for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
-    V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
-    auto d2 = distances_in_float(d, float_center, x, y, z);
-    if constexpr (masked) d2 = hn::IfThenElse(valid_lanes(d, x, y, z), d2, none);
-    greatest = max_or_keep(d, d2, greatest);
-  }
-  return hn::GetLane(hn::MaxOfLanes(d, greatest));
-}
+#if HWY_TARGET != HWY_SCALAR
 
 // The greatest squared_distance() of a block. Infinite only if some point is not valid, unless `masked`.
 template <Layout layout, typename T, bool masked>
@@ -76,8 +51,13 @@ double distance_of_block(const PointView& block, const DistanceCenter& center, d
   constexpr float infinity = std::numeric_limits<float>::infinity();
   if constexpr (sizeof(T) == 4) {
     if (filter == FloatFilter::reject) {
-      float greatest = greatest_in_float<layout, false>(block, center);
-      if (!(greatest < infinity)) greatest = greatest_in_float<layout, true>(block, center);
+      const Tag<T> d;
+      const Run all{0, block.count};
+      const FloatCenter float_center(center);
+      auto lanes = greatest_in_float<layout>(d, block, all, float_center);
+      if (!hn::AllTrue(d, hn::Lt(lanes, hn::Set(d, infinity))))
+        lanes = greatest_in_float<layout, true>(d, block, all, float_center);
+      const float greatest = hn::GetLane(hn::MaxOfLanes(d, lanes));
       if (greatest < 0) return -1;
       const double bound = FloatBound(center).from_float(greatest);
       if (bound < limit) return bound;
@@ -88,33 +68,15 @@ double distance_of_block(const PointView& block, const DistanceCenter& center, d
   return greatest_in_double<layout, T, true>(block, center);
 }
 
-template <Layout layout, typename T>
-void distances_of_blocks(const PointView& points, const DistanceCenter& center, double limit,
-                         FloatFilter filter, double* greatest) {
-  for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
-    const PointView block = points.slice(begin, HWY_MIN(kBlockPoints, points.count - begin));
-    *greatest++ = distance_of_block<layout, T>(block, center, limit, filter);
-  }
-}
-
-template <typename T>
-void distances_of_type(const PointView& points, const DistanceCenter& center, double limit,
-                       FloatFilter filter, double* greatest) {
-#define PCL_BV_CALL(layout) distances_of_blocks<layout, T>(points, center, limit, filter, greatest)
-  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
-#undef PCL_BV_CALL
-}
-
 void block_distances(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
                      double* greatest) {
-  if (points.scalar == ScalarType::float64) {
-    distances_of_type<double>(points, center, limit, filter, greatest);
-  } else {
-    distances_of_type<float>(points, center, limit, filter, greatest);
-  }
+  for_layout(points, [&]<Layout layout, typename T>() {
+    for (std::size_t b = 0; b < block_count(points.count); ++b)
+      greatest[b] = distance_of_block<layout, T>(block_of(points, b), center, limit, filter);
+  });
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -125,8 +87,7 @@ namespace pcl_bv {
 
 void block_distances(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                      FloatFilter filter, double* greatest) {
-  static constexpr KernelTable<void(const PointView&, const DistanceCenter&, double, FloatFilter, double*)>
-      kTable = PCL_BV_KERNEL_TABLE(block_distances, &block_distances_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(block_distances, &block_distances_reference);
   require_distances(points, center);
   kTable[isa](points, center, limit, filter, greatest);
 }

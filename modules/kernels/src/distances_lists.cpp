@@ -20,18 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-std::size_t list_reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
-                          double limit, std::uint32_t* positions) {
-  return list_reaching_reference(block, kept, center, limit, positions);
-}
-std::size_t list_distant(const PointView& points, const DistanceCenter& center, double limit,
-                         FloatFilter filter, std::uint32_t* positions) {
-  return list_distant_reference(points, center, limit, filter, positions);
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 // The lanes of runs that reach the limit, each with its kBoundPoints points.
 template <Layout layout>
@@ -109,30 +98,19 @@ std::size_t list_of(const PointView& points, const DistanceCenter& center, doubl
 
 std::size_t list_reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
                           double limit, std::uint32_t* positions) {
-  std::size_t count = 0;
-#define PCL_BV_CALL(layout) count = reaching<layout>(block, kept, center, limit, positions)
-  PCL_BV_FOR_LAYOUT(float, block, PCL_BV_CALL)
-#undef PCL_BV_CALL
-  return count;
-}
-
-template <typename T>
-std::size_t list_of_type(const PointView& points, const DistanceCenter& center, double limit,
-                         FloatFilter filter, std::uint32_t* positions) {
-  std::size_t count = 0;
-#define PCL_BV_CALL(layout) count = list_of<layout, T>(points, center, limit, filter, positions)
-  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
-#undef PCL_BV_CALL
-  return count;
+  return for_layout(block, [&]<Layout layout, typename>() {
+    return reaching<layout>(block, kept, center, limit, positions);
+  });
 }
 
 std::size_t list_distant(const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions) {
-  return points.scalar == ScalarType::float64 ? list_of_type<double>(points, center, limit, filter, positions)
-                                              : list_of_type<float>(points, center, limit, filter, positions);
+  return for_layout(points, [&]<Layout layout, typename T>() {
+    return list_of<layout, T>(points, center, limit, filter, positions);
+  });
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -143,9 +121,7 @@ namespace pcl_bv {
 
 std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBounds& kept,
                           const DistanceCenter& center, double limit, std::uint32_t* positions) {
-  static constexpr KernelTable<std::size_t(const PointView&, const KeptBounds&, const DistanceCenter&, double,
-                                           std::uint32_t*)>
-      kTable = PCL_BV_KERNEL_TABLE(list_reaching, &list_reaching_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_reaching, &list_reaching_reference);
   require_distances(block, center, kBlockPoints);
   require_bounds(block, kept);
   return kTable[isa](block, kept, center, limit, positions);
@@ -153,9 +129,7 @@ std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBound
 
 std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions) {
-  static constexpr KernelTable<std::size_t(const PointView&, const DistanceCenter&, double, FloatFilter,
-                                           std::uint32_t*)>
-      kTable = PCL_BV_KERNEL_TABLE(list_distant, &list_distant_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_distant, &list_distant_reference);
   require_distances(points, center, kMostPositions);
   return kTable[isa](points, center, limit, filter, positions);
 }

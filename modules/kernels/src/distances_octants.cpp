@@ -7,7 +7,6 @@
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
 #include "references.h"
-#include "square.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -21,13 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-void scan_octants(const PointView& block, OctantScan& scan) {
-  scan_octants_reference(block, scan);
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 // A second look at a packet of a run: whether no point of it is beyond the limit. Double points: never.
 template <class D>
@@ -147,23 +140,13 @@ bool octants_of(const PointView& points, OctantScan& scan) {
   return true;
 }
 
-template <typename T>
-void octants_of_type(const PointView& block, OctantScan& scan) {
-#define PCL_BV_CALL(layout) \
-  if (!octants_of<layout, T, sizeof(T) == 8>(block, scan)) octants_of<layout, T, true>(block, scan)
-  PCL_BV_FOR_LAYOUT(T, block, PCL_BV_CALL)
-#undef PCL_BV_CALL
-}
-
 void scan_octants(const PointView& block, OctantScan& scan) {
-  if (block.scalar == ScalarType::float64) {
-    octants_of_type<double>(block, scan);
-  } else {
-    octants_of_type<float>(block, scan);
-  }
+  for_layout(block, [&]<Layout layout, typename T>() {
+    if (!octants_of<layout, T, sizeof(T) == 8>(block, scan)) octants_of<layout, T, true>(block, scan);
+  });
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -173,8 +156,7 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan) {
-  static constexpr KernelTable<void(const PointView&, OctantScan&)> kTable =
-      PCL_BV_KERNEL_TABLE(scan_octants, &scan_octants_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(scan_octants, &scan_octants_reference);
   require_distances(block, scan.center, kBlockPoints);
   kTable[isa](block, scan);
 }

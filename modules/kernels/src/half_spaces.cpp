@@ -18,13 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-std::size_t list_outside(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
-  return list_outside_reference(points, inside, positions);
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 // The lanes that no half-space denies; without any, those in the ball.
 template <typename T, class D>
@@ -75,21 +69,12 @@ std::size_t list_of(const PointView& points, const HalfSpaces& inside, std::uint
   return count;
 }
 
-template <typename T>
-std::size_t list_of_type(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
-  std::size_t count = 0;
-#define PCL_BV_CALL(layout) count = list_of<layout, T>(points, inside, positions)
-  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
-#undef PCL_BV_CALL
-  return count;
-}
-
 std::size_t list_outside(const PointView& points, const HalfSpaces& inside, std::uint32_t* positions) {
-  return points.scalar == ScalarType::float64 ? list_of_type<double>(points, inside, positions)
-                                              : list_of_type<float>(points, inside, positions);
+  return for_layout(
+      points, [&]<Layout layout, typename T>() { return list_of<layout, T>(points, inside, positions); });
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -100,8 +85,7 @@ namespace pcl_bv {
 
 std::size_t list_outside(UsableIsa isa, const PointView& points, const HalfSpaces& inside,
                          std::uint32_t* positions) {
-  static constexpr KernelTable<std::size_t(const PointView&, const HalfSpaces&, std::uint32_t*)> kTable =
-      PCL_BV_KERNEL_TABLE(list_outside, &list_outside_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_outside, &list_outside_reference);
   require_in_memory(points, kMostPositions);
   require_at_most(kMaxHalfSpaces, inside.count, "half-spaces");
   return kTable[isa](points, inside, positions);

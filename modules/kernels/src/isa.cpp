@@ -60,7 +60,7 @@ bool usable(const Entry& entry) {
 
 // NEON before SVE: for index lists and wide records SVE has only the general way to load points (Layout::any
 // in load-inl.h), and on most processors its vectors are no longer than NEON's.
-Isa find_best_isa() {
+Isa best_isa() {
   Isa best = Isa::scalar;
   for (const Entry& entry : kEntries) {
     if (entry.isa <= Isa::neon && usable(entry)) best = entry.isa;
@@ -68,16 +68,11 @@ Isa find_best_isa() {
   return best;
 }
 
-Isa best_isa() {
-  static const Isa best = find_best_isa();
-  return best;
-}
-
-template <typename Range>
-std::string list_names(const Range& isas) {
+std::string list_names(bool (*listed)(const Entry&)) {
   std::string text;
-  for (const Isa isa : isas)
-    text.append(text.empty() ? "" : ", ").append(isa_name(isa));
+  for (const Entry& entry : kEntries) {
+    if (listed(entry)) text.append(text.empty() ? "" : ", ").append(entry.name);
+  }
   return text;
 }
 
@@ -92,10 +87,8 @@ Isa parse_isa(std::string_view name) {
   for (const Entry& entry : kEntries) {
     if (entry.name == name) return entry.isa;
   }
-  std::string known;
-  for (const Entry& entry : kEntries)
-    known.append(known.empty() ? "" : ", ").append(entry.name);
-  throw std::invalid_argument("unknown instruction set '" + std::string(name) + "' (known: " + known + ")");
+  throw std::invalid_argument("unknown instruction set '" + std::string(name) +
+                              "' (known: " + list_names([](const Entry&) { return true; }) + ")");
 }
 
 std::vector<Isa> usable_isas() {
@@ -115,7 +108,7 @@ UsableIsa::UsableIsa(Isa isa) : isa_(isa) {
   const auto entry = static_cast<std::size_t>(isa_);
   if (entry < kEntries.size() && usable(kEntries[entry])) return;
   throw std::invalid_argument("instruction set '" + std::string(isa_name(isa_)) +
-                              "' is not usable here (usable: " + list_names(usable_isas()) + ")");
+                              "' is not usable here (usable: " + list_names(usable) + ")");
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the lanes of a cloud's blocks reach at each end, and which points are behind those that reach far.
+// What the lanes of a cloud's blocks reach at each end, and the supports among the points behind those that
+// reach far.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -13,7 +14,10 @@
 
 #include <hwy/highway.h>
 
+#include <optional>
+
 #include "load-inl.h"
+#include "support_plan.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -74,6 +78,32 @@ void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_
       look(whole + lane, n, begin + count);
       if (begin + count >= n) look(begin + count - n + point, n, begin + count);
     }
+  }
+}
+
+/// Lets the supports in `out` compete with the points of a part, given what its lanes reach. What the
+/// supports reach is noted in `later`, if it is not null, for parts that come later.
+template <Layout layout, typename T>
+void search_ends(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach,
+                 const Spread& spread, const ReachedSupports& reached, ReachedSupports* later,
+                 ChunkSupports& out) {
+  std::optional<SupportPlan> plan;  // for both ends of a direction
+  for (std::size_t end = 0; end < 2 * set.count; ++end) {
+    if (end % 2 == 0) plan.emplace(set, end / 2, spread, part.scalar);
+    const EndSearch what = plan->of(end % 2 != 0, greatest_reach(reach, end, part.count), reached[end]);
+    if (what.kind == EndSearch::Kind::none) continue;
+    SupportPoint& best = out.ends[end];
+    if (what.kind == EndSearch::Kind::every) {
+      keep_farther(set.end_direction(end), first_valid_point(part), best);
+    } else {
+      const RoundedFilter filter{spread.center, what.threshold};
+      search_lanes<layout>(part, reach, end, filter.threshold,
+                           [&](std::size_t first, std::size_t step, std::size_t last) {
+                             find_support(part, first, step, last, set, end, filter, best);
+                           });
+    }
+    if (later != nullptr && best.found)
+      (*later)[end] = HWY_MAX((*later)[end], surely_reached(set, end, best.point));
   }
 }
 

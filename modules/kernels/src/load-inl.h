@@ -68,28 +68,32 @@ Layout layout_of(const PointView& points) {
   return points.readable >= 16 ? Layout::wide : Layout::any;
 }
 
-/// CALL(layout), a macro, with the view's layout as a constant.
-#define PCL_BV_FOR_LAYOUT(T, points, CALL)                  \
-  switch (layout_of<T>(points)) {                           \
-    case Layout::groups:                                    \
-      CALL(Layout::groups);                                 \
-      break;                                                \
-    case Layout::packed12:                                  \
-      if constexpr (sizeof(T) == 4) CALL(Layout::packed12); \
-      break;                                                \
-    case Layout::packed16:                                  \
-      if constexpr (sizeof(T) == 4) CALL(Layout::packed16); \
-      break;                                                \
-    case Layout::wide:                                      \
-      if constexpr (sizeof(T) == 4) CALL(Layout::wide);     \
-      break;                                                \
-    case Layout::pairs:                                     \
-      if constexpr (sizeof(T) == 8) CALL(Layout::pairs);    \
-      break;                                                \
-    case Layout::any:                                       \
-      CALL(Layout::any);                                    \
-      break;                                                \
+/// call.operator()<layout, T>() with the view's layout and the type of its coordinates.
+template <typename Call>
+auto for_layout(const PointView& points, const Call& call) {
+  if (points.scalar == ScalarType::float64) {
+    switch (layout_of<double>(points)) {
+      case Layout::groups:
+        return call.template operator()<Layout::groups, double>();
+      case Layout::pairs:
+        return call.template operator()<Layout::pairs, double>();
+      default:
+        return call.template operator()<Layout::any, double>();
+    }
   }
+  switch (layout_of<float>(points)) {
+    case Layout::groups:
+      return call.template operator()<Layout::groups, float>();
+    case Layout::packed12:
+      return call.template operator()<Layout::packed12, float>();
+    case Layout::packed16:
+      return call.template operator()<Layout::packed16, float>();
+    case Layout::wide:
+      return call.template operator()<Layout::wide, float>();
+    default:
+      return call.template operator()<Layout::any, float>();
+  }
+}
 
 /// Which point of a packet of `lanes` points lands in a lane of load_packet().
 template <Layout layout>

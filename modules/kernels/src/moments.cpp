@@ -25,13 +25,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-Moments block_moments(const PointView& block) {
-  return block_moments_reference(block);
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 constexpr std::size_t kLanes = 8;
 
@@ -95,7 +89,7 @@ void add_lanes(const T* groups, std::size_t points, Moments& out) {
 }
 
 template <Layout layout, typename T>
-Moments moments_of_layout(const PointView& block) {
+Moments moments_of(const PointView& block) {
   HWY_ALIGN T groups[3 * kBlockPoints];
   Moments out;
   std::size_t first = 0;
@@ -109,20 +103,11 @@ Moments moments_of_layout(const PointView& block) {
   return out;
 }
 
-template <typename T>
-Moments moments_of(const PointView& block) {
-  Moments out;
-#define PCL_BV_CALL(layout) out = moments_of_layout<layout, T>(block)
-  PCL_BV_FOR_LAYOUT(T, block, PCL_BV_CALL)
-#undef PCL_BV_CALL
-  return out;
-}
-
 Moments block_moments(const PointView& block) {
-  return block.scalar == ScalarType::float64 ? moments_of<double>(block) : moments_of<float>(block);
+  return for_layout(block, [&]<Layout layout, typename T>() { return moments_of<layout, T>(block); });
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -132,8 +117,7 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 Moments block_moments(UsableIsa isa, const PointView& block) {
-  static constexpr KernelTable<Moments(const PointView&)> kTable =
-      PCL_BV_KERNEL_TABLE(block_moments, &block_moments_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(block_moments, &block_moments_reference);
   require_in_memory(block, kBlockPoints);
   return kTable[isa](block);
 }

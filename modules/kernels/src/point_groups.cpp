@@ -20,29 +20,17 @@ HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
+#if HWY_TARGET != HWY_SCALAR
 
 void fill_groups(const PointView& points, std::size_t pad, std::byte* groups) {
-  fill_groups_reference(points, pad, groups);
+  for_layout(points, [&]<Layout layout, typename T>() {
+    T point[3];
+    load_point(points, pad, point);
+    gather<layout, false>(points, point, reinterpret_cast<T*>(groups));
+  });
 }
 
-#else
-
-template <typename T>
-void fill(const PointView& points, std::size_t pad, std::byte* groups) {
-  if (points.empty()) return;
-  T point[3];
-  load_point(points, pad, point);
-#define PCL_BV_CALL(layout) gather<layout, false>(points, point, reinterpret_cast<T*>(groups))
-  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
-#undef PCL_BV_CALL
-}
-
-void fill_groups(const PointView& points, std::size_t pad, std::byte* groups) {
-  points.scalar == ScalarType::float64 ? fill<double>(points, pad, groups) : fill<float>(points, pad, groups);
-}
-
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -61,8 +49,7 @@ std::size_t padding_point(const PointView& points) {
 }
 
 void fill_groups(UsableIsa isa, const PointView& points, std::byte* groups) {
-  static constexpr KernelTable<void(const PointView&, std::size_t, std::byte*)> kTable =
-      PCL_BV_KERNEL_TABLE(fill_groups, &fill_groups_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(fill_groups, &fill_groups_reference);
   kTable[isa](points, padding_point(points), groups);
 }
 

@@ -30,13 +30,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET != HWY_SCALAR
 
 template <class D>
-using IsFloat = std::enable_if_t<sizeof(hn::TFromD<D>) == 4>*;
-template <class D>
-using IsDouble = std::enable_if_t<sizeof(hn::TFromD<D>) == 8>*;
-template <class D>
 using Signed = hn::RebindToSigned<D>;
 template <class D>
 using Unsigned = hn::RebindToUnsigned<D>;
+
+/// What the reach above and below zero is held in. Doubles stay doubles, since few sets have 64-bit integer
+/// maxima: minima and maxima may then lose a NaN, which the sum tells.
+template <class D>
+inline constexpr bool kIsFloat = sizeof(hn::TFromD<D>) == 4;
+template <class D>
+using High = std::conditional_t<kIsFloat<D>, Signed<D>, D>;
+template <class D>
+using Low = std::conditional_t<kIsFloat<D>, Unsigned<D>, D>;
 
 /// How far from the centre every point is certainly valid.
 template <typename T>
@@ -48,79 +53,52 @@ T room_around(const T* center) {
   return static_cast<T>(0.999) * (coordinate_limit<T>() - farthest);
 }
 
-template <class D, IsFloat<D> = nullptr>
-HWY_INLINE V<Signed<D>> no_high_reach(D) {
-  return hn::Zero(Signed<D>());
+template <class D>
+HWY_INLINE V<High<D>> no_high_reach(D) {
+  return hn::Zero(High<D>());
 }
-template <class D, IsFloat<D> = nullptr>
-HWY_INLINE V<Unsigned<D>> no_low_reach(D) {
-  return hn::Set(Unsigned<D>(), 0x80000000U);
+template <class D>
+HWY_INLINE V<Low<D>> no_low_reach(D d) {
+  return hn::BitCast(Low<D>(), hn::SignBit(d));
 }
-template <class D, IsFloat<D> = nullptr>
-HWY_INLINE V<Signed<D>> reach_higher(D, V<Signed<D>> reach, V<D> p) {
-  reach = hn::Max(reach, hn::BitCast(Signed<D>(), p));
-  hold(reach);
+template <class D>
+HWY_INLINE V<High<D>> reach_higher(D, V<High<D>> reach, V<D> p) {
+  reach = hn::Max(reach, hn::BitCast(High<D>(), p));
+  if constexpr (kIsFloat<D>) hold(reach);
   return reach;
 }
-template <class D, IsFloat<D> = nullptr>
-HWY_INLINE V<Unsigned<D>> reach_lower(D, V<Unsigned<D>> reach, V<D> p) {
-  reach = hn::Max(reach, hn::BitCast(Unsigned<D>(), p));
+template <class D>
+HWY_INLINE V<Low<D>> reach_lower(D, V<Low<D>> reach, V<D> p) {
+  if constexpr (!kIsFloat<D>) return hn::Min(reach, p);
+  reach = hn::Max(reach, hn::BitCast(Low<D>(), p));
   hold(reach);
   return reach;
 }
 /// As numbers >= 0.
-template <class D, IsFloat<D> = nullptr>
-HWY_INLINE V<D> high_reach(D d, V<Signed<D>> reach) {
+template <class D>
+HWY_INLINE V<D> high_reach(D d, V<High<D>> reach) {
   return hn::BitCast(d, reach);
 }
-template <class D, IsFloat<D> = nullptr>
-HWY_INLINE V<D> low_reach(D d, V<Unsigned<D>> reach) {
+template <class D>
+HWY_INLINE V<D> low_reach(D d, V<Low<D>> reach) {
   return hn::Abs(hn::BitCast(d, reach));
 }
-template <class D, IsFloat<D> = nullptr>
-HWY_INLINE bool all_within(D d, float, V<Unsigned<D>> low, V<Signed<D>> high) {
-  const auto greatest = hn::Set(Signed<D>(), 0x7F7FFFFF);  // of the finite floats
-  const auto low_magnitude = hn::BitCast(Signed<D>(), low_reach(d, low));
-  return hn::AllFalse(Signed<D>(), hn::Gt(hn::Max(high, low_magnitude), greatest));
+template <class D, typename T = hn::TFromD<D>>
+HWY_INLINE bool all_within(D d, [[maybe_unused]] T room, V<Low<D>> low, V<High<D>> high) {
+  if constexpr (kIsFloat<D>) {
+    const auto greatest = hn::Set(Signed<D>(), 0x7F7FFFFF);  // of the finite floats
+    const auto low_magnitude = hn::BitCast(Signed<D>(), low_reach(d, low));
+    return hn::AllFalse(Signed<D>(), hn::Gt(hn::Max(high, low_magnitude), greatest));
+  } else {
+    const auto limit = hn::Set(d, room);
+    return hn::AllTrue(d, hn::And(hn::Le(hn::Abs(low), limit), hn::Le(high, limit)));
+  }
 }
-template <class D, IsFloat<D> = nullptr>
-HWY_INLINE bool sum_is_finite(D, V<D>) {
-  return true;  // all_within() has seen to it
-}
-
-// Doubles: few sets have 64-bit integer maxima; the sum tells what minima and maxima may lose.
-template <class D, IsDouble<D> = nullptr>
-HWY_INLINE V<D> no_high_reach(D d) {
-  return hn::Zero(d);
-}
-template <class D, IsDouble<D> = nullptr>
-HWY_INLINE V<D> no_low_reach(D d) {
-  return hn::Zero(d);
-}
-template <class D, IsDouble<D> = nullptr>
-HWY_INLINE V<D> reach_higher(D, V<D> reach, V<D> p) {
-  return hn::Max(reach, p);
-}
-template <class D, IsDouble<D> = nullptr>
-HWY_INLINE V<D> reach_lower(D, V<D> reach, V<D> p) {
-  return hn::Min(reach, p);
-}
-template <class D, IsDouble<D> = nullptr>
-HWY_INLINE V<D> high_reach(D, V<D> reach) {
-  return hn::Abs(reach);
-}
-template <class D, IsDouble<D> = nullptr>
-HWY_INLINE V<D> low_reach(D, V<D> reach) {
-  return hn::Abs(reach);
-}
-template <class D, IsDouble<D> = nullptr>
-HWY_INLINE bool all_within(D d, double room, V<D> low, V<D> high) {
-  const auto limit = hn::Set(d, room);
-  return hn::AllTrue(d, hn::And(hn::Le(hn::Abs(low), limit), hn::Le(high, limit)));
-}
-template <class D, IsDouble<D> = nullptr>
+/// Of floats all_within() has seen to it.
+template <class D>
 HWY_INLINE bool sum_is_finite(D d, V<D> total) {
-  return hn::AllTrue(d, hn::Le(hn::Abs(total), hn::Set(d, std::numeric_limits<double>::max())));
+  const auto greatest = hn::Set(d, std::numeric_limits<hn::TFromD<D>>::max());
+  return kIsFloat<D> || hn::AllTrue(d, hn::Le(hn::Abs(total), greatest));
 }
 
 #endif  // HWY_TARGET != HWY_SCALAR

@@ -22,14 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-SlabExtents slab_extents(const PointView& points, const Coordinates& origin,
-                         const std::array<Direction, 3>& axes) {
-  return slab_extents_reference(points, origin, axes);
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 #define PCL_BV_EACH_AXIS(DO) DO(0) DO(1) DO(2)
 #define PCL_BV_DECLARE(k)                   \
@@ -70,34 +63,26 @@ void grow_over_groups(const T* groups, std::size_t points, const Coordinates& or
 #undef PCL_BV_KEEP
 
 template <Layout layout, typename T>
-void extents_of_layout(const PointView& points, const Coordinates& origin,
-                       const std::array<Direction, 3>& axes, SlabExtents& result) {
-  HWY_ALIGN T groups[3 * kBlockPoints];
-  const T pad[3] = {static_cast<T>(origin.x), static_cast<T>(origin.y), static_cast<T>(origin.z)};
-  for (std::size_t begin = 0; begin < points.count; begin += kBlockPoints) {
-    const PointView block = points.slice(begin, HWY_MIN(kBlockPoints, points.count - begin));
-    gather<layout, true>(block, pad, groups);
-    grow_over_groups(groups, block.count, origin, axes, result);
-  }
-}
-
-template <typename T>
 SlabExtents extents_of(const PointView& points, const Coordinates& origin,
                        const std::array<Direction, 3>& axes) {
   SlabExtents result;
-#define PCL_BV_CALL(layout) extents_of_layout<layout, T>(points, origin, axes, result)
-  PCL_BV_FOR_LAYOUT(T, points, PCL_BV_CALL)
-#undef PCL_BV_CALL
+  HWY_ALIGN T groups[3 * kBlockPoints];
+  const T pad[3] = {static_cast<T>(origin.x), static_cast<T>(origin.y), static_cast<T>(origin.z)};
+  for (std::size_t b = 0; b < block_count(points.count); ++b) {
+    const PointView block = block_of(points, b);
+    gather<layout, true>(block, pad, groups);
+    grow_over_groups(groups, block.count, origin, axes, result);
+  }
   return result;
 }
 
 SlabExtents slab_extents(const PointView& points, const Coordinates& origin,
                          const std::array<Direction, 3>& axes) {
-  return points.scalar == ScalarType::float64 ? extents_of<double>(points, origin, axes)
-                                              : extents_of<float>(points, origin, axes);
+  return for_layout(points,
+                    [&]<Layout layout, typename T>() { return extents_of<layout, T>(points, origin, axes); });
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -108,9 +93,7 @@ namespace pcl_bv {
 
 SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinates& origin,
                          const std::array<Direction, 3>& axes) {
-  static constexpr KernelTable<SlabExtents(const PointView&, const Coordinates&,
-                                           const std::array<Direction, 3>&)>
-      kTable = PCL_BV_KERNEL_TABLE(slab_extents, &slab_extents_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(slab_extents, &slab_extents_reference);
   require_in_memory(points);
   require_origin(points, origin);
   return kTable[isa](points, origin, axes);

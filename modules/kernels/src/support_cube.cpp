@@ -15,22 +15,13 @@
 #include <hwy/highway.h>
 
 #include "lanes-inl.h"
-#include "load-inl.h"
 #include "reach-inl.h"
-#include "support_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-void cube_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
-                   ChunkSupports& out) {
-  chunk_supports_reference(chunk, set, reached, out);
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 // Position of a direction of kCubeDirections among those of a set, or -1.
 constexpr int slot(DirectionSet set, std::size_t direction) {
@@ -136,17 +127,10 @@ void supports_of_chunk(const PointView& chunk, const ReachedSupports& reached, C
   search_ends<layout>(chunk, SupportDirections::of(set), reach, spread, reached, nullptr, out);
 }
 
-template <DirectionSet set, typename T>
-void supports_of_set(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
-#define PCL_BV_CALL(layout) supports_of_chunk<layout, set, T>(chunk, reached, out)
-  PCL_BV_FOR_LAYOUT(T, chunk, PCL_BV_CALL)
-#undef PCL_BV_CALL
-}
-
 template <DirectionSet set>
 void supports_of(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
-  if (chunk.scalar == ScalarType::float64) return supports_of_set<set, double>(chunk, reached, out);
-  supports_of_set<set, float>(chunk, reached, out);
+  for_layout(chunk,
+             [&]<Layout layout, typename T>() { supports_of_chunk<layout, set, T>(chunk, reached, out); });
 }
 
 void cube_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
@@ -163,7 +147,7 @@ void cube_supports(const PointView& chunk, const SupportDirections& set, const R
   }
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -174,8 +158,7 @@ namespace pcl_bv {
 
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                    const ReachedSupports& reached, ChunkSupports& out) {
-  static constexpr KernelTable<decltype(chunk_supports_reference)> kTable =
-      PCL_BV_KERNEL_TABLE(cube_supports, &chunk_supports_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(cube_supports, &chunk_supports_reference);
   kTable[isa](chunk, set, reached, out);
 }
 

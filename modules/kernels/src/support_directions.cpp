@@ -7,7 +7,7 @@
 #include <string>
 
 #include "pcl_bv/kernels/support.h"
-#include "support_error.h"
+#include "support_plan.h"
 
 namespace pcl_bv {
 namespace {

@@ -17,22 +17,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "copy-inl.h"
 #include "lanes-inl.h"
-#include "support_search-inl.h"
+#include "reach-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET == HWY_SCALAR
-
-void own_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
-                  ChunkSupports& out) {
-  chunk_supports_reference(chunk, set, reached, out);
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 inline constexpr std::size_t kGroup = 4;  // directions that run over a block together
 
@@ -45,6 +37,46 @@ struct Workspace {
   HWY_ALIGN T reach[104 * 1024 / sizeof(T)];
   T directions[3 * kMaxSupportDirections];
 };
+
+// Copies a block relative to the centre and lets `spread` grow to the greatest magnitudes. Returns whether
+// all points are valid; if not, nothing that was written means anything. With `masked`, invalid points are
+// replaced by the centre and counted.
+template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
+bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& spread,
+                std::size_t& dropped) {
+  const std::size_t n = hn::Lanes(d);
+  auto spread_x = no_high_reach(d), spread_y = no_high_reach(d), spread_z = no_high_reach(d);
+  [[maybe_unused]] auto total = hn::Zero(d);
+  std::size_t valid_count = 0;
+  for (std::size_t i = 0; i < block.count; i += n, points += 3 * n) {
+    V<D> x, y, z;
+    load_relative<layout, masked>(d, block, i, center, x, y, z, valid_count);
+    hn::Store(x, d, points);
+    hn::Store(y, d, points + n);
+    hn::Store(z, d, points + 2 * n);
+    if constexpr (!masked && sizeof(T) == 8) total = hn::Add(total, hn::Add(hn::Add(x, y), z));
+    spread_x = reach_higher(d, spread_x, hn::Abs(x));
+    spread_y = reach_higher(d, spread_y, hn::Abs(y));
+    spread_z = reach_higher(d, spread_z, hn::Abs(z));
+  }
+  dropped = masked ? (block.count + n - 1) / n * n - valid_count : 0;
+  if constexpr (!masked) {
+    const T room = room_around<T>(center);
+    const auto low = no_low_reach(d);
+    if (!all_within(d, room, low, spread_x) || !all_within(d, room, low, spread_y) ||
+        !all_within(d, room, low, spread_z) || !sum_is_finite(d, total)) {
+      return false;
+    }
+  }
+  const auto grow = [&](std::size_t axis, V<High<D>> reach) {
+    const double greatest = hn::GetLane(hn::MaxOfLanes(d, high_reach(d, reach)));
+    spread[axis] = HWY_MAX(spread[axis], greatest);
+  };
+  grow(0, spread_x);
+  grow(1, spread_y);
+  grow(2, spread_z);
+  return true;
+}
 
 // Named variables, not arrays: vectors of SVE have no size that the compiler knows.
 #define PCL_BV_EACH_OF_GROUP(DO) DO(0) DO(1) DO(2) DO(3)
@@ -148,8 +180,8 @@ void supports_of_part(const PointView& part, const SupportDirections& set, const
 }
 
 template <Layout layout, typename T>
-void supports_of_layout(const PointView& chunk, const SupportDirections& set, ReachedSupports& reached,
-                        ChunkSupports& out) {
+void supports_of(const PointView& chunk, const SupportDirections& set, ReachedSupports reached,
+                 ChunkSupports& out) {
   Workspace<T> work;
   for (std::size_t k = 0; k < set.count; ++k) {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -165,22 +197,12 @@ void supports_of_layout(const PointView& chunk, const SupportDirections& set, Re
   }
 }
 
-template <typename T>
-void supports_of(const PointView& chunk, const SupportDirections& set, ReachedSupports& reached,
-                 ChunkSupports& out) {
-#define PCL_BV_CALL(layout) supports_of_layout<layout, T>(chunk, set, reached, out)
-  PCL_BV_FOR_LAYOUT(T, chunk, PCL_BV_CALL)
-#undef PCL_BV_CALL
-}
-
 void own_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
                   ChunkSupports& out) {
-  ReachedSupports reached_so_far = reached;
-  if (chunk.scalar == ScalarType::float64) return supports_of<double>(chunk, set, reached_so_far, out);
-  supports_of<float>(chunk, set, reached_so_far, out);
+  for_layout(chunk, [&]<Layout layout, typename T>() { supports_of<layout, T>(chunk, set, reached, out); });
 }
 
-#endif  // HWY_TARGET == HWY_SCALAR
+#endif  // HWY_TARGET != HWY_SCALAR
 
 }  // namespace HWY_NAMESPACE
 }  // namespace pcl_bv
@@ -191,8 +213,7 @@ namespace pcl_bv {
 
 void own_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                   const ReachedSupports& reached, ChunkSupports& out) {
-  static constexpr KernelTable<decltype(chunk_supports_reference)> kTable =
-      PCL_BV_KERNEL_TABLE(own_supports, &chunk_supports_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(own_supports, &chunk_supports_reference);
   kTable[isa](chunk, set, reached, out);
 }
 

@@ -6,6 +6,7 @@
 #include "support_plan.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "pcl_bv/kernels/chunks.h"
@@ -13,9 +14,69 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "preconditions.h"
-#include "support_error.h"
 
 namespace pcl_bv {
+namespace {
+
+// RoundedFilter along a direction, in registers.
+template <typename T>
+struct FilterOf {
+  FilterOf(const Direction& direction, const RoundedFilter& filter)
+      : a(static_cast<T>(direction[0])),
+        b(static_cast<T>(direction[1])),
+        c(static_cast<T>(direction[2])),
+        x(static_cast<T>(filter.center.x)),
+        y(static_cast<T>(filter.center.y)),
+        z(static_cast<T>(filter.center.z)),
+        threshold(static_cast<T>(filter.threshold)) {}
+
+  bool rejects(const T (&p)[3]) const {
+    return (a * (p[0] - x) + b * (p[1] - y)) + c * (p[2] - z) < threshold;  // an overflown sum may be NaN
+  }
+
+  T a, b, c, x, y, z, threshold;
+};
+
+// Nearly no point passes, so the loop over the others is what counts. `address` gives where a point's x is,
+// `gap` the bytes from there to y and on to z.
+template <typename T, typename Address>
+void find_passing(const PointView& points, const Address& address, std::size_t gap, std::size_t first,
+                  std::size_t step, std::size_t last, const FilterOf<T>& filter, const Direction& direction,
+                  SupportPoint& best) {
+  const auto load = [&](std::size_t i, T(&p)[3]) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      std::memcpy(&p[axis], address(i) + axis * gap, sizeof(T));
+  };
+  T p[3];
+  for (std::size_t i = first; i < last; i += step) {
+    // A loop of its own: the calls below would keep the filter out of registers.
+    for (load(i, p); filter.rejects(p); load(i, p)) {
+      i += step;
+      if (i >= last) return;
+    }
+    const Coordinates point{p[0], p[1], p[2]};
+    if (is_valid(point)) keep_farther(direction, {true, point, points.index(i)}, best);
+  }
+}
+
+template <typename T>
+void find_support_of(const PointView& points, std::size_t first, std::size_t step, std::size_t last,
+                     const SupportDirections& set, std::size_t end, const RoundedFilter& rounded,
+                     SupportPoint& best) {
+  const Direction direction = set.end_direction(end);
+  const FilterOf<T> filter(set.scaled_end_direction(end), rounded);
+  if (points.order == PointOrder::records && points.indices == nullptr) {
+    const auto address = [data = points.data, stride = points.stride](std::size_t i) {
+      return data + stride * i;
+    };
+    find_passing(points, address, sizeof(T), first, step, last, filter, direction, best);
+  } else {
+    const auto address = [&](std::size_t i) { return points.address(i); };
+    find_passing(points, address, points.step(), first, step, last, filter, direction, best);
+  }
+}
+
+}  // namespace
 
 bool central_point(const PointView& points, Coordinates& center) {
   for (std::size_t i = 0; i < points.count; ++i) {
@@ -76,15 +137,8 @@ SupportPoint first_valid_point(const PointView& points) {
 void find_support(const PointView& points, std::size_t first, std::size_t step, std::size_t last,
                   const SupportDirections& set, std::size_t end, const RoundedFilter& filter,
                   SupportPoint& best) {
-  const Direction direction = set.end_direction(end), scaled = set.scaled_end_direction(end);
-  const auto look = [&](const Coordinates& point, std::size_t index) {
-    if (is_valid(point)) keep_farther(direction, {true, point, index}, best);
-  };
-  if (points.scalar == ScalarType::float32) {
-    for_each_passing<float>(points, first, step, last, scaled, filter, look);
-  } else {
-    for_each_passing<double>(points, first, step, last, scaled, filter, look);
-  }
+  const auto find = points.scalar == ScalarType::float32 ? find_support_of<float> : find_support_of<double>;
+  find(points, first, step, last, set, end, filter, best);
 }
 
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,

@@ -5,12 +5,24 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
-#include "passing_points.h"
 #include "pcl_bv/kernels/support.h"
+#include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {
+
+template <typename Vector>
+Direction magnitudes(const Vector& v) {
+  return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2])};
+}
+
+/// How far the double dot product of a scaled direction and a point may be off: its own rounding, that of the
+/// direction's tiny components, underflow.
+inline double double_error(const Direction& scaled, const Coordinates& p) {
+  return (0x1p-50 * dot3(magnitudes(scaled), magnitudes(p)) + 0x1p-1074 * taxicab3(p)) + kSmallestNormal;
+}
 
 /// A valid point amid the others, to which projections are relative: then zero is reached at every end, and
 /// rounding errors are those of the extent, not of the place (UTM). False if there is no valid point.
@@ -52,6 +64,13 @@ class SupportPlan {
   double size_;        // what a projection of p - center can be
   double error_;       // of such a projection
   double pair_error_;  // of the difference of two
+};
+
+/// Which points are worth an exact look: those whose rounded projection, relative to `center` and in the
+/// view's scalar type, is at least `threshold` (a value of that type).
+struct RoundedFilter {
+  Coordinates center;
+  double threshold;
 };
 
 /// The valid point with the smallest index: what competes for an end at which all are equal.

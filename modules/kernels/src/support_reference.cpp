@@ -148,7 +148,7 @@ template <typename T, typename Along>
 void supports(const PointView& chunk, const SupportDirections& set, const Along& along, std::size_t first,
               const ReachedSupports& reached, ChunkSupports& out) {
   Block<T> blocks[kChunkPoints / kBlockPoints];
-  const std::size_t count = (chunk.count + kBlockPoints - 1) / kBlockPoints;
+  const std::size_t count = block_count(chunk.count);
   for (std::size_t b = 0; b < count; ++b)
     out.dropped += project_block(block_of(chunk, b), along, blocks[b]);
   if (out.dropped == chunk.count) return;

@@ -4,9 +4,10 @@
 // What Highway compiles, and how a target is found by name. Include before any Highway header.
 #pragma once
 
-// SSE2 and SSSE3 gain nothing over SSE4 and the scalar reference; the specialised targets repeat the general ones.
-// From 1.0.5 on Highway's NEON asks for AES instructions, which a Raspberry Pi 4 lacks and no kernel uses.
-#define HWY_DISABLED_TARGETS                                                                               \
+// SSE2 and SSSE3 gain nothing over SSE4 and the scalar reference; the specialised targets repeat the general
+// ones. From 1.0.5 on Highway's NEON asks for AES instructions, which a Raspberry Pi 4 lacks and no kernel
+// uses.
+#define HWY_DISABLED_TARGETS                                                                                \
   (HWY_SSE2 | HWY_SSSE3 | HWY_AVX3_DL | HWY_AVX3_ZEN4 | HWY_AVX3_SPR | PCL_BV_NEON_WITH_AES | HWY_SVE_256 | \
    HWY_SVE2_128)
 #define HWY_BROKEN_EMU128 1  // where there is no SIMD, our scalar reference serves
@@ -42,20 +43,20 @@
 
 namespace pcl_bv {
 
-/// One entry per Isa, in the order of the enumeration; null where the target is not compiled.
+/// One function per Isa, in the order of the enumeration; null where the target is not compiled.
 template <typename Function>
 struct KernelTable {
   Function* entries[8];
   Function* operator[](UsableIsa isa) const { return entries[static_cast<std::size_t>(Isa{isa})]; }
 };
+template <typename Function, typename... Others>
+KernelTable(std::nullptr_t, Function*, Others...) -> KernelTable<Function>;
 
 }  // namespace pcl_bv
 
-/// A KernelTable of a function that each HWY_NAMESPACE of this file defines; use inside HWY_ONCE.
-#define PCL_BV_KERNEL_TABLE(function, reference)                                                           \
-  {                                                                                                        \
-    {                                                                                                      \
-      nullptr, reference, HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function), \
-          PCL_BV_CHOOSE_NEON(function), HWY_CHOOSE_SVE(function), HWY_CHOOSE_SVE2(function)                   \
-    }                                                                                                      \
+/// The table of a function that each HWY_NAMESPACE of this file but N_SCALAR defines; use inside HWY_ONCE.
+#define PCL_BV_KERNEL_TABLE(function, reference)                                                         \
+  {                                                                                                      \
+    nullptr, reference, HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function), \
+        PCL_BV_CHOOSE_NEON(function), HWY_CHOOSE_SVE(function), HWY_CHOOSE_SVE2(function)                \
   }

@@ -116,25 +116,24 @@ class ExactDot {
     const std::uint64_t flip = term.negative ? ~std::uint64_t{0} : 0;
     std::uint64_t carry = term.negative ? 1 : 0;
     for (int w = shift / 64, part = 0; w < used_; ++w, ++part) {
-      const Wide sum =
-          Wide{words_[static_cast<std::size_t>(w)]} + ((part < 3 ? parts[part] : 0) ^ flip) + carry;
-      words_[static_cast<std::size_t>(w)] = static_cast<std::uint64_t>(sum);
+      const Wide sum = Wide{words_[w]} + ((part < 3 ? parts[part] : 0) ^ flip) + carry;
+      words_[w] = static_cast<std::uint64_t>(sum);
       carry = static_cast<std::uint64_t>(sum >> 64);
     }
   }
 
-  bool is_negative() const { return words_[static_cast<std::size_t>(used_ - 1)] >> 63 != 0; }
+  bool is_negative() const { return words_[used_ - 1] >> 63 != 0; }
 
   void negate() {
     std::uint64_t carry = 1;
     for (int w = 0; w < used_; ++w) {
-      std::uint64_t& word = words_[static_cast<std::size_t>(w)];
+      std::uint64_t& word = words_[w];
       word = ~word + carry;
       carry = carry != 0 && word == 0 ? 1 : 0;
     }
   }
 
-  std::uint64_t word(int w) const { return w < used_ ? words_[static_cast<std::size_t>(w)] : 0; }
+  std::uint64_t word(int w) const { return w < used_ ? words_[w] : 0; }
 
   std::uint64_t bits_from(int first) const {
     const int offset = first % 64;

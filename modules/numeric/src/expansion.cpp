@@ -50,16 +50,12 @@ int Expansion::sign() const {
   return parts_[size_ - 1] > 0 ? 1 : -1;
 }
 
-int Expansion::compare(double x) const {
-  return Expansion(*this).add(-x).sign();
-}
-
 double Expansion::up() const {
   if (size_ <= 1 && !lossy_) return value();
   double result = value();
   if (!std::isfinite(result)) return kInfinity;
   // value() is one of the two doubles beside the sum, or the sum itself.
-  if (compare(result) > 0) result = next_up(result);
+  if (Expansion(*this).add(-result).sign() > 0) result = next_up(result);
   return lossy_ ? next_up(result + kSmallestNormal) : result;
 }
 

@@ -20,13 +20,13 @@ namespace {
 // Hands out chunks and keeps the exception of the lowest one that failed, whichever thread met it first.
 class ChunkQueue {
  public:
-  ChunkQueue(std::size_t chunks, void (*call)(void*, std::size_t), void* body)
-      : chunks_(chunks), call_(call), body_(body) {}
+  ChunkQueue(std::size_t chunks, const std::function<void(std::size_t)>& body)
+      : chunks_(chunks), body_(body) {}
 
   void work() {
     for (std::size_t chunk; (chunk = next_.fetch_add(1, std::memory_order_relaxed)) < chunks_;) {
       try {
-        call_(body_, chunk);
+        body_(chunk);
       } catch (...) {
         const std::lock_guard lock(mutex_);
         if (!failure_ || chunk < failed_chunk_) {
@@ -43,8 +43,7 @@ class ChunkQueue {
 
  private:
   const std::size_t chunks_;
-  void (*const call_)(void*, std::size_t);
-  void* const body_;
+  const std::function<void(std::size_t)>& body_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::exception_ptr failure_;
@@ -101,12 +100,12 @@ void work_with_executor(ChunkQueue& queue, const Executor& executor, unsigned th
 
 }  // namespace
 
-void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t),
-                void* body) {
+void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
+                const std::function<void(std::size_t)>& body) {
   const bool nested = ParallelRegion::inside() || omp_in_parallel();
   const unsigned threads =
       nested || chunks <= 1 ? 1U : static_cast<unsigned>(std::min<std::size_t>(thread_count(policy), chunks));
-  ChunkQueue queue(chunks, call, body);
+  ChunkQueue queue(chunks, body);
   if (threads == 1) {
     queue.work();
   } else if (kOpenMpIsUnderstood && std::holds_alternative<OpenMP>(policy)) {
@@ -114,8 +113,7 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(v
   } else if (const auto* executor = std::get_if<Executor>(&policy)) {
     work_with_executor(queue, *executor, threads);
   } else {
-    WorkerPool::instance().run(
-        threads - 1, [](void* all) { static_cast<ChunkQueue*>(all)->work(); }, &queue);
+    WorkerPool::instance().run(threads - 1, [&queue] { queue.work(); });
   }
   queue.rethrow();
 }

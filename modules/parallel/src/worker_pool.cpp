@@ -97,15 +97,15 @@ void WorkerPool::serve() {
     --task->wanted;
     ++task->active;
     lock.unlock();
-    task->work(task->argument);
+    task->work();
     if (current != this) return;  // a child forked by work(), in which there is nobody to report to
     lock.lock();
     if (--task->active == 0) done_.notify_all();
   }
 }
 
-void WorkerPool::run(unsigned helpers, void (*work)(void*), void* argument) {
-  Task task{work, argument, helpers, 0};
+void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
+  Task task{work, helpers, 0};
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
@@ -115,7 +115,7 @@ void WorkerPool::run(unsigned helpers, void (*work)(void*), void* argument) {
     work_.notify_one();
   {
     const ParallelRegion region;
-    work(argument);
+    work();
   }
   if (current != this)
     throw std::logic_error("a child forked inside a parallel call cannot finish that call");

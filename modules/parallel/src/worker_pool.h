@@ -7,6 +7,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -30,18 +31,17 @@ class WorkerPool {
   /// calls do without. A forked child has a pool of its own.
   static WorkerPool& instance();
 
-  /// Runs work(argument) here and on up to `helpers` other threads that find the time before it returns here;
+  /// Runs work() here and on up to `helpers` other threads that find the time before it returns here;
   /// then waits for those. Not inside a parallel region. Throws std::logic_error in a child that `work`
   /// forked and that returns from it: what the other threads had begun is lost there.
-  void run(unsigned helpers, void (*work)(void*), void* argument);
+  void run(unsigned helpers, const std::function<void()>& work);
 
   /// Joins the threads; calls do without from then on.
   void end();
 
  private:
   struct Task {
-    void (*work)(void*);
-    void* argument;
+    const std::function<void()>& work;
     unsigned wanted;  // helpers that may still join
     unsigned active;  // that have joined and not left
   };

@@ -15,14 +15,6 @@ namespace pcl_bv {
 
 using namespace volumes_internal;
 
-namespace {
-
-Eigen::Vector3d without_negative_zero(const Eigen::Vector3d& v) {
-  return v.array() + 0.0;
-}
-
-}  // namespace
-
 Aabb::Aabb() : min_(Eigen::Vector3d::Constant(kInfinity)), max_(Eigen::Vector3d::Constant(-kInfinity)) {}
 
 Aabb::Aabb(const Eigen::Vector3d& min, const Eigen::Vector3d& max) : Aabb() {
@@ -32,8 +24,8 @@ Aabb::Aabb(const Eigen::Vector3d& min, const Eigen::Vector3d& max) : Aabb() {
     throw std::invalid_argument(
         "Aabb: min and max must be finite (or any min above its max, for an empty box)");
   }
-  min_ = without_negative_zero(min);
-  max_ = without_negative_zero(max);
+  min_ = min.array() + 0.0;
+  max_ = max.array() + 0.0;
 }
 
 bool Aabb::empty() const {
@@ -81,7 +73,6 @@ double Aabb::distance(const Eigen::Vector3d& point) const {
 
 std::optional<RayInterval> Aabb::intersect(const Eigen::Vector3d& origin,
                                            const Eigen::Vector3d& direction) const {
-  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     for (int k = 0; k < 3; ++k) {
       ray.keep(direction[k], max_[k] - origin[k]);

@@ -3,36 +3,9 @@
 
 #include "pcl_bv/volumes/any_volume.h"
 
+#include <array>
+
 namespace pcl_bv {
-namespace {
-
-std::string_view name_of(const Aabb&) {
-  return "aabb";
-}
-std::string_view name_of(const Kdop&) {
-  return "kdop";
-}
-std::string_view name_of(const Sphere&) {
-  return "sphere";
-}
-std::string_view name_of(const Obb&) {
-  return "obb";
-}
-std::string_view name_of(const Cylinder&) {
-  return "cylinder";
-}
-std::string_view name_of(const Capsule&) {
-  return "capsule";
-}
-std::string_view name_of(const Ellipsoid&) {
-  return "ellipsoid";
-}
-std::string_view name_of(const Hull&) {
-  return "hull";
-}
-
-}  // namespace
-
 bool empty(const AnyVolume& volume) {
   return std::visit([](const auto& v) { return v.empty(); }, volume);
 }
@@ -79,7 +52,9 @@ AnyVolume transformed(const AnyVolume& volume, const Eigen::Isometry3d& transfor
 }
 
 std::string_view shape_name(const AnyVolume& volume) {
-  return std::visit([](const auto& v) { return name_of(v); }, volume);
+  static constexpr std::array<std::string_view, std::variant_size_v<AnyVolume>> kNames = {
+      "aabb", "kdop", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "hull"};
+  return kNames.at(volume.index());
 }
 
 }  // namespace pcl_bv

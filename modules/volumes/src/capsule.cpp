@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "motion.h"
+#include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
@@ -16,7 +16,6 @@
 #include "pcl_bv/volumes/cylinder.h"
 #include "pcl_bv/volumes/sphere.h"
 #include "ring_mesh.h"
-#include "triad.h"
 
 namespace pcl_bv {
 

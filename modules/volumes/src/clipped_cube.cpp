@@ -8,12 +8,14 @@
 #include <iterator>
 #include <utility>
 
+#include "pcl_bv/volumes/aabb.h"
+
 namespace pcl_bv::volumes_internal {
 
-ClippedCube::ClippedCube()
-    : loops_{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}} {
-  for (int i = 0; i < 8; ++i)
-    vertices_.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+ClippedCube::ClippedCube() {
+  Mesh cube = Aabb(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()).mesh();
+  vertices_ = std::move(cube.vertices);
+  loops_ = std::move(cube.faces);
 }
 
 void ClippedCube::cut(const Eigen::Vector3d& normal, double offset, double rounding) {
@@ -87,8 +89,7 @@ std::int32_t ClippedCube::crossing(std::int32_t a, std::int32_t b) {
     if (c.a == a && c.b == b) return c.vertex;
   }
   const auto vertex = static_cast<std::int32_t>(vertices_.size());
-  const Eigen::Vector3d p = vertices_[static_cast<std::size_t>(a)],
-                        q = vertices_[static_cast<std::size_t>(b)];
+  const Eigen::Vector3d p = vertices_[a], q = vertices_[b];
   vertices_.push_back(p + (height(a) / (height(a) - height(b))) * (q - p));
   heights_.push_back(0);
   crossings_.push_back({a, b, vertex});

@@ -34,7 +34,7 @@ class ClippedCube {
   Loop clip_loop(const Loop& loop);
   std::int32_t crossing(std::int32_t a, std::int32_t b);
   void close();
-  double& height(std::int32_t vertex) { return heights_[static_cast<std::size_t>(vertex)]; }
+  double& height(std::int32_t vertex) { return heights_[vertex]; }
 
   struct Crossing {
     std::int32_t a, b, vertex;

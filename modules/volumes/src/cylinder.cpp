@@ -8,22 +8,19 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "motion.h"
+#include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "ray_clip.h"
 #include "ring_mesh.h"
-#include "triad.h"
 
 namespace pcl_bv {
 
 using namespace volumes_internal;
 
 namespace {
-
-constexpr int mesh_sides = 48;
 
 // Of q seen from the centre: how far along the axis, and how far from it.
 struct Seen {
@@ -33,6 +30,12 @@ struct Seen {
 
 Seen see(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(q, axis), q.cross(axis)};
+}
+
+// The vector if it is of length 1 to 2^-50 already, else made so: what was normalised once stays as it is.
+Eigen::Vector3d unit_axis(const Eigen::Vector3d& v) {
+  const Eigen::Vector3d unit = std::abs(dot3(v, v) - 1) <= 0x1p-50 ? v : v.stableNormalized();
+  return unit.array() + 0.0;
 }
 
 }  // namespace
@@ -106,10 +109,8 @@ double Cylinder::distance(const Eigen::Vector3d& point) const {
 // (Half of it covers the positions, half the roots.)
 std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction) const {
-  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
-    const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
-    const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
+    const auto [exponent, u] = ScaledDirection(direction);
     const Eigen::Vector3d q = origin - center_;
     const double doubt = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + kSmallestNormal;
     const bool held = contains(origin);
@@ -125,9 +126,7 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
     if (speed > 0) {
       const double nearest = -dot3(across / speed, turn / speed);
       const double h = (across + nearest * turn).stableNorm();
-      if (h > radius) return ray.keep(0, -1);
-      const double half = std::sqrt(radius - h) * std::sqrt(radius + h) / speed * (1 + 0x1p-49);
-      scaled.keep_between(nearest - half, nearest + half);
+      scaled.keep_near(nearest, h, radius, speed, 0);
     } else if (across.stableNorm() > radius) {
       return ray.keep(0, -1);
     }
@@ -141,23 +140,20 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
 Aabb Cylinder::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  Eigen::Vector3d lower, upper;
+  Eigen::Vector3d grown;
   for (int i = 0; i < 3; ++i) {
     const double a = axis_[i], b = axis_[(i + 1) % 3], c = axis_[(i + 2) % 3];
     const double half = half_height_ * std::abs(a) + radius_ * std::sqrt(b * b + c * c);
-    const double grown = half + 0x1p-47 * (half_height_ + radius_) + kSmallestNormal;
-    lower[i] = -add_up(-center_[i], grown);
-    upper[i] = add_up(center_[i], grown);
+    grown[i] = half + 0x1p-47 * (half_height_ + radius_) + kSmallestNormal;
   }
-  return {lower, upper};
+  return box_around(center_, grown);
 }
 
 Mesh Cylinder::mesh() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const Triad triad(axis_);
   return ring_mesh({{center_ - half_height_ * axis_, radius_}, {center_ + half_height_ * axis_, radius_}},
-                   triad, mesh_sides);
+                   Triad(axis_), 48);
 }
 
 // A point center + s axis + v goes to the moved centre + s (length w + e) + M v, with w the new axis and e,

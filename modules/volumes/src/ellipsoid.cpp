@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "motion.h"
+#include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
@@ -19,20 +19,6 @@ namespace pcl_bv {
 
 using namespace volumes_internal;
 
-namespace {
-
-// How far the axes are from orthonormal: the greatest entry of axes' axes - 1.
-double skew(const Eigen::Matrix3d& axes) {
-  double worst = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j)
-      worst = std::max(worst, std::abs(dot3(axes.col(i), axes.col(j)) - (i == j ? 1 : 0)));
-  }
-  return worst;
-}
-
-}  // namespace
-
 Ellipsoid::Ellipsoid()
     : center_(Eigen::Vector3d::Constant(kNan)),
       axes_(Eigen::Matrix3d::Identity()),
@@ -42,7 +28,7 @@ Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes,
     : Ellipsoid() {
   const FloatEnvironment environment;
   if ((radii.array() < 0).any()) return;
-  if (!center.allFinite() || !radii.allFinite() || !axes.allFinite() || skew(axes) > 1e-12) {
+  if (!center.allFinite() || !radii.allFinite() || !(skew(axes) <= 1e-12)) {
     throw std::invalid_argument(
         "Ellipsoid: center and radii must be finite and the axes orthonormal to 1e-12 "
         "(or any radius negative, for an empty ellipsoid)");
@@ -86,10 +72,8 @@ Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
 // less than `doubt` / least radius: the sphere grows by that.
 std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
                                                 const Eigen::Vector3d& direction) const {
-  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
-    const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
-    const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
+    const auto [exponent, u] = ScaledDirection(direction);
     const Eigen::Vector3d q = origin - center_;
     const double greatest = radii_.maxCoeff();
     const double doubt = 0x1p-45 * (taxicab3(q) + greatest) + kSmallestNormal;
@@ -104,9 +88,7 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
     const double speed = step.stableNorm();
     const double nearest = -dot3(at, step / speed) / speed;
     const double h = (at + nearest * step).stableNorm();
-    if (h > radius) return ray.keep(0, -1);
-    const double half = std::sqrt(radius - h) * std::sqrt(radius + h) / speed * (1 + 0x1p-49);
-    ray.keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
+    ray.keep_near(nearest, h, radius, speed, exponent);
   });
 }
 
@@ -116,13 +98,10 @@ Aabb Ellipsoid::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const double room = (4 * skew(axes_) + 0x1p-48) * radii_.maxCoeff() + kSmallestNormal;
-  Eigen::Vector3d lower, upper;
-  for (int i = 0; i < 3; ++i) {
-    const double half = Eigen::Vector3d(axes_.row(i).transpose().cwiseProduct(radii_)).stableNorm() + room;
-    lower[i] = -add_up(-center_[i], half);
-    upper[i] = add_up(center_[i], half);
-  }
-  return {lower, upper};
+  Eigen::Vector3d half;
+  for (int i = 0; i < 3; ++i)
+    half[i] = Eigen::Vector3d(axes_.row(i).transpose().cwiseProduct(radii_)).stableNorm() + room;
+  return box_around(center_, half);
 }
 
 // For a point center + q the new coordinates are a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, with d_i =

@@ -136,14 +136,8 @@ Eigen::Vector3d Hull::center() const {
   const FloatEnvironment environment;
   if (empty()) return Eigen::Vector3d::Constant(kNan);
   const auto [body, unit] = body_of(*this);
-  if (rank_ >= 2) {
-    const Measure m = measure(body.vertices, body.faces, rank_);
-    if (m.size > 0) return body.origin + m.moment / m.size * unit;
-  }
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& v : body.vertices)
-    sum += v;
-  return body.origin + sum / static_cast<double>(body.vertices.size()) * unit;
+  const Measure m = rank_ >= 2 ? measure(body.vertices, body.faces, rank_) : Measure();
+  return body.origin + m.centroid(body.vertices) * unit;
 }
 
 Eigen::Vector3d Hull::support(const Eigen::Vector3d& direction) const {
@@ -172,11 +166,10 @@ double Hull::distance(const Eigen::Vector3d& point) const {
 
 std::optional<RayInterval> Hull::intersect(const Eigen::Vector3d& origin,
                                            const Eigen::Vector3d& direction) const {
-  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     for (const HullPlane& plane : planes_) {
-      const Enclosed start = enclose(plane.normal, origin), step = enclose(plane.normal, direction);
-      ray.keep(step.low, plane.offset - start.low);
+      const Projection start = project(plane.normal, origin), step = project(plane.normal, direction);
+      ray.keep(step.low(), plane.offset - start.low());
     }
   });
 }

@@ -72,13 +72,12 @@ bool Kdop::contains(const Eigen::Vector3d& point) const {
 
 std::optional<RayInterval> Kdop::intersect(const Eigen::Vector3d& origin,
                                            const Eigen::Vector3d& direction) const {
-  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     for (std::size_t i = 0; i < size(); ++i) {
-      const Enclosed start = enclose(set_->direction(i), origin);
-      const Enclosed step = enclose(set_->direction(i), direction);
-      ray.keep(step.low, max(i) - start.low);
-      ray.keep(-step.high, start.high - min(i));
+      const Projection start = project(set_->direction(i), origin);
+      const Projection step = project(set_->direction(i), direction);
+      ray.keep(step.low(), max(i) - start.low());
+      ray.keep(-step.high(), start.high() - min(i));
     }
   });
 }
@@ -98,9 +97,8 @@ Kdop& Kdop::extend(const Eigen::Vector3d& point) {
     if (s - error >= min(i) && s + error <= max(i)) continue;
     Expansion exact;
     exact.add_dot(n, point);
-    const auto slab = static_cast<Eigen::Index>(i);
-    min_[slab] = std::min(min_[slab], exact.down() + 0.0);
-    max_[slab] = std::max(max_[slab], exact.up() + 0.0);
+    min_[i] = std::min(min(i), exact.down() + 0.0);
+    max_[i] = std::max(max(i), exact.up() + 0.0);
   }
   return *this;
 }

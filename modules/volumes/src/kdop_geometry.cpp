@@ -96,12 +96,11 @@ Kdop Kdop::tightened() const {
   if (empty()) return *this;
   const LocalSlabs slabs = local_slabs(*this);
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  SlabVector lower = min_, upper = max_;
+  SlabVector lower(min_.size()), upper(min_.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
-    const auto slab = static_cast<Eigen::Index>(i);
-    lower[slab] = std::max(lower[slab], -support_up(*this, slabs, identity, -n));
-    upper[slab] = std::min(upper[slab], support_up(*this, slabs, identity, n));
+    lower[i] = std::max(min(i), -support_up(*this, slabs, identity, -n));
+    upper[i] = std::min(max(i), support_up(*this, slabs, identity, n));
   }
   // Both bounds are proven, so where they cross there is no point: the constructor makes that the empty
   // k-DOP.
@@ -119,8 +118,8 @@ Kdop Kdop::transformed(const Eigen::Isometry3d& transform) const {
       const double turned = support_up(*this, slabs, transform.linear(), direction);
       return Expansion().add(turned).add_dot(direction, transform.translation()).up();
     };
-    lower[static_cast<Eigen::Index>(i)] = -reach(-n);
-    upper[static_cast<Eigen::Index>(i)] = reach(n);
+    lower[i] = -reach(-n);
+    upper[i] = reach(n);
   }
   return {set_, lower, upper};
 }

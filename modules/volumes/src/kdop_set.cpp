@@ -4,6 +4,7 @@
 #include "pcl_bv/volumes/kdop_set.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -43,16 +44,9 @@ void check(const Directions& directions) {
 // Index of the first greatest score(direction) / |direction|^2.
 template <typename Score>
 std::size_t best(const Directions& directions, const Score& score) {
-  std::size_t winner = 0;
-  double best_value = -1;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    const double value = score(directions[i]) / directions[i].squaredNorm();
-    if (value > best_value) {
-      best_value = value;
-      winner = i;
-    }
-  }
-  return winner;
+  const auto value = [&](const Eigen::Vector3d& n) { return score(n) / n.squaredNorm(); };
+  const auto less = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return value(a) < value(b); };
+  return std::max_element(directions.begin(), directions.end(), less) - directions.begin();
 }
 
 std::array<std::size_t, 3> find_basis(const Directions& directions) {

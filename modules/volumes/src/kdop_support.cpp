@@ -58,7 +58,7 @@ bool pivot(Farthest& f, const Eigen::Matrix3d& normals_inverse, const Eigen::Vec
   if (leaving < 0) return false;
   f.weights = (f.weights - step * share).cwiseMax(0.0);
   f.weights[leaving] = step;
-  f.sides[static_cast<std::size_t>(leaving)] = side;
+  f.sides[leaving] = side;
   return true;
 }
 
@@ -66,7 +66,7 @@ Farthest start(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d weights = slabs.basis_inverse.transpose() * direction;
   Farthest f{{}, weights.cwiseAbs(), {}};
   for (std::size_t k = 0; k < 3; ++k) {
-    f.sides[k] = {slabs.set.basis()[k], weights[static_cast<int>(k)] < 0 ? -1.0 : 1.0};
+    f.sides[k] = {slabs.set.basis()[k], weights[k] < 0 ? -1.0 : 1.0};
   }
   return f;
 }
@@ -77,7 +77,7 @@ Farthest start(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
 Eigen::Vector3d reach(const Kdop& kdop, const LocalSlabs& slabs) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
-    const std::size_t i = slabs.set.basis()[static_cast<std::size_t>(k)];
+    const std::size_t i = slabs.set.basis()[k];
     const double largest = std::max(std::abs(kdop.min(i)), std::abs(kdop.max(i)));
     const double doubt = 1e-9 / slabs.set.direction(i).norm();
     result.array() += 1.01 * largest * (slabs.basis_inverse.col(k).array().abs() + doubt);
@@ -92,7 +92,7 @@ LocalSlabs local_slabs(const Kdop& kdop) {
   Eigen::Matrix3d basis;
   Eigen::Vector3d low;
   for (int k = 0; k < 3; ++k) {
-    const std::size_t i = set.basis()[static_cast<std::size_t>(k)];
+    const std::size_t i = set.basis()[k];
     basis.row(k) = set.direction(i).transpose();
     low[k] = kdop.min(i);
   }
@@ -115,7 +115,7 @@ Farthest farthest(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
     Eigen::Matrix3d normals;
     Eigen::Vector3d offsets;
     for (int k = 0; k < 3; ++k) {
-      const SlabSide& side = f.sides[static_cast<std::size_t>(k)];
+      const SlabSide& side = f.sides[k];
       normals.row(k) = outward(slabs, side).transpose();
       offsets[k] = offset(slabs, side);
     }
@@ -133,18 +133,18 @@ double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix
   Expansion bound;
   std::array<Expansion, 3> residual;  // of direction' * matrix - sum of weights * normals
   for (std::size_t k = 0; k < 3; ++k)
-    residual[k].add_dot(matrix.col(static_cast<int>(k)), direction);
+    residual[k].add_dot(matrix.col(k), direction);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto [slab, sign] = f.sides[i];
-    const double weight = f.weights[static_cast<int>(i)];
+    const double weight = f.weights[i];
     bound.add_product(weight, sign > 0 ? kdop.max(slab) : -kdop.min(slab));
     for (std::size_t k = 0; k < 3; ++k) {
-      residual[k].add_product(-sign * weight, slabs.set.direction(slab)[static_cast<int>(k)]);
+      residual[k].add_product(-sign * weight, slabs.set.direction(slab)[k]);
     }
   }
   const Eigen::Vector3d coordinates = reach(kdop, slabs);
   for (std::size_t k = 0; k < 3; ++k) {
-    bound.add(multiply_up(residual[k].magnitude_up(), coordinates[static_cast<int>(k)]));
+    bound.add(multiply_up(residual[k].magnitude_up(), coordinates[k]));
   }
   return bound.up();
 }

@@ -8,12 +8,13 @@
 #include <limits>
 #include <stdexcept>
 
-#include "lengths.h"
+#include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "projection.h"
 #include "ray_clip.h"
 
 namespace pcl_bv {
@@ -22,25 +23,10 @@ using namespace volumes_internal;
 
 namespace {
 
-constexpr double orthonormal_to = 1e-12;
-
 // axis . q in double. q is itself a rounded difference: with it, three products and two sums, the value is
 // off by at most 4.01 2^-53 of |q|_1; the bound is twice that, and covers its own addition.
-struct Component {
-  double value, error;
-};
-
-Component component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
+Projection component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(axis, q), 0x1p-50 * taxicab3(q) + kSmallestNormal};
-}
-
-bool are_orthonormal(const Eigen::Matrix3d& axes) {
-  for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j) {
-      if (!(std::abs(dot3(axes.col(i), axes.col(j)) - (i == j)) <= orthonormal_to)) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -54,7 +40,7 @@ Obb::Obb(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen
     : Obb() {
   const FloatEnvironment environment;
   if ((half_extents.array() < 0).any()) return;
-  if (!center.allFinite() || !half_extents.allFinite() || !are_orthonormal(axes)) {
+  if (!center.allFinite() || !half_extents.allFinite() || !(skew(axes) <= 1e-12)) {
     throw std::invalid_argument(
         "Obb: center and half extents must be finite (or a half extent negative, for an empty box), and "
         "axes unit and orthogonal to 1e-12");
@@ -157,13 +143,12 @@ double Obb::distance(const Eigen::Vector3d& point) const {
 
 std::optional<RayInterval> Obb::intersect(const Eigen::Vector3d& origin,
                                           const Eigen::Vector3d& direction) const {
-  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     const Eigen::Vector3d q = origin - center_;
     for (int i = 0; i < 3; ++i) {
-      const Component start = component(axes_.col(i), q), step = component(axes_.col(i), direction);
-      ray.keep(step.value - 2 * step.error, half_extents_[i] - (start.value - 2 * start.error));
-      ray.keep(-(step.value + 2 * step.error), half_extents_[i] + (start.value + 2 * start.error));
+      const Projection start = component(axes_.col(i), q), step = component(axes_.col(i), direction);
+      ray.keep(step.low(), half_extents_[i] - start.low());
+      ray.keep(-step.high(), half_extents_[i] + start.high());
     }
   });
 }
@@ -175,7 +160,6 @@ std::array<Eigen::Vector3d, 8> Obb::corners() const {
     result[i] = center_;
     for (int k = 0; k < 3; ++k)
       result[i] += (i >> k & 1 ? half_extents_[k] : -half_extents_[k]) * axes_.col(k);
-    if (empty()) result[i].setConstant(kNan);
   }
   return result;
 }
@@ -199,13 +183,8 @@ double Obb::reach_up(const Eigen::Vector3d& direction) const {
 Aabb Obb::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  Eigen::Vector3d lower, upper;
-  for (int k = 0; k < 3; ++k) {
-    const double reach = reach_up(Eigen::Vector3d::Unit(k));
-    lower[k] = -add_up(-center_[k], reach);
-    upper[k] = add_up(center_[k], reach);
-  }
-  return {lower, upper};
+  return box_around(center_, {reach_up(Eigen::Vector3d::UnitX()), reach_up(Eigen::Vector3d::UnitY()),
+                              reach_up(Eigen::Vector3d::UnitZ())});
 }
 
 Mesh Obb::mesh() const {
@@ -222,10 +201,7 @@ Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
   const Eigen::Matrix3d axes = orthonormal_axes(m * axes_);
-  const Eigen::Vector3d center = transform * center_;
-  Eigen::Vector3d moved;
-  for (int k = 0; k < 3; ++k)
-    moved[k] = Expansion().add_dot(m.row(k), center_).add(transform(k, 3)).add(-center[k]).magnitude_up();
+  const MovedPoint center = move_point(transform, center_);
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
     Eigen::Vector3d w, rounding;
@@ -234,11 +210,11 @@ Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
       w[k] = exact.add_dot(m.col(k), axes.col(i)).value();
       rounding[k] = exact.add(-w[k]).magnitude_up();
     }
-    const double lost = add_up(multiply_up(1.001 * half_extents_.sum(), norm_up(rounding)),
-                               multiply_up(1.001, norm_up(moved)));
+    const double lost =
+        add_up(multiply_up(1.001 * half_extents_.sum(), norm_up(rounding)), multiply_up(1.001, center.error));
     half_extents[i] = add_up(reach_up(w), lost);
   }
-  return {center, axes, half_extents};
+  return {center.point, axes, half_extents};
 }
 
 FloatObb Obb::cast_float() const {

@@ -66,16 +66,15 @@ Obb Obb::canonical() const {
   Order order{0, 1, 2};
   std::array<Eigen::Vector3d, 3> axes;
   for (int i = 0; i < 3; ++i)
-    axes[static_cast<std::size_t>(i)] = pointing_positive(axes_.col(i));
+    axes[i] = pointing_positive(axes_.col(i));
   const auto size = [&](int i) { return half_extents_[i]; };
-  const auto axis = [&](int i) { return axes[static_cast<std::size_t>(i)]; };
+  const auto axis = [&](int i) { return axes[i]; };
   std::sort(order.begin(), order.end(), [&](int i, int j) { return size(i) > size(j); });
   for (std::size_t begin = 0; begin < 3;) {
     std::size_t end = begin + 1;
     while (end < 3 && size(order[end - 1]) - size(order[end]) <= same_size)
       ++end;
-    std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
-              order.begin() + static_cast<std::ptrdiff_t>(end),
+    std::sort(order.begin() + begin, order.begin() + end,
               [&](int i, int j) { return comes_first(axis(i), axis(j)); });
     begin = end;
   }
@@ -92,10 +91,9 @@ Obb Obb::oriented_as(const Obb& previous) const {
   double most = -4;
   do {
     Eigen::Vector3d along, signs;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto k = static_cast<int>(i);
-      along[k] = dot3(axes_.col(order[i]), previous.axes_.col(k));
-      signs[k] = along[k] < 0 ? -1 : 1;
+    for (int i = 0; i < 3; ++i) {
+      along[i] = dot3(axes_.col(order[i]), previous.axes_.col(i));
+      signs[i] = along[i] < 0 ? -1 : 1;
     }
     const bool even = (order[1] - order[0] + 3) % 3 == 1;  // 012, 120, 201
     if ((signs.prod() > 0) != even) {                      // left-handed: turn the axis that loses least
@@ -110,10 +108,8 @@ Obb Obb::oriented_as(const Obb& previous) const {
     best_signs = signs;
   } while (std::next_permutation(order.begin(), order.end()));
   Eigen::Matrix3d axes;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto k = static_cast<int>(i);
-    axes.col(k) = best_signs[k] * axes_.col(best[i]);
-  }
+  for (int i = 0; i < 3; ++i)
+    axes.col(i) = best_signs[i] * axes_.col(best[i]);
   return named(*this, best, axes);
 }
 

@@ -26,7 +26,7 @@ struct CubeMap {
 CubeMap cube_map(const LocalSlabs& slabs) {
   Eigen::Vector3d low, width;
   for (int k = 0; k < 3; ++k) {
-    const std::size_t i = slabs.set.basis()[static_cast<std::size_t>(k)];
+    const std::size_t i = slabs.set.basis()[k];
     low[k] = slabs.min[i];
     width[k] = slabs.max[i] - slabs.min[i];
   }
@@ -79,10 +79,10 @@ void compact(const ClippedCube& cube, std::vector<Eigen::Vector3d>& vertices, st
   for (const Face& loop : cube.loops()) {
     Face face;
     for (const std::int32_t v : loop) {
-      std::int32_t& n = number[static_cast<std::size_t>(v)];
+      std::int32_t& n = number[v];
       if (n < 0) {
         n = static_cast<std::int32_t>(vertices.size());
-        vertices.push_back(cube.vertices()[static_cast<std::size_t>(v)]);
+        vertices.push_back(cube.vertices()[v]);
       }
       face.push_back(n);
     }
@@ -100,10 +100,9 @@ double distance_to_edge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, cons
 // Twice the vector area of a face.
 Eigen::Vector3d twice_area(const Polytope& polytope, const Face& face) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d& a = polytope.vertices[static_cast<std::size_t>(face[0])];
+  const Eigen::Vector3d& a = polytope.vertices[face[0]];
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    sum += (polytope.vertices[static_cast<std::size_t>(face[i])] - a)
-               .cross(polytope.vertices[static_cast<std::size_t>(face[i + 1])] - a);
+    sum += (polytope.vertices[face[i]] - a).cross(polytope.vertices[face[i + 1]] - a);
   }
   return sum;
 }
@@ -113,25 +112,30 @@ double distance_to_face(const Polytope& polytope, const Face& face, const Eigen:
   bool over_face = !normal.isZero(0);
   double nearest = kInfinity;
   for (std::size_t i = 0; i < face.size(); ++i) {
-    const Eigen::Vector3d& a = polytope.vertices[static_cast<std::size_t>(face[i])];
-    const Eigen::Vector3d& b = polytope.vertices[static_cast<std::size_t>(face[(i + 1) % face.size()])];
+    const Eigen::Vector3d& a = polytope.vertices[face[i]];
+    const Eigen::Vector3d& b = polytope.vertices[face[(i + 1) % face.size()]];
     nearest = std::min(nearest, distance_to_edge(p, a, b));
     over_face = over_face && normal.dot((b - a).cross(p - a)) >= 0;
   }
   if (!over_face) return nearest;
-  return std::min(nearest, std::abs(normal.dot(p - polytope.vertices[static_cast<std::size_t>(face[0])])));
+  return std::min(nearest, std::abs(normal.dot(p - polytope.vertices[face[0]])));
 }
 
 }  // namespace
 
+Eigen::Vector3d Measure::centroid(const std::vector<Eigen::Vector3d>& vertices) const {
+  if (size > 0) return moment / size;
+  return std::accumulate(vertices.begin(), vertices.end(), Eigen::Vector3d::Zero().eval()) /
+         static_cast<double>(vertices.size());
+}
+
 Measure measure(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces, int rank) {
   Measure result;
-  const auto at = [&](const Face& f, std::size_t i) { return vertices[static_cast<std::size_t>(f[i])]; };
   const Eigen::Vector3d apex = vertices.front();
   for (const Face& face : faces) {
-    const Eigen::Vector3d a = at(face, 0);
+    const Eigen::Vector3d a = vertices[face[0]];
     for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-      const Eigen::Vector3d b = at(face, i), c = at(face, i + 1);
+      const Eigen::Vector3d b = vertices[face[i]], c = vertices[face[i + 1]];
       const Eigen::Vector3d area = (b - a).cross(c - a);
       if (rank == 3) {
         result.add(area.dot(a - apex) / 6, (a + b + c + apex) / 4);
@@ -154,13 +158,7 @@ Polytope intersect_slabs(const Kdop& kdop) {
 
   // The centroid is affine, so it is taken where the scale is good.
   const Measure m = measure(result.vertices, result.faces, cube.rank());
-  Eigen::Vector3d centroid = m.moment / m.size;
-  if (!(m.size > 0)) {
-    centroid =
-        std::accumulate(result.vertices.begin(), result.vertices.end(), Eigen::Vector3d::Zero().eval()) /
-        static_cast<double>(result.vertices.size());
-  }
-  result.centroid = map.corner + map.edges * centroid;
+  result.centroid = map.corner + map.edges * m.centroid(result.vertices);
   if (cube.rank() == 3) result.volume = std::max(0.0, m.size) * std::abs(map.edges.determinant());
   if (slabs.basis_inverse.determinant() < 0) {  // a left-handed basis mirrors the cube
     for (Face& face : result.faces)

@@ -29,6 +29,9 @@ struct Measure {
   double size = 0;  ///< Volume, area or length by rank.
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 
+  /// Where it balances; if there is none of it, the mean of the vertices that it is of.
+  Eigen::Vector3d centroid(const std::vector<Eigen::Vector3d>& vertices) const;
+
   void add(double part, const Eigen::Vector3d& center) {
     size += part;
     moment += part * center;

@@ -15,21 +15,15 @@ namespace pcl_bv::volumes_internal {
 /// 3.01 2^-53 of the sum of magnitudes; the smallest normal covers products that underflow.
 struct Projection {
   double value, error;
+
+  /// Twice the error away, so that the two hold the exact projection after their own rounding.
+  double low() const { return value - 2 * error; }
+  double high() const { return value + 2 * error; }
 };
 
 inline Projection project(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
   const double x = p.x() * n.x(), y = p.y() * n.y(), z = p.z() * n.z();
   return {(x + y) + z, 0x1p-51 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + kSmallestNormal};
-}
-
-/// Twice the error, so that the ends hold the exact projection after their own rounding.
-struct Enclosed {
-  double low, high;
-};
-
-inline Enclosed enclose(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
-  const auto [value, error] = project(n, p);
-  return {value - 2 * error, value + 2 * error};
 }
 
 }  // namespace pcl_bv::volumes_internal

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/volumes/ray_interval.h"
 
 namespace pcl_bv::volumes_internal {
@@ -37,6 +38,14 @@ class RayClip {
     exit_ = std::min(exit_, exit);
   }
 
+  /// Keeps what is within `radius` of a point or a line, whose distance is `least` where t 2^exponent is
+  /// `nearest` and of which the ray moves `speed` away per unit of that.
+  void keep_near(double nearest, double least, double radius, double speed, int exponent) {
+    if (least > radius) return keep(0, -1);
+    const double half = std::sqrt(radius - least) * std::sqrt(radius + least) / speed * (1 + 0x1p-49);
+    keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
+  }
+
   /// Both ends moved outward by 2^-51 of themselves (two roundings and that of the move itself) and, where
   /// they underflow, the smallest normal. Nothing if none of t >= 0 is left.
   std::optional<RayInterval> interval() const {
@@ -53,11 +62,22 @@ class RayClip {
   double exit_ = kInfinity;
 };
 
+/// A direction of any length as u 2^exponent, the greatest component of u in [1, 2): squares of u are in
+/// range.
+struct ScaledDirection {
+  explicit ScaledDirection(const Eigen::Vector3d& direction)
+      : exponent(std::ilogb(direction.cwiseAbs().maxCoeff())),
+        u(direction.unaryExpr([this](double x) { return std::ldexp(x, -exponent); })) {}
+  int exponent;
+  Eigen::Vector3d u;
+};
+
 /// A volume's intersect(): `clip(ray)` cuts a proper ray; this is the answer where there is none. A zero
 /// direction is a point test.
 template <typename Volume, typename Clip>
 std::optional<RayInterval> intersect_ray(const Volume& volume, const Eigen::Vector3d& origin,
                                          const Eigen::Vector3d& direction, const Clip& clip) {
+  const FloatEnvironment environment;
   if (volume.empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
   RayClip ray;
   if (!direction.isZero(0)) {

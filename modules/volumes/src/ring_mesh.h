@@ -3,12 +3,23 @@
 
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "pcl_bv/volumes/mesh.h"
-#include "triad.h"
 
 namespace pcl_bv::volumes_internal {
+
+/// An axis and two unit vectors across it, right-handed.
+struct Triad {
+  explicit Triad(const Eigen::Vector3d& a) : axis(a) {
+    Eigen::Index least = 0;
+    a.cwiseAbs().minCoeff(&least);
+    u = Eigen::Vector3d::Unit(least).cross(a).stableNormalized();
+    v = a.cross(u);
+  }
+  Eigen::Vector3d axis, u, v;
+};
 
 struct Ring {
   Eigen::Vector3d center;

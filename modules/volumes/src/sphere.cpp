@@ -9,8 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "lengths.h"
-#include "motion.h"
+#include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
@@ -55,17 +54,14 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
 // it grows by 64, for its own rounding.
 void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
-  const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
-  const Eigen::Vector3d u = direction.unaryExpr([=](double x) { return std::ldexp(x, -exponent); });
+  const auto [exponent, u] = ScaledDirection(direction);
   const Eigen::Vector3d q = origin - sphere.center();
   const double nearest = -q.dot(u) / u.squaredNorm();
   const double h = (q + nearest * u).stableNorm();
   const double doubt = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
   const double held = sphere.contains(origin) ? q.stableNorm() : 0;
   const double radius = std::max(sphere.radius(), held) + doubt;
-  if (h > radius) return ray.keep(0, -1);
-  const double half = std::sqrt(radius - h) * std::sqrt(radius + h) / u.norm() * (1 + 0x1p-49);
-  ray.keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
+  ray.keep_near(nearest, h, radius, u.norm(), exponent);
 }
 
 }  // namespace
@@ -113,7 +109,6 @@ double Sphere::distance(const Eigen::Vector3d& point) const {
 
 std::optional<RayInterval> Sphere::intersect(const Eigen::Vector3d& origin,
                                              const Eigen::Vector3d& direction) const {
-  const FloatEnvironment environment;
   return intersect_ray(*this, origin, direction,
                        [&](RayClip& ray) { clip_by_sphere(ray, *this, origin, direction); });
 }
@@ -125,13 +120,7 @@ bool Sphere::overlaps(const Sphere& other) const {
 
 Aabb Sphere::aabb() const {
   const FloatEnvironment environment;
-  if (empty()) return {};
-  Eigen::Vector3d lower, upper;
-  for (int i = 0; i < 3; ++i) {
-    lower[i] = -add_up(-center_[i], radius_);
-    upper[i] = add_up(center_[i], radius_);
-  }
-  return {lower, upper};
+  return empty() ? Aabb() : box_around(center_, Eigen::Vector3d::Constant(radius_));
 }
 
 Sphere Sphere::transformed(const Eigen::Isometry3d& transform) const {

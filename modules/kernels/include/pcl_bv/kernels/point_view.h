@@ -54,15 +54,13 @@ struct PointView {
   template <typename T, typename = std::enable_if_t<std::is_same_v<T, float> || std::is_same_v<T, double>>>
   static PointView of(const T* xyz, std::size_t stride, std::size_t count,
                       const std::int32_t* indices = nullptr) {
-    return {reinterpret_cast<const std::byte*>(xyz),
-            stride,
-            stride,
-            count,
-            indices,
-            0,
-            sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64,
-            PointOrder::records,
-            nullptr};
+    PointView view;
+    view.data = reinterpret_cast<const std::byte*>(xyz);
+    view.stride = view.readable = stride;
+    view.count = count;
+    view.indices = indices;
+    view.scalar = sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64;
+    return view;
   }
 
   bool empty() const { return count == 0; }

@@ -38,9 +38,8 @@ class Expansion {
 
  private:
   Expansion negated() const;
-  int compare(double x) const;  // sign of sum - x
 
-  static constexpr std::size_t capacity = 33;  // 32 terms and the one that compare() adds
+  static constexpr std::size_t capacity = 33;  // 32 terms and the one that up() adds
   std::array<double, capacity> parts_;
   std::size_t size_ = 0;
   bool lossy_ = false;

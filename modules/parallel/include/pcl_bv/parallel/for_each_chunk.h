@@ -6,7 +6,7 @@
 #pragma once
 
 #include <cstddef>
-#include <type_traits>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -14,8 +14,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 namespace internal {
-void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(void*, std::size_t),
-                void* body);
+void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
+                const std::function<void(std::size_t)>& body);
 }  // namespace internal
 
 /// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads; returns
@@ -24,10 +24,7 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks, void (*call)(v
 /// chunk is rethrown. A child that a body forks may make calls of its own, but never returns from the body.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
-  using Callable = std::remove_reference_t<Body>;
-  internal::run_chunks(
-      policy, chunks, [](void* callable, std::size_t chunk) { (*static_cast<Callable*>(callable))(chunk); },
-      const_cast<void*>(static_cast<const void*>(&body)));
+  internal::run_chunks(policy, chunks, std::ref(body));
 }
 
 /// merge(...merge(merge(identity, map(0)), map(1))..., map(chunks - 1)): the maps in parallel, the merges in

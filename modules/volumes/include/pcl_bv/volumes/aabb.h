@@ -57,10 +57,8 @@ class Aabb {
   /// Distance of a point to the box, 0 inside. Infinity for an empty box, NaN for a point with a NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
-  /// interval: a ray that hits by exact arithmetic, be it in one point or along a face, is never a miss. Each
-  /// end is off by no more than 2^-50 of itself, plus 2^-1021. A zero direction tests the origin. Nothing for
-  /// an empty box and for numbers that are not finite.
+  /// Where the ray origin + t direction is inside, as RayInterval says. Each end is off by no more than 2^-50
+  /// of itself, plus 2^-1021.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Whether the two have a point in common: exact comparison. False if either is empty.

@@ -48,8 +48,8 @@ class Capsule {
   /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
-  /// interval, as Sphere::intersect() and Cylinder::intersect() do, of which it is made.
+  /// Where the ray origin + t direction is inside, as RayInterval says: made of Sphere::intersect() and
+  /// Cylinder::intersect().
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// The smallest box in double around the capsule: encloses it by exact arithmetic.

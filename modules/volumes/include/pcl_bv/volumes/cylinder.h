@@ -49,10 +49,8 @@ class Cylinder {
   /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
-  /// interval: a ray that hits by exact arithmetic, be it in one point, is never a miss. Each end is in a
-  /// cylinder greater by at most 2^-43 (|origin - center|_1 + radius + half height) each way. A zero
-  /// direction tests the origin. Nothing for an empty cylinder and for numbers that are not finite.
+  /// Where the ray origin + t direction is inside, as RayInterval says. Each end is in a cylinder greater by
+  /// at most 2^-43 (|origin - center|_1 + radius + half height) each way.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// A box around the cylinder, by exact arithmetic; greater than the smallest by some 2^-46 of the size.

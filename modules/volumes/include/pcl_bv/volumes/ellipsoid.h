@@ -51,11 +51,9 @@ class Ellipsoid {
   /// Infinity if empty, NaN for a point with a NaN. Eberly 2013: a root by bisection.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
-  /// interval: a ray that hits by exact arithmetic, be it in one point, is never a miss. Each end is in an
-  /// ellipsoid whose radii are greater by 2^-44 (|origin - center|_1 + the greatest radius), times the
-  /// quotient of the greatest and the least. A zero direction tests the origin. Nothing for an empty
-  /// ellipsoid and numbers that are not finite.
+  /// Where the ray origin + t direction is inside, as RayInterval says. Each end is in an ellipsoid whose
+  /// radii are greater by 2^-44 (|origin - center|_1 + the greatest radius), times the quotient of the
+  /// greatest and the least.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// A box around the ellipsoid, by exact arithmetic; greater than the smallest by some 1e-12 of the size at

@@ -72,10 +72,8 @@ class Hull {
   /// point with a NaN. O(triangles).
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
-  /// interval: a ray that hits by exact arithmetic, be it in one point or along a face, is never a miss. Each
-  /// projection, of origin and direction, is taken to be off by twice the bound of contains(). A zero
-  /// direction tests the origin. Nothing for an empty hull and for numbers that are not finite.
+  /// Where the ray origin + t direction is inside, as RayInterval says. Each projection, of origin and
+  /// direction, is taken to be off by twice the bound of contains().
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// The box of the vertices: for a fitted hull, that of the points, exactly.

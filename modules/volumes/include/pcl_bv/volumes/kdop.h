@@ -78,12 +78,10 @@ class Kdop {
   /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
-  /// interval: a ray that hits by exact arithmetic, be it in one point or along a face, is never a miss, and
-  /// where contains() holds for the origin, enter is 0. Each projection, of origin and direction, is taken to
-  /// be off by twice the bound of contains(), so a ray that passes a face by less may hit; then each end is
-  /// moved outward by 2^-51 of itself and by 2^-1022. A zero direction tests the origin. Nothing for an empty
-  /// k-DOP and for numbers that are not finite. Slab method (Kay, Kajiya 1986), 50 ns for a 26-DOP.
+  /// Where the ray origin + t direction is inside, as RayInterval says; where contains() holds for the
+  /// origin, enter is 0. Each projection, of origin and direction, is taken to be off by twice the bound of
+  /// contains(), so a ray that passes a face by less may hit; then each end is moved outward by 2^-51 of
+  /// itself and by 2^-1022. Slab method (Kay, Kajiya 1986), 50 ns for a 26-DOP.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Whether all slabs overlap those of the other: exact comparison, the usual test for k-DOPs (Klosowski et

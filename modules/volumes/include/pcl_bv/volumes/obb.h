@@ -83,12 +83,10 @@ class Obb {
   /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
-  /// interval: a ray that hits by exact arithmetic is never a miss, and where contains() holds for the
+  /// Where the ray origin + t direction is inside, as RayInterval says; where contains() holds for the
   /// origin, enter is 0. Projections of origin and direction are taken to be off by twice the bound of
   /// contains(), so a ray that passes a face by less may hit; then each end is moved outward by 2^-51 of
-  /// itself and by 2^-1022. A zero direction tests the origin. Nothing for an empty box and for numbers that
-  /// are not finite.
+  /// itself and by 2^-1022.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Whether the two have a point in common: separating axes (Gottschalk et al. 1996), a gap of 4e-12 of the

@@ -53,11 +53,9 @@ class Sphere {
   /// Distance of a point, 0 where contains() holds. Infinity if empty, NaN for a point with a NaN.
   double distance(const Eigen::Vector3d& point) const;
 
-  /// Where the ray origin + t direction, t >= 0, is inside; nothing if it misses. Encloses the exact
-  /// interval: a ray that hits by exact arithmetic, be it in one point, is never a miss. Each end is in a
-  /// sphere whose radius is greater by at most 2^-46 (|origin - center|_1 + radius) + 2^-510. A zero
-  /// direction tests the origin; where contains() holds for it, the ray hits. Nothing for an empty sphere and
-  /// for numbers that are not finite.
+  /// Where the ray origin + t direction is inside, as RayInterval says; where contains() holds for the
+  /// origin, the ray hits. Each end is in a sphere whose radius is greater by at most 2^-46 (|origin -
+  /// center|_1 + radius) + 2^-510.
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Whether the two have a point in common: contains() of the other's centre for the sum of the radii. So it

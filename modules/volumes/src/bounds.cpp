@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "lengths.h"
+#include "bounds.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
@@ -56,6 +60,52 @@ bool within(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double
     add_square_of_difference(excess, a[i], b[i], 1);
   add_square_of_difference(excess, r, s, -1);
   return excess.sign() <= 0 && excess.certain();
+}
+
+Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half) {
+  const auto upper = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {
+    return at.binaryExpr(half, [](double c, double h) { return add_up(c, h); });
+  };
+  return {-upper(-center), upper(center)};
+}
+
+double skew(const Eigen::Matrix3d& axes) {
+  if (!axes.allFinite()) return kNan;
+  double worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j)
+      worst = std::max(worst, std::abs(dot3(axes.col(i), axes.col(j)) - (i == j)));
+  }
+  return worst;
+}
+
+double stretch_up(const Eigen::Matrix3d& m) {
+  double result = 0;
+  for (int i = 0; i < 3; ++i) {
+    double row = 0;
+    for (int j = 0; j < 3; ++j)
+      row = add_up(row, Expansion().add_dot(m.col(i), m.col(j)).magnitude_up());
+    result = std::max(result, row);
+  }
+  return sqrt_up(result);
+}
+
+MovedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d moved = transform * p;
+  Eigen::Vector3d error;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d row = transform.linear().row(i);
+    error[i] = Expansion().add(transform(i, 3)).add(-moved[i]).add_dot(row, p).magnitude_up();
+  }
+  return {moved, norm_up(error)};
+}
+
+double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,
+                     const Eigen::Vector3d& w) {
+  Eigen::Vector3d error;
+  for (int i = 0; i < 3; ++i)
+    error[i] = Expansion().add_product(-factor, w[i]).add_dot(m.row(i), v).magnitude_up();
+  return norm_up(error);
 }
 
 }  // namespace pcl_bv::volumes_internal

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The references but for that of supports. Compiled with -O3 -fno-tree-vectorize, so that they stay what
+// benchmarks call scalar.
+
+#include "references.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "square.h"
+
+namespace pcl_bv {
+namespace {
+
+// call.operator()<T>() with the type of the coordinates.
+template <typename Call>
+auto for_scalar(const PointView& points, const Call& call) {
+  if (points.scalar == ScalarType::float64) return call.template operator()<double>();
+  return call.template operator()<float>();
+}
+
+// Writes those of the first `points` positions for which `listed` holds; returns how many.
+template <typename Listed>
+std::size_t list_if(std::size_t points, std::uint32_t* positions, const Listed& listed) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (listed(i)) positions[count++] = static_cast<std::uint32_t>(i);
+  }
+  return count;
+}
+
+template <typename T>
+bool is_inside(const T (&p)[3], const HalfSpaces& inside) {
+  const T x = p[0] - static_cast<T>(inside.center.x);
+  const T y = p[1] - static_cast<T>(inside.center.y);
+  const T z = p[2] - static_cast<T>(inside.center.z);
+  if ((x * x + y * y) + z * z < static_cast<T>(inside.squared_ball)) return true;
+  for (std::size_t k = 0; k < inside.count; ++k) {
+    const HalfSpace& h = inside.planes[k];
+    const T reach = (static_cast<T>(h.x) * x + static_cast<T>(h.y) * y) + static_cast<T>(h.z) * z;
+    if (!(reach < static_cast<T>(h.limit))) return false;
+  }
+  return inside.count > 0;
+}
+
+void sum_block(const PointView& block, Moments& out) {
+  constexpr std::size_t kLanes = 8;
+  double lanes[kLanes][9] = {};
+  const double scale = std::ldexp(1.0, out.exponent);
+  for (std::size_t i = 0; i < block.count; ++i) {
+    const Coordinates p = load_point(block, i);
+    if (!is_valid(p)) continue;
+    const double x = (p.x - out.origin.x) * scale;
+    const double y = (p.y - out.origin.y) * scale;
+    const double z = (p.z - out.origin.z) * scale;
+    const double terms[] = {x, y, z, x * x, x * y, x * z, y * y, y * z, z * z};
+    for (std::size_t k = 0; k < 9; ++k)
+      lanes[i % kLanes][k] += terms[k];
+  }
+  out.sum = {};
+  out.product = {};
+  for (const auto& lane : lanes) {
+    for (std::size_t k = 0; k < 9; ++k)
+      (k < 3 ? out.sum[k] : out.product[k - 3]) += lane[k];
+  }
+}
+
+// The greatest distance of one block, in double: one at a time, a double costs what a float does. A NaN is
+// never greater; an infinity is looked at when it would win.
+template <typename T>
+double greatest_distance(const PointView& points, const DistanceCenter& center) {
+  double greatest = -1;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_as<T>(points, i);
+    const double d2 = square(p, center);
+    if (d2 > greatest && is_valid(p)) greatest = d2;
+  }
+  return greatest;
+}
+
+// Lets the point compete if it matters; its squared distance, or -1.
+double compete(const Coordinates& p, OctantScan& scan) {
+  const double d2 = square(p, scan.center);
+  if (!is_valid(p)) return -1;
+  if (d2 >= scan.limit) {
+    double& best = scan.greatest[octant(p, scan.center)];
+    best = std::max(best, d2);
+  }
+  return d2;
+}
+
+}  // namespace
+
+std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
+                                   std::uint32_t* positions) {
+  return for_scalar(points, [&]<typename T>() {
+    return list_if(points.count, positions, [&](std::size_t i) {
+      T p[3];
+      load_point(points, i, p);
+      return !is_inside(p, inside);
+    });
+  });
+}
+
+SlabExtents slab_extents_reference(const PointView& points, const Coordinates& origin,
+                                   const std::array<Direction, 3>& axes) {
+  SlabExtents result;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) continue;
+    const double x = p.x - origin.x, y = p.y - origin.y, z = p.z - origin.z;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double s = (axes[k][0] * x + axes[k][1] * y) + axes[k][2] * z;
+      result.low[k] = std::min(result.low[k], s);
+      result.high[k] = std::max(result.high[k], s);
+    }
+  }
+  return result;
+}
+
+void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups) {
+  for_scalar(points, [&]<typename T>() {
+    constexpr std::size_t lanes = kGroupBytes / sizeof(T);
+    for (std::size_t i = 0; i < points.count || i % lanes != 0; ++i) {
+      T v[3];
+      load_point(points, i < points.count ? i : pad, v);
+      std::byte* group = groups + i / lanes * (3 * kGroupBytes);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        std::memcpy(group + axis * kGroupBytes + i % lanes * sizeof(T), &v[axis], sizeof(T));
+    }
+  });
+}
+
+Moments block_moments_reference(const PointView& block) {
+  Moments out;
+  for (std::size_t i = 0; i < block.count; ++i) {
+    const Coordinates p = load_point(block, i);
+    if (!is_valid(p)) continue;
+    if (out.count == 0) out.origin = p;
+    ++out.count;
+  }
+  if (out.count > 0) sum_with_room(block.scalar, out, [&](Moments& moments) { sum_block(block, moments); });
+  return out;
+}
+
+double squared_distance(const Coordinates& p, const DistanceCenter& center) {
+  return square(p, center);
+}
+
+std::size_t octant(const Coordinates& p, const DistanceCenter& center) {
+  const auto bit = [&](double coordinate, double origin) {
+    return static_cast<std::size_t>((coordinate - origin) * center.scale > 0);
+  };
+  return bit(p.x, center.x) | bit(p.y, center.y) << 1 | bit(p.z, center.z) << 2;
+}
+
+void block_distances_reference(const PointView& points, const DistanceCenter& center, double /*limit*/,
+                               FloatFilter /*filter*/, double* greatest) {
+  for_scalar(points, [&]<typename T>() {
+    for (std::size_t b = 0; b < block_count(points.count); ++b)
+      greatest[b] = greatest_distance<T>(block_of(points, b), center);
+  });
+}
+
+void scan_octants_reference(const PointView& block, OctantScan& scan) {
+  scan.greatest.fill(-1);
+  for_scalar(block, [&]<typename T>() {
+    for (std::size_t begin = 0; begin < block.count; begin += kBoundPoints) {
+      double greatest = -1;
+      for (std::size_t i = begin; i < std::min(begin + kBoundPoints, block.count); ++i)
+        greatest = std::max(greatest, compete(load_as<T>(block, i), scan));
+      if (scan.bounds != nullptr) scan.bounds[begin / kBoundPoints] = static_cast<float>(greatest);
+    }
+  });
+}
+
+std::size_t list_reaching_reference(const PointView& block, const KeptBounds& kept,
+                                    const DistanceCenter& center, double limit, std::uint32_t* positions) {
+  return list_if(block.count, positions, [&](std::size_t i) {
+    const double bound = static_cast<double>(kept.bounds[i / kBoundPoints]) * (1 + 0x1p-22) + 0x1p-148;
+    return bound >= kept.limit && square(load_as<float>(block, i), center) >= limit;
+  });
+}
+
+std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
+                                   FloatFilter /*filter*/, std::uint32_t* positions) {
+  return for_scalar(points, [&]<typename T>() {
+    return list_if(points.count, positions, [&](std::size_t i) {
+      const Coordinates p = load_as<T>(points, i);
+      return square(p, center) >= limit && is_valid(p);
+    });
+  });
+}
+
+}  // namespace pcl_bv
