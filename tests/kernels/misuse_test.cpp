@@ -62,11 +62,6 @@ const std::vector<Kernel>& kernels() {
          chunk_supports(isa, points, one_direction(), nothing_reached(), out);
        }},
       {"block_moments", kBlockPoints, [](Isa isa, const PointView& points) { block_moments(isa, points); }},
-      {"block_distances", kAny,
-       [](Isa isa, const PointView& points) {
-         std::vector<double> greatest(100);
-         block_distances(isa, points, {}, 1, FloatFilter::off, greatest.data());
-       }},
       {"scan_octants", kBlockPoints,
        [](Isa isa, const PointView& points) {
          OctantScan scan;
@@ -161,10 +156,9 @@ TEST(Misuse, DistancesOfFloatsHaveNoUnitOfTheirOwnAndBoundsBelongToFloats) {
   const test::TestCloud<float> cloud = test::gaussian<float>(10, 5);
   const test::TestCloud<double> doubles = test::gaussian<double>(10, 5);
   const DistanceCenter half{0, 0, 0, 0.5};
-  double greatest = 0;
-  EXPECT_THROW(block_distances(Isa::scalar, cloud.view(), half, 0, FloatFilter::off, &greatest),
-               std::invalid_argument);
-  EXPECT_NO_THROW(block_distances(Isa::scalar, doubles.view(), half, 0, FloatFilter::off, &greatest));
+  OctantScan scan{half};
+  EXPECT_THROW(scan_octants(Isa::scalar, cloud.view(), scan), std::invalid_argument);
+  EXPECT_NO_THROW(scan_octants(Isa::scalar, doubles.view(), scan));
   const std::vector<float> bounds(kBlockBounds, 1.0F);
   std::uint32_t positions[10];
   EXPECT_THROW(list_reaching(Isa::scalar, doubles.view(), {{}, bounds.data(), 0}, {}, 0, positions),

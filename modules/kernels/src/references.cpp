@@ -67,19 +67,6 @@ void sum_block(const PointView& block, Moments& out) {
   }
 }
 
-// The greatest distance of one block, in double: one at a time, a double costs what a float does. A NaN is
-// never greater; an infinity is looked at when it would win.
-template <typename T>
-double greatest_distance(const PointView& points, const DistanceCenter& center) {
-  double greatest = -1;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_as<T>(points, i);
-    const double d2 = square(p, center);
-    if (d2 > greatest && is_valid(p)) greatest = d2;
-  }
-  return greatest;
-}
-
 // Lets the point compete if it matters; its squared distance, or -1.
 double compete(const Coordinates& p, OctantScan& scan) {
   const double d2 = square(p, scan.center);
@@ -154,14 +141,6 @@ std::size_t octant(const Coordinates& p, const DistanceCenter& center) {
     return static_cast<std::size_t>((coordinate - origin) * center.scale > 0);
   };
   return bit(p.x, center.x) | bit(p.y, center.y) << 1 | bit(p.z, center.z) << 2;
-}
-
-void block_distances_reference(const PointView& points, const DistanceCenter& center, double /*limit*/,
-                               FloatFilter /*filter*/, double* greatest) {
-  for_scalar(points, [&]<typename T>() {
-    for (std::size_t b = 0; b < block_count(points.count); ++b)
-      greatest[b] = greatest_distance<T>(block_of(points, b), center);
-  });
 }
 
 void scan_octants_reference(const PointView& block, OctantScan& scan) {

@@ -24,8 +24,6 @@ std::size_t list_outside_reference(const PointView& points, const HalfSpaces& in
 /// Writes the points as groups; the `pad`-th one (if there is any) fills the last group.
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);
 
-void block_distances_reference(const PointView& points, const DistanceCenter& center, double limit,
-                               FloatFilter filter, double* greatest);
 void scan_octants_reference(const PointView& block, OctantScan& scan);
 std::size_t list_reaching_reference(const PointView& block, const KeptBounds& kept,
                                     const DistanceCenter& center, double limit, std::uint32_t* positions);

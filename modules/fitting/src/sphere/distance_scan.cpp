@@ -79,38 +79,19 @@ void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const 
 void DistanceScan::bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const {
   bounds.resize(blocks_);
   visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
-    block_distances(isa_, blocks(first, count).view(), center, limit, filter_, bounds.data() + first);
+    const LoadedPoints points = blocks(first, count);
+    OctantScan scan{center, limit, filter_};
+    for (std::size_t b = 0; b < count; ++b) {
+      scan_octants(isa_, block_of(points.view(), b), scan);
+      bounds[first + b] = *std::max_element(scan.greatest.begin(), scan.greatest.end());
+    }
   });
 }
 
 double DistanceScan::greatest(const DistanceCenter& center, double at_least) const {
   BlockNumbers found;
   bound(center, at_least, found);
-  // Below at_least, a block's entry may be only a bound.
   return std::max(at_least, *std::max_element(found.begin(), found.end()));
-}
-
-void DistanceScan::list(const DistanceCenter& center, double limit, Positions& positions) const {
-  const auto list_block = [&](std::size_t block, Positions& found) {
-    visit_block(block, center, limit,
-                [&](std::size_t i, const Coordinates&) { found.push_back(block * kBlockPoints + i); });
-  };
-  if (blocks_ <= kBlocksPerChunk) {
-    for (std::size_t block = 0; block < blocks_; ++block)
-      list_block(block, positions);
-    return;
-  }
-  std::vector<std::vector<std::size_t>> lists((blocks_ + kBlocksPerChunk - 1) / kBlocksPerChunk);
-  visit_chunks(blocks_, [&](std::size_t chunk, std::size_t first, std::size_t count) {
-    Positions found;
-    for (std::size_t block = first; block < first + count; ++block)
-      list_block(block, found);
-    lists[chunk].assign(found.begin(), found.end());
-  });
-  for (const auto& part : lists) {
-    for (const std::size_t position : part)
-      positions.push_back(position);
-  }
 }
 
 // The farthest point in each octant of all that has been scanned, by any thread. Which chunks find theirs

@@ -18,9 +18,6 @@
 
 namespace pcl_bv {
 
-/// Positions of points in a view. The inline part is for small clusters.
-using Positions = SmallVector<std::size_t, 512>;
-
 /// One number for each block.
 using BlockNumbers = SmallVector<double, 16>;
 
@@ -35,15 +32,12 @@ class DistanceScan {
   /// Whether a pass over all points would run in one thread.
   bool serial() const;
 
-  /// For each block what block_distances() gives.
+  /// For each block the greatest squared distance of a valid point that is at least `limit`; -1 if there is
+  /// none.
   void bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const;
 
   /// The greatest squared distance of a valid point, or `at_least` if that is greater.
   double greatest(const DistanceCenter& center, double at_least) const;
-
-  /// Appends the positions of the valid points with a squared distance of at least `limit`, ascending. Not
-  /// for points of a source.
-  void list(const DistanceCenter& center, double limit, Positions& positions) const;
 
   /// Calls visit(position in the block, p) for those of one block, in order.
   template <typename Visit>

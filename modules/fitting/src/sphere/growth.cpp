@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 namespace pcl_bv {
 namespace {
@@ -59,22 +59,31 @@ void grow_in_order(const DistanceScan& scan, GrowingSphere& sphere) {
     grow_over_block(scan, block, sphere);
 }
 
-// The blocks that the first sphere leaves points of outside are found in parallel; then it grows over what
-// grown spheres still leave outside of them: in the end, of the collected points those that matter.
-void grow_over_marked_blocks(const DistanceScan& scan, GrowingSphere& sphere) {
+// Calls visit(block) for those that the sphere leaves points of outside, which are found in parallel.
+template <typename Visit>
+void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& sphere, const Visit& visit) {
   const double limit = sphere.squared_radius();
   BlockNumbers bounds;
   scan.bound(sphere.center(), limit, bounds);
   for (std::size_t block = 0; block < bounds.size(); ++block) {
-    if (bounds[block] >= limit) grow_over_block(scan, block, sphere);
+    if (bounds[block] >= limit) visit(block);
   }
+}
+
+// Over what grown spheres still leave outside: in the end, of the points outside of the first sphere those
+// that matter.
+void grow_over_blocks_outside(const DistanceScan& scan, GrowingSphere& sphere) {
+  for_each_block_outside(scan, sphere, [&](std::size_t block) { grow_over_block(scan, block, sphere); });
 }
 
 // An index list may name the points in any order.
 void grow_by_index(const DistanceScan& scan, GrowingSphere& sphere) {
   const PointView& points = scan.points();
-  Positions outside;
-  scan.list(sphere.center(), sphere.squared_radius(), outside);
+  std::vector<std::size_t> outside;
+  for_each_block_outside(scan, sphere, [&](std::size_t block) {
+    scan.visit_block(block, sphere.center(), sphere.squared_radius(),
+                     [&](std::size_t i, const Coordinates&) { outside.push_back(block * kBlockPoints + i); });
+  });
   std::sort(outside.begin(), outside.end(),
             [&](std::size_t a, std::size_t b) { return points.index(a) < points.index(b); });
   for (const std::size_t i : outside)
@@ -97,7 +106,7 @@ Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eige
   if (growth == SphereGrowth::deferred && !ascending(scan.points())) {
     grow_by_index(scan, sphere);
   } else if (growth == SphereGrowth::deferred && !scan.serial()) {
-    grow_over_marked_blocks(scan, sphere);
+    grow_over_blocks_outside(scan, sphere);
   } else {
     grow_in_order(scan, sphere);  // gives the same bits as the deferred ways, and is faster in one thread
   }

@@ -36,16 +36,6 @@ constexpr std::size_t block_count(std::size_t points) {
   return (points + kBlockPoints - 1) / kBlockPoints;
 }
 
-/// Fills block_count(points.count) entries of `greatest`, one per block of kBlockPoints points: the greatest
-/// squared_distance() of the block's valid points if that is at least `limit`; otherwise an upper bound of it
-/// that is below `limit`, not the same for each `isa`. No valid point: -1.
-///
-/// O(n). Runs in the caller's floating-point environment: hold a FloatEnvironment. Throws
-/// std::invalid_argument unless the points are in memory, and for float points whose centre has a scale
-/// other than 1.
-void block_distances(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
-                     FloatFilter filter, double* greatest);
-
 /// Points that share one bound of scan_octants(), and bounds of a block.
 inline constexpr std::size_t kBoundPoints = 8;
 inline constexpr std::size_t kBlockBounds = kBlockPoints / kBoundPoints;
@@ -62,8 +52,9 @@ struct OctantScan {
   std::array<double, 8> greatest{};
 };
 
-/// Scans one block of at most kBlockPoints points, or std::invalid_argument. `greatest` is the same for each
-/// `isa`, the others are not. Otherwise as block_distances().
+/// Scans one block. `greatest` is the same for each `isa`, the others are not. O(n). Runs in the caller's
+/// floating-point environment: hold a FloatEnvironment. Throws std::invalid_argument for more than
+/// kBlockPoints points, unless they are in memory, and for float points whose centre has a scale other than 1.
 void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan);
 
 /// What scan_octants() of a float block left, and how far from its centre points must be to be asked for now.
@@ -85,7 +76,7 @@ std::size_t octant(const Coordinates& p, const DistanceCenter& center);
 
 /// Writes the positions in the view, ascending, of the valid points whose squared_distance() is at least
 /// `limit`; returns how many. There must be room for points.count, at most 2^32. The same for
-/// every `isa` and filter; otherwise as block_distances().
+/// every `isa` and filter; otherwise as scan_octants().
 std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions);
 
