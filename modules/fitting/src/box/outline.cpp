@@ -91,7 +91,9 @@ Outline outline_from_above(const PointView& points, const Supports& supports, co
                            const Ground& ground, const Execution& execution) {
   const HalfSpaces inside = walls(points, few_points(points, supports, frame), frame, ground);
   Outline outline;
-  map_chunks<Outline>(
+  std::size_t most = std::size_t{1} << 16;
+  const auto reduce = [&] { outline.resize(to_convex_chain(outline.data(), outline.size())); };
+  map_chunks<Outline, 16>(
       points, worthwhile(execution, Work::outline, points.count),
       [&](const PointView& chunk) {
         return chunk_outline(execution.isa, chunk, supports, inside, frame, ground);
@@ -99,9 +101,12 @@ Outline outline_from_above(const PointView& points, const Supports& supports, co
       [&](const Outline& part) {
         for (const Eigen::Vector2d& corner : part)
           outline.push_back(corner);
+        if (outline.size() <= most) return;
+        reduce();
+        most = std::max(most, 2 * outline.size());
       });
   require_same_points(outline.size() > 0);
-  if (chunk_count(points.count) > 1) outline.resize(to_convex_chain(outline.data(), outline.size()));
+  if (chunk_count(points.count) > 1) reduce();
   return outline;
 }
 

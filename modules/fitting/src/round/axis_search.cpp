@@ -62,7 +62,6 @@ void improve(Rated& best, double step, double last_step,
 void Profile::look(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points) {
   const Across across(axis);
   flat_.clear();
-  squared.clear();
   along.clear();
   low = high = dot3(axis, points.front());
   for (const Eigen::Vector3d& p : points) {
@@ -72,12 +71,17 @@ void Profile::look(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3
     high = std::max(high, along.back());
   }
   const SmallBall circle = smallest_ball(flat_.data(), flat_.size());
-  for (const Eigen::Vector3d& f : flat_) {
-    const double x = f.x() - circle.center.x(), y = f.y() - circle.center.y();
-    squared.push_back(x * x + y * y);
-  }
+  middle_ = circle.center;
   foot = circle.center.x() * across.u + circle.center.y() * across.v;
   squared_radius = circle.squared_radius;
+}
+
+void Profile::measure() {
+  squared.clear();
+  for (const Eigen::Vector3d& f : flat_) {
+    const double x = f.x() - middle_.x(), y = f.y() - middle_.y();
+    squared.push_back(x * x + y * y);
+  }
 }
 
 std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull) {

@@ -20,9 +20,14 @@ struct Profile {
   Eigen::Vector3d foot;       ///< The middle of the smallest circle, on the plane through the origin.
   double squared_radius = 0;  ///< Of that circle.
   double low = 0, high = 0;   ///< From where to where along the axis.
-  std::vector<double> squared, along;  ///< Of each point: the squared distance from the middle, and where.
+  std::vector<double> along;  ///< Of each point: where.
+
+  /// Fills `squared`: of each point the squared distance from the middle.
+  void measure();
+  std::vector<double> squared;
 
  private:
+  Eigen::Vector3d middle_;
   std::vector<Eigen::Vector3d> flat_;
 };
 

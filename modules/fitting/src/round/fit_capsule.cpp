@@ -72,11 +72,13 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
     const std::vector<Eigen::Vector3d> essential = essential_vertices(hull);
     axis = search_axis(hull, [&](const Eigen::Vector3d& tried) {
       profile.look(tried, essential);
+      profile.measure();
       return shortest(profile, profile.squared_radius).volume();
     });
   }
   const std::vector<Eigen::Vector3d> vertices = hull.local_vertices();
   profile.look(axis, vertices);
+  profile.measure();
   const Candidate best = widened(profile);
   const SmallBall ball = smallest_ball(vertices.data(), vertices.size());
   if (ball.squared_radius * std::sqrt(ball.squared_radius) * 4 / 3 <= best.volume()) {

@@ -29,6 +29,12 @@ double distance_up(const DistanceCenter& a, const DistanceCenter& b) {
   return std::sqrt(squared_distance({a.x, a.y, a.z}, b)) * kRoundUp;
 }
 
+void raise(std::atomic<double>& greatest, double found) {
+  double known = greatest.load(std::memory_order_relaxed);
+  while (found > known && !greatest.compare_exchange_weak(known, found)) {
+  }
+}
+
 // The block's points of that octant and distance compete for `best`.
 void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& center, std::size_t in_octant,
                    double squared, FloatFilter filter, FarPoint& best) {
@@ -89,9 +95,17 @@ void DistanceScan::bound(const DistanceCenter& center, double limit, BlockNumber
 }
 
 double DistanceScan::greatest(const DistanceCenter& center, double at_least) const {
-  BlockNumbers found;
-  bound(center, at_least, found);
-  return std::max(at_least, *std::max_element(found.begin(), found.end()));
+  std::atomic<double> greatest = at_least;
+  visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
+    const LoadedPoints points = blocks(first, count);
+    OctantScan scan{center, at_least, filter_};
+    for (std::size_t b = 0; b < count; ++b) {
+      scan.limit = greatest.load(std::memory_order_relaxed);
+      scan_octants(isa_, block_of(points.view(), b), scan);
+      raise(greatest, *std::max_element(scan.greatest.begin(), scan.greatest.end()));
+    }
+  });
+  return greatest;
 }
 
 // The farthest point in each octant of all that has been scanned, by any thread. Which chunks find theirs
@@ -113,11 +127,8 @@ class DistanceScan::SharedOctants {
   double operator[](std::size_t octant) const { return best_[octant].load(std::memory_order_relaxed); }
 
   void raise(const std::array<double, 8>& greatest) {
-    for (std::size_t o = 0; o < 8; ++o) {
-      double known = (*this)[o];
-      while (greatest[o] > known && !best_[o].compare_exchange_weak(known, greatest[o])) {
-      }
-    }
+    for (std::size_t o = 0; o < 8; ++o)
+      pcl_bv::raise(best_[o], greatest[o]);
   }
 
   void compete(const FarPoint& candidate, std::size_t octant) {

@@ -14,8 +14,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 using Direction = std::array<double, 3>;
 
 /// -1, 0 or 1: the sign of n . p - n . q, exactly, whatever over- or underflows in between. Where plain
-/// doubles with a rigorous bound can tell they do; else sums of integers as wide as they must be (after
-/// Kulisch 2013). All components up to 1e150 in magnitude.
+/// doubles with a rigorous bound can tell they do; else expansions, and rationals where these are not exact.
+/// All components up to 1e150 in magnitude.
 int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q);
 
 /// The greatest double <= and the least double >= the exact n . p; equal if it is a double itself. Never -0.
