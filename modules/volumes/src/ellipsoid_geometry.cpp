@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
+#include <boost/math/special_functions/ellint_rg.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -12,43 +13,6 @@
 
 namespace pcl_bv {
 namespace {
-
-// Carlson's symmetric integrals R_F and R_D by duplication (Carlson 1995), their series without the terms of
-// fifth order, which are below 1e-14 of what is added last. All arguments not negative, z > 0, at most one of
-// the others 0.
-double carlson_rf(double x, double y, double z) {
-  for (int i = 0; i < 60; ++i) {
-    const double mean = (x + y + z) / 3;
-    if (std::max({std::abs(x - mean), std::abs(y - mean), std::abs(z - mean)}) < 1e-3 * mean) break;
-    const double step = std::sqrt(x * y) + std::sqrt(y * z) + std::sqrt(z * x);
-    x = (x + step) / 4;
-    y = (y + step) / 4;
-    z = (z + step) / 4;
-  }
-  const double mean = (x + y + z) / 3;
-  const double a = 1 - x / mean, b = 1 - y / mean, c = -a - b;
-  const double e2 = a * b - c * c, e3 = a * b * c;
-  return (1 - e2 / 10 + e3 / 14 + e2 * e2 / 24) / std::sqrt(mean);
-}
-
-double carlson_rd(double x, double y, double z) {
-  double sum = 0, factor = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double mean = (x + y + 3 * z) / 5;
-    if (std::max({std::abs(x - mean), std::abs(y - mean), std::abs(z - mean)}) < 1e-3 * mean) break;
-    const double step = std::sqrt(x * y) + std::sqrt(y * z) + std::sqrt(z * x);
-    sum += factor / (std::sqrt(z) * (z + step));
-    factor /= 4;
-    x = (x + step) / 4;
-    y = (y + step) / 4;
-    z = (z + step) / 4;
-  }
-  const double mean = (x + y + 3 * z) / 5;
-  const double a = 1 - x / mean, b = 1 - y / mean, c = -(a + b) / 3;
-  const double e2 = a * b - 6 * c * c, e3 = (3 * a * b - 8 * c * c) * c, e4 = 3 * (a * b - c * c) * c * c;
-  const double series = 1 - 3 * e2 / 14 + e3 / 6 + 9 * e2 * e2 / 88 - 3 * e4 / 22;
-  return 3 * sum + factor * series / (mean * std::sqrt(mean));
-}
 
 // The greatest t with sum (r_i y_i / (r_i^2 + t))^2 = 1, for a point y >= 0 outside: then r_i^2 y_i / (r_i^2
 // + t) is the nearest point (Eberly 2013). In units of the greatest radius.
@@ -80,11 +44,10 @@ double Ellipsoid::surface_area() const {
   if (r[1] == 0) return 0;
   if (r[0] == 0) return 2 * std::numbers::pi * r[1] * r[2];
   const double unit = r[2], a = r[0] / unit, b = r[1] / unit;
-  // 4 pi R_G(b^2, a^2, a^2 b^2), with the greatest radius 1 and R_G in terms of the other two integrals.
-  const double x = b * b, y = a * a, z = a * a * b * b;
-  const double lost = x == z || y == z ? 0 : (x - z) * (y - z) * carlson_rd(x, y, z) / 3;
-  const double rg = (z * carlson_rf(x, y, z) - lost + 1) / 2;  // sqrt(x y / z) = 1
-  return 4 * std::numbers::pi * rg * unit * unit;
+  // Carlson's symmetric integral, in double alone: the same bits where long double is another type.
+  const boost::math::policies::policy<boost::math::policies::promote_double<false>> doubles;
+  const double integral = boost::math::ellint_rg(b * b, a * a, a * a * b * b, doubles);
+  return 4 * std::numbers::pi * integral * unit * unit;
 }
 
 double Ellipsoid::distance(const Eigen::Vector3d& point) const {

@@ -70,10 +70,6 @@ EstimationResult fit_upright(const PointView& points, const ObbOptions& options,
   return result_of(supports);
 }
 
-}  // namespace
-
-namespace {
-
 Direction direction(const Eigen::Vector3d& axis) {
   return {axis.x(), axis.y(), axis.z()};
 }

@@ -3,8 +3,8 @@
 
 #include "box/symmetric_eigen.h"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "pcl_bv/numeric/vector3.h"
 
@@ -17,21 +17,17 @@ void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
   const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));
   const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
   const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-  for (int k = 0; k < 3; ++k) {
-    const double x = a(k, p), y = a(k, q);
-    a(k, p) = c * x - s * y;
-    a(k, q) = s * x + c * y;
-  }
-  for (int k = 0; k < 3; ++k) {
-    const double x = a(p, k), y = a(q, k);
-    a(p, k) = c * x - s * y;
-    a(q, k) = s * x + c * y;
-  }
-  for (int k = 0; k < 3; ++k) {
-    const double x = v(k, p), y = v(k, q);
-    v(k, p) = c * x - s * y;
-    v(k, q) = s * x + c * y;
-  }
+  const auto turn = [&](double& x, double& y) {
+    const double old = x;
+    x = c * old - s * y;
+    y = s * old + c * y;
+  };
+  for (int k = 0; k < 3; ++k)
+    turn(a(k, p), a(k, q));
+  for (int k = 0; k < 3; ++k)
+    turn(a(p, k), a(q, k));
+  for (int k = 0; k < 3; ++k)
+    turn(v(k, p), v(k, q));
 }
 
 }  // namespace
@@ -47,11 +43,7 @@ SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix) {
     rotate(a, v, 1, 2);
   }
   int order[3] = {0, 1, 2};
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 2 - i; ++j) {
-      if (a(order[j], order[j]) < a(order[j + 1], order[j + 1])) std::swap(order[j], order[j + 1]);
-    }
-  }
+  std::sort(order, order + 3, [&](int i, int j) { return a(i, i) != a(j, j) ? a(i, i) > a(j, j) : i < j; });
   SymmetricEigen result;
   for (int k = 0; k < 3; ++k) {
     result.values[k] = a(order[k], order[k]);

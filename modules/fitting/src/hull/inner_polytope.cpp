@@ -20,18 +20,15 @@ struct Corners {
 };
 
 Corners corners_of(const Supports& supports, const LocalFrame& frame, std::vector<Triangle>& triangles) {
-  std::vector<Coordinates> points;
-  for (std::size_t k = 0; k < direction_count(supports.set); ++k) {
-    points.push_back(supports.along[k].low_point.point);
-    points.push_back(supports.along[k].high_point.point);
-  }
-  ConvexHull hull = convex_hull(points);
+  std::vector<SupportPoint> ends;
+  for (std::size_t k = 0; k < direction_count(supports.set); ++k)
+    ends.insert(ends.end(), {supports.along[k].low_point, supports.along[k].high_point});
+  triangles = keep_extreme(ends);
   Corners corners;
-  for (const std::size_t i : hull.vertices) {
-    corners.points.push_back(points[i]);
-    corners.local.push_back(frame.local(points[i]));
+  for (const SupportPoint& end : ends) {
+    corners.points.push_back(end.point);
+    corners.local.push_back(frame.local(end.point));
   }
-  triangles = std::move(hull.triangles);
   return corners;
 }
 
@@ -41,9 +38,7 @@ struct Scalar {
 
   bool is_float;
   double unit() const { return is_float ? 0x1p-24 : kU; }
-  double least() const {
-    return is_float ? 0x1p-140 : 0x1p-1000;
-  }  // more than what products may underflow by
+  double least() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // more than products underflow by
 
   double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }
   double down(double x) const { return is_float ? static_cast<double>(float_down(x)) : x; }

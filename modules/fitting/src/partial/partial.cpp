@@ -33,10 +33,6 @@ void require_apart(const PartialState& state) {
 
 namespace {
 
-const SupportDirections& directions() {
-  return SupportDirections::of(DirectionSet::dop26);
-}
-
 // What of these points is needed where more are than can be kept, but for their moments: number(i) is that of
 // the i-th in the whole cloud.
 template <typename Number>
@@ -99,7 +95,7 @@ PartialState reduced(PartialState state) {
   return state;
 }
 
-// Calls visit(block, first, last) for the loose points of each block.
+// Calls visit(block, points) for the loose points of each block.
 template <typename Visit>
 void for_each_block(const NumberedPoints& loose, const Visit& visit) {
   for (auto first = loose.begin(); first != loose.end();) {
@@ -141,6 +137,7 @@ void sum_whole_blocks(PartialState& state, MomentNodes nodes) {
 }
 
 PartialState merged(const PartialState& one, const PartialState& other) {
+  const SupportDirections& directions = SupportDirections::of(DirectionSet::dop26);
   PartialState both;
   both.scalar = one.scalar;
   both.loose = merged(one.loose, other.loose);
@@ -150,7 +147,7 @@ PartialState merged(const PartialState& one, const PartialState& other) {
     both.dropped = a.dropped + b.dropped;
     for (std::size_t end = 0; end < both.ends.size(); ++end) {
       both.ends[end] = a.ends[end];
-      keep_farther(directions().end_direction(end), b.ends[end], both.ends[end]);
+      keep_farther(directions.end_direction(end), b.ends[end], both.ends[end]);
     }
     both.extreme = merged(a.extreme, b.extreme);
     keep_extreme(both.extreme);
@@ -197,7 +194,8 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
     return static_cast<std::size_t>(found - points.begin());
   };
   for (std::size_t k = 0; k < kMaxDirections && state.used > 0; ++k) {
-    supports.along[k] = support_between(directions(), k, state.ends[2 * k], state.ends[2 * k + 1]);
+    supports.along[k] =
+        support_between(SupportDirections::of(supports.set), k, state.ends[2 * k], state.ends[2 * k + 1]);
     supports.along[k].low_point.index = position(state.ends[2 * k]);
     supports.along[k].high_point.index = position(state.ends[2 * k + 1]);
   }

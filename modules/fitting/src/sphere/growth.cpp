@@ -70,12 +70,6 @@ void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& spher
   }
 }
 
-// Over what grown spheres still leave outside: in the end, of the points outside of the first sphere those
-// that matter.
-void grow_over_blocks_outside(const DistanceScan& scan, GrowingSphere& sphere) {
-  for_each_block_outside(scan, sphere, [&](std::size_t block) { grow_over_block(scan, block, sphere); });
-}
-
 // An index list may name the points in any order.
 void grow_by_index(const DistanceScan& scan, GrowingSphere& sphere) {
   const PointView& points = scan.points();
@@ -106,7 +100,9 @@ Sphere grow_sphere(const DistanceScan& scan, const LocalFrame& frame, const Eige
   if (growth == SphereGrowth::deferred && !ascending(scan.points())) {
     grow_by_index(scan, sphere);
   } else if (growth == SphereGrowth::deferred && !scan.serial()) {
-    grow_over_blocks_outside(scan, sphere);
+    // Over what grown spheres still leave outside: in the end, of the points outside of the first those that
+    // matter.
+    for_each_block_outside(scan, sphere, [&](std::size_t block) { grow_over_block(scan, block, sphere); });
   } else {
     grow_in_order(scan, sphere);  // gives the same bits as the deferred ways, and is faster in one thread
   }
