@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "pcl_bv/kernels/point_source.h"
@@ -32,7 +33,7 @@ void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map
       partials[chunk] = map(load_chunk(points, first + chunk).view());
     });
     for (std::size_t chunk = 0; chunk < count; ++chunk)
-      merge(partials[chunk]);
+      merge(std::move(partials[chunk]));
   }
 }
 

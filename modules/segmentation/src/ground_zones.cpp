@@ -152,7 +152,7 @@ struct GroundZones::Scratch {
     if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
     for (const std::size_t ring_count : central_rings) {
       near.count = begin[first_patch[ring_count]];
-      if (const auto plane = find_ground_plane(near, settings.sensor, search, sample)) return plane;
+      if (auto plane = find_ground_plane(near, settings.sensor, search, sample)) return plane;
     }
     return {};
   }

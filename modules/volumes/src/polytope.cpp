@@ -131,11 +131,11 @@ Eigen::Vector3d Measure::centroid(const std::vector<Eigen::Vector3d>& vertices) 
 
 Measure measure(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces, int rank) {
   Measure result;
-  const Eigen::Vector3d apex = vertices.front();
+  const Eigen::Vector3d& apex = vertices.front();
   for (const Face& face : faces) {
-    const Eigen::Vector3d a = vertices[face[0]];
+    const Eigen::Vector3d& a = vertices[face[0]];
     for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-      const Eigen::Vector3d b = vertices[face[i]], c = vertices[face[i + 1]];
+      const Eigen::Vector3d &b = vertices[face[i]], &c = vertices[face[i + 1]];
       const Eigen::Vector3d area = (b - a).cross(c - a);
       if (rank == 3) {
         result.add(area.dot(a - apex) / 6, (a + b + c + apex) / 4);

@@ -105,7 +105,7 @@ Outline outline_from_above(const PointView& points, const Supports& supports, co
         reduce();
         most = std::max(most, 2 * outline.size());
       });
-  require_same_points(outline.size() > 0);
+  require_same_points(!outline.empty());
   if (chunk_count(points.count) > 1) reduce();
   return outline;
 }

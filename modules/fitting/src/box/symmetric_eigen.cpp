@@ -3,8 +3,8 @@
 
 #include "box/symmetric_eigen.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pcl_bv/numeric/vector3.h"
 
@@ -43,7 +43,12 @@ SymmetricEigen symmetric_eigen(const Eigen::Matrix3d& matrix) {
     rotate(a, v, 1, 2);
   }
   int order[3] = {0, 1, 2};
-  std::sort(order, order + 3, [&](int i, int j) { return a(i, i) != a(j, j) ? a(i, i) > a(j, j) : i < j; });
+  const auto greater_first = [&](int& i, int& j) {
+    if (a(i, i) < a(j, j)) std::swap(i, j);
+  };
+  greater_first(order[0], order[1]);
+  greater_first(order[1], order[2]);
+  greater_first(order[0], order[1]);
   SymmetricEigen result;
   for (int k = 0; k < 3; ++k) {
     result.values[k] = a(order[k], order[k]);

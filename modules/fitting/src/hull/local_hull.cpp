@@ -41,7 +41,7 @@ std::vector<HullPoint> find_candidates(const PointView& points, const HalfSpaces
     if (!held && found.size() > kManyPoints) keep_extreme(found);
     return found;
   };
-  const auto append = [&](auto&& part) {
+  const auto append = [&](std::vector<HullPoint>&& part) {
     const std::vector<HullPoint> found = std::move(part);
     all.insert(all.end(), found.begin(), found.end());
     if (held || all.size() <= most) return;
