@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "memory_file.h"
-#include "pcl_bv/io/kitti_bin.h"
+#include "pcl_bv/io/bin.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
-  pcl_bv::check_reader(content, 1, [](const auto& path) { return pcl_bv::read_kitti_bin(path); });
+  pcl_bv::check_reader(content, 1, [](const auto& path) { return pcl_bv::read_bin(path); });
   return 0;
 }

@@ -290,5 +290,23 @@ TEST_F(PcdPath, ThatMayNotBeReadIsNamedSo) {
   EXPECT_EQ(reason_for(file("a.pcd")), "permission denied");
 }
 
+TEST_F(PcdHeader, WithTheLineDataTwiceIsRefused) {
+  for (const std::string encoding : {"ascii", "binary", "binary_compressed"}) {
+    for (const std::string end : {"\n", "\r\n"})
+      EXPECT_EQ(set("DATA", "DATA " + encoding).reason("DATA binary" + end + std::string(24, 'a')),
+                "header: DATA occurs twice");
+  }
+}
+
+TEST_F(PcdHeader, OfZeroPointsBeforeSomeIsRefusedAndOfTooFewIsSaid) {
+  set("DATA", "DATA binary").set("WIDTH", "WIDTH 0").set("POINTS", "POINTS 0");
+  EXPECT_EQ(reason(std::string(25, 'a')), "header: 0 points, but 25 bytes of 2 more points follow");
+  EXPECT_EQ(reason(std::string(11, 'a')), "");
+  set("WIDTH", "WIDTH 2").set("POINTS", "POINTS 2");
+  EXPECT_EQ(read(std::string(24 + 11, 'a')).note, "");
+  EXPECT_EQ(read(std::string(24 + 36, 'a')).note,
+            "the header says 2 points; 36 bytes of 3 more points follow, which are not read");
+}
+
 }  // namespace
 }  // namespace pcl_bv

@@ -31,11 +31,12 @@ constexpr std::size_t kShortRecord = 64;
 // Of longer ones this much is read at a time.
 constexpr std::size_t kPiece = std::size_t{256} << 10;
 
-// The header of a binary .pcd or a KITTI .bin, by the file's name; none of any other format.
-std::optional<PcdHeader> binary_header(const InputFile& file, const std::filesystem::path& path) {
+// The header of a binary .pcd or a .bin, by the file's name; none of any other format.
+std::optional<PcdHeader> binary_header(const InputFile& file, const std::filesystem::path& path,
+                                       std::size_t bin_fields) {
   const std::string extension = lower_case_extension(path);
-  if (extension == ".ply") return std::nullopt;
-  PcdHeader header = extension == ".bin" ? kitti_header(file) : read_pcd_header(file);
+  if (extension == ".ply" || extension == ".las" || extension == ".laz") return std::nullopt;
+  PcdHeader header = extension == ".bin" ? read_bin_header(file, path, bin_fields) : read_pcd_header(file);
   if (header.encoding != PcdEncoding::binary) return std::nullopt;
   require_records(file, header);
   return header;
@@ -69,9 +70,9 @@ void pack(const InputFile& file, std::size_t offset, std::size_t step, const Coo
 
 }  // namespace
 
-std::unique_ptr<CloudFile> CloudFile::open(const std::filesystem::path& path) {
+std::unique_ptr<CloudFile> CloudFile::open(const std::filesystem::path& path, std::size_t bin_fields) {
   InputFile file(path);
-  std::optional<PcdHeader> header = binary_header(file, path);
+  std::optional<PcdHeader> header = binary_header(file, path, bin_fields);
   if (!header || header->cloud.size() <= kChunkPoints) return nullptr;
   const CoordinateFields fields = coordinate_fields(header->cloud);
   file.prefetch(header->data_offset, 2 * kAhead);

@@ -25,11 +25,11 @@ struct PcdHeader {
 /// Throws IoError.
 PcdHeader read_pcd_header(const InputFile& file);
 
-/// The header that the points of a KITTI .bin would have in a binary .pcd; data_offset 0. Throws IoError.
-PcdHeader kitti_header(const InputFile& file);
+/// The header that the points of a .bin would have in a binary .pcd; data_offset 0. As read_bin().
+PcdHeader read_bin_header(const InputFile& file, const std::filesystem::path& path, std::size_t fields);
 
-/// Throws IoError unless the file holds all records of a binary cloud.
-void require_records(const InputFile& file, const PcdHeader& header);
+/// Throws IoError unless the file holds all records of a binary cloud; notes records behind them.
+void require_records(const InputFile& file, PcdHeader& header);
 
 /// Each reads the points behind the header into header.cloud.data. Throws IoError.
 void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelPolicy& policy);

@@ -35,6 +35,16 @@ std::string_view add_line(std::string_view line, KeywordLines& lines) {
   return keyword;
 }
 
+// Some recorders write the line DATA again when they rewrite the header: then every number would be read from
+// the wrong place. Points that begin with one of these texts do not occur.
+bool begins_with_data_line(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  const Words words = split(line);
+  return line.size() < text.size() && words.size() == 2 && words[0] == "DATA" &&
+         std::find(pcd_encoding_names.begin(), pcd_encoding_names.end(), words[1]) !=
+             pcd_encoding_names.end();
+}
+
 KeywordLines gather_lines(std::string_view start, std::size_t& data_offset) {
   KeywordLines lines;
   std::size_t at = 0;
@@ -50,6 +60,7 @@ KeywordLines gather_lines(std::string_view start, std::size_t& data_offset) {
     at = std::min(end + 1, start.size());
     if (keyword == "DATA") {
       data_offset = at;
+      if (begins_with_data_line(start.substr(at))) throw IoError("header: DATA occurs twice");
       return lines;
     }
   }
@@ -149,6 +160,16 @@ PcdEncoding read_encoding(const KeywordLines& lines) {
   throw IoError("header: DATA: " + in_quotes(word) + " is not one of ascii, binary, binary_compressed");
 }
 
+// A recorder that stops early leaves the number of points as it was when it began.
+void note_rest(std::size_t rest, RawCloud& cloud) {
+  const std::string bytes =
+      std::to_string(rest) + " bytes of " + std::to_string(rest / cloud.point_step) + " more points follow";
+  if (rest < cloud.point_step) return;
+  if (cloud.size() == 0) throw IoError("header: 0 points, but " + bytes);
+  cloud.note =
+      "the header says " + std::to_string(cloud.size()) + " points; " + bytes + ", which are not read";
+}
+
 }  // namespace
 
 PcdHeader read_pcd_header(const InputFile& file) {
@@ -164,27 +185,11 @@ PcdHeader read_pcd_header(const InputFile& file) {
   return header;
 }
 
-PcdHeader kitti_header(const InputFile& file) {
-  PcdHeader header;
-  header.encoding = PcdEncoding::binary;
+void require_records(const InputFile& file, PcdHeader& header) {
   RawCloud& cloud = header.cloud;
-  for (const char* name : {"x", "y", "z", "intensity"}) {
-    cloud.fields.push_back({name, 'F', 4, 1, cloud.point_step});
-    cloud.point_step += 4;
-  }
-  if (file.size() % cloud.point_step != 0) {
-    throw IoError("truncated: " + std::to_string(file.size()) + " bytes are no multiple of the " +
-                  std::to_string(cloud.point_step) + " of a point");
-  }
-  cloud.width = file.size() / cloud.point_step;
-  return header;
-}
-
-void require_records(const InputFile& file, const PcdHeader& header) {
-  const RawCloud& cloud = header.cloud;
   const std::size_t needed = cloud.size() * cloud.point_step;
   const std::size_t available = file.size() - header.data_offset;
-  if (needed <= available) return;
+  if (needed <= available) return note_rest(available - needed, cloud);
   throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
                 std::to_string(cloud.point_step) + " bytes need " + std::to_string(needed) +
                 " bytes, the file has " + std::to_string(available));

@@ -3,12 +3,16 @@
 
 #include "pcl_bv/io/read_cloud.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <new>
 #include <utility>
 
+#include "las_format.h"
 #include "pcd_format.h"
-#include "pcl_bv/io/kitti_bin.h"
+#include "pcl_bv/io/bin.h"
+#include "pcl_bv/io/las.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/ply.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
@@ -37,18 +41,22 @@ void read_points(const InputFile& file, PcdHeader& header, const ParallelPolicy&
   }
 }
 
+void read_points(const InputFile& file, LasHeader& header, const ParallelPolicy&) {
+  read_las_points(file, header);
+}
+
 void read_points(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy) {
   if (header.encoding == PlyEncoding::ascii) return read_ply_ascii(file, header, policy);
   read_ply_binary(file, header);
 }
 
 // The cloud of a file whose header is read by `read_header`.
-template <typename Header>
-RawCloud read_file(const std::filesystem::path& path, Header (*read_header)(const InputFile&),
+template <typename ReadHeader>
+RawCloud read_file(const std::filesystem::path& path, const ReadHeader& read_header,
                    const ParallelPolicy& policy) {
   const InputFile file(path);
   try {
-    Header header = read_header(file);
+    auto header = read_header(file);
     read_points(file, header, policy);
     update_packed_xyz(header.cloud);
     return std::move(header.cloud);
@@ -68,7 +76,8 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 
 bool is_cloud_name(const std::filesystem::path& path) {
   const std::string extension = lower_case_extension(path);
-  return extension == ".pcd" || extension == ".ply" || extension == ".bin";
+  constexpr std::array known{".pcd", ".ply", ".bin", ".las", ".laz"};
+  return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 RawCloud read_pcd(const std::filesystem::path& path, const ParallelPolicy& policy) {
@@ -79,14 +88,20 @@ RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& polic
   return read_file(path, read_ply_header, policy);
 }
 
-RawCloud read_kitti_bin(const std::filesystem::path& path) {
-  return read_file(path, kitti_header, Serial{});
+RawCloud read_bin(const std::filesystem::path& path, std::size_t fields) {
+  const auto read_header = [&](const InputFile& file) { return read_bin_header(file, path, fields); };
+  return read_file(path, read_header, Serial{});
 }
 
-RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy) {
+RawCloud read_las(const std::filesystem::path& path) {
+  return read_file(path, read_las_header, Serial{});
+}
+
+RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy, std::size_t bin_fields) {
   const std::string extension = lower_case_extension(path);
   if (extension == ".ply") return read_ply(path, policy);
-  if (extension == ".bin") return read_kitti_bin(path);
+  if (extension == ".bin") return read_bin(path, bin_fields);
+  if (extension == ".las" || extension == ".laz") return read_las(path);
   return read_pcd(path, policy);
 }
 

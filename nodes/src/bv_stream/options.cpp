@@ -29,21 +29,24 @@ PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {
   std::string source, rate, stamps, config, volume, range, ground, up, sensor_height, cluster, min_size,
-      max_size, threads, isa, loop, queue, policy, stats;
+      max_size, threads, isa, bin_fields, loop, queue, policy, stats;
   std::vector<std::string> sinks;
   bool print_config = false, track = false;
 };
 
 void declare(CommandLine& line, Texts& t) {
   line.option("--source", t.source, "PATH",
-         "A folder of clouds, one file, or synth:street-sequence[:FRAMES[:SEED]]");
+              "A folder of clouds, one file, or synth:street-sequence[:FRAMES[:SEED]]");
+  line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
   line.option("--rate", t.rate, "HZ", "Frames a second, or max (10)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
-  line.option("--stamps", t.stamps, "RULE", "Times of the frames: by rate, or by the number in the name (rate)");
+  line.option("--stamps", t.stamps, "RULE",
+              "Times of the frames: by rate, or by the number in the name (rate)");
   line.option("--config", t.config, "FILE.yaml", "Settings; the options below override them");
   line.flag("--print-config", t.print_config, "Print the settings that would be used, as such a file");
   line.option("--volume", t.volume, "LIST", "Methods separated by commas (aabb,sphere,obb-yaw)");
-  line.option("--range", t.range, "MIN:MAX", "Drop points nearer or farther than this from the origin (0.5:inf)");
+  line.option("--range", t.range, "MIN:MAX",
+              "Drop points nearer or farther than this from the origin (0.5:inf)");
   line.option("--ground", t.ground, "KIND", "Take the ground away first: none, plane or zones (zones)");
   line.option("--up", t.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
   line.option("--sensor-height", t.sensor_height, "M", "Of the origin above the ground (learnt)");
@@ -53,7 +56,7 @@ void declare(CommandLine& line, Texts& t) {
   line.flag("--track", t.track, "Give objects ids that last from frame to frame");
   line.option("--queue", t.queue, "N", "Frames that may wait (1)");
   line.option("--policy", t.policy, "NAME",
-         "When they do: drop_oldest, drop_newest or block (block with --rate max)");
+              "When they do: drop_oldest, drop_newest or block (block with --rate max)");
   line.option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (0)");
   line.option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   line.option("--sink", t.sinks, "KIND:PLACE",
@@ -86,7 +89,8 @@ StreamConfig read_config(const CommandLine& line, const Texts& t) {
   }
   PipelineConfig& pipeline = config.pipeline;
   if (line.given("--volume")) pipeline.volumes = names(parse_methods(t.volume));
-  if (line.given("--range")) std::tie(pipeline.filter.range_min, pipeline.filter.range_max) = parse_range(t.range);
+  if (line.given("--range"))
+    std::tie(pipeline.filter.range_min, pipeline.filter.range_max) = parse_range(t.range);
   if (line.given("--ground")) pipeline.ground.method = parse_with("--ground", t.ground, parse_ground_method);
   if (line.given("--up")) pipeline.ground.up = parse_with("--up", t.up, parse_up_axis);
   if (line.given("--sensor-height")) pipeline.ground.sensor_height = parse_sensor_height(t.sensor_height);
@@ -128,13 +132,15 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, StreamConfig c
   if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
   options.source = t.source;
   options.paced = t.rate != "max";
-  if (line.given("--rate") && options.paced) options.stamps.rate_hz = number("--rate", t.rate, "a rate or max");
+  if (line.given("--rate") && options.paced)
+    options.stamps.rate_hz = number("--rate", t.rate, "a rate or max");
   if (!(options.stamps.rate_hz >= kLeastRate && options.stamps.rate_hz <= kGreatestRate))
     throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, or max");
   if (line.given("--loop")) options.loops = parse_whole_number("--loop", t.loop, 1);
   if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
     throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
   options.stamps.from_name = t.stamps == "name";
+  if (line.given("--bin-fields")) options.stamps.bin_fields = parse_bin_fields(t.bin_fields);
   if (options.stamps.from_name && t.source.rfind("synth:", 0) == 0)
     throw UsageError("--stamps name: synth: has no names");
   if (line.given("--sink")) options.sinks.clear();

@@ -20,7 +20,7 @@ namespace pcl_bv {
 struct StreamOptions {
   std::string source;
   StreamConfig config;
-  StampRule stamps;
+  ReplayOptions stamps;
   bool paced = true;  ///< Wait for each frame's time; otherwise as fast as possible.
   std::size_t loops = 1;
   std::vector<SinkDescription> sinks{{SinkKind::jsonl, "-"}};

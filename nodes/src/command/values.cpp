@@ -75,6 +75,10 @@ double parse_sensor_height(std::string_view text) {
   throw UsageError("--sensor-height: " + quoted(text) + " is not a finite height of at least 0");
 }
 
+std::size_t parse_bin_fields(std::string_view text) {
+  return parse_whole_number("--bin-fields", text, 3, 32);
+}
+
 std::vector<const Method*> parse_methods(std::string_view list) {
   std::vector<const Method*> chosen;
   for (std::size_t begin = 0; begin <= list.size();) {

@@ -39,6 +39,9 @@ std::size_t parse_whole_number(std::string_view option, std::string_view text, s
 std::pair<double, double> parse_range(std::string_view text);
 double parse_sensor_height(std::string_view text);
 
+/// Floats of a point of .bin files: 3 to 32.
+std::size_t parse_bin_fields(std::string_view text);
+
 /// Methods of a comma-separated list of names, aliases and `all`, each once, in the order of its first
 /// mention.
 std::vector<const Method*> parse_methods(std::string_view list);

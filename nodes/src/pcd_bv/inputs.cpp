@@ -10,8 +10,8 @@
 #include "command/output_claims.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
-#include "pcl_bv/report/meshes.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/report/meshes.h"
 #include "pcl_bv/synth/synth.h"
 
 namespace pcl_bv {
@@ -34,15 +34,15 @@ bool is_folder(const std::string& path) {
 }
 
 std::vector<Job> expand(const std::string& argument) {
-  if (!is_folder(argument)) return {{argument, {}, {}, {}, {}}};
+  if (!is_folder(argument)) return {{argument, {}, {}, {}, {}, 0}};
   try {
     std::vector<Job> jobs;
     for (const fs::path& path : list_clouds(argument))
-      jobs.push_back({path.string(), {}, {}, {}, {}});
+      jobs.push_back({path.string(), {}, {}, {}, {}, 0});
     if (!jobs.empty()) return jobs;
-    return {{argument, "no .pcd, .ply or .bin file in this folder", {}, {}, {}}};
+    return {{argument, "no .pcd, .ply, .las or .bin file in this folder", {}, {}, {}, 0}};
   } catch (const IoError& error) {
-    return {{argument, error.what(), {}, {}, {}}};
+    return {{argument, error.what(), {}, {}, {}, 0}};
   }
 }
 
@@ -58,8 +58,10 @@ std::string stem(const std::string& input) {
 std::vector<Job> plan_jobs(const Options& options) {
   std::vector<Job> jobs;
   for (const std::string& argument : options.inputs) {
-    for (Job& job : expand(argument))
+    for (Job& job : expand(argument)) {
+      job.bin_fields = options.bin_fields;
       jobs.push_back(std::move(job));
+    }
   }
   const bool several = jobs.size() > 1 || is_folder(options.inputs.front());
   const auto target = [&](const fs::path& given, const Job& job, const char* extension) {
@@ -90,7 +92,7 @@ RawCloud load_cloud(const Job& job, const ParallelPolicy& policy) {
     const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
-  return read_cloud(job.input, policy);
+  return read_cloud(job.input, policy, job.bin_fields);
 }
 
 }  // namespace pcl_bv

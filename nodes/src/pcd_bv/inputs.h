@@ -20,6 +20,7 @@ struct Job {
   std::string input;                 ///< A file, or synth:NAME[:POINTS[:SEED]].
   std::optional<std::string> error;  ///< Why there is nothing to load, for a folder without clouds.
   std::optional<std::filesystem::path> labels, mesh, image;
+  std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
 };
 
 /// Whether an input is a generated cloud, not a file.

@@ -8,7 +8,7 @@
 namespace pcl_bv {
 
 LoadedCloud::LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy) {
-  if (!hold && !job.error && !is_synth(job.input)) file_ = CloudFile::open(job.input);
+  if (!hold && !job.error && !is_synth(job.input)) file_ = CloudFile::open(job.input, job.bin_fields);
   if (!file_) held_ = load_cloud(job, policy);
 }
 

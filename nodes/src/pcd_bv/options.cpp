@@ -32,7 +32,7 @@ PCL_BV_ISA in the environment sets the default of --isa.)";
 struct Texts {
   std::vector<std::string> inputs;
   std::string volume, range, cluster, min_size, max_size, ground, up, sensor_height, format, output, labels,
-      mesh, image, view, threads, isa, growth;
+      mesh, image, view, threads, isa, growth, bin_fields;
   bool check = false, info = false, timings = false, progress = false;
 };
 
@@ -45,27 +45,30 @@ std::string default_names() {
 
 void declare(CommandLine& line, Texts& texts) {
   line.option("INPUT", texts.inputs, "",
-              ".pcd, .ply, KITTI .bin files, folders of them, synth:NAME[:POINTS[:SEED]]");
-  line.option("--volume", texts.volume, "LIST", "Methods separated by commas, or all (" + default_names() + ")");
+              ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]]");
+  line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
+  line.option("--volume", texts.volume, "LIST",
+              "Methods separated by commas, or all (" + default_names() + ")");
   line.option("--range", texts.range, "MIN:MAX", "Drop points nearer or farther than this from the origin");
   line.option("--cluster", texts.cluster, "TOL",
-         "Segment first: points nearer than TOL to each other are one object");
+              "Segment first: points nearer than TOL to each other are one object");
   line.option("--min-size", texts.min_size, "N", "Drop clusters of fewer points (10)");
   line.option("--max-size", texts.max_size, "N", "Drop clusters of more points (no limit)");
   line.option("--ground", texts.ground, "KIND",
-         "Take the ground away first: plane, zones (outdoors) or none (none)");
+              "Take the ground away first: plane, zones (outdoors) or none (none)");
   line.option("--up", texts.up, "AXIS",
-         "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z (z)");
+              "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z (z)");
   line.option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   line.option("--labels", texts.labels, "FILE.pcd",
-         "Write the input with a field `label`; several inputs: a folder");
+              "Write the input with a field `label`; several inputs: a folder");
   line.option("--mesh", texts.mesh, "FILE", "Write the volumes as .ply or .vtp; several inputs: a folder");
-  line.option("--image", texts.image, "FILE", "Draw cloud and volumes as .png or .svg; several inputs: a folder");
+  line.option("--image", texts.image, "FILE",
+              "Draw cloud and volumes as .png or .svg; several inputs: a folder");
   line.option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
   line.option("--growth", texts.growth, "POLICY",
-         "Growth of EPOS spheres: sequential, stationary or deferred (deferred)");
+              "Growth of EPOS spheres: sequential, stationary or deferred (deferred)");
   line.option("--threads", texts.threads, "N", "Threads, 0 for all processors (0)");
   line.option("--isa", texts.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   line.flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
@@ -158,8 +161,11 @@ Options to_options(const CommandLine& line, const Texts& texts) {
   options.inputs = texts.inputs;
   options.methods = line.given("--volume") ? parse_methods(texts.volume) : default_methods();
   read_segmentation(line, texts, options);
-  if (line.given("--up")) set_up(parse_with("--up", texts.up, parse_up_axis), line.given("--ground"), options);
-  if (line.given("--growth")) options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
+  if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
+  if (line.given("--up"))
+    set_up(parse_with("--up", texts.up, parse_up_axis), line.given("--ground"), options);
+  if (line.given("--growth"))
+    options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
   read_outputs(line, texts, options);
   Threads threads;
   if (line.given("--threads")) {
@@ -173,7 +179,8 @@ Options to_options(const CommandLine& line, const Texts& texts) {
 
 std::variant<Options, std::string> parse_options(int argc, const char* const* argv) {
   CommandLine line("pcd_bv",
-                   "Bounding volumes of point clouds: boxes, k-DOPs and spheres that hold every point.", examples);
+                   "Bounding volumes of point clouds: boxes, k-DOPs and spheres that hold every point.",
+                   examples);
   Texts texts;
   declare(line, texts);
   if (auto text = line.parse(argc, argv)) return *std::move(text);

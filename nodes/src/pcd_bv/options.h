@@ -38,6 +38,7 @@ enum class OutputFormat { text, json, jsonl, csv };
 
 struct Options {
   std::vector<std::string> inputs;
+  std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
   std::vector<const Method*> methods;
   std::optional<RangeFilter> range;
   std::optional<GroundOptions> ground;  ///< Take the ground away if set.

@@ -145,6 +145,7 @@ Status process(const Job& job, const Options& options, Report& report) {
   const Segmentation segmentation = segment(loaded.xyz(), options);
   seconds.segment = watch.lap();
   report.points = loaded.cloud().size();
+  if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
   report.counts = segmentation.counts;
   fit(segmentation, options, report);
   seconds.fit = watch.lap();

@@ -20,12 +20,12 @@
 namespace pcl_bv {
 namespace {
 
-void require_rate(const StampRule& stamps) {
+void require_rate(const ReplayOptions& stamps) {
   if (!(stamps.rate_hz >= kLeastRate && stamps.rate_hz <= kGreatestRate))
     throw std::invalid_argument("rate: is not a number from 0.001 to 1000000");
 }
 
-std::int64_t stamp_at(std::uint64_t seq, const StampRule& stamps) {
+std::int64_t stamp_at(std::uint64_t seq, const ReplayOptions& stamps) {
   return std::llround(1e9 * static_cast<double>(seq) / stamps.rate_hz);
 }
 
@@ -51,7 +51,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point begin) {
 
 class FolderSource : public FrameSource {
  public:
-  FolderSource(std::vector<std::filesystem::path> files, const StampRule& stamps, std::size_t loops)
+  FolderSource(std::vector<std::filesystem::path> files, const ReplayOptions& stamps, std::size_t loops)
       : files_(std::move(files)), stamps_(stamps), loop_(files_.size(), loops) {}
 
   bool next(Frame& frame) override {
@@ -64,7 +64,7 @@ class FolderSource : public FrameSource {
       throw FrameError(header, file.string() + ": no time stamp in its name");
     const auto begin = std::chrono::steady_clock::now();
     try {
-      const auto cloud = std::make_shared<RawCloud>(read_cloud(file));
+      const auto cloud = std::make_shared<RawCloud>(read_cloud(file, Serial{}, stamps_.bin_fields));
       frame = {header, cloud->xyz(), cloud, milliseconds_since(begin)};
       return true;
     } catch (const std::exception& error) {
@@ -74,13 +74,13 @@ class FolderSource : public FrameSource {
 
  private:
   std::vector<std::filesystem::path> files_;
-  StampRule stamps_;
+  ReplayOptions stamps_;
   Loop loop_;
 };
 
 class SynthSource : public FrameSource {
  public:
-  SynthSource(const StreetSequenceSpec& spec, const StampRule& stamps, std::size_t loops)
+  SynthSource(const StreetSequenceSpec& spec, const ReplayOptions& stamps, std::size_t loops)
       : spec_(spec), stamps_(stamps), loop_(spec.frames, loops) {}
 
   bool next(Frame& frame) override {
@@ -98,7 +98,7 @@ class SynthSource : public FrameSource {
 
  private:
   StreetSequenceSpec spec_;
-  StampRule stamps_;
+  ReplayOptions stamps_;
   Loop loop_;
 };
 
@@ -113,7 +113,7 @@ class FunctionSource : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_folder(const std::filesystem::path& path, const StampRule& stamps,
+std::unique_ptr<FrameSource> open_folder(const std::filesystem::path& path, const ReplayOptions& stamps,
                                          std::size_t loops) {
   require_rate(stamps);
   std::error_code unknown;
@@ -124,12 +124,12 @@ std::unique_ptr<FrameSource> open_folder(const std::filesystem::path& path, cons
   return std::make_unique<FolderSource>(std::move(files), stamps, loops);
 }
 
-std::unique_ptr<FrameSource> open_synth(std::string_view name, const StampRule& stamps, std::size_t loops) {
+std::unique_ptr<FrameSource> open_synth(std::string_view name, const ReplayOptions& stamps, std::size_t loops) {
   require_rate(stamps);
   return std::make_unique<SynthSource>(parse_street_sequence(name), stamps, loops);
 }
 
-std::unique_ptr<FrameSource> open_source(const std::string& name, const StampRule& stamps,
+std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& stamps,
                                          std::size_t loops) {
   constexpr std::string_view synth = "synth:";
   if (name.compare(0, synth.size(), synth) == 0) return open_synth(name.substr(synth.size()), stamps, loops);

@@ -36,32 +36,33 @@ class FrameSource {
 
 inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
 
-/// What stamps recorded frames get.
-struct StampRule {
+/// How files become frames.
+struct ReplayOptions {
   double rate_hz = 10;  ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
   /// From the last number in the file's name instead: whole ones are nanoseconds, with a point seconds. A
   /// name without a number is a FrameError.
   bool from_name = false;
+  std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
 };
 
 /// The clouds of a folder in natural order, or one file, `loops` times over (at least once). Throws IoError
 /// if there is no cloud, std::invalid_argument for a rate out of range.
-std::unique_ptr<FrameSource> open_folder(const std::filesystem::path& path, const StampRule& stamps = {},
+std::unique_ptr<FrameSource> open_folder(const std::filesystem::path& path, const ReplayOptions& stamps = {},
                                          std::size_t loops = 1);
 
 /// `street-sequence[:FRAMES[:SEED]]`, each frame made when it is asked for. Throws std::invalid_argument for
 /// another name and as open_folder().
-std::unique_ptr<FrameSource> open_synth(std::string_view name, const StampRule& stamps = {},
+std::unique_ptr<FrameSource> open_synth(std::string_view name, const ReplayOptions& stamps = {},
                                         std::size_t loops = 1);
 
 /// open_synth() for what begins with "synth:", else open_folder().
-std::unique_ptr<FrameSource> open_source(const std::string& name, const StampRule& stamps = {},
+std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& stamps = {},
                                          std::size_t loops = 1);
 
 /// What the function gives, until it returns false. It may throw FrameError.
 std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
-/// The stamp in a file's name without its extension, as StampRule says; nanoseconds, -1 without one.
+/// The stamp in a file's name without its extension, as ReplayOptions says; nanoseconds, -1 without one.
 std::int64_t stamp_in_name(std::string_view stem);
 
 }  // namespace pcl_bv

@@ -13,14 +13,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An open binary .pcd or KITTI .bin. Points are read where and when they are asked for, by position, so that
+/// An open binary .pcd or .bin. Points are read where and when they are asked for, by position, so that
 /// several threads read and fit side by side; the system is told what comes next, 8 MiB ahead.
 class CloudFile final : public PointSource {
  public:
   /// Opens the file and reads its header only; null if its points can only be read from first to last (ascii,
-  /// binary_compressed, .ply), or are so few (kChunkPoints or less) that read_cloud() is the better way.
-  /// Throws IoError as read_cloud() does.
-  static std::unique_ptr<CloudFile> open(const std::filesystem::path& path);
+  /// binary_compressed, .ply, .las), or are so few (kChunkPoints or less) that read_cloud() is the better
+  /// way. Throws as read_cloud() does.
+  static std::unique_ptr<CloudFile> open(const std::filesystem::path& path, std::size_t bin_fields = 0);
   ~CloudFile() override;
 
   /// Fields, size and viewpoint; no points.

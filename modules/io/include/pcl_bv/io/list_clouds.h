@@ -13,7 +13,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// comes before frame10. Names that differ only in leading zeros (frame01, frame1) compare byte by byte.
 bool natural_less(std::string_view a, std::string_view b);
 
-/// The cloud files directly in a folder (extension .pcd, .ply or .bin, in any case), each as folder/name, in
+/// The cloud files directly in a folder (is_cloud_name() in read_cloud.h), each as folder/name, in
 /// natural order of their names. Folders and hidden files (names starting with a dot) are left out. Empty if
 /// there are none; throws IoError if the folder cannot be listed.
 std::vector<std::filesystem::path> list_clouds(const std::filesystem::path& folder);

@@ -18,8 +18,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Sizes in the header are held against the size of the file before anything is allocated. A file of 0 points
 /// gives an empty cloud. Numbers in ascii are rounded to the nearest value of their field's type, to infinity
 /// or zero where they are beyond it; "nan" and "inf" are read, in any case, for floating-point fields only.
-/// Bytes after the last point of a binary file are ignored; rows after the last point of an ascii file are an
-/// error.
+/// Points after the last one of a binary file are left out, which RawCloud::note says, but an error if the
+/// header says 0 points: a recorder did not get to write how many. Rows after the last point of an ascii file
+/// are an error.
 ///
 /// Rows of text are read by the policy's threads; cloud and error are the same for any number of them. Beside
 /// the cloud, text takes 0.3 MiB per thread (more only for rows longer than that) and binary_compressed

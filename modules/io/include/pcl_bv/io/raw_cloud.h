@@ -40,6 +40,9 @@ struct RawCloud {
   /// x y z of all points, in their type, only where the record does not hold them side by side.
   ByteBuffer packed_xyz;
 
+  /// What a reader noticed about the file and did not refuse, a line for who reads it; mostly empty.
+  std::string note;
+
   std::size_t size() const { return width * height; }
 
   /// The coordinates of all points, in their order; views `data` (or `packed_xyz`), so it dies with the

@@ -15,11 +15,14 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// The extension of a path in lower case, with the dot: ".ply". Empty if there is none.
 std::string lower_case_extension(const std::filesystem::path& path);
 
-/// Whether the name is that of a cloud: it ends in .pcd, .ply or .bin, in any case.
+/// Whether the name is that of a cloud: it ends in .pcd, .ply, .bin, .las or .laz (which is refused), in any
+/// case.
 bool is_cloud_name(const std::filesystem::path& path);
 
-/// Reads the cloud by the reader that the extension names: .ply by read_ply(), .bin by read_kitti_bin(), all
-/// others by read_pcd(), text by the policy's threads. Throws IoError, naming the reason.
-RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
+/// Reads the cloud by the reader that the extension names: .ply by read_ply(), .bin by read_bin() with
+/// `bin_fields`, .las by read_las(), all others by read_pcd(), text by the policy's threads. Throws IoError,
+/// naming the reason.
+RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{},
+                    std::size_t bin_fields = 0);
 
 }  // namespace pcl_bv
