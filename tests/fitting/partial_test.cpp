@@ -140,11 +140,13 @@ TYPED_TEST(Partials, GiveTheBitsOfTheWholeHoweverItIsCut) {
   }
 }
 
-TYPED_TEST(Partials, OfAllMethodsEncloseAllPointsAndAreAsSmall) {
+// The others have the bits of the whole, which holds them all.
+TYPED_TEST(Partials, OfMethodsThatRoundEncloseAllPointsAndAreAsSmall) {
   for (const TestCloud<TypeParam>& cloud : clouds<TypeParam>()) {
     std::mt19937_64 random(cloud.size());
     const Partial all = merged_at_random(parts_of(cloud.view(), 3, random), random);
-    for (const Method* method : served()) {
+    for (const char* name : {"sphere-exact", "obb-yaw"}) {
+      const Method* method = find_method(name);
       AnyVolume expected, found;
       method->fit(cloud.view(), expected, {});
       all.fit(*method, found);
