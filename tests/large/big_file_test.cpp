@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A file of two gigabytes, whose box is known, in 64 megabytes of memory.
+// Files of gigabytes, whose volumes are known, in little memory.
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <array>
-#include <bit>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <vector>
 
 #include "command.h"
@@ -16,12 +18,40 @@
 namespace pcl_bv::test {
 namespace {
 
-// 16 bytes each, and more points than 2^27.
-constexpr std::size_t kPoints = 140'000'000;
-constexpr std::size_t kAtATime = 1'000'000;
+// Evenly in [0, 1).
+class Random {
+ public:
+  float operator()() {
+    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<float>(state_ >> 40) * 0x1p-24F;
+  }
 
-class TwoGigabytes : public PcdBv {
+ private:
+  std::uint64_t state_ = 1;
+};
+
+template <std::size_t values>
+using Write = std::function<void(std::array<float, values>& point)>;
+
+class BigFile : public PcdBv {
  protected:
+  template <std::size_t values>
+  static void write_points(std::size_t count, std::ofstream& file, const Write<values>& write) {
+    std::vector<std::array<float, values>> part(1'000'000);
+    for (std::size_t first = 0; first < count; first += part.size()) {
+      for (auto& point : part)
+        write(point);
+      file.write(reinterpret_cast<const char*>(part.data()),
+                 static_cast<std::streamsize>(part.size() * sizeof part[0]));
+    }
+  }
+};
+
+class TwoGigabytes : public BigFile {
+ protected:
+  // 16 bytes each, and more points than 2^27.
+  static constexpr std::size_t kPoints = 140'000'000;
+
   // x y z intensity inside the unit cube, but for one point far behind.
   std::string write() const {
     const std::string path = at("big.pcd");
@@ -29,20 +59,14 @@ class TwoGigabytes : public PcdBv {
     const std::string n = std::to_string(kPoints);
     file << "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH " << n
          << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << n << "\nDATA binary\n";
-    std::vector<std::array<float, 4>> part(kAtATime);
-    std::uint32_t state = 1;
-    for (std::size_t first = 0; first < kPoints; first += kAtATime) {
-      for (auto& point : part) {
-        for (float& value : point) {
-          state = state * 1664525u + 1013904223u;
-          value = static_cast<float>(state >> 8) * 0x1p-24f;
-        }
-      }
-      if (first == 0) part[5] = {0, 0, 0, 0};
-      if (first + kAtATime == kPoints) part.back() = {3, 1, 2, 0};
-      file.write(reinterpret_cast<const char*>(part.data()),
-                 static_cast<std::streamsize>(part.size() * sizeof part[0]));
-    }
+    Random random;
+    std::size_t written = 0;
+    write_points<4>(kPoints, file, [&](std::array<float, 4>& point) {
+      for (float& value : point)
+        value = random();
+      if (written == 5) point = {0, 0, 0, 0};
+      if (++written == kPoints) point = {3, 1, 2, 0};
+    });
     return path;
   }
 
@@ -72,6 +96,59 @@ TEST_F(TwoGigabytes, AreFittedAndCheckedInSixtyFourMegabytes) {
   const Result cut = in_64_megabytes({path});
   EXPECT_EQ(cut.status, 1);
   EXPECT_THAT(cut.err, testing::HasSubstr("truncated: 140000000 points of 16 bytes need 2240000000 bytes"));
+}
+
+class BillionPoints : public BigFile {
+ protected:
+  static constexpr std::size_t kPoints = 1'000'000'000;
+
+  // 12 GB.
+  std::string write(const Write<3>& point) const {
+    const std::string path = at("billion.pcd");
+    std::ofstream file(path, std::ios::binary);
+    file << header(kPoints, "binary");
+    write_points<3>(kPoints, file, point);
+    return path;
+  }
+
+  // The most that any command of this test has had in memory, in KiB.
+  static long resident() {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return usage.ru_maxrss;
+  }
+
+  void expect_little_memory(const std::string& path, const std::vector<std::string>& methods) const {
+    ASSERT_EQ(run({"--version"}).status, 0);
+    const long program = resident();
+    for (const std::string& method : methods) {
+      const Result result = run({"--volume", method, "--threads", "2", "--format", "jsonl", path});
+      ASSERT_EQ(result.status, 0) << result.err;
+      EXPECT_EQ(result.json()["points"], kPoints);
+      EXPECT_LE(resident() - program, 16 << 10) << method;
+      RecordProperty(method + " KiB", static_cast<int>(resident() - program));
+    }
+  }
+};
+
+TEST_F(BillionPoints, InAPlaneTakeSixteenMegabytesForEveryMethod) {
+  Random random;
+  const std::string path = write([&](std::array<float, 3>& p) {
+    p = {100 * random(), 100 * random(), 1.5F};
+  });
+  expect_little_memory(path, {"dop26", "sphere-epos98", "sphere", "obb-pca", "obb-dito14", "obb-yaw",
+                              "obb-lshape", "obb-min", "cylinder", "capsule", "ellipsoid", "hull"});
+}
+
+// Nearly all of them are vertices of its hull.
+TEST_F(BillionPoints, OnASphereTakeSixteenMegabytesForMethodsWithoutAHull) {
+  Random random;
+  const std::string path = write([&](std::array<float, 3>& p) {
+    const float z = 2 * random() - 1, angle = 6.2831853F * random(), r = std::sqrt(std::max(0.0F, 1 - z * z));
+    p = {10 * r * std::cos(angle), 10 * r * std::sin(angle), 10 * z};
+  });
+  expect_little_memory(path, {"dop26", "sphere-ritter", "sphere-epos98", "sphere", "obb-pca", "obb-dito14",
+                              "obb-yaw", "obb-lshape"});
 }
 
 }  // namespace
