@@ -60,8 +60,8 @@ EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution&
 EstimationResult fit_upright(const PointView& points, const ObbOptions& options, Obb& box,
                              const Execution& execution) {
   const Eigen::Vector3d up = unit_up(options.up);
-  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   if (options.method == ObbMethod::lshape) require_all_points(execution, "obb-lshape");
+  const Supports supports = find_supports(points, DirectionSet::dop26, SupportDetail::points, execution);
   if (supports.used > 0) {
     const LocalFrame frame(supports);
     const auto axes = options.method == ObbMethod::yaw ? yaw_axes : lshape_axes;

@@ -21,12 +21,14 @@ PointView view_of(const NumberedPoints& points, std::vector<T>& held) {
 
 }  // namespace
 
+void require_disjoint(bool disjoint) {
+  if (!disjoint) throw std::invalid_argument("Partial: a point is in two parts");
+}
+
 NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b) {
   NumberedPoints both(a.size() + b.size());
   std::merge(a.begin(), a.end(), b.begin(), b.end(), both.begin());
-  const auto same = [](const NumberedPoint& p, const NumberedPoint& q) { return p.number == q.number; };
-  if (std::adjacent_find(both.begin(), both.end(), same) != both.end())
-    throw std::invalid_argument("Partial: a point is in two parts");
+  require_disjoint(std::adjacent_find(both.begin(), both.end(), same_number) == both.end());
   return both;
 }
 

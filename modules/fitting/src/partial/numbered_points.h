@@ -20,10 +20,17 @@ inline bool operator<(const NumberedPoint& a, const NumberedPoint& b) {
   return a.number < b.number;
 }
 
+inline bool same_number(const NumberedPoint& a, const NumberedPoint& b) {
+  return a.number == b.number;
+}
+
 /// Ascending by number.
 using NumberedPoints = std::vector<NumberedPoint>;
 
-/// Throws std::invalid_argument for a number that is in both: parts of a cloud have no point in common.
+/// Throws std::invalid_argument, saying that a point is in two parts, unless they are disjoint.
+void require_disjoint(bool disjoint);
+
+/// Throws as require_disjoint() for a number that is in both.
 NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b);
 
 /// The points one after another, as kernels read them.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <string>
 
 #include "hull/convex_hull.h"
 #include "hull/local_hull.h"
@@ -28,7 +27,7 @@ void require_apart(const PartialState& state) {
     free = node.first + node.blocks;
     apart = apart && (loose == state.loose.end() || block_of_number(loose->number) >= free);
   }
-  if (!apart) throw std::invalid_argument("Partial: a point is in two parts");
+  require_disjoint(apart);
 }
 
 namespace {
@@ -166,8 +165,7 @@ NumberedPoints standing_for_all(const PartialState& state) {
     if (end.found) points.push_back({end.index, end.point});
   }
   std::sort(points.begin(), points.end());
-  const auto same = [](const NumberedPoint& a, const NumberedPoint& b) { return a.number == b.number; };
-  points.erase(std::unique(points.begin(), points.end(), same), points.end());
+  points.erase(std::unique(points.begin(), points.end(), same_number), points.end());
   return points;
 }
 
@@ -236,9 +234,7 @@ bool Partial::serves(const Method& method) {
 EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Execution& execution,
                               const MethodOptions& options) const {
   const FloatEnvironment environment;
-  if (!serves(method))
-    throw std::invalid_argument(std::string(method.name) +
-                                " needs all points of a cloud, not partial results");
+  if (!serves(method)) refuse_partial(method.name);
   if (execution.supports != nullptr)
     throw std::invalid_argument("Execution::supports are those of other points");
   if (state_->all_kept()) {

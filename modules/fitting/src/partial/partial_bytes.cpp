@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // All numbers are little-endian, as they lie in memory on every machine that pcl_bv runs on:
-//   "PCLBVPRT"  version: u32  scalar: u32 (4 or 8 bytes)  used, dropped: u64
-//   loose points, ends, extreme points, nodes of moments: u64 how many, then each
+//   "PCLBVPRT"  version: u32  scalar: u32 (4 or 8 bytes)  used, dropped: u64  the 26 ends
+//   loose points, extreme points, nodes of moments: u64 how many, then each
 //   CRC-32 of all before: u32
 
 #include <boost/crc.hpp>

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <string_view>
 
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/kernels/axis_extents.h"
@@ -25,6 +26,8 @@ inline bool stand_for_all(const Execution& execution) {
 
 /// Throws std::invalid_argument if they do, for a fit whose volume depends on all points.
 void require_all_points(const Execution& execution, const char* fit);
+
+[[noreturn]] void refuse_partial(std::string_view fit);
 
 class SupportSearch {
  public:

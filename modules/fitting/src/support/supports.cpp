@@ -57,8 +57,11 @@ void require_own_supports(const PointView& points, const Execution& execution) {
 }
 
 void require_all_points(const Execution& execution, const char* fit) {
-  if (stand_for_all(execution))
-    throw std::invalid_argument(std::string(fit) + " needs all points of a cloud, not partial results");
+  if (stand_for_all(execution)) refuse_partial(fit);
+}
+
+void refuse_partial(std::string_view fit) {
+  throw std::invalid_argument(std::string(fit) + " needs all points of a cloud, not partial results");
 }
 
 SupportSearch::SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points)
