@@ -46,7 +46,7 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
       {"--range", "5:1", good},
       {"--range", "nan:1", good},
       {"--range", "1:2:3", good},
-      {"--cluster", "0", good},
+      {"--cluster", "-0.1", good},
       {"--cluster", "-0.5", good},
       {"--cluster", "inf", good},
       {"--cluster", "1e99", good},
@@ -72,6 +72,10 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
       {"--mesh", "a.obj", good},
       {"--image", "a.jpg", good},
       {"--volume"},
+      {"--preset", "sea", good},
+      {"--config", at("none.yaml"), good},
+      {"--ground-slope", "5", good},
+      {"--ground", "plane", "--ground-slope", "90", good},
   };
   for (const auto& arguments : cases) {
     SCOPED_TRACE(testing::PrintToString(arguments));

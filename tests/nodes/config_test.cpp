@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pcl_bv/nodes/stream_config.h"
+#include <set>
+
+#include "pcl_bv/nodes/settings.h"
 
 namespace pcl_bv {
 namespace {
@@ -29,8 +31,9 @@ TEST(StreamConfig, WithoutKeysIsTheDefault) {
 TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   StreamConfig config;
   config.pipeline.filter = {0.1, 123.456789012345, Eigen::Vector3d(-1, -2, -0.1), Eigen::Vector3d(1.5, 2, 3)};
-  config.pipeline.ground = {GroundMethod::plane, UpAxis::minus_y, 1.0 / 3, 0.07, 12};
-  config.pipeline.cluster = {0.3, 0, 5000};
+  config.pipeline.ground = {GroundMethod::plane, {0.1, -1, 1.0 / 3}, 1.0 / 3, 0.07, 12};
+  config.pipeline.cluster = {0.3, std::size_t{0}, 5000};
+  config.pipeline.growth = SphereGrowth::stationary;
   config.pipeline.volumes = {"dop26", "sphere-exact"};
   config.pipeline.track = {true, 1.25, 2, 9};
   config.pipeline.threads = 0;
@@ -42,9 +45,11 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.pipeline.filter.range_max, 123.456789012345);
   EXPECT_EQ(read.pipeline.filter.own_box_max, Eigen::Vector3d(1.5, 2, 3));
   EXPECT_EQ(read.pipeline.ground.method, GroundMethod::plane);
-  EXPECT_EQ(read.pipeline.ground.up, UpAxis::minus_y);
+  EXPECT_EQ(read.pipeline.ground.up, Eigen::Vector3d(0.1, -1, 1.0 / 3));
   EXPECT_EQ(read.pipeline.ground.sensor_height, 1.0 / 3);
+  EXPECT_EQ(read.pipeline.cluster.min_size, 0U);
   EXPECT_EQ(read.pipeline.cluster.max_size, 5000U);
+  EXPECT_EQ(read.pipeline.growth, SphereGrowth::stationary);
   EXPECT_EQ(read.pipeline.volumes, config.pipeline.volumes);
   EXPECT_TRUE(read.pipeline.track.enabled);
   EXPECT_EQ(read.runner.policy, QueuePolicy::block);
@@ -91,7 +96,8 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"cluster: {tolerance: -0.5}", "cluster.tolerance: -0.5 is not at least 0"},
       {"cluster: {min_size: -3}", "cluster.min_size: '-3' is not a whole number (points)"},
       {"cluster: {min_size: 20, max_size: 10}", "cluster.max_size: 10 is below cluster.min_size, 20"},
-      {"volumes: []", "volumes: is empty"},
+      {"growth: fast", "growth: 'fast' is not one of sequential, stationary, deferred"},
+      {"ground: {up: [0, 0, 0]}", "ground.up: "},
       {"volumes: [aabb, boxes]", "volumes: 'boxes' is no method; known are aabb"},
       {"volumes: [aabb, aabb]", "volumes: 'aabb' is named twice"},
       {"volumes: aabb", "volumes: 'aabb' is not a list of methods"},
@@ -115,6 +121,48 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
     EXPECT_THAT(error_of(yaml), HasSubstr(expected)) << yaml;
     EXPECT_THAT(error_of(yaml), HasSubstr("robot.yaml: line ")) << yaml;
   }
+}
+
+TEST(StreamConfig, AnEmptyListOfMethodsDependsOnWhetherThereAreClusters) {
+  const auto names = [](const char* yaml) {
+    std::vector<std::string_view> names;
+    for (const Method* method : parse_stream_config(yaml, "").pipeline.methods())
+      names.push_back(method->name);
+    return names;
+  };
+  EXPECT_THAT(names("volumes: []"), testing::ElementsAre("obb-lshape"));
+  EXPECT_THAT(names("cluster: {tolerance: 0}"), testing::ElementsAre("aabb", "sphere-exact", "obb-min"));
+  EXPECT_THAT(names("volumes: [sphere, aabb]"), testing::ElementsAre("sphere-exact", "aabb"));
+}
+
+TEST(StreamConfig, UpIsAnAxisOrAnyVector) {
+  EXPECT_EQ(parse_stream_config("ground: {up: -y}", "").pipeline.ground.up, Eigen::Vector3d(0, -1, 0));
+  EXPECT_EQ(parse_stream_config("ground: {up: \"1, 2,3\"}", "").pipeline.ground.up, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(parse_stream_config("ground: {up: [1, 2, 3]}", "").pipeline.ground.up, Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(Settings, EachHasAKeyOfItsOwnAndWhatToSayOfIt) {
+  std::set<std::string_view> keys, options;
+  visit_stream(StreamConfig(), [&](const Setting& setting, const auto& value) {
+    EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
+    EXPECT_FALSE(setting.about.empty()) << setting.key;
+    EXPECT_TRUE(setting.option.empty() || options.insert(setting.option).second) << setting.option;
+    EXPECT_EQ(problem_of(setting, value), "") << setting.key;
+    auto read = value;
+    if (!to_text(value).empty()) read_text(to_text(value), read);
+    EXPECT_EQ(read, value) << setting.key;
+  });
+  EXPECT_GT(keys.size(), 20U);
+}
+
+TEST(Presets, AreAllowedAndNamedWhereTheyAreNot) {
+  for (const char* name : {"road", "indoor", "table"}) {
+    PipelineConfig config;
+    apply_preset(name, config);
+    EXPECT_THAT(config.validate(), testing::IsEmpty()) << name;
+  }
+  PipelineConfig config;
+  EXPECT_THROW(apply_preset("sea", config), std::invalid_argument);
 }
 
 TEST(StreamConfig, TextThatIsNoYamlIsAnErrorWithItsLine) {

@@ -118,7 +118,7 @@ TEST(ReportText, InfoStandsBelowTheFirstLine) {
   report.file = "a.pcd";
   report.points = 6;
   report.info =
-      CloudInfo{Aabb({-1.5, 0, 1e-9}, {2, 3, 5e6}), 0.01234, 3, 2, 1, 2, {{"x"}, {"n\x1b[1m", 'U', 2, 7}}};
+      CloudInfo{{Aabb({-1.5, 0, 1e-9}, {2, 3, 5e6}), 0.01234, 1, 2}, 3, 2, {{"x"}, {"n\x1b[1m", 'U', 2, 7}}};
   EXPECT_EQ(report_text(report),
             "a.pcd: 6 points, no clusters\n"
             "  x -1.5 to 2, y 0 to 3, z 1e-09 to 5e+06, spacing 0.0123, 3 x 2, 1 not finite, 2 at 0,0,0\n"

@@ -5,10 +5,9 @@
 
 #include "options.h"
 
-#include <tuple>
-
 #include "command/command_line.h"
 #include "command/output_claims.h"
+#include "command/setting_options.h"
 #include "command/values.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
@@ -28,10 +27,8 @@ first (a second one ends at once, with 130); 1 no readable source or an output n
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {
-  std::string source, rate, stamps, config, volume, range, ground, up, sensor_height, cluster, min_size,
-      max_size, threads, isa, bin_fields, loop, queue, policy, stats;
+  std::string source, rate, stamps, bin_fields, loop, stats;
   std::vector<std::string> sinks;
-  bool print_config = false, track = false;
 };
 
 void declare(CommandLine& line, Texts& t) {
@@ -42,23 +39,6 @@ void declare(CommandLine& line, Texts& t) {
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
   line.option("--stamps", t.stamps, "RULE",
               "Times of the frames: by rate, or by the number in the name (rate)");
-  line.option("--config", t.config, "FILE.yaml", "Settings; the options below override them");
-  line.flag("--print-config", t.print_config, "Print the settings that would be used, as such a file");
-  line.option("--volume", t.volume, "LIST", "Methods separated by commas (aabb,sphere,obb-yaw)");
-  line.option("--range", t.range, "MIN:MAX",
-              "Drop points nearer or farther than this from the origin (0.5:inf)");
-  line.option("--ground", t.ground, "KIND", "Take the ground away first: none, plane or zones (zones)");
-  line.option("--up", t.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
-  line.option("--sensor-height", t.sensor_height, "M", "Of the origin above the ground (learnt)");
-  line.option("--cluster", t.cluster, "TOL", "Points nearer than TOL to each other are one object (0.5)");
-  line.option("--min-size", t.min_size, "N", "Drop clusters of fewer points (10)");
-  line.option("--max-size", t.max_size, "N", "Drop clusters of more points (no limit)");
-  line.flag("--track", t.track, "Give objects ids that last from frame to frame");
-  line.option("--queue", t.queue, "N", "Frames that may wait (1)");
-  line.option("--policy", t.policy, "NAME",
-              "When they do: drop_oldest, drop_newest or block (block with --rate max)");
-  line.option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (0)");
-  line.option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   line.option("--sink", t.sinks, "KIND:PLACE",
               "jsonl:FILE, csv:FILE or vtp:FOLDER; repeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
@@ -68,43 +48,6 @@ double number(const char* option, std::string_view text, const char* wanted) {
   double value = 0;
   if (read_number(text, value)) return value;
   throw UsageError(std::string(option) + ": " + quoted(text) + " is not " + wanted);
-}
-
-std::vector<std::string> names(const std::vector<const Method*>& methods) {
-  std::vector<std::string> all;
-  all.reserve(methods.size());
-  for (const Method* method : methods)
-    all.emplace_back(method->name);
-  return all;
-}
-
-StreamConfig read_config(const CommandLine& line, const Texts& t) {
-  StreamConfig config;
-  config.pipeline.threads = 0;
-  if (t.rate == "max") config.runner.policy = QueuePolicy::block;
-  try {
-    if (line.given("--config")) config = read_stream_config(t.config, config);
-  } catch (const ConfigError& error) {
-    throw UsageError(error.what());
-  }
-  PipelineConfig& pipeline = config.pipeline;
-  if (line.given("--volume")) pipeline.volumes = names(parse_methods(t.volume));
-  if (line.given("--range"))
-    std::tie(pipeline.filter.range_min, pipeline.filter.range_max) = parse_range(t.range);
-  if (line.given("--ground")) pipeline.ground.method = parse_with("--ground", t.ground, parse_ground_method);
-  if (line.given("--up")) pipeline.ground.up = parse_with("--up", t.up, parse_up_axis);
-  if (line.given("--sensor-height")) pipeline.ground.sensor_height = parse_sensor_height(t.sensor_height);
-  if (line.given("--cluster")) pipeline.cluster.tolerance = number("--cluster", t.cluster, "a distance");
-  if (line.given("--min-size")) pipeline.cluster.min_size = parse_whole_number("--min-size", t.min_size);
-  if (line.given("--max-size")) pipeline.cluster.max_size = parse_whole_number("--max-size", t.max_size);
-  if (line.given("--track")) pipeline.track.enabled = true;
-  if (line.given("--threads")) pipeline.threads = parse_whole_number("--threads", t.threads);
-  if (line.given("--isa")) pipeline.isa = t.isa;
-  if (line.given("--queue")) config.runner.queue = parse_whole_number("--queue", t.queue);
-  if (line.given("--policy")) config.runner.policy = parse_with("--policy", t.policy, parse_queue_policy);
-  const std::vector<std::string> problems = config.validate();
-  if (!problems.empty()) throw UsageError(problems.front());
-  return config;
 }
 
 // Refuses to write over what is read, and two outputs into one file.
@@ -126,7 +69,8 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   if (options.stats) claims.claim(*options.stats);
 }
 
-StreamOptions to_options(const CommandLine& line, const Texts& t, StreamConfig config) {
+StreamOptions to_options(const CommandLine& line, const Texts& t, const std::string& config_file,
+                         StreamConfig config) {
   StreamOptions options;
   options.config = std::move(config);
   if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
@@ -147,7 +91,7 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, StreamConfig c
   for (const std::string& sink : t.sinks)
     options.sinks.push_back(parse_with("--sink", sink, parse_sink));
   if (line.given("--stats")) options.stats = t.stats;
-  claim_outputs(options, t.config);
+  claim_outputs(options, config_file);
   return options;
 }
 
@@ -158,10 +102,13 @@ std::variant<StreamOptions, std::string> parse_stream_options(int argc, const ch
                    examples);
   Texts texts;
   declare(line, texts);
+  StreamConfig defaults;
+  defaults.pipeline.threads = 0;
+  const SettingOptions settings(line, defaults, true);
   if (auto text = line.parse(argc, argv)) return *std::move(text);
-  StreamConfig config = read_config(line, texts);
-  if (texts.print_config) return to_yaml(config);
-  return to_options(line, texts, std::move(config));
+  StreamConfig config = settings.config();
+  if (settings.print_config()) return to_yaml(config);
+  return to_options(line, texts, settings.file(), std::move(config));
 }
 
 }  // namespace pcl_bv

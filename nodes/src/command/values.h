@@ -10,9 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
-#include "pcl_bv/fitting/methods.h"
 #include "usage_error.h"
 
 namespace pcl_bv {
@@ -21,7 +19,6 @@ std::string quoted(std::string_view text);
 
 /// Whether the whole text is one number.
 bool read_number(std::string_view text, double& value);
-bool read_number(std::string_view text, float& value);
 
 /// What `parse` makes of the text; its std::invalid_argument becomes a UsageError that names the option.
 template <typename Text, typename Parse>
@@ -37,13 +34,8 @@ auto parse_with(std::string_view option, const Text& text, Parse parse) {
 std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min = 0,
                                std::size_t max = std::numeric_limits<std::size_t>::max());
 std::pair<double, double> parse_range(std::string_view text);
-double parse_sensor_height(std::string_view text);
 
 /// Floats of a point of .bin files: 3 to 32.
 std::size_t parse_bin_fields(std::string_view text);
-
-/// Methods of a comma-separated list of names, aliases and `all`, each once, in the order of its first
-/// mention.
-std::vector<const Method*> parse_methods(std::string_view list);
 
 }  // namespace pcl_bv

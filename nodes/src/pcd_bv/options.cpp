@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "command/command_line.h"
+#include "command/setting_options.h"
 #include "command/values.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "values.h"
@@ -31,34 +32,14 @@ PCL_BV_ISA in the environment sets the default of --isa.)";
 /// The command line as texts, before the values are looked at.
 struct Texts {
   std::vector<std::string> inputs;
-  std::string volume, range, cluster, min_size, max_size, ground, up, sensor_height, format, output, labels,
-      mesh, image, view, threads, isa, growth, bin_fields;
+  std::string format, output, labels, mesh, image, view, bin_fields;
   bool check = false, info = false, timings = false, progress = false;
 };
-
-std::string default_names() {
-  std::string names;
-  for (const Method* method : default_methods())
-    names += (names.empty() ? "" : ",") + std::string(method->name);
-  return names;
-}
 
 void declare(CommandLine& line, Texts& texts) {
   line.option("INPUT", texts.inputs, "",
               ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]]");
   line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
-  line.option("--volume", texts.volume, "LIST",
-              "Methods separated by commas, or all (" + default_names() + ")");
-  line.option("--range", texts.range, "MIN:MAX", "Drop points nearer or farther than this from the origin");
-  line.option("--cluster", texts.cluster, "TOL",
-              "Segment first: points nearer than TOL to each other are one object");
-  line.option("--min-size", texts.min_size, "N", "Drop clusters of fewer points (10)");
-  line.option("--max-size", texts.max_size, "N", "Drop clusters of more points (no limit)");
-  line.option("--ground", texts.ground, "KIND",
-              "Take the ground away first: plane, zones (outdoors) or none (none)");
-  line.option("--up", texts.up, "AXIS",
-              "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z (z)");
-  line.option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   line.option("--labels", texts.labels, "FILE.pcd",
@@ -67,10 +48,6 @@ void declare(CommandLine& line, Texts& texts) {
   line.option("--image", texts.image, "FILE",
               "Draw cloud and volumes as .png or .svg; several inputs: a folder");
   line.option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
-  line.option("--growth", texts.growth, "POLICY",
-              "Growth of EPOS spheres: sequential, stationary or deferred (deferred)");
-  line.option("--threads", texts.threads, "N", "Threads, 0 for all processors (0)");
-  line.option("--isa", texts.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   line.flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
   line.flag("--info", texts.info, "Add what the cloud is like: extent, spacing, bad points, fields");
   line.flag("--timings", texts.timings, "Add the seconds of each stage");
@@ -98,44 +75,13 @@ void require_extension(const char* option, const std::string& name,
   throw UsageError(std::string(option) + ": '" + name + "' is no " + list + " file");
 }
 
-/// For those who ask: the ground and upright boxes.
-void set_up(UpAxis up, bool wants_ground, Options& options) {
-  const bool wants_upright = std::any_of(options.methods.begin(), options.methods.end(),
-                                         [](const Method* method) { return method->upright; });
-  if (!wants_ground && !wants_upright) {
+void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
+  if (line.given("--view") && !line.given("--image"))
+    throw UsageError("--view: only useful with --image");
+  const std::vector<const Method*> methods = config.methods();
+  const bool upright = std::any_of(methods.begin(), methods.end(), [](const Method* m) { return m->upright; });
+  if (line.given("--up") && !upright && config.ground.method == GroundMethod::none && !line.given("--ground"))
     throw UsageError("--up: only useful with --ground or an upright box, obb-yaw or obb-lshape");
-  }
-  if (options.ground) options.ground->up = up;
-  options.method_options.up = up_direction(up);
-}
-
-void refuse_useless(const CommandLine& line) {
-  for (const auto& [option, needed] : {std::pair{"--min-size", "--cluster"},
-                                       {"--max-size", "--cluster"},
-                                       {"--view", "--image"},
-                                       {"--sensor-height", "--ground"}}) {
-    if (line.given(option) && !line.given(needed))
-      throw UsageError(std::string(option) + ": only useful with " + needed);
-  }
-}
-
-/// What of the cloud the volumes are fitted around.
-void read_segmentation(const CommandLine& line, const Texts& texts, Options& options) {
-  if (line.given("--range")) {
-    const auto [min, max] = parse_range(texts.range);
-    options.range = RangeFilter{min, max};
-  }
-  if (line.given("--ground")) options.ground = parse_ground(texts.ground);
-  if (options.ground && line.given("--sensor-height")) {
-    options.ground->sensor_height = parse_sensor_height(texts.sensor_height);
-  }
-  if (line.given("--cluster")) options.tolerance = parse_tolerance(texts.cluster);
-  if (line.given("--min-size")) options.min_size = parse_whole_number("--min-size", texts.min_size);
-  if (line.given("--max-size")) options.max_size = parse_whole_number("--max-size", texts.max_size, 1);
-  if (options.min_size > options.max_size) {
-    throw UsageError("--max-size: " + std::to_string(options.max_size) + " is below --min-size " +
-                     std::to_string(options.min_size));
-  }
 }
 
 void read_outputs(const CommandLine& line, const Texts& texts, Options& options) {
@@ -153,25 +99,14 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   options.progress = texts.progress;
 }
 
-Options to_options(const CommandLine& line, const Texts& texts) {
-  constexpr std::size_t max_threads = 1024;
+Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig config) {
   if (texts.inputs.empty()) throw UsageError("no INPUT; pcd_bv --help lists the options");
-  refuse_useless(line);
+  refuse_useless(line, config);
   Options options;
   options.inputs = texts.inputs;
-  options.methods = line.given("--volume") ? parse_methods(texts.volume) : default_methods();
-  read_segmentation(line, texts, options);
+  options.pipeline = std::move(config);
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
-  if (line.given("--up"))
-    set_up(parse_with("--up", texts.up, parse_up_axis), line.given("--ground"), options);
-  if (line.given("--growth"))
-    options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
   read_outputs(line, texts, options);
-  Threads threads;
-  if (line.given("--threads")) {
-    threads.threads = static_cast<unsigned>(parse_whole_number("--threads", texts.threads, 0, max_threads));
-  }
-  options.execution = {threads, parse_usable_isa(line.given("--isa") ? texts.isa : "auto")};
   return options;
 }
 
@@ -183,8 +118,11 @@ std::variant<Options, std::string> parse_options(int argc, const char* const* ar
                    examples);
   Texts texts;
   declare(line, texts);
+  const SettingOptions settings(line, {whole_cloud_config(), {}}, false);
   if (auto text = line.parse(argc, argv)) return *std::move(text);
-  return to_options(line, texts);
+  StreamConfig config = settings.config();
+  if (settings.print_config()) return to_yaml(config);
+  return to_options(line, texts, std::move(config.pipeline));
 }
 
 }  // namespace pcl_bv

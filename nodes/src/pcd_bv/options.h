@@ -6,54 +6,32 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "command/usage_error.h"
-#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/report/picture.h"
-#include "pcl_bv/segmentation/ground_plane.h"
 
 namespace pcl_bv {
-
-/// Distances from the origin that are kept, both ends included; unit of the points.
-struct RangeFilter {
-  double min = 0;
-  double max = std::numeric_limits<double>::infinity();
-};
-
-enum class GroundKind { plane, zones };
-
-/// What is taken for ground.
-struct GroundOptions {
-  GroundKind kind = GroundKind::plane;
-  UpAxis up = UpAxis::z;
-  std::optional<double> sensor_height;  ///< Metres; learnt if not given.
-};
 
 enum class OutputFormat { text, json, jsonl, csv };
 
 struct Options {
   std::vector<std::string> inputs;
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
-  std::vector<const Method*> methods;
-  std::optional<RangeFilter> range;
-  std::optional<GroundOptions> ground;  ///< Take the ground away if set.
-  std::optional<float> tolerance;       ///< Cluster if set.
-  std::size_t min_size = 10;
-  std::size_t max_size = std::numeric_limits<std::size_t>::max();
+  PipelineConfig pipeline;
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image;
   ViewFrom view = ViewFrom::iso;
-  MethodOptions method_options;
-  Execution execution{Serial{}, Isa::scalar};  ///< The environment is asked only where --isa is not given.
   bool check = false;
   bool info = false;
   bool timings = false;
   bool progress = false;
+
+  bool clusters() const { return pipeline.cluster.tolerance > 0; }
 };
 
 /// Whether files are asked for beside the report.

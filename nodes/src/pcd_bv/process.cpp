@@ -11,16 +11,14 @@
 #include <utility>
 
 #include "command/messages.h"
-#include "info.h"
 #include "loaded_cloud.h"
-#include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/report/picture.h"
-#include "segment.h"
+#include "stages/subset.h"
 
 namespace pcl_bv {
 namespace {
@@ -37,29 +35,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Fits all methods around all entries, several entries at a time.
-void fit(const Segmentation& segmentation, const Options& options, Report& report) {
-  report.clusters.resize(segmentation.entries.size());
-  for_each_view(segmentation.entries, options.execution, [&](std::size_t id, const Execution& execution) {
-    ClusterEntry& cluster = report.clusters[id];
-    cluster.id = id;
-    Supports supports;
-    const Execution shared = share_supports(segmentation.entries[id], options.methods, execution, supports);
-    for (const Method* method : options.methods) {
-      VolumeEntry& entry = cluster.volumes.emplace_back();
-      entry.method = method->name;
-      const EstimationResult result =
-          method->fit(segmentation.entries[id], entry.volume, shared, options.method_options);
-      entry.failed = result.reason;
-      cluster.points = result.used;
-      // Then there is one entry: the cloud.
-      if (!looks_at_points(options)) report.counts.nonfinite = result.dropped;
-    }
-  });
-}
-
 /// Failed if a fit did; if asked, verifies all other volumes of all entries: outside if a point is.
-Status check(const Segmentation& segmentation, const Options& options, Report& report) {
+Status check(const PointView& cloud, const FrameResult& result, const Options& options, Report& report) {
+  const Execution execution{options.pipeline.policy(), parse_isa(options.pipeline.isa)};
   Status status = Status::done;
   for (ClusterEntry& cluster : report.clusters) {
     const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
@@ -71,7 +49,7 @@ Status check(const Segmentation& segmentation, const Options& options, Report& r
     for (VolumeEntry& entry : cluster.volumes) {
       if (!entry.failed.empty()) object(entry, Status::failed, entry.failed);
       if (!entry.failed.empty() || !options.check) continue;
-      entry.outside = verify(entry.volume, segmentation.entries[cluster.id], options.execution).outside;
+      entry.outside = verify(entry.volume, result.points_of(cluster.id, cloud), execution).outside;
       if (*entry.outside > 0)
         object(entry, Status::outside, std::to_string(*entry.outside) + " points outside");
     }
@@ -95,15 +73,17 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
   return Status::failed;
 }
 
-Picture make_picture(const Segmentation& segmentation, const std::vector<std::uint32_t>& labels,
-                     const Options& options, const Report& report) {
+Picture make_picture(const PointView& cloud, const FrameResult& result,
+                     const std::vector<std::uint32_t>& labels, const Options& options, const Report& report) {
+  const bool clusters = options.clusters();
   Picture picture;
   picture.from = options.view;
-  picture.points = options.tolerance ? segmentation.in_range : segmentation.points;
-  if (options.tolerance) picture.labels = labels.data();
+  const bool ground = !clusters && options.pipeline.ground.method != GroundMethod::none;
+  picture.points = ground ? subset(cloud, result.ground.rest) : result.kept_points(cloud);
+  if (clusters) picture.labels = labels.data();
   for (const ClusterEntry& cluster : report.clusters) {
     for (std::size_t m = 0; m < cluster.volumes.size(); ++m) {
-      const std::size_t colour = options.tolerance ? cluster.id : m;
+      const std::size_t colour = clusters ? cluster.id : m;
       picture.volumes.push_back({cluster.volumes[m].volume, static_cast<std::uint32_t>(colour)});
     }
   }
@@ -111,8 +91,8 @@ Picture make_picture(const Segmentation& segmentation, const std::vector<std::ui
 }
 
 /// The files that were asked for beside the report. The labels are written into the cloud's own records.
-Status write_files(const Job& job, const Options& options, const Segmentation& segmentation,
-                   const Report& report, RawCloud cloud) {
+Status write_files(const Job& job, const Options& options, const FrameResult& result, const Report& report,
+                   LoadedCloud& loaded) {
   Status status = Status::done;
   if (job.mesh) {
     status = worse(status, write_file(*job.mesh, [&] {
@@ -122,14 +102,15 @@ Status write_files(const Job& job, const Options& options, const Segmentation& s
   }
   if (!job.labels && !job.image) return status;
   std::vector<std::uint32_t> label;
-  if (job.labels || options.tolerance) label = labels(segmentation, report.points);
+  if (job.labels || options.clusters()) label = labels_of(result, loaded.xyz());
   if (job.image) {
     status = worse(status, write_file(*job.image, [&] {
-                     write_picture(*job.image, make_picture(segmentation, label, options, report));
+                     write_picture(*job.image, make_picture(loaded.xyz(), result, label, options, report));
                    }));
   }
   if (job.labels) {
     status = worse(status, write_file(*job.labels, [&] {
+                     RawCloud cloud = loaded.take();
                      set_uint32_field(cloud, "label", label);
                      write_pcd(*job.labels, cloud);
                    }));
@@ -137,31 +118,35 @@ Status write_files(const Job& job, const Options& options, const Segmentation& s
   return status;
 }
 
-Status process(const Job& job, const Options& options, Report& report) {
+Status process(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
   Stopwatch watch;
-  Seconds seconds;
-  LoadedCloud loaded(job, tells_points_apart(options) || job.labels, options.execution.parallel);
-  seconds.read = watch.lap();
-  const Segmentation segmentation = segment(loaded.xyz(), options);
-  seconds.segment = watch.lap();
-  report.points = loaded.cloud().size();
+  const ParallelPolicy policy = options.pipeline.policy();
+  const bool told_apart = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
+  LoadedCloud loaded(job, told_apart || job.labels, policy);
+  const double read = watch.lap();
   if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
-  report.counts = segmentation.counts;
-  fit(segmentation, options, report);
-  seconds.fit = watch.lap();
-  if (options.info) report.info = cloud_info(loaded.cloud(), loaded.xyz(), options.execution.parallel);
-  if (options.timings) report.seconds = seconds;
-  const Status checked = check(segmentation, options, report);
-  return worse(checked, write_files(job, options, segmentation, report, loaded.take()));
+  FrameResult result;
+  pipeline.process({{}, loaded.xyz(), nullptr, 0}, result);
+  report.points = result.points;
+  report.counts = result.counts;
+  report.clusters = entries_of(result);
+  if (options.info) {
+    const RawCloud& cloud = loaded.cloud();
+    report.info = CloudInfo{cloud_statistics(loaded.xyz(), policy), cloud.width, cloud.height, cloud.fields};
+  }
+  const StageTimes& ms = result.ms;
+  if (options.timings) report.seconds = {read, (ms.filter + ms.ground + ms.cluster) / 1e3, ms.fit / 1e3};
+  const Status checked = check(loaded.xyz(), result, options, report);
+  return worse(checked, write_files(job, options, result, report, loaded));
 }
 
 }  // namespace
 
-Outcome process(const Job& job, const Options& options) {
+Outcome process(const Job& job, const Options& options, FramePipeline& pipeline) {
   Outcome outcome;
   outcome.report.file = job.input;
   try {
-    outcome.status = process(job, options, outcome.report);
+    outcome.status = process(job, options, pipeline, outcome.report);
     return outcome;
   } catch (const std::bad_alloc&) {
     outcome.report.error = "not enough memory";

@@ -6,6 +6,7 @@
 
 #include "inputs.h"
 #include "options.h"
+#include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/report/report.h"
 #include "status.h"
 
@@ -19,6 +20,6 @@ struct Outcome {
 /// Loads, segments, fits, verifies, and writes the labels, the mesh and the picture. Never throws for what
 /// the input or a file does: problems go to standard error and into the status, a failed input into
 /// `report.error` too.
-Outcome process(const Job& job, const Options& options);
+Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
 }  // namespace pcl_bv

@@ -52,9 +52,9 @@ std::string render_or_say_why(Outcome& outcome, OutputFormat format) {
   return render(outcome.report, format);
 }
 
-Result do_job(const Job& job, const Options& options) {
+Result do_job(const Job& job, const Options& options, FramePipeline& pipeline) {
   HeldComplaints complaints;
-  Outcome outcome = process(job, options);
+  Outcome outcome = process(job, options, pipeline);
   std::string text = render_or_say_why(outcome, options.format);
   const std::size_t points = outcome.report.error ? 0 : outcome.report.points;
   return {std::move(text), std::move(complaints.kept), points, outcome.status};
@@ -165,8 +165,9 @@ void keep_freed_memory() {
 
 void work(const std::vector<Job>& jobs, const Options& options, InOrder& order) {
   try {
+    FramePipeline pipeline(options.pipeline);
     while (const auto job = order.next())
-      order.take(*job, do_job(jobs[*job], options));
+      order.take(*job, do_job(jobs[*job], options, pipeline));
   } catch (...) {
     order.stop();
     throw;
@@ -176,13 +177,14 @@ void work(const std::vector<Job>& jobs, const Options& options, InOrder& order) 
 }  // namespace
 
 Status process_all(const std::vector<Job>& jobs, const Options& options) {
-  const unsigned threads = thread_count(options.execution.parallel);
+  const ParallelPolicy policy = options.pipeline.policy();
+  const unsigned threads = thread_count(policy);
   const unsigned workers = jobs.size() >= threads ? threads : 1;
   Options each = options;
-  if (workers > 1) each.execution.parallel = Serial{};
+  if (workers > 1) each.pipeline.threads = 1;
   if (jobs.size() > 1) keep_freed_memory();
   InOrder order(options, jobs.size(), workers);
-  for_each_chunk(options.execution.parallel, workers, [&](std::size_t) { work(jobs, each, order); });
+  for_each_chunk(policy, workers, [&](std::size_t) { work(jobs, each, order); });
   return order.finish();
 }
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "pcl_bv/report/report.h"
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/segmentation/counts.h"
 
 namespace pcl_bv {
 

@@ -4,10 +4,10 @@
 // A filter for clouds that are not held: it drops points as they come past.
 #pragma once
 
-#include "pcl_bv/report/report.h"
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/segmentation/counts.h"
 
 namespace pcl_bv {
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The stages in their order, each with its own watch.
-
 #include "pcl_bv/nodes/frame_pipeline.h"
 
 #include <chrono>
@@ -12,9 +10,12 @@
 #include <utility>
 
 #include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "stages/filter.h"
+#include "stages/filtered_points.h"
 #include "stages/ground.h"
+#include "stages/subset.h"
 #include "tracked_volumes.h"
 
 namespace pcl_bv {
@@ -37,6 +38,8 @@ struct Prepared {
   std::vector<const Method*> methods;
   MethodOptions options;
   Execution execution{Serial{}, Isa::scalar};  // until the configuration's set is known
+  bool tells_apart = false;                    // ground or clusters
+  bool looks = false;                          // at points before volumes are fitted
 };
 
 std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
@@ -45,23 +48,17 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
     problems += (problems.empty() ? "" : "; ") + line;
   if (!problems.empty()) throw std::invalid_argument(problems);
   auto prepared = std::make_shared<Prepared>();
-  for (const std::string& name : config.volumes)
-    prepared->methods.push_back(find_method(name));
-  prepared->options.up = up_direction(config.ground.up);
+  const FilterConfig& filter = config.filter;
+  prepared->methods = config.methods();
+  prepared->options = {config.growth, config.ground.up};
+  prepared->tells_apart = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
+  prepared->looks = prepared->tells_apart || filter.range_min > 0 || filter.range_max < kNoLimit ||
+                    filter.own_box_min || config.cluster.least_size() > 0 ||
+                    config.cluster.max_size < std::numeric_limits<std::size_t>::max();
   prepared->execution.isa = parse_isa(config.isa);
-  if (config.threads != 1) prepared->execution.parallel = Threads{static_cast<unsigned>(config.threads)};
+  prepared->execution.parallel = config.policy();
   prepared->config = std::move(config);
   return prepared;
-}
-
-PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
-  cloud.indices = numbers;
-  cloud.count = count;
-  return cloud;
-}
-
-PointView subset(const PointView& cloud, const std::vector<std::int32_t>& numbers) {
-  return subset(cloud, numbers.data(), numbers.size());
 }
 
 }  // namespace
@@ -72,6 +69,7 @@ struct FramePipeline::State {
     return prepared;
   }
 
+  PointView filter(const Prepared& now, const PointView& cloud, FrameResult& result);
   PointView remove_ground(const GroundConfig& config, const PointView& points, FrameResult& result);
   void find_clusters(const Prepared& now, const PointView& points, FrameResult& result);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
@@ -79,12 +77,28 @@ struct FramePipeline::State {
   mutable std::mutex mutex;
   std::shared_ptr<const Prepared> prepared;
 
-  std::vector<std::int32_t> kept;
   GroundZones zones;
   EuclideanClusterer clusterer;
   std::vector<PointView> views;
   TrackedVolumes tracks;
 };
+
+// A big cloud that is only filtered goes the same way, to the same bits, whether it is in memory or in a file:
+// it is filtered as it comes past.
+PointView FramePipeline::State::filter(const Prepared& now, const PointView& cloud, FrameResult& result) {
+  result.kept.clear();
+  result.filtered.reset();
+  if (!now.looks) return cloud;
+  const bool listed = now.tells_apart || cloud.indices != nullptr;
+  if (!listed && (cloud.source != nullptr || cloud.count > kChunkPoints)) {
+    auto filtered = std::make_shared<FilteredPoints>(cloud, now.config.filter);
+    result.counts = filtered->count(now.execution.parallel);
+    result.filtered = std::move(filtered);
+  } else {
+    filter_points(cloud, now.config.filter, result.kept, result.counts);
+  }
+  return result.kept_points(cloud);
+}
 
 PointView FramePipeline::State::remove_ground(const GroundConfig& config, const PointView& points,
                                               FrameResult& result) {
@@ -94,26 +108,38 @@ PointView FramePipeline::State::remove_ground(const GroundConfig& config, const 
   return subset(points, result.ground.rest);
 }
 
+// All points as one object, if their number is allowed.
+void take_all(const ClusterConfig& config, const PointView& points, FrameResult& result) {
+  const Counts& counts = result.counts;
+  const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.ground;
+  Clusters& all = result.clusters;
+  all.indices.clear();
+  all.offsets.assign(1, 0);
+  const bool small = valid < config.least_size(), large = valid > config.max_size;
+  all.small_points = small ? valid : 0;
+  all.large_points = large ? valid : 0;
+  if (small || large) return;
+  all.offsets.push_back(valid);
+  if (points.indices != nullptr && points.count == valid)
+    all.indices.assign(points.indices, points.indices + points.count);
+}
+
 void FramePipeline::State::find_clusters(const Prepared& now, const PointView& points, FrameResult& result) {
   const ClusterConfig& config = now.config.cluster;
-  Clusters& clusters = result.clusters;
   if (config.tolerance > 0) {
-    const ClusterSettings settings{static_cast<float>(config.tolerance), config.min_size, config.max_size};
-    clusterer.extract(points, settings, clusters, now.execution.parallel);
+    const ClusterSettings settings{static_cast<float>(config.tolerance), config.least_size(), config.max_size};
+    clusterer.extract(points, settings, result.clusters, now.execution.parallel);
   } else {
-    clusters.indices.assign(points.indices, points.indices + points.count);
-    clusters.offsets.assign(1, 0);
-    if (points.count > 0) clusters.offsets.push_back(points.count);
-    clusters.small_points = clusters.large_points = 0;
+    take_all(config, points, result);
   }
-  result.counts.small = clusters.small_points;
-  result.counts.large = clusters.large_points;
+  result.counts.small = result.clusters.small_points;
+  result.counts.large = result.clusters.large_points;
 }
 
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {
   views.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
-    views.push_back(subset(cloud, result.clusters.cluster(i), result.clusters.cluster_size(i)));
+    views.push_back(result.points_of(i, cloud));
   const std::size_t methods = now.methods.size();
   result.methods.assign(now.methods.begin(), now.methods.end());
   result.volumes.resize(views.size() * methods);
@@ -127,6 +153,9 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
     }
   };
   for_each_view(views, now.execution, std::cref(fit_cluster));
+  if (now.looks) return;
+  result.counts.nonfinite = result.results.front().dropped;  // nobody has looked at the points before
+  result.clusters.offsets.back() = result.results.front().used;
 }
 
 FramePipeline::FramePipeline(PipelineConfig config) : state_(std::make_unique<State>()) {
@@ -155,8 +184,9 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   result.ms = StageTimes();
   result.ms.decode = frame.decode_ms;
 
-  filter_points(frame.points, now->config.filter, state_->kept, result.counts);
-  PointView points = subset(frame.points, state_->kept);
+  if (now->tells_apart && frame.points.source != nullptr)
+    throw std::invalid_argument("a cloud that is not in memory can be filtered, but not be told apart");
+  PointView points = state_->filter(*now, frame.points, result);
   result.ms.filter = watch.lap();
   points = state_->remove_ground(now->config.ground, points, result);
   result.ms.ground = watch.lap();

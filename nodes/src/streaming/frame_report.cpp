@@ -21,17 +21,10 @@ FrameReport to_report(const FrameResult& result) {
   report.error.reset();
   report.points = result.points;
   report.counts = result.counts;
-  for (std::size_t i = 0; i < result.clusters.size(); ++i) {
-    TrackedEntry& entry = report.clusters.emplace_back();
-    entry.cluster.id = i;
-    entry.cluster.points = result.clusters.cluster_size(i);
-    if (!result.tracks.empty()) entry.track = result.tracks[i];
-    for (std::size_t m = 0; m < result.methods.size(); ++m) {
-      VolumeEntry& volume = entry.cluster.volumes.emplace_back();
-      volume.method = result.methods[m]->name;
-      volume.volume = result.volume(i, m);
-      volume.failed = result.results[i * result.methods.size() + m].reason;
-    }
+  std::vector<ClusterEntry> entries = entries_of(result);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    report.clusters.push_back(
+        {std::move(entries[i]), result.tracks.empty() ? std::nullopt : result.tracks[i]});
   }
   const StageTimes& ms = result.ms;
   report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},

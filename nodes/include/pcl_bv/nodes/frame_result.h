@@ -6,10 +6,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
@@ -25,10 +27,14 @@ struct StageTimes {
 /// Reuse keeps the capacity. Indices are those of the frame's cloud.
 struct FrameResult {
   FrameHeader header;
-  std::size_t points = 0;  ///< All points of the cloud, good or bad.
-  Counts counts;           ///< Points that are in no cluster, by reason.
-  GroundSplit ground;      ///< The ground's points; not found if no ground was asked for.
-  Clusters clusters;       ///< Largest first; if none were asked for, all points left are one.
+  std::size_t points = 0;          ///< All points of the cloud, good or bad.
+  Counts counts;                   ///< Points that are in no cluster, by reason.
+  std::vector<std::int32_t> kept;  ///< What passed the filter, if that dropped points: see kept_points().
+  GroundSplit ground;              ///< The ground's points; not found if no ground was asked for.
+  /// Largest first; if none were asked for, all points left are one. That one has no index list if points
+  /// did not have to be told apart, as without ground: see points_of().
+  Clusters clusters;
+  std::shared_ptr<const PointSource> filtered;  ///< Instead of `kept`, for big clouds without index lists.
 
   /// For each cluster its track, none until the track is born; empty without tracking.
   std::vector<std::optional<std::uint32_t>> tracks;
@@ -42,6 +48,17 @@ struct FrameResult {
   const AnyVolume& volume(std::size_t cluster, std::size_t method) const {
     return volumes[cluster * methods.size() + method];
   }
+
+  /// What passed the filter, and what is in a cluster, as views of `cloud`, the frame's points, and of the
+  /// lists above. They may hold points that are not valid.
+  PointView kept_points(const PointView& cloud) const;
+  PointView points_of(std::size_t cluster, const PointView& cloud) const;
 };
+
+/// For each point of the cloud the number of its cluster, label_ground, or label_none.
+std::vector<std::uint32_t> labels_of(const FrameResult& result, const PointView& cloud);
+
+/// The clusters as they are reported.
+std::vector<ClusterEntry> entries_of(const FrameResult& result);
 
 }  // namespace pcl_bv

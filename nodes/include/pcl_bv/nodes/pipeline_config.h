@@ -13,7 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pcl_bv/segmentation/ground_plane.h"
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/parallel/policy.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -33,13 +34,9 @@ enum class GroundMethod : std::uint8_t {
   zones   ///< GroundZones: many planes, for roads.
 };
 
-/// Reads "none", "plane" or "zones"; anything else throws std::invalid_argument naming these.
-GroundMethod parse_ground_method(std::string_view text);
-std::string_view name_of(GroundMethod method);
-
 struct GroundConfig {
   GroundMethod method = GroundMethod::zones;
-  UpAxis up = UpAxis::z;                ///< Against gravity.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; of any length.
   std::optional<double> sensor_height;  ///< Of the origin above the ground, metres; learnt if not given.
   /// Points at most this far above the ground belong to it, metres; if not given, what the method's settings
   /// say.
@@ -49,9 +46,12 @@ struct GroundConfig {
 };
 
 struct ClusterConfig {
-  double tolerance = 0.5;     ///< Points nearer to each other are one object, metres; 0: all points are one.
-  std::size_t min_size = 10;  ///< Points; smaller objects are dropped.
+  double tolerance = 0.5;  ///< Points nearer to each other are one object, metres; 0: all points are one.
+  /// Points; smaller objects are dropped. If not given 10, and 0 where all points are one.
+  std::optional<std::size_t> min_size;
   std::size_t max_size = std::numeric_limits<std::size_t>::max();  ///< Points; larger ones are dropped.
+
+  std::size_t least_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
 };
 
 struct TrackConfig {
@@ -65,13 +65,29 @@ struct PipelineConfig {
   FilterConfig filter;
   GroundConfig ground;
   ClusterConfig cluster;
-  std::vector<std::string> volumes{"aabb", "sphere", "obb-yaw"};  ///< Methods of fitting/methods.h.
+  /// Methods of fitting/methods.h; if empty, obb-lshape, and aabb, sphere, obb where all points are one object.
+  std::vector<std::string> volumes;
+  SphereGrowth growth = SphereGrowth::deferred;  ///< Of spheres that grow.
   TrackConfig track;
   std::size_t threads = 1;   ///< 0: all processors.
   std::string isa = "auto";  ///< Instruction set, by the names of parse_isa().
 
   /// One line for each value that is not allowed: the key as in the configuration file, the value, the range.
   std::vector<std::string> validate() const;
+
+  /// What `volumes` stands for; methods that are unknown are left out.
+  std::vector<const Method*> methods() const;
+
+  /// What `threads` stands for.
+  ParallelPolicy policy() const;
 };
+
+/// For clouds of which nothing is known: no filter, no ground, all points one object, all processors.
+PipelineConfig whole_cloud_config();
+
+/// Filter, ground and clusters to begin with: "road" (a LiDAR on a vehicle, z up: the defaults), "indoor" (the
+/// same on a robot in rooms), or "table" (things on a table before a depth camera that looks down at them, in
+/// its optical frame: z forward, y down). Throws std::invalid_argument for another name.
+void apply_preset(std::string_view name, PipelineConfig& config);
 
 }  // namespace pcl_bv

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "pcl_bv/nodes/pipeline_config.h"
@@ -22,10 +21,6 @@ enum class QueuePolicy : std::uint8_t {
   drop_newest,  ///< It is dropped itself.
   block         ///< Its sender waits: nothing is lost. For files.
 };
-
-/// Reads "drop_oldest", "drop_newest" or "block"; anything else throws std::invalid_argument naming these.
-QueuePolicy parse_queue_policy(std::string_view text);
-std::string_view name_of(QueuePolicy policy);
 
 struct RunnerConfig {
   std::size_t queue = 1;  ///< Frames that may wait, at least 1.

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/segmentation/cloud_statistics.h"
+#include "pcl_bv/segmentation/counts.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -28,15 +30,6 @@ struct ClusterEntry {
   std::vector<VolumeEntry> volumes;
 };
 
-/// Points that are in no entry, by reason.
-struct Counts {
-  std::size_t nonfinite = 0;
-  std::size_t range = 0;   ///< Finite, but too near or too far.
-  std::size_t ground = 0;  ///< Removed as ground.
-  std::size_t small = 0;   ///< In clusters of too few points.
-  std::size_t large = 0;   ///< In clusters of too many points.
-};
-
 /// Wall-clock time of each stage.
 struct Seconds {
   double read = 0;
@@ -45,13 +38,9 @@ struct Seconds {
 };
 
 /// What the cloud of an input is like. Organised clouds have height > 1.
-struct CloudInfo {
-  Aabb box;  ///< Of the finite points that are not exactly at 0,0,0; empty if there is none.
-  std::optional<double> spacing;  ///< Typical distance from a point to the nearest other one.
+struct CloudInfo : CloudStatistics {
   std::size_t width = 0;
   std::size_t height = 1;
-  std::size_t nonfinite = 0;  ///< Points with a coordinate that is not finite.
-  std::size_t zero = 0;       ///< Points exactly at 0,0,0: dead beams, most likely.
   std::vector<PointField> fields;
 };
 

@@ -5,13 +5,14 @@
 // so far, and the median of these bounds is not below that of the distances. So all points are looked at, but
 // only for samples within that median: what is farther away changes no distance that is below it.
 
-#include "info.h"
+#include "pcl_bv/segmentation/cloud_statistics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
@@ -159,23 +160,20 @@ double spacing(const PointView& points, std::vector<Sample> samples, const Aabb&
 
 }  // namespace
 
-CloudInfo cloud_info(const RawCloud& header, const PointView& points, const ParallelPolicy& policy) {
-  CloudInfo info;
-  info.width = header.width;
-  info.height = header.height;
-  info.fields = header.fields;
+CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& policy) {
+  CloudStatistics found;
   std::vector<ChunkCounts> chunks(chunk_count(points.count));
   for_each_chunk(policy, chunks.size(),
                  [&](std::size_t chunk) { chunks[chunk] = look_at(load_chunk(points, chunk).view()); });
   std::size_t used = 0;
   for (const ChunkCounts& chunk : chunks) {
     used += chunk.used;
-    info.nonfinite += chunk.nonfinite;
-    info.zero += chunk.zero;
-    info.box.merge(chunk.box);
+    found.nonfinite += chunk.nonfinite;
+    found.zero += chunk.zero;
+    found.box.merge(chunk.box);
   }
-  if (used >= 2) info.spacing = spacing(points, sample(points, chunks, used), info.box, policy);
-  return info;
+  if (used >= 2) found.spacing = spacing(points, sample(points, chunks, used), found.box, policy);
+  return found;
 }
 
 }  // namespace pcl_bv

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Every setting once: its key, what it is, its unit and what is allowed. Configuration files, the commands'
+// options and the parameters of other systems are walks over this list.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/nodes/stream_config.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+inline constexpr double kFinite = std::numeric_limits<double>::max();
+
+/// What numbers are allowed: from `least` (itself only if `closed`) to `most`, which may be kNoLimit.
+struct NumberRange {
+  double least = 0;
+  double most = kFinite;
+  bool closed = true;
+};
+
+struct Setting {
+  std::string_view key;      ///< With its stage: "filter.range_min".
+  std::string_view unit;     ///< "m", or what may be chosen, or what a special value means.
+  std::string_view about;    ///< For those who choose the value.
+  NumberRange range{};       ///< Of numbers.
+  std::string_view unset{};  ///< What null, or an empty list, means.
+  std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M", for those that commands have.
+};
+
+/// Calls visit(setting, value) for each: `value` is a bool, double, std::size_t, std::optional of one of the
+/// latter two or of a point, Eigen::Vector3d (a direction), std::string (the instruction set), a list of them
+/// (methods), or one of the enums, and const if the configuration is.
+template <typename Pipeline, typename Visit>
+void visit_pipeline(Pipeline& c, Visit&& visit) {
+  using S = Setting;
+  visit(S{"filter.range_min", "m", "Drop points nearer to the origin than this"}, c.filter.range_min);
+  visit(S{"filter.range_max", "m", "Drop points farther from the origin than this", {0, kNoLimit}},
+        c.filter.range_max);
+  visit(S{"filter.own_box_min", "m, [x, y, z]", "Lower corner of the box whose points are dropped", {}, "no box"},
+        c.filter.own_box_min);
+  visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of the box whose points are dropped", {}, "no box"},
+        c.filter.own_box_max);
+  visit(S{"ground.method", "none, plane, zones", "Take the ground away first: none, plane or zones (outdoors)",
+          {}, {}, "--ground", "KIND"},
+        c.ground.method);
+  visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z", "Against gravity: x, y, z, -x, -y, -z or X,Y,Z",
+          {}, {}, "--up", "AXIS"},
+        c.ground.up);
+  visit(S{"ground.sensor_height", "m", "Height of the origin above the ground", {}, "learnt",
+          "--sensor-height", "M"},
+        c.ground.sensor_height);
+  visit(S{"ground.distance", "m", "Points at most this far above the ground belong to it", {0, kFinite, false},
+          "0.2 of a plane, 0.15 of zones", "--ground-distance", "M"},
+        c.ground.distance);
+  visit(S{"ground.max_slope_degrees", "degrees", "Greatest slope of the ground", {0, 89},
+          "15 of a plane, 20 of zones", "--ground-slope", "DEG"},
+        c.ground.max_slope_degrees);
+  visit(S{"cluster.tolerance", "m; 0: all points are one object", "Points nearer than this are one object; 0: all are",
+          {0, 1e6}, {}, "--cluster", "TOL"},
+        c.cluster.tolerance);
+  visit(S{"cluster.min_size", "points", "Drop objects of fewer points", {0, kNoLimit},
+          "10, and 0 where all points are one object", "--min-size", "N"},
+        c.cluster.min_size);
+  visit(S{"cluster.max_size", "points", "Drop objects of more points", {1, kNoLimit}, {}, "--max-size", "N"},
+        c.cluster.max_size);
+  visit(S{"volumes", "methods", "Methods separated by commas, or all", {},
+          "obb-lshape, and aabb, sphere, obb where all points are one object", "--volume", "LIST"},
+        c.volumes);
+  visit(S{"growth", "sequential, stationary, deferred", "Growth of EPOS spheres: sequential, stationary, deferred",
+          {}, {}, "--growth", "POLICY"},
+        c.growth);
+  visit(S{"track.enabled", "", "Give objects ids that last from frame to frame", {}, {}, "--track"},
+        c.track.enabled);
+  visit(S{"track.gate", "m", "How far an object may be from where it was expected", {0, 100, false}},
+        c.track.gate);
+  visit(S{"track.birth", "frames", "Sightings after which an object gets its id", {1, 1000}}, c.track.birth);
+  visit(S{"track.death", "frames", "Frames without it after which an object is gone", {1, 1000}},
+        c.track.death);
+  visit(S{"threads", "0: all processors", "Threads, 0 for all processors", {0, 1024}, {}, "--threads", "N"},
+        c.threads);
+  visit(S{"isa", "", "Instruction set, of those that --version lists", {}, {}, "--isa", "NAME"}, c.isa);
+}
+
+template <typename Stream, typename Visit>
+void visit_stream(Stream& c, Visit&& visit) {
+  using S = Setting;
+  visit_pipeline(c.pipeline, visit);
+  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"}, c.runner.queue);
+  visit(S{"runner.policy", "drop_oldest, drop_newest, block", "When they do: drop_oldest, drop_newest or block",
+          {}, {}, "--policy", "NAME"},
+        c.runner.policy);
+  visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);
+  visit(S{"runner.watchdog_s", "s; 0: none", "Say so if no frame comes for so long"}, c.runner.watchdog_s);
+}
+
+/// A value as a text: the fewest digits that read back exactly; "null" and "unlimited" where there is none.
+std::string to_text(bool value);
+std::string to_text(double value);
+std::string to_text(std::size_t value);
+std::string to_text(const Eigen::Vector3d& direction);
+std::string to_text(const std::string& name);
+std::string to_text(const std::vector<std::string>& names);  ///< Separated by ", ".
+std::string to_text(GroundMethod method);
+std::string to_text(SphereGrowth growth);
+std::string to_text(QueuePolicy policy);
+std::string to_text(const std::optional<double>& value);
+std::string to_text(const std::optional<std::size_t>& value);
+std::string to_text(const std::optional<Eigen::Vector3d>& point);
+
+/// The other way round. Throw std::invalid_argument, "'far' is not a number", for anything else; what a
+/// number may be is left to problem_of().
+void read_text(std::string_view text, bool& value);
+void read_text(std::string_view text, double& value);
+void read_text(std::string_view text, std::size_t& value);
+void read_text(std::string_view text, Eigen::Vector3d& direction);
+void read_text(std::string_view text, std::string& name);
+void read_text(std::string_view text, std::vector<std::string>& names);  ///< `all` stands for methods_of_all().
+void read_text(std::string_view text, GroundMethod& method);
+void read_text(std::string_view text, SphereGrowth& growth);
+void read_text(std::string_view text, QueuePolicy& policy);
+void read_text(std::string_view text, std::optional<double>& value);
+void read_text(std::string_view text, std::optional<std::size_t>& value);
+void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point);
+
+/// What is wrong with a value, as "-1 is not at least 0"; nothing if it is allowed.
+std::string problem_of(const Setting& setting, double value);
+std::string problem_of(const Setting& setting, std::size_t value);
+std::string problem_of(const Setting& setting, const Eigen::Vector3d& direction);
+std::string problem_of(const Setting& setting, const std::string& instruction_set);
+std::string problem_of(const Setting& setting, const std::vector<std::string>& methods);
+std::string problem_of(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
+template <typename Choice>
+std::string problem_of(const Setting& /*setting*/, Choice /*any*/) {
+  return {};
+}
+template <typename T>
+std::string problem_of(const Setting& setting, const std::optional<T>& value) {
+  return value ? problem_of(setting, *value) : std::string();
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "command/setting_options.h"
+
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+
+#include "command/values.h"
+#include "pcl_bv/nodes/settings.h"
+
+namespace pcl_bv {
+namespace {
+
+std::string shown_default(const Setting& setting, const std::string& value) {
+  return value.empty() || value == "null" ? std::string(setting.unset) : value;
+}
+
+// The command line may name a method again; a file may not.
+void keep_first_mentions(std::vector<std::string>& methods) {
+  std::vector<std::string> once;
+  for (std::string& name : methods) {
+    const auto same = [&](const std::string& other) { return find_method(other) == find_method(name); };
+    if (find_method(name) == nullptr || std::none_of(once.begin(), once.end(), same))
+      once.push_back(std::move(name));
+  }
+  methods = std::move(once);
+}
+
+}  // namespace
+
+SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool runner)
+    : line_(line), defaults_(defaults), runner_(runner) {
+  line.option("--preset", preset_, "NAME", "Settings to begin with: road, indoor or table");
+  line.option("--config", file_, "FILE.yaml", "Settings; options override them");
+  line.flag("--print-config", print_config_, "Print the settings that would be used, as such a file");
+  const FilterConfig& filter = defaults.pipeline.filter;
+  line.option("--range", range_, "MIN:MAX",
+              "Drop points nearer or farther than this from the origin (" + to_text(filter.range_min) + ":" +
+                  to_text(filter.range_max) + ")");
+  const auto declare = [&](const Setting& setting, const auto& value) {
+    if (setting.option.empty()) return;
+    const std::string about(setting.about);
+    if constexpr (std::is_same_v<decltype(value), const bool&>) {
+      line.flag(setting.option.data(), flags_[setting.option], about);
+    } else {
+      line.option(setting.option.data(), texts_[setting.option], setting.placeholder.data(),
+                  about + " (" + shown_default(setting, to_text(value)) + ")");
+    }
+  };
+  runner ? visit_stream(defaults, declare) : visit_pipeline(defaults.pipeline, declare);
+}
+
+void SettingOptions::apply(StreamConfig& config) const {
+  const auto read = [this](const Setting& setting, auto& value) {
+    if (setting.option.empty() || !line_.given(setting.option.data())) return;
+    if constexpr (std::is_same_v<decltype(value), bool&>) {
+      value = true;
+    } else {
+      parse_with(setting.option, texts_.at(setting.option),
+                 [&](const std::string& text) { read_text(text, value); });
+    }
+    if constexpr (std::is_same_v<decltype(value), std::vector<std::string>&>) keep_first_mentions(value);
+    const std::string problem = problem_of(setting, value);
+    if (!problem.empty()) throw UsageError(std::string(setting.option) + ": " + problem);
+  };
+  runner_ ? visit_stream(config, read) : visit_pipeline(config.pipeline, read);
+  FilterConfig& filter = config.pipeline.filter;
+  if (line_.given("--range")) std::tie(filter.range_min, filter.range_max) = parse_range(range_);
+}
+
+void SettingOptions::refuse_useless(const PipelineConfig& config) const {
+  const auto refuse = [&](const char* option, bool useful, const char* needed) {
+    if (line_.given(option) && !useful)
+      throw UsageError(std::string(option) + ": only useful with " + needed);
+  };
+  const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
+  const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
+  for (const char* option : {"--min-size", "--max-size"})
+    refuse(option, clusters, "--cluster");
+  for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
+    refuse(option, ground, "--ground");
+}
+
+StreamConfig SettingOptions::config() const {
+  StreamConfig config = defaults_;
+  if (line_.given("--preset")) {
+    parse_with("--preset", preset_, [&](const std::string& name) { apply_preset(name, config.pipeline); });
+  }
+  try {
+    if (line_.given("--config")) config = read_stream_config(file_, config);
+  } catch (const ConfigError& error) {
+    throw UsageError(error.what());
+  }
+  apply(config);
+  refuse_useless(config.pipeline);
+  const std::vector<std::string> problems = config.validate();
+  if (!problems.empty()) throw UsageError(problems.front());
+  return config;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "config/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/nodes/settings.h"
+
+namespace pcl_bv {
+namespace {
+
+std::string known_methods() {
+  std::string names;
+  for (const Method& method : methods())
+    names += (names.empty() ? "" : ", ") + std::string(method.name);
+  return names;
+}
+
+void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problems) {
+  const auto add = [&](const char* key, const std::string& what) { problems.push_back({key, what}); };
+  const FilterConfig& filter = c.filter;
+  if (filter.range_min > filter.range_max) {
+    add("filter.range_max",
+        to_text(filter.range_max) + " is below filter.range_min, " + to_text(filter.range_min));
+  }
+  if (filter.own_box_min.has_value() != filter.own_box_max.has_value()) {
+    add(filter.own_box_min ? "filter.own_box_min" : "filter.own_box_max",
+        "comes without the other corner: both or none");
+  } else if (filter.own_box_min && !(filter.own_box_min->array() <= filter.own_box_max->array()).all()) {
+    add("filter.own_box_max", "is below filter.own_box_min");
+  }
+  if (c.cluster.tolerance > 0 && static_cast<float>(c.cluster.tolerance) == 0)
+    add("cluster.tolerance", to_text(c.cluster.tolerance) + " is 0 as a float, which points are");
+  if (c.cluster.least_size() > c.cluster.max_size) {
+    add("cluster.max_size", to_text(c.cluster.max_size) + " is below cluster.min_size, " +
+                                to_text(c.cluster.least_size()));
+  }
+}
+
+template <typename Problems>
+std::vector<std::string> lines(const Problems& problems) {
+  std::vector<std::string> texts;
+  for (const ConfigProblem& problem : problems)
+    texts.push_back(problem.key + ": " + problem.what);
+  return texts;
+}
+
+// Notes what is wrong with each setting that it visits.
+auto checker(std::vector<ConfigProblem>& problems) {
+  return [&](const Setting& setting, const auto& value) {
+    std::string problem = problem_of(setting, value);
+    if (!problem.empty()) problems.push_back({std::string(setting.key), std::move(problem)});
+  };
+}
+
+}  // namespace
+
+std::string problem_of(const Setting& setting, double value) {
+  const auto& [least, most, closed] = setting.range;
+  if ((closed ? value >= least : value > least) && value <= most) return {};  // false for NaN
+  std::string allowed = (closed ? " is not at least " : " is not above ") + to_text(least);
+  if (most < kFinite) allowed += " and at most " + to_text(most);
+  if (most == kFinite) allowed += " and finite";
+  return to_text(value) + allowed;
+}
+
+std::string problem_of(const Setting& setting, std::size_t value) {
+  const auto& [least, most, closed] = setting.range;
+  const auto n = static_cast<double>(value);
+  if (n >= least && (n <= most || most == kNoLimit)) return {};
+  std::string allowed = " is not a whole number of at least " + to_text(static_cast<std::size_t>(least));
+  if (most < kFinite) allowed += " and at most " + to_text(static_cast<std::size_t>(most));
+  return to_text(value) + allowed;
+}
+
+std::string problem_of(const Setting& /*setting*/, const Eigen::Vector3d& direction) {
+  if (direction.allFinite() && !direction.isZero(0)) return {};
+  return to_text(direction) + " is no direction: three finite numbers, not all 0";
+}
+
+std::string problem_of(const Setting& /*setting*/, const std::string& instruction_set) {
+  try {
+    static_cast<void>(UsableIsa(parse_isa(instruction_set)));
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string problem_of(const Setting& /*setting*/, const std::vector<std::string>& methods) {
+  for (auto name = methods.begin(); name != methods.end(); ++name) {
+    const Method* const method = find_method(*name);
+    if (method == nullptr) return "'" + *name + "' is no method; known are " + known_methods();
+    const auto same = [&](const std::string& other) { return find_method(other) == method; };
+    if (std::any_of(methods.begin(), name, same)) return "'" + *name + "' is named twice";
+  }
+  return {};
+}
+
+std::string problem_of(const Setting& /*setting*/, const std::optional<Eigen::Vector3d>& point) {
+  return point && !point->allFinite() ? "a coordinate is not finite" : "";
+}
+
+std::vector<ConfigProblem> problems_of(const StreamConfig& config) {
+  std::vector<ConfigProblem> problems;
+  visit_stream(config, checker(problems));
+  check_together(config.pipeline, problems);
+  return problems;
+}
+
+std::vector<std::string> PipelineConfig::validate() const {
+  std::vector<ConfigProblem> problems;
+  visit_pipeline(*this, checker(problems));
+  check_together(*this, problems);
+  return lines(problems);
+}
+
+std::vector<std::string> StreamConfig::validate() const {
+  return lines(problems_of(*this));
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <utility>
+
+#include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/nodes/settings.h"
+#include "pcl_bv/segmentation/up.h"
+
+namespace pcl_bv {
+namespace {
+
+template <typename Choice, std::size_t n>
+using Names = std::array<std::pair<std::string_view, Choice>, n>;
+
+constexpr Names<GroundMethod, 3> kGroundMethods{
+    {{"none", GroundMethod::none}, {"plane", GroundMethod::plane}, {"zones", GroundMethod::zones}}};
+constexpr Names<SphereGrowth, 3> kGrowths{{{"sequential", SphereGrowth::sequential},
+                                           {"stationary", SphereGrowth::stationary},
+                                           {"deferred", SphereGrowth::deferred}}};
+constexpr Names<QueuePolicy, 3> kPolicies{{{"drop_oldest", QueuePolicy::drop_oldest},
+                                           {"drop_newest", QueuePolicy::drop_newest},
+                                           {"block", QueuePolicy::block}}};
+constexpr Names<bool, 2> kFlags{{{"true", true}, {"false", false}}};
+
+[[noreturn]] void refuse(std::string_view text, const std::string& what) {
+  throw std::invalid_argument("'" + std::string(text) + "' is not " + what);
+}
+
+template <typename Choice, std::size_t n>
+void read_name(const Names<Choice, n>& names, std::string_view text, Choice& value) {
+  std::string known;
+  for (const auto& [name, choice] : names) {
+    if (name == text) {
+      value = choice;
+      return;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  refuse(text, "one of " + known);
+}
+
+template <typename Choice, std::size_t n>
+std::string find_name(const Names<Choice, n>& names, Choice choice) {
+  for (const auto& [name, value] : names) {
+    if (value == choice) return std::string(name);
+  }
+  return {};
+}
+
+template <typename T>
+bool read_whole_text(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+// The parts between commas, without the spaces around them.
+std::vector<std::string_view> parts_of(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    std::string_view part = text.substr(begin, comma - begin);
+    part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
+    part.remove_suffix(part.size() - (part.find_last_not_of(' ') + 1));
+    parts.push_back(part);
+    begin = comma + 1;
+  }
+  return parts;
+}
+
+template <typename T>
+std::string text_or_null(const std::optional<T>& value) {
+  return value ? to_text(*value) : "null";
+}
+
+template <typename T>
+void read_or_null(std::string_view text, std::optional<T>& value) {
+  value.reset();
+  if (text != "null") read_text(text, value.emplace());
+}
+
+}  // namespace
+
+std::string to_text(bool value) {
+  return find_name(kFlags, value);
+}
+std::string to_text(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+std::string to_text(std::size_t value) {
+  return value == std::numeric_limits<std::size_t>::max() ? "unlimited" : std::to_string(value);
+}
+std::string to_text(const Eigen::Vector3d& direction) {
+  return up_text(direction);
+}
+std::string to_text(const std::string& name) {
+  return name;
+}
+std::string to_text(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names)
+    list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+std::string to_text(GroundMethod method) {
+  return find_name(kGroundMethods, method);
+}
+std::string to_text(SphereGrowth growth) {
+  return find_name(kGrowths, growth);
+}
+std::string to_text(QueuePolicy policy) {
+  return find_name(kPolicies, policy);
+}
+std::string to_text(const std::optional<double>& value) {
+  return text_or_null(value);
+}
+std::string to_text(const std::optional<std::size_t>& value) {
+  return text_or_null(value);
+}
+std::string to_text(const std::optional<Eigen::Vector3d>& point) {
+  if (!point) return "null";
+  return to_text(point->x()) + ", " + to_text(point->y()) + ", " + to_text(point->z());
+}
+
+void read_text(std::string_view text, bool& value) {
+  read_name(kFlags, text, value);
+}
+void read_text(std::string_view text, double& value) {
+  if (!read_whole_text(text, value)) refuse(text, "a number");
+}
+void read_text(std::string_view text, std::size_t& value) {
+  if (text == "unlimited") {
+    value = std::numeric_limits<std::size_t>::max();
+  } else if (!read_whole_text(text, value)) {
+    refuse(text, "a whole number");
+  }
+}
+void read_text(std::string_view text, Eigen::Vector3d& direction) {
+  direction = parse_up(text);
+}
+void read_text(std::string_view text, std::string& name) {
+  name = text;
+}
+void read_text(std::string_view text, std::vector<std::string>& names) {
+  names.clear();
+  for (const std::string_view name : parts_of(text)) {
+    if (name == "all") {
+      for (const Method* method : methods_of_all())
+        names.emplace_back(method->name);
+    } else {
+      names.emplace_back(name);
+    }
+  }
+}
+void read_text(std::string_view text, GroundMethod& method) {
+  read_name(kGroundMethods, text, method);
+}
+void read_text(std::string_view text, SphereGrowth& growth) {
+  read_name(kGrowths, text, growth);
+}
+void read_text(std::string_view text, QueuePolicy& policy) {
+  read_name(kPolicies, text, policy);
+}
+void read_text(std::string_view text, std::optional<double>& value) {
+  read_or_null(text, value);
+}
+void read_text(std::string_view text, std::optional<std::size_t>& value) {
+  read_or_null(text, value);
+}
+void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point) {
+  point.reset();
+  if (text == "null") return;
+  const std::vector<std::string_view> parts = parts_of(text);
+  if (parts.size() != 3) throw std::invalid_argument("has not three numbers");
+  Eigen::Vector3d p;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    read_text(parts[static_cast<std::size_t>(k)], p[k]);
+  point = p;
+}
+
+}  // namespace pcl_bv

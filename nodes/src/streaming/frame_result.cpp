@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/frame_result.h"
+
+#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/report/picture.h"
+#include "stages/subset.h"
+
+namespace pcl_bv {
+
+PointView FrameResult::kept_points(const PointView& cloud) const {
+  if (counts.range == 0) return cloud;
+  return filtered ? view_of(*filtered, points, cloud.scalar) : subset(cloud, kept);
+}
+
+PointView FrameResult::points_of(std::size_t cluster, const PointView& cloud) const {
+  const std::size_t size = clusters.cluster_size(cluster);
+  if (size == 0) return cloud.slice(0, 0);
+  if (clusters.indices.empty()) return kept_points(cloud);
+  return subset(cloud, clusters.cluster(cluster), size);
+}
+
+std::vector<std::uint32_t> labels_of(const FrameResult& result, const PointView& cloud) {
+  std::vector<std::uint32_t> label(result.points, label_none);
+  for (const std::int32_t i : result.ground.ground)
+    label[static_cast<std::size_t>(i)] = label_ground;
+  for (std::size_t id = 0; id < result.clusters.size(); ++id) {
+    const PointView cluster = result.points_of(id, cloud);
+    for (std::size_t chunk = 0; chunk < chunk_count(cluster.count); ++chunk) {
+      const LoadedPoints loaded = load_chunk(cluster, chunk);
+      const PointView& part = loaded.view();
+      for (std::size_t i = 0; i < part.count; ++i) {
+        if (is_valid(load_point(part, i))) label[part.index(i)] = static_cast<std::uint32_t>(id);
+      }
+    }
+  }
+  return label;
+}
+
+std::vector<ClusterEntry> entries_of(const FrameResult& result) {
+  std::vector<ClusterEntry> entries(result.clusters.size());
+  for (std::size_t id = 0; id < entries.size(); ++id) {
+    entries[id].id = id;
+    entries[id].points = result.clusters.cluster_size(id);
+    for (std::size_t m = 0; m < result.methods.size(); ++m) {
+      VolumeEntry& volume = entries[id].volumes.emplace_back();
+      volume.method = result.methods[m]->name;
+      volume.volume = result.volume(id, m);
+      volume.failed = result.results[id * result.methods.size() + m].reason;
+    }
+  }
+  return entries;
+}
+
+}  // namespace pcl_bv
