@@ -36,6 +36,7 @@ std::optional<PcdHeader> binary_header(const InputFile& file, const std::filesys
                                        std::size_t bin_fields) {
   const std::string extension = lower_case_extension(path);
   if (extension == ".ply" || extension == ".las" || extension == ".laz") return std::nullopt;
+  refuse_other_formats(path);
   PcdHeader header = extension == ".bin" ? read_bin_header(file, path, bin_fields) : read_pcd_header(file);
   if (header.encoding != PcdEncoding::binary) return std::nullopt;
   require_records(file, header);

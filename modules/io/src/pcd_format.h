@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 #include "pcl_bv/io/pcd.h"
@@ -41,5 +42,8 @@ std::string format_ascii_points(const RawCloud& cloud);
 /// The block of all points, without padding fields: two sizes, then the packed bytes. Throws IoError if there
 /// is too much to pack.
 std::string compress_points(const RawCloud& cloud);
+
+/// Throws IoError, saying what it is, for a name of a known format that holds no clouds or none that is read.
+void refuse_other_formats(const std::filesystem::path& path);
 
 }  // namespace pcl_bv

@@ -74,6 +74,21 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+void refuse_other_formats(const std::filesystem::path& path) {
+  struct Kind {
+    std::string_view extensions, what;
+  };
+  constexpr Kind kinds[] = {
+      {" .obj .stl .off .gltf .glb .dae .3ds ", "is a mesh, no cloud: sample points of it, as with pcl_mesh_sampling"},
+      {" .e57 .rcp .rcs .fls .zfs ", "is a scanner's own format: convert it to .las, .ply or .pcd"},
+      {" .bag .mcap .db3 .pcap ", "is a recording, no cloud: extract its clouds as .pcd files"},
+      {" .xyz .txt .csv .asc .pts ", "is plain text: a .pcd header before the lines makes it a cloud"}};
+  const std::string extension = " " + lower_case_extension(path) + " ";
+  for (const auto& [extensions, what] : kinds) {
+    if (extensions.find(extension) != std::string_view::npos) throw IoError(std::string(what));
+  }
+}
+
 bool is_cloud_name(const std::filesystem::path& path) {
   const std::string extension = lower_case_extension(path);
   constexpr std::array known{".pcd", ".ply", ".bin", ".las", ".laz"};
@@ -102,6 +117,7 @@ RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& pol
   if (extension == ".ply") return read_ply(path, policy);
   if (extension == ".bin") return read_bin(path, bin_fields);
   if (extension == ".las" || extension == ".laz") return read_las(path);
+  refuse_other_formats(path);
   return read_pcd(path, policy);
 }
 

@@ -177,6 +177,7 @@ std::string report_json(const Report& report) {
     json["error"] = *report.error;
   } else {
     json["points"] = report.points;
+    if (report.origin) json["origin"] = {(*report.origin)[0], (*report.origin)[1], (*report.origin)[2]};
     json["counts"] = counts_json(report.counts);
     if (report.info) json["info"] = info_json(*report.info);
     json["clusters"] = Json::array();

@@ -7,6 +7,8 @@
 #include <cstdio>
 
 #include "pcl_bv/report/report.h"
+#include "shortest.h"
+#include "shown_method.h"
 
 namespace pcl_bv {
 namespace {
@@ -55,7 +57,7 @@ int choose_decimals(const Report& report) {
 
 Row volume_row(const VolumeEntry& entry, int decimals) {
   Row row;
-  row[method_column] = entry.method;
+  row[method_column] = shown_method(entry);
   if (entry.outside) row[10] = std::to_string(*entry.outside);
   if (empty(entry.volume)) {
     row[3] = entry.failed.empty() ? "empty" : "failed";
@@ -142,6 +144,11 @@ std::string header(const Report& report) {
     text += "; read " + format("%.*f", 1, report.seconds->read * 1e3);
     text += ", segment " + format("%.*f", 1, report.seconds->segment * 1e3);
     text += ", fit " + format("%.*f", 1, report.seconds->fit * 1e3) + " ms";
+  }
+  if (report.origin) {
+    text += "\n  coordinates less origin";
+    for (int axis = 0; axis < 3; ++axis)
+      text += ' ' + shortest((*report.origin)[axis]);
   }
   return text + '\n';
 }

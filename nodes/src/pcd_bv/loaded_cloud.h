@@ -8,26 +8,35 @@
 
 #include "inputs.h"
 #include "pcl_bv/io/cloud_file.h"
+#include "stages/shifted_points.h"
 
 namespace pcl_bv {
 
 class LoadedCloud {
  public:
   /// `hold`: whether it has to be in memory; then the policy says on which threads it is read. Throws what
-  /// load_cloud() throws.
-  LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy);
+  /// load_cloud() throws. What `origin` asks for is subtracted from the points of xyz().
+  LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy, const OriginOption& origin);
 
   /// Fields, size and viewpoint; the points only if it is held.
   const RawCloud& cloud() const { return file_ ? file_->header() : held_; }
 
-  PointView xyz() const { return file_ ? file_->xyz() : held_.xyz(); }
+  PointView xyz() const;
+
+  /// What was subtracted, if that was asked for.
+  const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
   /// To be changed by its last user.
   RawCloud take() { return std::move(held_); }
 
  private:
+  PointView stored() const { return file_ ? file_->xyz() : held_.xyz(); }
+
   std::unique_ptr<CloudFile> file_;
   RawCloud held_;
+  std::optional<Eigen::Vector3d> origin_;
+  std::unique_ptr<ShiftedPoints> shifted_;
+  std::vector<double> near_;  // the shifted points, if they have to be in memory
 };
 
 }  // namespace pcl_bv

@@ -32,7 +32,7 @@ PCL_BV_ISA in the environment sets the default of --isa.)";
 /// The command line as texts, before the values are looked at.
 struct Texts {
   std::vector<std::string> inputs;
-  std::string format, output, labels, mesh, image, view, bin_fields;
+  std::string format, output, labels, mesh, image, view, bin_fields, origin;
   bool check = false, info = false, timings = false, progress = false;
 };
 
@@ -40,6 +40,8 @@ void declare(CommandLine& line, Texts& texts) {
   line.option("INPUT", texts.inputs, "",
               ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]]");
   line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
+  line.option("--origin", texts.origin, "X,Y,Z",
+              "Subtract this, or auto: whole numbers in the middle of each cloud");
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   line.option("--labels", texts.labels, "FILE.pcd",
@@ -106,6 +108,7 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   options.inputs = texts.inputs;
   options.pipeline = std::move(config);
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
+  if (line.given("--origin")) options.origin = parse_origin(texts.origin);
   read_outputs(line, texts, options);
   return options;
 }

@@ -19,9 +19,16 @@ namespace pcl_bv {
 
 enum class OutputFormat { text, json, jsonl, csv };
 
+/// What is subtracted from all coordinates before anything else.
+struct OriginOption {
+  bool asked = false;
+  std::optional<Eigen::Vector3d> at{};  ///< If not given: the middle of each cloud, in whole numbers.
+};
+
 struct Options {
   std::vector<std::string> inputs;
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
+  OriginOption origin;
   PipelineConfig pipeline;
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image;

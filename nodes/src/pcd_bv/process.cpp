@@ -6,6 +6,8 @@
 #include "process.h"
 
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <new>
 #include <utility>
@@ -118,11 +120,32 @@ Status write_files(const Job& job, const Options& options, const FrameResult& re
   return status;
 }
 
+/// What a user would want to know before believing the results.
+std::vector<std::string> remarks(const Options& options, const FrameResult& result, const PointView& points) {
+  std::vector<std::string> said;
+  const std::string ground = ground_remark(options.pipeline, result);
+  if (!ground.empty()) said.push_back(ground);
+  Aabb box;
+  for (std::size_t id = 0; id < result.clusters.size(); ++id)
+    box.merge(aabb(result.volume(id, 0)));
+  const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
+  const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
+  // A centimetre, and not only because the cloud is large.
+  if (points.scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm()) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
+                  "--origin auto) or subtract an origin before", farthest, step);
+    said.emplace_back(text);
+  }
+  return said;
+}
+
 Status process(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
   Stopwatch watch;
   const ParallelPolicy policy = options.pipeline.policy();
   const bool told_apart = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
-  LoadedCloud loaded(job, told_apart || job.labels, policy);
+  LoadedCloud loaded(job, told_apart || job.labels, policy, options.origin);
   const double read = watch.lap();
   if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
   FrameResult result;
@@ -130,6 +153,9 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   report.points = result.points;
   report.counts = result.counts;
   report.clusters = entries_of(result);
+  report.origin = loaded.origin();
+  for (const std::string& remark : remarks(options, result, loaded.xyz()))
+    complain(job.input + ": " + remark);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
     report.info = CloudInfo{cloud_statistics(loaded.xyz(), policy), cloud.width, cloud.height, cloud.fields};

@@ -6,8 +6,17 @@
 #include "values.h"
 
 #include "command/values.h"
+#include "pcl_bv/nodes/settings.h"
 
 namespace pcl_bv {
+
+OriginOption parse_origin(std::string_view text) {
+  OriginOption origin{true, {}};
+  if (text == "auto") return origin;
+  parse_with("--origin", text, [&](std::string_view numbers) { read_text(numbers, origin.at); });
+  if (origin.at && origin.at->allFinite()) return origin;
+  throw UsageError("--origin: " + quoted(text) + " is not X,Y,Z, all finite, or auto");
+}
 
 OutputFormat parse_format(std::string_view text) {
   if (text == "text") return OutputFormat::text;

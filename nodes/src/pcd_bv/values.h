@@ -11,6 +11,7 @@
 namespace pcl_bv {
 
 /// All of these throw UsageError.
+OriginOption parse_origin(std::string_view text);
 OutputFormat parse_format(std::string_view text);
 ViewFrom parse_view(std::string_view text);
 

@@ -5,6 +5,7 @@
 
 #include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/report/picture.h"
+#include "pcl_bv/segmentation/up.h"
 #include "stages/subset.h"
 
 namespace pcl_bv {
@@ -36,6 +37,18 @@ std::vector<std::uint32_t> labels_of(const FrameResult& result, const PointView&
     }
   }
   return label;
+}
+
+std::string ground_remark(const PipelineConfig& config, const FrameResult& result) {
+  const Counts& counts = result.counts;
+  const std::size_t looked_at = result.points - counts.nonfinite - counts.range;
+  if (config.ground.method == GroundMethod::none || looked_at == 0) return {};
+  const std::string tried = " (up is " + up_text(config.ground.up) + ")";
+  if (counts.ground == 0)
+    return "no ground found" + tried + ": try --up, --sensor-height, --ground-slope, or --ground none";
+  if (counts.ground == looked_at)
+    return "all points are taken for ground" + tried + ": try --up, --ground-distance, or --ground none";
+  return {};
 }
 
 std::vector<ClusterEntry> entries_of(const FrameResult& result) {

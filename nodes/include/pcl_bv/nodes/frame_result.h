@@ -13,6 +13,7 @@
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/ground_plane.h"
@@ -57,6 +58,9 @@ struct FrameResult {
 
 /// For each point of the cloud the number of its cluster, label_ground, or label_none.
 std::vector<std::uint32_t> labels_of(const FrameResult& result, const PointView& cloud);
+
+/// If ground was asked for and there is none, or nothing else: that, and which settings to try; else nothing.
+std::string ground_remark(const PipelineConfig& config, const FrameResult& result);
 
 /// The clusters as they are reported.
 std::vector<ClusterEntry> entries_of(const FrameResult& result);

@@ -48,6 +48,7 @@ struct CloudInfo : CloudStatistics {
 struct Report {
   std::string file;        ///< As the user named it; invalid UTF-8 is replaced where it is written.
   std::size_t points = 0;  ///< All points of the input, good or bad.
+  std::optional<Eigen::Vector3d> origin;  ///< What was subtracted from all coordinates, if something was.
   Counts counts;
   std::vector<ClusterEntry> clusters;
   std::optional<CloudInfo> info;

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What is promised, proven: no point outside by exact arithmetic, and no smaller sphere.
+#include <pcl_bv/fitting/fit.h>
+#include <pcl_bv/fitting/methods.h>
+#include <pcl_bv/fitting/verify.h>
+
+#include <iostream>
+#include <random>
+#include <vector>
+
+int main() {
+  std::mt19937 random(1);
+  std::normal_distribution<float> normal;
+  std::vector<float> xyz(3 * 10'000);
+  for (float& coordinate : xyz) coordinate = normal(random);
+  const pcl_bv::PointView points = pcl_bv::PointView::of(xyz.data(), 3 * sizeof(float), xyz.size() / 3);
+
+  std::size_t outside = 0;
+  for (const pcl_bv::Method* method : pcl_bv::methods_of_all()) {
+    pcl_bv::AnyVolume volume;
+    method->fit(points, volume, {});
+    const pcl_bv::Verification proof = pcl_bv::verify(volume, points);  // in rationals, on the bits as stored
+    std::cout << method->name << ": " << proof.checked << " points, " << proof.outside << " outside\n";
+    outside += proof.outside;
+  }
+
+  pcl_bv::Sphere sphere;
+  pcl_bv::SphereCertificate certificate;  // up to four points, weighted
+  pcl_bv::fit_smallest_sphere(points, sphere, certificate);
+  std::cout << "radius " << sphere.radius() << ", of no enclosing sphere below " << certificate.lower_bound << "\n";
+  return outside == 0 && sphere.radius() <= certificate.lower_bound * (1 + 1e-12) ? 0 : 1;
+}

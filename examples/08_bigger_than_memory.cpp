@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A file that need not fit into memory: its points come past in blocks, as often as the volumes need.
+#include <pcl_bv/fitting/fit.h>
+#include <pcl_bv/io/cloud_file.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+int main(int argc, char** argv) {
+  const std::filesystem::path path = argc > 1 ? argv[1] : "/tmp/pcl_bv_example_grid.bin";
+  if (argc == 1) {  // no file at hand: 100 000 points, each x y z intensity
+    std::ofstream grid(path, std::ios::binary);
+    for (int i = 0; i < 100'000; ++i) {
+      const float point[4] = {0.1F * static_cast<float>(i % 100), 0.1F * static_cast<float>(i / 100), 1, 0};
+      grid.write(reinterpret_cast<const char*>(point), sizeof point);
+    }
+  }
+  const auto file = pcl_bv::CloudFile::open(path);  // null for files that cannot be read in blocks
+  if (file == nullptr) return 1;
+  pcl_bv::Aabb box;
+  const pcl_bv::EstimationResult result = pcl_bv::fit_aabb(file->xyz(), box, {pcl_bv::Threads{0}});
+  pcl_bv::Sphere sphere;
+  pcl_bv::fit_smallest_sphere(file->xyz(), sphere);
+  std::cout << result.used << " points, box of " << box.volume() << " m3, radius " << sphere.radius() << "\n";
+  return result.used > 0 ? 0 : 1;
+}

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// All volumes of a file that pcd_bv or bv_stream has written as JSON, or of one by hand: whatever objects in
+/// it have a "shape", with the numbers of report_json(), at any depth, one document or one a line. Those that
+/// are empty or failed are left out; the others come out bit by bit as they were. Throws IoError for a file
+/// that cannot be read, is no JSON, has a shape without its numbers, or no shape at all.
+std::vector<AnyVolume> read_volumes(const std::filesystem::path& file);
+
+}  // namespace pcl_bv
