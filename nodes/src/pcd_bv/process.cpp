@@ -148,8 +148,10 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   LoadedCloud loaded(job, told_apart || job.labels, policy, options.origin);
   const double read = watch.lap();
   if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
+  Frame frame;
+  frame.points = loaded.xyz();
   FrameResult result;
-  pipeline.process({{}, loaded.xyz(), nullptr, 0}, result);
+  pipeline.process(frame, result);
   report.points = result.points;
   report.counts = result.counts;
   report.clusters = entries_of(result);
