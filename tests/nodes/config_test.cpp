@@ -29,7 +29,7 @@ TEST(StreamConfig, WithoutKeysIsTheDefault) {
 TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   StreamConfig config;
   config.pipeline.filter = {0.1, 123.456789012345, Eigen::Vector3d(-1, -2, -0.1), Eigen::Vector3d(1.5, 2, 3)};
-  config.pipeline.ground = {GroundMethod::plane, UpAxis::minus_y, 1.0 / 3, 0.07, 12};
+  config.pipeline.ground = {GroundMethod::plane, {0.1, -2, 1e-3}, 1.0 / 3, 0.07, 12};
   config.pipeline.cluster = {0.3, 0, 5000};
   config.pipeline.volumes = {"dop26", "sphere-exact"};
   config.pipeline.track = {true, 1.25, 2, 9};
@@ -42,13 +42,25 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.pipeline.filter.range_max, 123.456789012345);
   EXPECT_EQ(read.pipeline.filter.own_box_max, Eigen::Vector3d(1.5, 2, 3));
   EXPECT_EQ(read.pipeline.ground.method, GroundMethod::plane);
-  EXPECT_EQ(read.pipeline.ground.up, UpAxis::minus_y);
+  EXPECT_EQ(read.pipeline.ground.up, Eigen::Vector3d(0.1, -2, 1e-3));
   EXPECT_EQ(read.pipeline.ground.sensor_height, 1.0 / 3);
   EXPECT_EQ(read.pipeline.cluster.max_size, 5000U);
   EXPECT_EQ(read.pipeline.volumes, config.pipeline.volumes);
   EXPECT_TRUE(read.pipeline.track.enabled);
   EXPECT_EQ(read.runner.policy, QueuePolicy::block);
   EXPECT_EQ(read.runner.max_age_ms, 12.5);
+}
+
+TEST(StreamConfig, UpIsAVectorOfAnyLengthAboveZero) {
+  EXPECT_EQ(parse_stream_config("ground:\n  up: -3,0,4\n", "").pipeline.ground.up, Eigen::Vector3d(-3, 0, 4));
+  EXPECT_EQ(parse_stream_config("ground: {up: -y}", "").pipeline.ground.up, Eigen::Vector3d(0, -1, 0));
+  EXPECT_THAT(to_yaml(StreamConfig()), HasSubstr("  up: z  # x, y, z, -x, -y, -z or X,Y,Z\n"));
+  PipelineConfig config;
+  config.ground.up = {0, 0, 0};
+  EXPECT_THAT(config.validate(),
+              testing::ElementsAre("ground.up: 0,0,0 is not three finite numbers, not all 0"));
+  config.ground.up = {0, NAN, 1};
+  EXPECT_THAT(config.validate(), testing::ElementsAre(HasSubstr("ground.up: 0,nan,1 is not")));
 }
 
 TEST(StreamConfig, OtherKeysKeepTheirDefaults) {
@@ -85,7 +97,8 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"filter: {own_box_min: [0, 0]}", "filter.own_box_min: has not three numbers"},
       {"filter: {range_min: far}", "filter.range_min: 'far' is not a number (m)"},
       {"ground:\n  method: zone", "line 2: ground.method: 'zone' is not one of none, plane, zones"},
-      {"ground: {up: w}", "ground.up: "},
+      {"ground: {up: w}", "ground.up: up is 'w', must be x, y, z, -x, -y, -z or X,Y,Z"},
+      {"ground:\n  up: 0,0,0", "line 2: ground.up: up is '0,0,0'"},
       {"ground: {max_slope_degrees: 90}", "is not at least 0 and at most 89"},
       {"ground: {distance: 0}", "ground.distance: 0 is not above 0"},
       {"cluster: {tolerance: -0.5}", "cluster.tolerance: -0.5 is not at least 0"},

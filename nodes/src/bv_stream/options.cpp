@@ -12,6 +12,7 @@
 #include "command/values.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
+#include "pcl_bv/segmentation/up.h"
 
 namespace pcl_bv {
 namespace {
@@ -48,7 +49,7 @@ void declare(CommandLine& line, Texts& t) {
   line.option("--range", t.range, "MIN:MAX",
               "Drop points nearer or farther than this from the origin (0.5:inf)");
   line.option("--ground", t.ground, "KIND", "Take the ground away first: none, plane or zones (zones)");
-  line.option("--up", t.up, "AXIS", "Against gravity: x, y, z, -x, -y or -z (z)");
+  line.option("--up", t.up, "AXIS", "Against gravity: x, y, z, -x, -y, -z or X,Y,Z (z)");
   line.option("--sensor-height", t.sensor_height, "M", "Of the origin above the ground (learnt)");
   line.option("--cluster", t.cluster, "TOL", "Points nearer than TOL to each other are one object (0.5)");
   line.option("--min-size", t.min_size, "N", "Drop clusters of fewer points (10)");
@@ -92,7 +93,7 @@ StreamConfig read_config(const CommandLine& line, const Texts& t) {
   if (line.given("--range"))
     std::tie(pipeline.filter.range_min, pipeline.filter.range_max) = parse_range(t.range);
   if (line.given("--ground")) pipeline.ground.method = parse_with("--ground", t.ground, parse_ground_method);
-  if (line.given("--up")) pipeline.ground.up = parse_with("--up", t.up, parse_up_axis);
+  if (line.given("--up")) pipeline.ground.up = parse_with("--up", t.up, parse_up);
   if (line.given("--sensor-height")) pipeline.ground.sensor_height = parse_sensor_height(t.sensor_height);
   if (line.given("--cluster")) pipeline.cluster.tolerance = number("--cluster", t.cluster, "a distance");
   if (line.given("--min-size")) pipeline.cluster.min_size = parse_whole_number("--min-size", t.min_size);

@@ -10,6 +10,7 @@
 #include "command/command_line.h"
 #include "command/values.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/segmentation/up.h"
 #include "values.h"
 
 namespace pcl_bv {
@@ -57,7 +58,7 @@ void declare(CommandLine& line, Texts& texts) {
   line.option("--ground", texts.ground, "KIND",
               "Take the ground away first: plane, zones (outdoors) or none (none)");
   line.option("--up", texts.up, "AXIS",
-              "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z (z)");
+              "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z or X,Y,Z (z)");
   line.option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
@@ -99,7 +100,7 @@ void require_extension(const char* option, const std::string& name,
 }
 
 /// For those who ask: the ground and upright boxes.
-void set_up(UpAxis up, bool wants_ground, Options& options) {
+void set_up(const Eigen::Vector3d& up, bool wants_ground, Options& options) {
   const bool wants_upright = std::any_of(options.methods.begin(), options.methods.end(),
                                          [](const Method* method) { return method->upright; });
   if (!wants_ground && !wants_upright) {
@@ -162,8 +163,7 @@ Options to_options(const CommandLine& line, const Texts& texts) {
   options.methods = line.given("--volume") ? parse_methods(texts.volume) : default_methods();
   read_segmentation(line, texts, options);
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
-  if (line.given("--up"))
-    set_up(parse_with("--up", texts.up, parse_up_axis), line.given("--ground"), options);
+  if (line.given("--up")) set_up(parse_with("--up", texts.up, parse_up), line.given("--ground"), options);
   if (line.given("--growth"))
     options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
   read_outputs(line, texts, options);

@@ -30,8 +30,8 @@ enum class GroundKind { plane, zones };
 /// What is taken for ground.
 struct GroundOptions {
   GroundKind kind = GroundKind::plane;
-  UpAxis up = UpAxis::z;
-  std::optional<double> sensor_height;  ///< Metres; learnt if not given.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
+  std::optional<double> sensor_height;            ///< Metres; learnt if not given.
 };
 
 enum class OutputFormat { text, json, jsonl, csv };

@@ -20,7 +20,7 @@ float parse_tolerance(std::string_view text) {
 std::optional<GroundOptions> parse_ground(std::string_view kind) {
   if (kind == "none") return std::nullopt;
   if (kind == "plane") return GroundOptions{};
-  if (kind == "zones") return GroundOptions{GroundKind::zones, UpAxis::z, {}};
+  if (kind == "zones") return GroundOptions{.kind = GroundKind::zones, .sensor_height = {}};
   throw UsageError("--ground: unknown kind " + quoted(kind) + "; known are none, plane, zones");
 }
 

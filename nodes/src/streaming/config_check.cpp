@@ -10,6 +10,7 @@
 
 #include "config_fields.h"
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/segmentation/up.h"
 
 namespace pcl_bv {
 
@@ -44,6 +45,9 @@ class Checker {
   }
   void optional_point(const char* key, const std::optional<Eigen::Vector3d>& value, const char*) {
     if (value && !value->allFinite()) add(key, "a coordinate is not finite");
+  }
+  void direction(const char* key, const Eigen::Vector3d& up, const char*) {
+    if (!up.allFinite() || up.isZero(0)) add(key, up_text(up) + " is not three finite numbers, not all 0");
   }
   template <typename Choice>
   void choice(const char*, Choice, const char*) {}

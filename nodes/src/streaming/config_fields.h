@@ -28,7 +28,7 @@ void visit_pipeline(Pipeline& c, Visitor&& visit) {
   visit.optional_point("filter.own_box_min", c.filter.own_box_min, "m, [x, y, z]");
   visit.optional_point("filter.own_box_max", c.filter.own_box_max, "m, [x, y, z]");
   visit.choice("ground.method", c.ground.method, "none, plane, zones");
-  visit.choice("ground.up", c.ground.up, "x, y, z, -x, -y, -z");
+  visit.direction("ground.up", c.ground.up, "x, y, z, -x, -y, -z or X,Y,Z");
   visit.optional_number("ground.sensor_height", c.ground.sensor_height, NumberRange{}, "m");
   visit.optional_number("ground.distance", c.ground.distance, NumberRange{0, false},
                         "m; null: 0.2 of a plane, 0.15 of zones");
@@ -63,8 +63,6 @@ struct ConfigProblem {
 
 std::vector<ConfigProblem> problems_of(const PipelineConfig& config);
 std::vector<ConfigProblem> problems_of(const StreamConfig& config);
-
-std::string_view name_of(UpAxis axis);
 
 /// The fewest digits that read back as exactly this double.
 std::string digits_of(double value);

@@ -20,12 +20,6 @@ constexpr Names<GroundMethod, 3> kGroundMethods{
 constexpr Names<QueuePolicy, 3> kPolicies{{{"drop_oldest", QueuePolicy::drop_oldest},
                                            {"drop_newest", QueuePolicy::drop_newest},
                                            {"block", QueuePolicy::block}}};
-constexpr Names<UpAxis, 6> kAxes{{{"x", UpAxis::x},
-                                  {"y", UpAxis::y},
-                                  {"z", UpAxis::z},
-                                  {"-x", UpAxis::minus_x},
-                                  {"-y", UpAxis::minus_y},
-                                  {"-z", UpAxis::minus_z}}};
 
 template <typename Choice, std::size_t n>
 Choice parse(const Names<Choice, n>& names, std::string_view text) {
@@ -58,9 +52,6 @@ QueuePolicy parse_queue_policy(std::string_view text) {
 }
 std::string_view name_of(QueuePolicy policy) {
   return find_name(kPolicies, policy);
-}
-std::string_view name_of(UpAxis axis) {
-  return find_name(kAxes, axis);
 }
 
 }  // namespace pcl_bv

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "config_fields.h"
+#include "pcl_bv/segmentation/up.h"
 
 namespace pcl_bv {
 namespace {
@@ -57,7 +58,7 @@ class Reader {
     value = Eigen::Vector3d(point[0], point[1], point[2]);
   }
   void choice(const char* key, GroundMethod& value, const char*) { read(key, value, parse_ground_method); }
-  void choice(const char* key, UpAxis& value, const char*) { read(key, value, parse_up_axis); }
+  void direction(const char* key, Eigen::Vector3d& up, const char*) { read(key, up, parse_up); }
   void choice(const char* key, QueuePolicy& value, const char*) { read(key, value, parse_queue_policy); }
   void flag(const char* key, bool& value) {
     if (const YAML::Node* node = take(key)) value = convert<bool>(key, *node, "true or false", "");
@@ -170,6 +171,9 @@ class Writer {
   }
   void optional_point(const char* key, const std::optional<Eigen::Vector3d>& p, const char* unit) {
     put(key, p ? '[' + text(p->x()) + ", " + text(p->y()) + ", " + text(p->z()) + ']' : "null", unit);
+  }
+  void direction(const char* key, const Eigen::Vector3d& up, const char* known) {
+    put(key, up_text(up), known);
   }
   template <typename Choice>
   void choice(const char* key, Choice value, const char* known) {

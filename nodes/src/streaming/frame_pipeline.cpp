@@ -13,6 +13,7 @@
 
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
 #include "stages/ground.h"
 #include "tracked_volumes.h"

@@ -39,7 +39,7 @@ std::string_view name_of(GroundMethod method);
 
 struct GroundConfig {
   GroundMethod method = GroundMethod::zones;
-  UpAxis up = UpAxis::z;                ///< Against gravity.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
   std::optional<double> sensor_height;  ///< Of the origin above the ground, metres; learnt if not given.
   /// Points at most this far above the ground belong to it, metres; if not given, what the method's settings
   /// say.
