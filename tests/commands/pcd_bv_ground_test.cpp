@@ -81,6 +81,7 @@ TEST_F(PcdBv, UpSaysWhereTheGroundIs) {
       {"z", floor_and_two_blocks("xyz")}, {"-z", floor_and_two_blocks("xyz", -1)},
       {"y", floor_and_two_blocks("xzy")}, {"-y", floor_and_two_blocks("xzy", -1)},
       {"x", floor_and_two_blocks("zyx")}, {"-x", floor_and_two_blocks("zyx", -1)},
+      {"0,0,2", floor_and_two_blocks()},  {"-0.5,0.01,0", floor_and_two_blocks("zyx", -1)},
   };
   for (const auto& [up, points] : cases) {
     SCOPED_TRACE(up);
@@ -126,7 +127,8 @@ TEST_F(PcdBv, ZonesFollowARoadThatClimbs) {
 TEST_F(PcdBv, BadGroundValuesAreWrongUse) {
   const std::string cloud = ascii("floor.pcd", {"1 2 3"});
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"--ground", "plane", "--up", "w"}, "--up"},
+      {{"--ground", "plane", "--up", "w"}, "--up: up is 'w', must be x, y, z, -x, -y, -z or X,Y,Z"},
+      {{"--ground", "plane", "--up", "0,0,0"}, "--up: up is '0,0,0'"},
       {{"--up", "y"}, "--up: only useful with --ground or an upright box"},
       {{"--sensor-height", "1.7"}, "--sensor-height: only useful with --ground"},
       {{"--ground", "plane", "--sensor-height", "-1"}, "'-1' is not a finite height of at least 0"},

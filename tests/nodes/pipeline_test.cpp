@@ -13,6 +13,7 @@
 #include "frames.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/nodes/frame_source.h"
+#include "pcl_bv/segmentation/up.h"
 
 namespace pcl_bv {
 namespace {
@@ -149,13 +150,13 @@ TEST(Pipeline, ANewConfigurationCountsFromTheNextFrame) {
   EXPECT_EQ(pipeline.config().volumes, (std::vector<std::string>{"dop14"}));
 }
 
-TEST(Pipeline, UprightBoxesStandOnTheConfiguredAxis) {
+TEST(Pipeline, UprightBoxesStandAgainstGravityWhateverItsLength) {
   std::vector<float> xyz;
   for (int i = 0; i < 300; ++i)
     xyz.insert(xyz.end(), {5 + 0.01F * static_cast<float>(i), 0.3F * static_cast<float>(i % 5),
                            0.02F * static_cast<float>(i % 60)});
   PipelineConfig config;
-  config.ground = {GroundMethod::none, UpAxis::y, {}, {}, {}};
+  config.ground = {GroundMethod::none, {1e-40, 2e-40, -2e-40}, {}, {}, {}};
   config.cluster.tolerance = 0;
   config.volumes = {"obb-yaw", "obb-lshape"};
   FramePipeline pipeline(config);
@@ -164,7 +165,7 @@ TEST(Pipeline, UprightBoxesStandOnTheConfiguredAxis) {
   pipeline.process(frame, result);
   ASSERT_EQ(result.clusters.size(), 1U);
   MethodOptions options;
-  options.up = Eigen::Vector3d::UnitY();
+  options.up = up_direction(config.ground.up);
   for (std::size_t m = 0; m < 2; ++m) {
     AnyVolume expected;
     result.methods[m]->fit(frame.points, expected, {}, options);

@@ -19,21 +19,9 @@ double slope_degrees(const GroundSplit& result) {
   return std::acos(result.normal.z()) * 180 / std::numbers::pi;
 }
 
-TEST(UpAxis, IsReadFromItsSixNamesOnly) {
-  EXPECT_EQ(up_direction(parse_up_axis("x")), Eigen::Vector3d(1, 0, 0));
-  EXPECT_EQ(up_direction(parse_up_axis("y")), Eigen::Vector3d(0, 1, 0));
-  EXPECT_EQ(up_direction(parse_up_axis("z")), Eigen::Vector3d(0, 0, 1));
-  EXPECT_EQ(up_direction(parse_up_axis("-x")), Eigen::Vector3d(-1, 0, 0));
-  EXPECT_EQ(up_direction(parse_up_axis("-y")), Eigen::Vector3d(0, -1, 0));
-  EXPECT_EQ(up_direction(parse_up_axis("-z")), Eigen::Vector3d(0, 0, -1));
-  for (const char* text : {"", "-", "Z", "+z", "z ", "w", "--z"}) {
-    EXPECT_THROW(parse_up_axis(text), std::invalid_argument) << text;
-  }
-}
-
 TEST(GroundPlane, SettingsAreThoseOfTheDocumentationAtFirst) {
   const GroundPlaneSettings settings;
-  EXPECT_EQ(settings.up, UpAxis::z);
+  EXPECT_EQ(settings.up, Eigen::Vector3d::UnitZ());
   EXPECT_EQ(settings.distance, 0.2);
   EXPECT_EQ(settings.max_slope_degrees, 15);
   EXPECT_FALSE(settings.sensor_height);
@@ -110,14 +98,41 @@ TEST(GroundPlane, FollowsTheUpAxis) {
   const GroundSplit expected = split(upright);
   ASSERT_TRUE(expected.found);
   EXPECT_EQ(expected.ground, numbers(0, 2000));
-  for (int axis = 0; axis < 6; ++axis) {
+  for (unsigned axis = 0; axis < 6; ++axis) {
     SCOPED_TRACE(axis);
     GroundPlaneSettings settings;
-    settings.up = static_cast<UpAxis>(axis);
-    const GroundSplit result = split(turned(upright, settings.up), settings);
+    settings.up = axis_up(axis);
+    const GroundSplit result = split(turned(upright, axis), settings);
     ASSERT_TRUE(result.found);
-    EXPECT_GT(result.normal.dot(up_direction(settings.up)), 0.99);
+    EXPECT_GT(result.normal.dot(settings.up), 0.99);
     EXPECT_EQ(result.ground, expected.ground);
+  }
+  for (std::uint32_t seed = 1; seed <= 50; ++seed) {
+    SCOPED_TRACE(seed);
+    const Eigen::Matrix3d rotation = any_rotation(seed);
+    GroundPlaneSettings settings;
+    settings.up = 0.1 * seed * rotation.col(2);
+    const GroundSplit result = split(turned(upright, rotation), settings);
+    ASSERT_TRUE(result.found);
+    EXPECT_LT((result.normal - rotation * expected.normal).norm(), 1e-3);
+    EXPECT_EQ(result.ground, expected.ground);
+    for (const double scale : {0.25, 0x1p-600, 0x1p600}) {
+      GroundPlaneSettings other = settings;
+      other.up *= scale;
+      const GroundSplit same = split(turned(upright, rotation), other);
+      EXPECT_EQ(same.normal, result.normal);
+      EXPECT_EQ(same.offset, result.offset);
+    }
+  }
+}
+
+TEST(GroundPlane, RefusesAnUpThatIsNone) {
+  GroundPlaneSettings settings;
+  for (const Eigen::Vector3d& up :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, NAN, 1), Eigen::Vector3d(INFINITY, 0, 0)}) {
+    settings.up = up;
+    for (const Cloud<float>& cloud : {Cloud<float>{}, Cloud<float>{{0, 0, 0}}})
+      EXPECT_THROW(split(cloud, settings), std::invalid_argument);
   }
 }
 
@@ -178,8 +193,8 @@ TEST(GroundPlane, IsFoundUnderAForest) {
     SCOPED_TRACE(seed);
     GroundPlaneSettings settings;
     settings.seed = seed;
-    settings.up = static_cast<UpAxis>(seed % 6);
-    EXPECT_EQ(split(turned(cloud, settings.up), settings).ground, numbers(0, 1500));
+    settings.up = axis_up(seed % 6);
+    EXPECT_EQ(split(turned(cloud, seed % 6), settings).ground, numbers(0, 1500));
   }
 }
 

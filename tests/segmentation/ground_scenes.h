@@ -11,6 +11,8 @@
 #include <random>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "pcl_bv/segmentation/ground_plane.h"
 
 namespace pcl_bv {
@@ -36,9 +38,13 @@ inline std::vector<std::int32_t> numbers(std::size_t begin, std::size_t end) {
   return result;
 }
 
-/// A cloud whose z is up, turned so that `up` is.
-inline Cloud<float> turned(const Cloud<float>& upright, UpAxis up) {
-  const auto axis = static_cast<std::size_t>(up);
+/// x, y, z, -x, -y or -z.
+inline Eigen::Vector3d axis_up(unsigned number) {
+  return (number < 3 ? 1 : -1) * Eigen::Vector3d::Unit(number % 3);
+}
+
+/// A cloud whose z is up, turned so that axis_up() of this number is.
+inline Cloud<float> turned(const Cloud<float>& upright, unsigned axis) {
   Cloud<float> result;
   for (const auto& p : upright) {
     std::array<float, 3> q;
@@ -46,6 +52,23 @@ inline Cloud<float> turned(const Cloud<float>& upright, UpAxis up) {
     q[(axis + 1) % 3] = p[0];
     q[(axis + 2) % 3] = p[1];
     result.push_back(q);
+  }
+  return result;
+}
+
+/// A random rotation.
+inline Eigen::Matrix3d any_rotation(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+  return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+}
+
+inline Cloud<float> turned(const Cloud<float>& cloud, const Eigen::Matrix3d& rotation) {
+  Cloud<float> result;
+  for (const auto& p : cloud) {
+    const Eigen::Vector3f q = (rotation * Eigen::Vector3d(p[0], p[1], p[2])).cast<float>();
+    result.push_back({q.x(), q.y(), q.z()});
   }
   return result;
 }

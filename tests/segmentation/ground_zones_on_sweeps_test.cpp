@@ -94,6 +94,17 @@ TEST(GroundZonesOnSweeps, KnowTheGroundUnderATurnedSensor) {
     expect_good(worst(about(z_axis, degrees)));
 }
 
+TEST(GroundZonesOnSweeps, KnowTheGroundAboutAnyUp) {
+  for (const auto& [x, y] : {std::pair{140, 0}, std::pair{20, -35}, std::pair{0, 55}}) {
+    const Eigen::Matrix3f rotation = about(y_axis, y) * about(x_axis, x);
+    GroundZonesSettings settings;
+    settings.up = 3 * rotation.col(2).cast<double>();
+    const Score least = worst(rotation, settings);
+    EXPECT_GE(least.recall, 0.995);
+    EXPECT_GE(least.precision, 0.985);
+  }
+}
+
 TEST(GroundZonesOnSweeps, TakeASensorHeightThatIsWrongByAHand) {
   for (const double error : {-0.3, 0.0, 0.3}) {
     GroundZonesSettings settings;

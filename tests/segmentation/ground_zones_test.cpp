@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -207,14 +209,61 @@ TEST(GroundZones, FollowTheUpAxis) {
   Cloud<float> upright = ground_of(camber);
   const std::size_t ground = upright.size();
   add_boxes(upright, camber);
-  for (int axis = 0; axis < 6; ++axis) {
+  for (unsigned axis = 0; axis < 6; ++axis) {
     SCOPED_TRACE(axis);
     GroundZonesSettings settings;
-    settings.up = static_cast<UpAxis>(axis);
-    const GroundSplit result = split(view(turned(upright, settings.up)), settings);
-    EXPECT_GT(result.normal.dot(up_direction(settings.up)), 0.99);
+    settings.up = axis_up(axis);
+    const GroundSplit result = split(view(turned(upright, axis)), settings);
+    EXPECT_GT(result.normal.dot(settings.up), 0.99);
     expect_split(result, ground, upright.size());
   }
+}
+
+// Of how many points the side differs between a cloud and the same one turned.
+std::size_t moved(const Cloud<float>& upright, std::size_t ground, const Eigen::Matrix3d& rotation) {
+  const GroundSplit expected = split(view(upright));
+  const Cloud<float> cloud = turned(upright, rotation);
+  GroundZonesSettings settings;
+  settings.up = 0.3 * rotation.col(2);
+  const GroundSplit result = split(view(cloud), settings);
+  expect_split(result, ground, upright.size());
+  EXPECT_LT((result.normal - rotation * expected.normal).norm(), 1e-3);
+  settings.up *= 0x1p-500;
+  const GroundSplit same = split(view(cloud), settings);
+  EXPECT_TRUE(same.ground == result.ground && same.normal == result.normal && same.offset == result.offset);
+  std::vector<std::int32_t> others;
+  std::set_symmetric_difference(result.ground.begin(), result.ground.end(), expected.ground.begin(),
+                                expected.ground.end(), std::back_inserter(others));
+  return others.size();
+}
+
+TEST(GroundZones, OfATurnedCloudAreNearlyTheSame) {
+  for (const Height height : {hill, camber}) {
+    Cloud<float> upright = ground_of(height);
+    const std::size_t ground = upright.size();
+    add_boxes(upright, height);
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+      SCOPED_TRACE(seed);
+      const Eigen::Matrix3d any = any_rotation(seed);
+      // The sectors begin elsewhere about up, so patches hold other points.
+      EXPECT_LE(moved(upright, ground, any), ground / 100);
+      // They turn with up if that leaves the nearest axis the shortest way: only floats round otherwise.
+      const Eigen::Vector3d tilted = Eigen::Vector3d::UnitZ() + 0.5 * any.col(2);
+      const auto shortest = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), tilted);
+      EXPECT_LE(moved(upright, ground, shortest.toRotationMatrix()), ground / 2000);
+    }
+  }
+}
+
+TEST(GroundZones, AreLevelAtTheSensorsHeightWhereNoneAreSeen) {
+  GroundZonesSettings settings;
+  settings.up = {0, -3, 4};
+  settings.sensor = {10, 20, 30};
+  settings.sensor_height = 1.5;
+  const GroundSplit result = split(view(Cloud<float>{{10, 20, 30}}), settings);
+  EXPECT_EQ(result.normal, Eigen::Vector3d(0, -0.6, 0.8));
+  EXPECT_EQ(result.offset, -0.6 * 20 + 0.8 * 30 - 1.5);
+  EXPECT_EQ(result.rest, numbers(0, 1));
 }
 
 TEST(GroundZones, FindTheSensorInTheMapsFrame) {
@@ -274,8 +323,11 @@ TEST(GroundZones, RefuseSettingsOutOfRange) {
     refuses([bad](auto& s) { s.max_slope_degrees = bad; });
   for (const double bad : {-0.1, double{INFINITY}, double{NAN}})
     refuses([bad](auto& s) { s.sensor_height = bad; });
-  for (const double bad : {double{INFINITY}, double{NAN}})
+  for (const double bad : {double{INFINITY}, double{NAN}}) {
     refuses([bad](auto& s) { s.sensor.y() = bad; });
+    refuses([bad](auto& s) { s.up.y() = bad; });
+  }
+  refuses([](auto& s) { s.up.setZero(); });
 }
 
 TEST(GroundZones, OfAUsedObjectAreThoseOfAFreshOneAndTakeNoMemory) {

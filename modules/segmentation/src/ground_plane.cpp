@@ -3,19 +3,12 @@
 
 #include "pcl_bv/segmentation/ground_plane.h"
 
-#include <algorithm>
-#include <array>
-#include <stdexcept>
-#include <string>
-
 #include "ground_checks.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "plane_search.h"
 
 namespace pcl_bv {
 namespace {
-
-constexpr std::array<std::string_view, 6> axis_names{"x", "y", "z", "-x", "-y", "-z"};
 
 void check(const GroundPlaneSettings& settings) {
   constexpr const char* who = "ground plane";
@@ -25,19 +18,6 @@ void check(const GroundPlaneSettings& settings) {
 }
 
 }  // namespace
-
-UpAxis parse_up_axis(std::string_view text) {
-  const auto* const found = std::find(axis_names.begin(), axis_names.end(), text);
-  if (found == axis_names.end()) {
-    throw std::invalid_argument("up axis is \"" + std::string(text) + "\", must be x, y, z, -x, -y or -z");
-  }
-  return static_cast<UpAxis>(found - axis_names.begin());
-}
-
-Eigen::Vector3d up_direction(UpAxis axis) {
-  const int number = static_cast<int>(axis);
-  return number < 3 ? Eigen::Vector3d::Unit(number) : Eigen::Vector3d(-Eigen::Vector3d::Unit(number - 3));
-}
 
 void split_ground(const PointView& points, const GroundPlaneSettings& settings, GroundSplit& split) {
   const FloatEnvironment environment;

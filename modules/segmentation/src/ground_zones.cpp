@@ -14,6 +14,7 @@
 #include "patch_fit.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "plane_search.h"
+#include "up_frame.h"
 #include "zones.h"
 
 namespace pcl_bv {
@@ -45,22 +46,15 @@ void check(const GroundZonesSettings& settings) {
   }
 }
 
-// The cloud's axes as seen by the zones.
-struct Frame {
+// The cloud as seen by the zones.
+struct Frame : UpFrame {
   Vector3d sensor;
-  int u, v, up;
-  double sign;
 
-  explicit Frame(const GroundZonesSettings& settings)
-      : sensor(settings.sensor),
-        u((static_cast<int>(settings.up) + 1) % 3),
-        v((static_cast<int>(settings.up) + 2) % 3),
-        up(static_cast<int>(settings.up) % 3),
-        sign(static_cast<int>(settings.up) < 3 ? 1 : -1) {}
+  explicit Frame(const GroundZonesSettings& settings) : UpFrame(settings.up), sensor(settings.sensor) {}
 
   GroundPoint point(const Coordinates& p) const {
     const double relative[3] = {p.x - sensor.x(), p.y - sensor.y(), p.z - sensor.z()};
-    return {in_float(relative[u]), in_float(relative[v]), in_float(sign * relative[up])};
+    return {in_float(dot3(relative, u)), in_float(dot3(relative, v)), in_float(dot3(relative, up))};
   }
 
   // Doubles may be greater than any float.
@@ -70,16 +64,12 @@ struct Frame {
   }
 
   Slope slope(const Plane& plane) const {
-    const double vertical = sign * plane.normal[up];
-    return {-height_above(plane, sensor) / vertical, -plane.normal[u] / vertical,
-            -plane.normal[v] / vertical};
+    const double vertical = dot3(plane.normal, up);
+    return {-height_above(plane, sensor) / vertical, -dot3(plane.normal, u) / vertical,
+            -dot3(plane.normal, v) / vertical};
   }
 
-  Plane level(double height) const {
-    Vector3d normal = Vector3d::Zero();
-    normal[up] = sign;
-    return {normal, sign * sensor[up] - height};
-  }
+  Plane level(double height) const { return {up, dot3(up, sensor) - height}; }
 };
 
 // The gap between neighbours, which the ground may climb.

@@ -13,6 +13,8 @@
 #include <numeric>
 #include <random>
 
+#include "up_frame.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -45,12 +47,12 @@ struct Spread {
   double low, middle, high;
 };
 
-// The median of a coordinate and bounds that a few stray points do not move.
-Spread spread_of(const std::vector<Vector3d>& sample, int axis) {
+// The median along an axis and bounds that a few stray points do not move.
+Spread spread_of(const std::vector<Vector3d>& sample, const Vector3d& axis) {
   std::array<double, 1024> values;
   const std::size_t n = std::min(sample.size(), values.size());
   for (std::size_t i = 0; i < n; ++i)
-    values[i] = sample[i][axis];
+    values[i] = dot3(sample[i], axis);
   const auto begin = values.begin();
   const auto end = begin + static_cast<std::ptrdiff_t>(n);
   const auto tail = static_cast<std::ptrdiff_t>(n / 50);
@@ -82,7 +84,7 @@ void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& s
   if (cell.count == 0) {
     cell.lowest = scratch.lowest.size();
     scratch.lowest.push_back(p);
-  } else if (p.dot(upward) < scratch.lowest[cell.lowest].dot(upward)) {
+  } else if (dot3(p, upward) < dot3(scratch.lowest[cell.lowest], upward)) {
     scratch.lowest[cell.lowest] = p;
   }
   ++cell.count;
@@ -92,7 +94,8 @@ void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& s
 // most 4096 of them spread evenly over the area seen from above, `lowest` with the lowest one of each of at
 // most 1024 cells of that area. They are relative to the point returned, which is in the midst of the cloud,
 // so that nothing is lost of UTM coordinates. No valid point: all empty.
-Vector3d sample_ground(const PointView& points, UpAxis up, std::uint32_t seed, GroundScratch& scratch) {
+Vector3d sample_ground(const PointView& points, const UpFrame& frame, std::uint32_t seed,
+                       GroundScratch& scratch) {
   constexpr std::size_t cells = cells_per_side * cells_per_side;
   scratch.support.clear();
   scratch.support.reserve(cells * points_per_cell);
@@ -101,17 +104,15 @@ Vector3d sample_ground(const PointView& points, UpAxis up, std::uint32_t seed, G
   draw(points, seed, scratch.sample);
   if (scratch.sample.empty()) return Vector3d::Zero();
 
-  const std::array<Spread, 3> spread{spread_of(scratch.sample, 0), spread_of(scratch.sample, 1),
-                                     spread_of(scratch.sample, 2)};
-  Vector3d origin(spread[0].middle, spread[1].middle, spread[2].middle);
-  const Vector3d upward = up_direction(up);
-  const std::size_t u = (static_cast<std::size_t>(up) + 1) % 3;
-  const std::size_t v = (static_cast<std::size_t>(up) + 2) % 3;
+  const Vector3d vertical = cross3(frame.u, frame.v);
+  const Spread u = spread_of(scratch.sample, frame.u), v = spread_of(scratch.sample, frame.v);
+  const Vector3d origin =
+      (u.middle * frame.u + v.middle * frame.v) + spread_of(scratch.sample, vertical).middle * vertical;
   std::array<Cell, cells> grid{};
   for (Vector3d& p : scratch.sample) {
-    Cell& cell = grid[grid_line(p[u], spread[u]) * cells_per_side + grid_line(p[v], spread[v])];
+    Cell& cell = grid[grid_line(dot3(p, frame.u), u) * cells_per_side + grid_line(dot3(p, frame.v), v)];
     p -= origin;
-    add(p, upward, cell, scratch);
+    add(p, frame.up, cell, scratch);
   }
   return origin;
 }
@@ -235,10 +236,10 @@ std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
 
 std::optional<Plane> find_ground_plane(const PointView& points, const Vector3d& sensor,
                                        const GroundPlaneSettings& settings, GroundScratch& scratch) {
-  const Vector3d origin = sample_ground(points, settings.up, settings.seed, scratch);
-  const Limits limits{up_direction(settings.up),
-                      std::cos(settings.max_slope_degrees * std::numbers::pi / 180), sensor - origin,
-                      settings.sensor_height};
+  const UpFrame frame(settings.up);
+  const Vector3d origin = sample_ground(points, frame, settings.seed, scratch);
+  const Limits limits{frame.up, std::cos(settings.max_slope_degrees * std::numbers::pi / 180),
+                      sensor - origin, settings.sensor_height};
   std::optional<Plane> best = search(scratch, limits, settings);
   // The search counts points by area, so its plane fits the few far off as well as the many near the sensor;
   // least squares over all points place it where most of them are. There is no refined plane where three

@@ -12,6 +12,7 @@
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
 #include "stages/filtered_points.h"
 #include "stages/ground.h"

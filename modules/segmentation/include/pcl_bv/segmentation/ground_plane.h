@@ -8,25 +8,15 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "pcl_bv/kernels/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The coordinate axis that points against gravity.
-enum class UpAxis : std::uint8_t { x, y, z, minus_x, minus_y, minus_z };
-
-/// Reads `x`, `y`, `z`, `-x`, `-y` or `-z`; anything else throws std::invalid_argument naming it.
-UpAxis parse_up_axis(std::string_view text);
-
-/// Unit vector of the axis.
-Eigen::Vector3d up_direction(UpAxis axis);
-
 /// What counts as ground.
 struct GroundPlaneSettings {
-  UpAxis up = UpAxis::z;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
   double distance = 0.2;          ///< Points at most this far above the plane are ground, metres; > 0.
   double max_slope_degrees = 15;  ///< Greatest angle between the plane's normal and up, 0 to 89.
   /// Height of the cloud's origin above the ground, along up, metres; >= 0. If given, planes that pass below

@@ -17,7 +17,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What counts as ground.
 struct GroundZonesSettings {
-  UpAxis up = UpAxis::z;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
   Eigen::Vector3d sensor =
       Eigen::Vector3d::Zero();  ///< Where the zones are centred, in the cloud's frame, metres.
   /// Height of `sensor` above the ground, along up, metres; >= 0. Learnt from the cloud if not given; if
