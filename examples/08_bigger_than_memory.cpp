@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   pcl_bv::Aabb box;
   const pcl_bv::EstimationResult result = pcl_bv::fit_aabb(file->xyz(), box, {pcl_bv::Threads{0}});
   pcl_bv::Sphere sphere;
-  pcl_bv::fit_smallest_sphere(file->xyz(), sphere);
+  pcl_bv::fit_sphere(file->xyz(), {}, sphere);
   std::cout << result.used << " points, box of " << box.volume() << " m3, radius " << sphere.radius() << "\n";
   return result.used > 0 ? 0 : 1;
 }

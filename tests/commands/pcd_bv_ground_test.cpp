@@ -131,9 +131,9 @@ TEST_F(PcdBv, BadGroundValuesAreWrongUse) {
       {{"--ground", "plane", "--up", "0,0,0"}, "--up: up is '0,0,0'"},
       {{"--up", "y"}, "--up: only useful with --ground or an upright box"},
       {{"--sensor-height", "1.7"}, "--sensor-height: only useful with --ground"},
-      {{"--ground", "plane", "--sensor-height", "-1"}, "'-1' is not a finite height of at least 0"},
-      {{"--ground", "plane", "--sensor-height", "nan"}, "'nan' is not a finite height"},
-      {{"--ground", "magic"}, "unknown kind 'magic'; known are none, plane, zones"},
+      {{"--ground", "plane", "--sensor-height", "-1"}, "--sensor-height: -1 is not at least 0 and finite"},
+      {{"--ground", "plane", "--sensor-height", "nan"}, "--sensor-height: nan is not at least 0"},
+      {{"--ground", "magic"}, "--ground: 'magic' is not one of none, plane, zones"},
   };
   for (auto [arguments, reason] : cases) {
     SCOPED_TRACE(reason);

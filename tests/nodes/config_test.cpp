@@ -125,10 +125,10 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
 
 TEST(StreamConfig, AnEmptyListOfMethodsDependsOnWhetherThereAreClusters) {
   const auto names = [](const char* yaml) {
-    std::vector<std::string_view> names;
+    std::vector<std::string_view> found;
     for (const Method* method : parse_stream_config(yaml, "").pipeline.methods())
-      names.push_back(method->name);
-    return names;
+      found.push_back(method->name);
+    return found;
   };
   EXPECT_THAT(names("volumes: []"), testing::ElementsAre("obb-lshape"));
   EXPECT_THAT(names("cluster: {tolerance: 0}"), testing::ElementsAre("aabb", "sphere-exact", "obb-min"));
@@ -143,7 +143,8 @@ TEST(StreamConfig, UpIsAnAxisOrAnyVector) {
 
 TEST(Settings, EachHasAKeyOfItsOwnAndWhatToSayOfIt) {
   std::set<std::string_view> keys, options;
-  visit_stream(StreamConfig(), [&](const Setting& setting, const auto& value) {
+  const StreamConfig defaults;
+  visit_stream(defaults, [&](const Setting& setting, const auto& value) {
     EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
     EXPECT_FALSE(setting.about.empty()) << setting.key;
     EXPECT_TRUE(setting.option.empty() || options.insert(setting.option).second) << setting.option;

@@ -17,6 +17,12 @@ std::string shown_default(const Setting& setting, const std::string& value) {
   return value.empty() || value == "null" ? std::string(setting.unset) : value;
 }
 
+// Tracks and queues are of streams only.
+bool has_option(const Setting& setting, bool stream) {
+  const std::string_view stage = setting.key.substr(0, setting.key.find('.'));
+  return !setting.option.empty() && (stream || (stage != "track" && stage != "runner"));
+}
+
 // The command line may name a method again; a file may not.
 void keep_first_mentions(std::vector<std::string>& methods) {
   std::vector<std::string> once;
@@ -30,8 +36,8 @@ void keep_first_mentions(std::vector<std::string>& methods) {
 
 }  // namespace
 
-SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool runner)
-    : line_(line), defaults_(defaults), runner_(runner) {
+SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream)
+    : line_(line), defaults_(defaults), stream_(stream) {
   line.option("--preset", preset_, "NAME", "Settings to begin with: road, indoor or table");
   line.option("--config", file_, "FILE.yaml", "Settings; options override them");
   line.flag("--print-config", print_config_, "Print the settings that would be used, as such a file");
@@ -40,7 +46,7 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
               "Drop points nearer or farther than this from the origin (" + to_text(filter.range_min) + ":" +
                   to_text(filter.range_max) + ")");
   const auto declare = [&](const Setting& setting, const auto& value) {
-    if (setting.option.empty()) return;
+    if (!has_option(setting, stream_)) return;
     const std::string about(setting.about);
     if constexpr (std::is_same_v<decltype(value), const bool&>) {
       line.flag(setting.option.data(), flags_[setting.option], about);
@@ -49,12 +55,12 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
                   about + " (" + shown_default(setting, to_text(value)) + ")");
     }
   };
-  runner ? visit_stream(defaults, declare) : visit_pipeline(defaults.pipeline, declare);
+  visit_stream(defaults, declare);
 }
 
 void SettingOptions::apply(StreamConfig& config) const {
   const auto read = [this](const Setting& setting, auto& value) {
-    if (setting.option.empty() || !line_.given(setting.option.data())) return;
+    if (!has_option(setting, stream_) || !line_.given(setting.option.data())) return;
     if constexpr (std::is_same_v<decltype(value), bool&>) {
       value = true;
     } else {
@@ -65,7 +71,7 @@ void SettingOptions::apply(StreamConfig& config) const {
     const std::string problem = problem_of(setting, value);
     if (!problem.empty()) throw UsageError(std::string(setting.option) + ": " + problem);
   };
-  runner_ ? visit_stream(config, read) : visit_pipeline(config.pipeline, read);
+  visit_stream(config, read);
   FilterConfig& filter = config.pipeline.filter;
   if (line_.given("--range")) std::tie(filter.range_min, filter.range_max) = parse_range(range_);
 }

@@ -15,8 +15,8 @@ namespace pcl_bv {
 /// settings (nodes/settings.h). Later ones in this order win: the defaults, the preset, the file, the options.
 class SettingOptions {
  public:
-  /// Declares them; `runner`: those of the runner, too. Keeps the line.
-  SettingOptions(CommandLine& line, const StreamConfig& defaults, bool runner);
+  /// Declares them; `stream`: those of tracks and queues, too. Keeps the line.
+  SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream);
 
   /// What the parsed line asks for. Throws UsageError.
   StreamConfig config() const;
@@ -33,7 +33,7 @@ class SettingOptions {
   std::map<std::string_view, std::string> texts_;  ///< By option; nodes do not move.
   std::map<std::string_view, bool> flags_;
   std::string preset_, file_, range_;
-  bool runner_, print_config_ = false;
+  bool stream_, print_config_ = false;
 };
 
 }  // namespace pcl_bv

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <stdexcept>
@@ -140,7 +141,9 @@ void read_text(std::string_view text, std::size_t& value) {
   }
 }
 void read_text(std::string_view text, Eigen::Vector3d& direction) {
-  direction = parse_up(text);
+  std::string dense(text);
+  dense.erase(std::remove(dense.begin(), dense.end(), ' '), dense.end());
+  direction = parse_up(dense);
 }
 void read_text(std::string_view text, std::string& name) {
   name = text;

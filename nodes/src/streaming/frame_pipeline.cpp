@@ -13,6 +13,7 @@
 #include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/up.h"
+#include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
 #include "stages/filtered_points.h"
 #include "stages/ground.h"
@@ -51,7 +52,7 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   auto prepared = std::make_shared<Prepared>();
   const FilterConfig& filter = config.filter;
   prepared->methods = config.methods();
-  prepared->options = {config.growth, config.ground.up};
+  prepared->options = {config.growth, up_direction(config.ground.up)};
   prepared->tells_apart = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
   prepared->looks = prepared->tells_apart || filter.range_min > 0 || filter.range_max < kNoLimit ||
                     filter.own_box_min || config.cluster.least_size() > 0 ||

@@ -57,22 +57,22 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"ground.sensor_height", "m", "Height of the origin above the ground", {}, "learnt",
           "--sensor-height", "M"},
         c.ground.sensor_height);
-  visit(S{"ground.distance", "m", "Points at most this far above the ground belong to it", {0, kFinite, false},
+  visit(S{"ground.distance", "m", "Height up to which points are ground", {0, kFinite, false},
           "0.2 of a plane, 0.15 of zones", "--ground-distance", "M"},
         c.ground.distance);
   visit(S{"ground.max_slope_degrees", "degrees", "Greatest slope of the ground", {0, 89},
           "15 of a plane, 20 of zones", "--ground-slope", "DEG"},
         c.ground.max_slope_degrees);
-  visit(S{"cluster.tolerance", "m; 0: all points are one object", "Points nearer than this are one object; 0: all are",
+  visit(S{"cluster.tolerance", "m; 0: all points are one object", "Points nearer than this are one object; 0: a whole cloud",
           {0, 1e6}, {}, "--cluster", "TOL"},
         c.cluster.tolerance);
   visit(S{"cluster.min_size", "points", "Drop objects of fewer points", {0, kNoLimit},
-          "10, and 0 where all points are one object", "--min-size", "N"},
+          "10; without clusters 0", "--min-size", "N"},
         c.cluster.min_size);
   visit(S{"cluster.max_size", "points", "Drop objects of more points", {1, kNoLimit}, {}, "--max-size", "N"},
         c.cluster.max_size);
-  visit(S{"volumes", "methods", "Methods separated by commas, or all", {},
-          "obb-lshape, and aabb, sphere, obb where all points are one object", "--volume", "LIST"},
+  visit(S{"volumes", "methods", "Methods with commas, or all", {},
+          "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"},
         c.volumes);
   visit(S{"growth", "sequential, stationary, deferred", "Growth of EPOS spheres: sequential, stationary, deferred",
           {}, {}, "--growth", "POLICY"},
