@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The pipeline for clouds that are one object, in memory or not.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "frames.h"
+#include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/report/picture.h"
+
+namespace pcl_bv {
+namespace {
+
+// Points that are not there until they are asked for.
+class Asked final : public PointSource {
+ public:
+  explicit Asked(const std::vector<float>& xyz) : xyz_(xyz) {}
+  PointView view() const { return view_of(*this, xyz_.size() / 3, ScalarType::float32); }
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
+    buffer.resize(12 * count);
+    std::memcpy(buffer.data(), xyz_.data() + 3 * first, 12 * count);
+    PointView view;
+    view.data = buffer.data();
+    view.stride = view.readable = 12;
+    view.count = count;
+    view.first = first;
+    return view;
+  }
+
+ private:
+  const std::vector<float>& xyz_;
+};
+
+FrameResult result_of(const PipelineConfig& config, const PointView& points) {
+  Frame frame;
+  frame.points = points;
+  FrameResult result;
+  FramePipeline(config).process(frame, result);
+  return result;
+}
+
+std::vector<float> street_with_bad_points() {
+  std::vector<float> xyz = street(1)[0];
+  for (std::size_t i = 0; i < xyz.size(); i += 1000)
+    xyz[i] = std::numeric_limits<float>::quiet_NaN();
+  return xyz;
+}
+
+TEST(WholeCloud, FromASourceHasTheBitsOfTheSameInMemory) {
+  const std::vector<float> xyz = street_with_bad_points();
+  const Asked source(xyz);
+  for (const double range_min : {0.0, 3.0}) {
+    PipelineConfig config = whole_cloud_config();
+    config.filter.range_min = range_min;
+    config.volumes = {"aabb", "dop26", "sphere", "obb-pca", "obb-min"};
+    const FrameResult held = result_of(config, frame_of(xyz, 0).points);
+    const FrameResult asked = result_of(config, source.view());
+    EXPECT_EQ(held.volumes, asked.volumes) << range_min;
+    EXPECT_EQ(held.counts.nonfinite, (xyz.size() + 999) / 1000);
+    EXPECT_EQ(held.counts.range, asked.counts.range);
+    EXPECT_EQ(held.counts.range > 0, range_min > 0);
+    ASSERT_EQ(held.clusters.size(), 1U);
+    EXPECT_EQ(held.clusters.cluster_size(0), held.points - held.counts.nonfinite - held.counts.range);
+    EXPECT_EQ(asked.clusters.offsets, held.clusters.offsets);
+  }
+}
+
+TEST(WholeCloud, PointsOfItAreThoseThatItsVolumesHold) {
+  const std::vector<float> street_xyz = street_with_bad_points();
+  const std::vector<float> few(street_xyz.begin(), street_xyz.begin() + 3000);
+  for (const std::vector<float>* xyz : {&street_xyz, &few}) {  // as they come past, and by a list
+    PipelineConfig config = whole_cloud_config();
+    config.filter.range_min = 4;
+    config.filter.range_max = 30;
+    const PointView cloud = frame_of(*xyz, 0).points;
+    const FrameResult result = result_of(config, cloud);
+    ASSERT_EQ(result.clusters.size(), 1U);
+    const PointView points = result.points_of(0, cloud);
+    for (std::size_t m = 0; m < result.methods.size(); ++m) {
+      const Verification proof = verify(result.volume(0, m), points);
+      EXPECT_EQ(proof.checked, result.clusters.cluster_size(0));
+      EXPECT_EQ(proof.outside, 0U);
+    }
+    EXPECT_GT(verify(result.volume(0, 0), cloud).outside, 0U);  // the filter has dropped some
+    const std::vector<std::uint32_t> labels = labels_of(result, cloud);
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), 0U),
+              static_cast<std::ptrdiff_t>(result.clusters.cluster_size(0)));
+  }
+}
+
+TEST(WholeCloud, ThatIsNotInMemoryCannotBeToldApart) {
+  const std::vector<float> xyz = street(1)[0];
+  const Asked source(xyz);
+  PipelineConfig config = whole_cloud_config();
+  config.cluster.tolerance = 0.5;
+  EXPECT_THROW(result_of(config, source.view()), std::invalid_argument);
+  config = whole_cloud_config();
+  config.ground.method = GroundMethod::plane;
+  EXPECT_THROW(result_of(config, source.view()), std::invalid_argument);
+}
+
+TEST(WholeCloud, HeedsTheSizesThatAreAllowed) {
+  const std::vector<float> xyz{1, 0, 0, 2, 0, 0, 3, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0, 0};
+  const auto with = [&](std::size_t least, std::size_t most) {
+    PipelineConfig config = whole_cloud_config();
+    config.cluster.min_size = least;
+    config.cluster.max_size = most;
+    return result_of(config, frame_of(xyz, 0).points);
+  };
+  EXPECT_EQ(with(3, 3).clusters.size(), 1U);
+  const FrameResult small = with(4, 9), large = with(0, 2);
+  EXPECT_EQ(small.clusters.size(), 0U);
+  EXPECT_EQ(small.counts.small, 3U);
+  EXPECT_EQ(small.counts.nonfinite, 1U);
+  EXPECT_EQ(large.clusters.size(), 0U);
+  EXPECT_EQ(large.counts.large, 3U);
+}
+
+TEST(WholeCloud, WithoutAValidPointIsOneEmptyObject) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const std::vector<float>& xyz : {std::vector<float>{}, {nan, 0, 0}}) {
+    const PointView cloud = frame_of(xyz, 0).points;
+    const FrameResult result = result_of(whole_cloud_config(), cloud);
+    ASSERT_EQ(result.clusters.size(), 1U);
+    EXPECT_EQ(result.points_of(0, cloud).count, 0U);
+    EXPECT_TRUE(empty(result.volume(0, 0)));
+    EXPECT_EQ(result.counts.nonfinite, xyz.size() / 3);
+  }
+}
+
+TEST(GroundRemark, SaysWhenThereIsNoGroundOrNothingElse) {
+  PipelineConfig config;
+  config.ground.method = GroundMethod::plane;
+  FrameResult result;
+  result.points = 100;
+  result.counts.range = 20;
+  EXPECT_THAT(ground_remark(config, result), testing::HasSubstr("no ground found (up is z): try --up"));
+  result.counts.ground = 80;
+  EXPECT_THAT(ground_remark(config, result), testing::HasSubstr("all points are taken for ground"));
+  result.counts.ground = 79;
+  EXPECT_EQ(ground_remark(config, result), "");
+  config.ground.method = GroundMethod::none;
+  result.counts.ground = 0;
+  EXPECT_EQ(ground_remark(config, result), "");
+}
+
+}  // namespace
+}  // namespace pcl_bv
