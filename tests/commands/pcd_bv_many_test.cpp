@@ -103,12 +103,15 @@ TEST_F(PcdBvMany, CheckingAndFilesGoOnThoughTheReportCannotBeWritten) {
 
 TEST_F(PcdBvMany, TimingsAreOfEachFile) {
   std::istringstream lines(with({"--threads", "2", "--timings", "--format", "jsonl"}).out);
+  std::size_t timed = 0;
   for (std::string line; std::getline(lines, line);) {
     const Json report = Json::parse(line);
     if (report.contains("error")) continue;
+    ++timed;
     for (const char* stage : {"read", "segment", "fit"})
       EXPECT_GE(report["seconds"][stage], 0.0);
   }
+  EXPECT_EQ(timed, 41U);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/synth/street.h"
+#include "streaming/box_grid.h"
 
 namespace pcl_bv {
 namespace {
@@ -90,10 +91,29 @@ TEST(Tracker, AGapBeforeTheSecondSightingDoesNotDoubleTheVelocity) {
   EXPECT_EQ(update(tracker, 3, {box(3, 0)}, config)[0].id, 0U);
 }
 
-TEST(Tracker, ManyObjectsCostNoSquare) {
+TEST(BoxGrid, LooksAtFewOfManyBoxesInARowAndAtAllThatAreNear) {
+  for (const Eigen::Vector3d& step : {Eigen::Vector3d(1, 0, 0), {0, 1, 0}, {-0.7, 0.7, 0}}) {
+    std::vector<Aabb> boxes;
+    for (int i = -1000; i < 1000; ++i)
+      boxes.push_back(Aabb(i * step, i * step));
+    BoxGrid grid;
+    grid.fill(boxes, 4);
+    for (const int at : {-1000, -3, 0, 500, 999}) {
+      std::set<std::size_t> near;
+      grid.visit_near(at * step, [&](std::size_t b) { EXPECT_TRUE(near.insert(b).second); });
+      EXPECT_LE(near.size(), 18U);
+      for (std::size_t b = 0; b < boxes.size(); ++b) {
+        if ((boxes[b].center() - at * step).norm() > 4) continue;
+        EXPECT_EQ(near.count(b), 1U) << at << ' ' << b;
+      }
+    }
+  }
+}
+
+TEST(Tracker, ManyObjectsKeepTheirIds) {
   std::vector<Aabb> boxes;
   for (int i = 0; i < 20'000; ++i)
-    boxes.push_back(box(5.0 * i, 0));
+    boxes.push_back(box(0, 5.0 * i));
   Tracker tracker;
   for (int i = 0; i < 3; ++i)
     update(tracker, i, boxes);

@@ -6,8 +6,9 @@
 #include "pcl_bv/nodes/tracker.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
+
+#include "box_grid.h"
 
 namespace pcl_bv {
 namespace {
@@ -18,24 +19,24 @@ constexpr double kVelocityGain = 0.5;
 
 }  // namespace
 
+Tracker::Tracker() : grid_(std::make_unique<BoxGrid>()) {}
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
 void Tracker::find_pairs(double seconds, const std::vector<Aabb>& boxes, double gate) {
   pairs_.clear();
-  by_x_.resize(boxes.size());
-  std::iota(by_x_.begin(), by_x_.end(), std::size_t{0});
-  const auto x_of = [&](std::size_t b) { return boxes[b].center().x(); };
-  std::sort(by_x_.begin(), by_x_.end(), [&](std::size_t a, std::size_t b) { return x_of(a) < x_of(b); });
+  grid_->fill(boxes, 2 * gate);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
     if (!track.alive) continue;
     const Eigen::Vector3d expected = track.center + seconds * track.velocity;
-    const auto first = std::lower_bound(by_x_.begin(), by_x_.end(), expected.x() - 2 * gate,
-                                        [&](std::size_t b, double x) { return x_of(b) < x; });
-    for (auto b = first; b != by_x_.end() && x_of(*b) <= expected.x() + 2 * gate; ++b) {
-      const Eigen::Vector3d size = boxes[*b].max() - boxes[*b].min();
-      const double distance = (boxes[*b].center() - expected).norm();
+    grid_->visit_near(expected, [&](std::size_t b) {
+      const Eigen::Vector3d size = boxes[b].max() - boxes[b].min();
+      const double distance = (boxes[b].center() - expected).norm();
       const double difference = (size - track.size).norm() / 2;
-      if (distance <= gate + std::min(difference, gate)) pairs_.push_back({distance + difference, t, *b});
-    }
+      if (distance <= gate + std::min(difference, gate)) pairs_.push_back({distance + difference, t, b});
+    });
   }
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
     return std::tie(a.cost, a.track, a.box) < std::tie(b.cost, b.track, b.box);

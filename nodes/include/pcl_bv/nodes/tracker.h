@@ -15,6 +15,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+class BoxGrid;
+
 /// Gives objects ids that stay while they are seen, and are never given twice.
 ///
 /// Each track expects its box where constant velocity takes it. Box and track may be the same object if their
@@ -30,6 +32,11 @@ class Tracker {
     bool fresh = false;               ///< The first sighting.
     std::optional<std::uint32_t> id;  ///< None until the track is born.
   };
+
+  Tracker();
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
 
   /// Replaces `assignments` by one for each box. `stamp_ns` is the time of the boxes; where it does not
   /// advance (or by more than a second), tracks are expected where they were. O(n log n), and the pairs
@@ -61,7 +68,8 @@ class Tracker {
 
   std::vector<Track> tracks_;
   std::vector<Pair> pairs_;
-  std::vector<std::size_t> by_x_, free_;
+  std::unique_ptr<BoxGrid> grid_;
+  std::vector<std::size_t> free_;
   std::vector<char> track_taken_, box_taken_;
   std::int64_t last_stamp_ns_ = 0;
   bool started_ = false;

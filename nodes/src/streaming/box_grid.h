@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include "pcl_bv/volumes/aabb.h"
+
+namespace pcl_bv {
+
+/// Boxes by where their centres are, seen along z: squares of a side. Reuse keeps the capacity.
+class BoxGrid {
+ public:
+  /// Replaces what was there. O(n log n).
+  void fill(const std::vector<Aabb>& boxes, double side) {
+    side_ = side;
+    cells_.clear();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Eigen::Vector3d center = boxes[i].center();
+      cells_.push_back({square(center.x()), square(center.y()), i});
+    }
+    std::sort(cells_.begin(), cells_.end());
+  }
+
+  /// Calls visit(number) for boxes around a place: all whose centres are within a side of it, and some others
+  /// that are at most two away.
+  template <typename Visit>
+  void visit_near(const Eigen::Vector3d& place, const Visit& visit) const {
+    const double x = square(place.x()), y = square(place.y());
+    for (double column = x - 1; column <= x + 1; ++column) {
+      auto cell = std::lower_bound(cells_.begin(), cells_.end(), Cell{column, y - 1, 0});
+      for (; cell != cells_.end() && cell->x == column && cell->y <= y + 1; ++cell)
+        visit(cell->box);
+    }
+  }
+
+ private:
+  struct Cell {
+    double x, y;
+    std::size_t box;
+    bool operator<(const Cell& other) const {
+      return std::tie(x, y, box) < std::tie(other.x, other.y, other.box);
+    }
+  };
+
+  double square(double coordinate) const { return std::floor(coordinate / side_); }
+
+  double side_ = 1;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace pcl_bv
