@@ -25,6 +25,7 @@ Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& poi
 void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, std::size_t cluster,
                                FrameResult& result) {
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
+  if (last_.capacity() < first + methods) last_.reserve(4 * (first + methods));
   if (last_.size() < first + methods) last_.resize(first + methods);
   for (std::size_t m = 0; m < methods; ++m) {
     Obb& last = last_[first + m];

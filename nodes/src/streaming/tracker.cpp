@@ -92,6 +92,10 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   started_ = true;
   last_stamp_ns_ = stamp_ns;
   assignments.assign(boxes.size(), Assignment());
+  // Room for what lives on while others come: a sequence that is seen again finds more tracks than it made.
+  if (tracks_.capacity() < 2 * boxes.size()) tracks_.reserve(4 * boxes.size());
+  track_taken_.reserve(tracks_.capacity());
+  free_.reserve(tracks_.capacity());
   find_pairs(seconds, boxes, config.gate);
   join(seconds, boxes, assignments);
   free_.clear();
