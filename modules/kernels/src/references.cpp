@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "region_tests.h"
 #include "square.h"
 
 namespace pcl_bv {
@@ -67,6 +68,49 @@ void sum_block(const PointView& block, Moments& out) {
   }
 }
 
+template <typename T>
+T along(const T (&n)[3], const T (&q)[3]) {
+  return (n[0] * q[0] + n[1] * q[1]) + n[2] * q[2];
+}
+
+template <typename T>
+RegionState state_in_body(const RegionTest<T>& test, const T (&q)[3]) {
+  bool inside = true, outside = false;
+  T squares = 0;
+  for (const SlabTest<T>& slab : test.slabs) {
+    const T reach = std::abs(along(slab.axis, q)), beyond = reach - slab.core;
+    const T part = (beyond > 0 ? beyond : T(0)) * slab.weight;
+    inside = inside && reach <= slab.inner;
+    outside = outside || reach > slab.outer;
+    squares += part * part;
+  }
+  if (inside && squares <= test.square_inner) return RegionState::inside;
+  return outside || squares > test.square_outer ? RegionState::outside : RegionState::unclear;
+}
+
+template <typename T>
+RegionState state_in_planes(const RegionTest<T>& test, const T (&q)[3]) {
+  const T doubt = ((std::abs(q[0]) + std::abs(q[1])) + std::abs(q[2])) * test.slope;
+  RegionState state = RegionState::inside;
+  for (const PlaneTest<T>& plane : test.planes) {
+    const T reach = along(plane.normal, q);
+    if (reach - doubt > plane.outer) return RegionState::outside;
+    if (!(reach + doubt <= plane.inner)) state = RegionState::unclear;
+  }
+  return state;
+}
+
+template <typename T>
+RegionState state_in(const RegionTest<T>& test, const T (&p)[3]) {
+  T q[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(p[k] >= test.low[k] && p[k] <= test.high[k])) return RegionState::outside;
+    q[k] = (p[k] - test.head[k]) - test.tail[k];
+  }
+  if (test.shape == RegionShape::box) return RegionState::inside;
+  return test.shape == RegionShape::body ? state_in_body(test, q) : state_in_planes(test, q);
+}
+
 // Lets the point compete if it matters; its squared distance, or -1.
 double compete(const Coordinates& p, OctantScan& scan) {
   const double d2 = square(p, scan.center);
@@ -88,6 +132,23 @@ std::size_t list_outside_reference(const PointView& points, const HalfSpaces& in
       load_point(points, i, p);
       return !is_inside(p, inside);
     });
+  });
+}
+
+void region_states_reference(const PointView& points, const RegionTests::Prepared& regions,
+                             std::uint8_t* states) {
+  for_scalar(points, [&]<typename T>() {
+    for (std::size_t i = 0; i < points.count; ++i) {
+      T p[3];
+      load_point(points, i, p);
+      auto all = RegionState::outside;
+      for (const RegionTest<T>& test : regions.of<T>().regions) {
+        const RegionState state = state_in(test, p);
+        if (state != RegionState::outside) all = state;
+        if (state == RegionState::inside) break;
+      }
+      states[i] = static_cast<std::uint8_t>(all);
+    }
   });
 }
 
