@@ -29,7 +29,6 @@ constexpr auto kUnclear = static_cast<std::uint8_t>(RegionState::unclear);
 
 ConvexRegion body(const Coordinates& center, double reach) {
   ConvexRegion region;
-  region.shape = RegionShape::body;
   region.center = center;
   region.low = {center.x - reach, center.y - reach, center.z - reach};
   region.high = {center.x + reach, center.y + reach, center.z + reach};
@@ -39,14 +38,26 @@ ConvexRegion body(const Coordinates& center, double reach) {
 
 ConvexRegion ball(const Coordinates& center, double radius) {
   ConvexRegion region = body(center, 1.01 * radius);
-  region.weight = {1, 1, 1};
+  region.shape = RegionShape::ball;
   region.radius = radius;
   return region;
 }
 
 ConvexRegion slabs(const Coordinates& center, double half) {
   ConvexRegion region = body(center, 2 * half);
+  region.shape = RegionShape::slabs;
   region.slab = {half, 0.5 * half, 0.25 * half};
+  return region;
+}
+
+// A box with round edges, in another unit along an axis.
+ConvexRegion round_box(const Coordinates& center, double size) {
+  ConvexRegion region = body(center, 2 * size);
+  region.shape = RegionShape::body;
+  region.slab[2] = 0.75 * size;
+  region.core = {0.5 * size, 0.25 * size, 0};
+  region.weight = {1, 2, 0};
+  region.radius = 0.5 * size;
   return region;
 }
 
@@ -85,9 +96,10 @@ bool exactly_inside(const ConvexRegion& region, const Coordinates& p) {
   for (std::size_t i = 0; i < 3; ++i) {
     const test::Rational reach = abs(along(region.axes[i]));
     if (region.slab[i] < 1e300 && reach > test::Rational(region.slab[i])) return false;
-    squares += reach * reach;
+    const test::Rational beyond = reach - test::Rational(region.core[i]);
+    if (beyond > 0) squares += beyond * beyond * test::Rational(region.weight[i] * region.weight[i]);
   }
-  return region.weight[0] == 0 || squares <= test::Rational(region.radius) * test::Rational(region.radius);
+  return region.radius == 0 || squares <= test::Rational(region.radius) * test::Rational(region.radius);
 }
 
 // Points on and near the surfaces of regions about a centre, at a size.
@@ -111,7 +123,7 @@ void expect_true_states() {
     const Coordinates center{place, -place, 0.1 * place};
     const auto cloud = near_surfaces<T>(center, size);
     for (const ConvexRegion& region :
-         {ball(center, size), slabs(center, size), planes(center, size),
+         {ball(center, size), slabs(center, size), round_box(center, size), planes(center, size),
           box({center.x, center.y, center.z - size}, {center.x + size, center.y + size, center.z + size})}) {
       const States all = states(Isa::scalar, cloud.view(), RegionTests({region}));
       int inside = 0;
@@ -170,7 +182,8 @@ TEST(RegionStates, AreSeldomUnclear) {
     for (const double step : {0.0, 1.0, 2.0}) {
       const Coordinates center{place + step, place, place};
       // No surface through points of the lattice, 0.5 apart, on which floats are there.
-      regions.insert(regions.end(), {ball(center, 0.57), slabs(center, 0.57), planes(center, 0.57)});
+      regions.insert(regions.end(), {ball(center, 0.57), slabs(center, 0.57), round_box(center, 0.57),
+                                     planes(center, 0.57)});
     }
     const auto floats = test::gaussian<float>(20'000, 5, 1, place);
     const auto doubles = test::gaussian<double>(20'000, 5, 1, place);

@@ -74,18 +74,24 @@ T along(const T (&n)[3], const T (&q)[3]) {
 }
 
 template <typename T>
+RegionState state_of(T value, T inner, T outer) {
+  return value <= inner ? RegionState::inside : value > outer ? RegionState::outside : RegionState::unclear;
+}
+
+template <typename T>
 RegionState state_in_body(const RegionTest<T>& test, const T (&q)[3]) {
-  bool inside = true, outside = false;
-  T squares = 0;
+  if (test.shape == RegionShape::ball) return state_of(along(q, q), test.square_inner, test.square_outer);
+  T excess = -std::numeric_limits<T>::infinity(), squares = 0;
   for (const SlabTest<T>& slab : test.slabs) {
-    const T reach = std::abs(along(slab.axis, q)), beyond = reach - slab.core;
-    const T part = (beyond > 0 ? beyond : T(0)) * slab.weight;
-    inside = inside && reach <= slab.inner;
-    outside = outside || reach > slab.outer;
+    const T reach = std::abs(along(slab.axis, q));
+    const T part = std::max(reach - slab.core, T(0)) * slab.weight;
+    excess = std::max(excess, reach - slab.slab);
     squares += part * part;
   }
-  if (inside && squares <= test.square_inner) return RegionState::inside;
-  return outside || squares > test.square_outer ? RegionState::outside : RegionState::unclear;
+  const RegionState flat = state_of(excess, -test.error, test.error);
+  if (test.shape == RegionShape::slabs || flat == RegionState::outside) return flat;
+  const RegionState round = state_of(squares, test.square_inner, test.square_outer);
+  return round == RegionState::inside ? flat : round;
 }
 
 template <typename T>
@@ -102,13 +108,32 @@ RegionState state_in_planes(const RegionTest<T>& test, const T (&q)[3]) {
 
 template <typename T>
 RegionState state_in(const RegionTest<T>& test, const T (&p)[3]) {
+  const bool by_head = !test.vague && test.shape != RegionShape::box && test.shape != RegionShape::planes;
   T q[3];
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!(p[k] >= test.low[k] && p[k] <= test.high[k])) return RegionState::outside;
-    q[k] = (p[k] - test.head[k]) - test.tail[k];
+    q[k] = p[k] - test.head[k];
+    const bool in_box = by_head ? test.shape == RegionShape::ball || std::abs(q[k]) <= test.reach[k]
+                                : p[k] >= test.low[k] && p[k] <= test.high[k];
+    if (!in_box) return RegionState::outside;
+    q[k] -= test.tail[k];
   }
+  if (test.vague) return RegionState::unclear;
   if (test.shape == RegionShape::box) return RegionState::inside;
-  return test.shape == RegionShape::body ? state_in_body(test, q) : state_in_planes(test, q);
+  return test.shape == RegionShape::planes ? state_in_planes(test, q) : state_in_body(test, q);
+}
+
+template <typename T>
+RegionState state_of_point(const RegionTestsOf<T>& all, const T (&p)[3]) {
+  RegionState result = RegionState::outside;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(p[k] >= all.low[k] && p[k] <= all.high[k])) return result;
+  }
+  for (const RegionTest<T>& test : all.regions) {
+    const RegionState state = state_in(test, p);
+    if (state != RegionState::outside) result = state;
+    if (state == RegionState::inside) break;
+  }
+  return result;
 }
 
 // Lets the point compete if it matters; its squared distance, or -1.
@@ -141,13 +166,7 @@ void region_states_reference(const PointView& points, const RegionTests::Prepare
     for (std::size_t i = 0; i < points.count; ++i) {
       T p[3];
       load_point(points, i, p);
-      auto all = RegionState::outside;
-      for (const RegionTest<T>& test : regions.of<T>().regions) {
-        const RegionState state = state_in(test, p);
-        if (state != RegionState::outside) all = state;
-        if (state == RegionState::inside) break;
-      }
-      states[i] = static_cast<std::uint8_t>(all);
+      states[i] = static_cast<std::uint8_t>(state_of_point(regions.of<T>(), p));
     }
   });
 }

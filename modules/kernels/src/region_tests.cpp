@@ -37,13 +37,20 @@ T down(double x) {
 }
 
 template <typename T>
+constexpr double kMost = sizeof(T) == 4 ? static_cast<double>(std::numeric_limits<float>::max())
+                                        : kMaxCoordinate;
+
+template <typename T>
 void set_box(const ConvexRegion& region, RegionTest<T>& test) {
-  constexpr double most =
-      sizeof(T) == 4 ? static_cast<double>(std::numeric_limits<float>::max()) : kMaxCoordinate;
   for (std::size_t k = 0; k < 3; ++k) {
-    test.low[k] = up<T>(std::max(region.low[k], -most));
-    test.high[k] = down<T>(std::min(region.high[k], most));
+    test.low[k] = up<T>(std::max(region.low[k], -kMost<T>));
+    test.high[k] = down<T>(std::min(region.high[k], kMost<T>));
   }
+}
+
+// The farthest |q| in the box, by coordinate.
+double reach(const ConvexRegion& region, std::size_t k) {
+  return std::max(region.center[k] - region.low[k], region.high[k] - region.center[k]);
 }
 
 // Returns what a distance is off by wherever the point is.
@@ -54,28 +61,27 @@ double set_center(const ConvexRegion& region, RegionTest<T>& test) {
     test.head[k] = static_cast<T>(region.center[k]);
     const double rest = region.center[k] - static_cast<double>(test.head[k]);
     test.tail[k] = static_cast<T>(rest);
+    test.reach[k] = up<T>((reach(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kLeast<T>);
     lost += std::abs(rest - static_cast<double>(test.tail[k])) + kSlope<T> * std::abs(rest);
   }
   return 2 * lost + region.doubt + 16 * kLeast<T> + 0x1p-500;  // which Sphere::contains() adds to a radius
 }
 
-// The greatest |q|_1 in the box.
-double extent(const ConvexRegion& region) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    sum += std::max(region.center[k] - region.low[k], region.high[k] - region.center[k]);
-  return sum;
-}
-
 template <typename T>
 void set_body(const ConvexRegion& region, double off, RegionTest<T>& test) {
-  const double error = off + kSlope<T> * extent(region);
+  double extent = 0, place = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    extent += reach(region, k);
+    place += std::abs(region.center[k]);
+  }
+  test.vague = !(extent + place < kMost<T> / 16);
+  const double error = off + kSlope<T> * extent;
+  test.error = up<T>(error);
   for (std::size_t i = 0; i < 3; ++i) {
     SlabTest<T>& slab = test.slabs[i];
     for (std::size_t k = 0; k < 3; ++k)
       slab.axis[k] = static_cast<T>(region.axes[i][k]);
-    slab.inner = down<T>(region.slab[i] - error);
-    slab.outer = up<T>(region.slab[i] + error);
+    slab.slab = static_cast<T>(region.slab[i]);
     slab.core = static_cast<T>(region.core[i]);
     slab.weight = static_cast<T>(region.weight[i]);
   }
@@ -106,8 +112,11 @@ RegionTestsOf<T> prepare(const std::vector<ConvexRegion>& regions) {
     test.shape = region.shape;
     set_box(region, test);
     const double off = set_center(region, test);
-    if (region.shape == RegionShape::body) set_body(region, off, test);
-    if (region.shape == RegionShape::planes) set_planes(region, off, test);
+    if (region.shape == RegionShape::planes) {
+      set_planes(region, off, test);
+    } else if (region.shape != RegionShape::box) {
+      set_body(region, off, test);
+    }
     for (std::size_t k = 0; k < 3; ++k) {
       all.low[k] = std::min(all.low[k], test.low[k]);
       all.high[k] = std::max(all.high[k], test.high[k]);

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Regions in the points' own type. Each surface has become two thresholds, as far apart as rounding asks for:
-// what is at or below the inner one is inside, what is above the outer one is outside.
+// Regions in the points' own type, with the errors that rounding asks for.
 #pragma once
 
 #include <vector>
@@ -14,24 +13,26 @@ namespace pcl_bv {
 template <typename T>
 struct PlaneTest {
   T normal[3];
-  T inner, outer;
+  T inner, outer;  ///< Inside up to the inner one, outside above the outer one.
 };
 
 template <typename T>
 struct SlabTest {
   T axis[3];
-  T inner, outer;
-  T core, weight;
+  T slab, core, weight;
 };
 
 template <typename T>
 struct RegionTest {
   RegionShape shape;
+  bool vague;  ///< Too large for sums of T: whatever is in the box is unclear.
   T low[3], high[3];
   T head[3], tail[3];  ///< The centre: rounded, and what that left.
+  T reach[3];          ///< From the head to the farther side of the box.
   SlabTest<T> slabs[3];
+  T error;  ///< Of distances along axes.
   T square_inner, square_outer;
-  T slope;  ///< Of planes: what a point's distance |q|_1 adds to the doubt.
+  T slope;  ///< Of planes: what a point's |q|_1 adds to the error.
   std::vector<PlaneTest<T>> planes;
 };
 

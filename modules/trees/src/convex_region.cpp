@@ -26,12 +26,13 @@ double margin(double coordinate) {
   return 0x1p-40 * std::abs(coordinate) + 0x1p-480;
 }
 
-ConvexRegion body(const AnyVolume& volume, const Eigen::Vector3d& center, const Eigen::Matrix3d& axes) {
+ConvexRegion around(const AnyVolume& volume, RegionShape shape, const Eigen::Vector3d& center,
+                    const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity()) {
   const Aabb tight = aabb(volume);
   const double size = std::max(tight.min().cwiseAbs().maxCoeff(), tight.max().cwiseAbs().maxCoeff());
   const Aabb box = aabb(grown(volume, margin(size)));
   ConvexRegion region;
-  region.shape = RegionShape::body;
+  region.shape = shape;
   region.low = coordinates(box.min());
   region.high = coordinates(box.max());
   region.center = coordinates(center);
@@ -106,20 +107,19 @@ ConvexRegion region_of(const Hull& hull) {
 }
 
 ConvexRegion region_of(const Sphere& sphere) {
-  ConvexRegion region = body(sphere, sphere.center(), Eigen::Matrix3d::Identity());
-  region.weight = {1, 1, 1};
+  ConvexRegion region = around(sphere, RegionShape::ball, sphere.center());
   region.radius = sphere.radius();
   return region;
 }
 
 ConvexRegion region_of(const Obb& box) {
-  ConvexRegion region = body(box, box.center(), box.axes());
+  ConvexRegion region = around(box, RegionShape::slabs, box.center(), box.axes());
   region.slab = direction(box.half_extents());
   return region;
 }
 
 ConvexRegion region_of(const Cylinder& cylinder) {
-  ConvexRegion region = body(cylinder, cylinder.center(), axes_about(cylinder.axis()));
+  ConvexRegion region = around(cylinder, RegionShape::body, cylinder.center(), axes_about(cylinder.axis()));
   region.slab[0] = cylinder.half_height();
   region.weight = {0, 1, 1};
   region.radius = cylinder.radius();
@@ -130,16 +130,15 @@ ConvexRegion region_of(const Capsule& capsule) {
   const Eigen::Vector3d edge = capsule.b() - capsule.a();
   const double length = edge.stableNorm();
   const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(edge / length) : Eigen::Vector3d::UnitX();
-  ConvexRegion region = body(capsule, capsule.a() + 0.5 * edge, axes_about(unit));
+  ConvexRegion region = around(capsule, RegionShape::body, capsule.a() + 0.5 * edge, axes_about(unit));
   region.doubt = 0x1p-50 * (taxicab3(capsule.a()) + taxicab3(capsule.b()));
   region.core[0] = 0.5 * length;
-  region.weight = {1, 1, 1};
   region.radius = capsule.radius();
   return region;
 }
 
 ConvexRegion region_of(const Ellipsoid& ellipsoid) {
-  ConvexRegion region = body(ellipsoid, ellipsoid.center(), ellipsoid.axes());
+  ConvexRegion region = around(ellipsoid, RegionShape::body, ellipsoid.center(), ellipsoid.axes());
   region.radius = ellipsoid.radii().maxCoeff();
   for (int i = 0; i < 3; ++i) {
     const double r = ellipsoid.radii()[i];

@@ -18,29 +18,31 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// What of the box low <= p <= high, with q = p - center, a region is.
 enum class RegionShape : std::uint8_t {
-  box,    ///< All of low <= p <= high, exactly.
-  body,   ///< Of that, what axes and radius hold.
-  planes  ///< Of that, what is in all half-spaces.
+  box,    ///< All of it, exactly.
+  slabs,  ///< |axes[i] . q| <= slab[i] for each i.
+  ball,   ///< |q| <= radius.
+  body,   ///< As slabs; and the sum of (weight[i] max(0, |axes[i] . q| - core[i]))^2 is at most radius^2.
+  planes  ///< n . q <= limit for each half-space.
 };
 
-/// A convex region, with q = p - center. Of a body: |axes[i] . q| <= slab[i] for each i, and the sum of
-/// (weight[i] max(0, |axes[i] . q| - core[i]))^2 is at most radius^2. Of planes: n . q <= limit for each.
 struct ConvexRegion {
   RegionShape shape = RegionShape::box;
-  Coordinates low{}, high{};  ///< Inclusive; infinite where nothing is known. Holds the region.
+  Coordinates low{}, high{};  ///< Holds the region; infinite only for boxes and planes.
   Coordinates center{};
 
-  /// How far, besides 2^-43 of |q|_1, the region's surface may be from what the numbers below say.
+  /// How far, besides 2^-43 of |q|_1 and of the radius, the surface may be from what the numbers say.
   double doubt = 0;
 
-  std::array<Direction, 3> axes{};  ///< Of length 1 to 1e-11.
+  std::array<Direction, 3> axes{};  ///< Of length 1 to 1e-11, as normals are.
   std::array<double, 3> slab = {std::numeric_limits<double>::infinity(),
                                 std::numeric_limits<double>::infinity(),
                                 std::numeric_limits<double>::infinity()};
-  std::array<double, 3> core{}, weight{};  ///< Weights may be infinite: then it cannot be told.
-  double radius = std::numeric_limits<double>::infinity();
-  std::vector<HalfSpace> planes;  ///< Normals of length 1 to 1e-11.
+  std::array<double, 3> core{};
+  std::array<double, 3> weight = {1, 1, 1};  ///< If infinite, the surface cannot be told.
+  double radius = 0;
+  std::vector<HalfSpace> planes;
 };
 
 /// Regions as float and double arithmetic tests them. Cheap to copy.
