@@ -205,6 +205,17 @@ def ascii_file(results):
     return Target("files-ascii", "pcd_bv on an ASCII .pcd, whole process, against PCL", "files", lines)
 
 
+def masks(results):
+    lines = []
+    for scene, what in (("sweep", "a sweep, a ninth of it on the robot"), ("links", "all about the robot")):
+        name = f"mask/{scene}/{results.best}/n:300032/threads:2/wait:own"
+        row, where = results.rows.get(name), f"{what}; threads: 2, {results.best}"
+        if row:
+            lines.append(Line("least time", where, *judge(row["second_us"] / 1e3, "<=", 1, unit=" ms")))
+        lines += faster(results, "over a loop over contains()", where, name)
+    return Target("mask", "Mask of 300 k points against ten padded volumes", "mask", lines)
+
+
 def all_targets(results):
     return [
         target(results)
@@ -212,6 +223,6 @@ def all_targets(results):
             *(dop26_in_cache, dop26_from_memory, aabb_against_pcl, bad_points),
             *(epos26, exact_over_epos, exact_against_cgal),
             *(clusters_against_pcl, least_box_against_cgal, many_clusters_against_pcl, many_clusters),
-            *(two_threads, pipeline, binary_file, ascii_file),
+            *(two_threads, masks, pipeline, binary_file, ascii_file),
         )
     ]

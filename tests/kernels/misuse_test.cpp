@@ -20,6 +20,7 @@
 #include "pcl_bv/kernels/point_groups.h"
 #include "pcl_bv/kernels/point_records.h"
 #include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/kernels/support.h"
 
@@ -78,6 +79,11 @@ const std::vector<Kernel>& kernels() {
        }},
       {"list_outside", std::size_t{1} << 32,
        [](Isa isa, const PointView& points) { list_outside(isa, points, {}, room(points).data()); }},
+      {"region_states", kAny,
+       [](Isa isa, const PointView& points) {
+         std::vector<std::uint8_t> states(room(points).size());
+         region_states(isa, points, RegionTests({}), states.data());
+       }},
       {"PointGroups", kAny, [](Isa isa, const PointView& points) { PointGroups(points, isa); }}};
   return all;
 }

@@ -15,8 +15,8 @@ BUILD = ROOT / "build/mutants"
 SOURCE = BUILD / "source"
 BINARY = BUILD / "build"
 
-MODULES = ("numeric", "kernels", "volumes", "fitting", "segmentation")
-TEST_FOLDERS = ("numeric", "volumes", "kernels", "parallel", "fitting", "segmentation", "estimation")
+MODULES = ("numeric", "kernels", "volumes", "fitting", "trees", "segmentation")
+TEST_FOLDERS = ("numeric", "volumes", "kernels", "parallel", "fitting", "trees", "segmentation", "estimation")
 # Other implementations, as peers: slow to build, and what they compare has tests without them.
 PEERS = {"test_fitting_cgal", "test_clusters_as_pcl", "test_extract_clusters"}
 WITHOUT_TESTS = {"modules/segmentation/include/pcl_bv/segmentation/extract_clusters.h"}

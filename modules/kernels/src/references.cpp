@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "region_tests.h"
 #include "square.h"
 
 namespace pcl_bv {
@@ -67,6 +68,74 @@ void sum_block(const PointView& block, Moments& out) {
   }
 }
 
+template <typename T>
+T along(const T (&n)[3], const T (&q)[3]) {
+  return (n[0] * q[0] + n[1] * q[1]) + n[2] * q[2];
+}
+
+template <typename T>
+RegionState state_of(T value, T inner, T outer) {
+  return value <= inner ? RegionState::inside : value > outer ? RegionState::outside : RegionState::unclear;
+}
+
+template <typename T>
+RegionState state_in_body(const RegionTest<T>& test, const T (&q)[3]) {
+  if (test.shape == RegionShape::ball) return state_of(along(q, q), test.square_inner, test.square_outer);
+  T excess = -std::numeric_limits<T>::infinity(), squares = 0;
+  for (const SlabTest<T>& slab : test.slabs) {
+    const T reach = std::abs(along(slab.axis, q));
+    const T part = std::max(reach - slab.core, T(0)) * slab.weight;
+    excess = std::max(excess, reach - slab.slab);
+    squares += part * part;
+  }
+  const RegionState flat = state_of(excess, -test.error, test.error);
+  if (test.shape == RegionShape::slabs || flat == RegionState::outside) return flat;
+  const RegionState round = state_of(squares, test.square_inner, test.square_outer);
+  return round == RegionState::inside ? flat : round;
+}
+
+template <typename T>
+RegionState state_in_planes(const RegionTest<T>& test, const T (&q)[3]) {
+  const T doubt = ((std::abs(q[0]) + std::abs(q[1])) + std::abs(q[2])) * test.slope;
+  RegionState state = RegionState::inside;
+  for (const PlaneTest<T>& plane : test.planes) {
+    const T reach = along(plane.normal, q);
+    if (reach - doubt > plane.outer) return RegionState::outside;
+    if (!(reach + doubt <= plane.inner)) state = RegionState::unclear;
+  }
+  return state;
+}
+
+template <typename T>
+RegionState state_in(const RegionTest<T>& test, const T (&p)[3]) {
+  const bool by_head = !test.vague && test.shape != RegionShape::box && test.shape != RegionShape::planes;
+  T q[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    q[k] = p[k] - test.head[k];
+    const bool in_box = by_head ? test.shape == RegionShape::ball || std::abs(q[k]) <= test.reach[k]
+                                : p[k] >= test.low[k] && p[k] <= test.high[k];
+    if (!in_box) return RegionState::outside;
+    q[k] -= test.tail[k];
+  }
+  if (test.vague) return RegionState::unclear;
+  if (test.shape == RegionShape::box) return RegionState::inside;
+  return test.shape == RegionShape::planes ? state_in_planes(test, q) : state_in_body(test, q);
+}
+
+template <typename T>
+RegionState state_of_point(const RegionTestsOf<T>& all, const T (&p)[3]) {
+  RegionState result = RegionState::outside;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(p[k] >= all.low[k] && p[k] <= all.high[k])) return result;
+  }
+  for (const RegionTest<T>& test : all.regions) {
+    const RegionState state = state_in(test, p);
+    if (state != RegionState::outside) result = state;
+    if (state == RegionState::inside) break;
+  }
+  return result;
+}
+
 // Lets the point compete if it matters; its squared distance, or -1.
 double compete(const Coordinates& p, OctantScan& scan) {
   const double d2 = square(p, scan.center);
@@ -88,6 +157,17 @@ std::size_t list_outside_reference(const PointView& points, const HalfSpaces& in
       load_point(points, i, p);
       return !is_inside(p, inside);
     });
+  });
+}
+
+void region_states_reference(const PointView& points, const RegionTests::Prepared& regions,
+                             std::uint8_t* states) {
+  for_scalar(points, [&]<typename T>() {
+    for (std::size_t i = 0; i < points.count; ++i) {
+      T p[3];
+      load_point(points, i, p);
+      states[i] = static_cast<std::uint8_t>(state_of_point(regions.of<T>(), p));
+    }
   });
 }
 

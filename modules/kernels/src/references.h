@@ -8,6 +8,7 @@
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/half_spaces.h"
 #include "pcl_bv/kernels/moments.h"
+#include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/kernels/support.h"
 
@@ -20,6 +21,8 @@ SlabExtents slab_extents_reference(const PointView& points, const Coordinates& o
                                    const std::array<Direction, 3>& axes);
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
                                    std::uint32_t* positions);
+void region_states_reference(const PointView& points, const RegionTests::Prepared& regions,
+                             std::uint8_t* states);
 
 /// Writes the points as groups; the `pad`-th one (if there is any) fills the last group.
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "convex_region.h"
+
+#include <cmath>
+
+#include "grown.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv {
+namespace {
+
+Coordinates coordinates(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Direction direction(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+// More than what contains() of any volume adds to it, along an axis.
+double margin(double coordinate) {
+  return 0x1p-40 * std::abs(coordinate) + 0x1p-480;
+}
+
+ConvexRegion around(const AnyVolume& volume, RegionShape shape, const Eigen::Vector3d& center,
+                    const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity()) {
+  const Aabb tight = aabb(volume);
+  const double size = std::max(tight.min().cwiseAbs().maxCoeff(), tight.max().cwiseAbs().maxCoeff());
+  const Aabb box = aabb(grown(volume, margin(size)));
+  ConvexRegion region;
+  region.shape = shape;
+  region.low = coordinates(box.min());
+  region.high = coordinates(box.max());
+  region.center = coordinates(center);
+  for (int i = 0; i < 3; ++i)
+    region.axes[static_cast<std::size_t>(i)] = direction(axes.col(i));
+  return region;
+}
+
+Eigen::Matrix3d axes_about(const Eigen::Vector3d& unit) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = unit;
+  axes.col(1) = unit.unitOrthogonal();
+  axes.col(2) = cross3(axes.col(0), axes.col(1));
+  return axes;
+}
+
+// Half-spaces seen from a centre, as they are added. A normal along an axis gives the box a side: contains()
+// adds less than margin() to it.
+class Planes {
+ public:
+  explicit Planes(const Aabb& box) : center_(box.empty() ? Eigen::Vector3d::Zero().eval() : box.center()) {
+    region_.shape = RegionShape::planes;
+    region_.low = {-kInfinity, -kInfinity, -kInfinity};
+    region_.high = {kInfinity, kInfinity, kInfinity};
+    region_.center = coordinates(center_);
+  }
+
+  void add(const Eigen::Vector3d& normal, double offset) {
+    const double length = normal.stableNorm();
+    const Eigen::Vector3d n = normal / length;
+    region_.planes.push_back({n.x(), n.y(), n.z(), offset / length - dot3(n, center_)});
+    const double doubt = 0x1p-45 * (std::abs(offset / length) + taxicab3(center_));
+    if (!(doubt <= region_.doubt)) region_.doubt = doubt;
+    bound(n, offset / length, region_.low.x, region_.high.x, 0);
+    bound(n, offset / length, region_.low.y, region_.high.y, 1);
+    bound(n, offset / length, region_.low.z, region_.high.z, 2);
+  }
+
+  const ConvexRegion& region() const { return region_; }
+
+ private:
+  static void bound(const Eigen::Vector3d& n, double offset, double& low, double& high, int axis) {
+    if (n[axis] == 1) high = std::min(high, offset + margin(offset));
+    if (n[axis] == -1) low = std::max(low, -offset - margin(offset));
+  }
+
+  Eigen::Vector3d center_;
+  ConvexRegion region_;
+};
+
+ConvexRegion region_of(const Aabb& box) {
+  ConvexRegion region;
+  region.low = coordinates(box.min());
+  region.high = coordinates(box.max());
+  return region;
+}
+
+ConvexRegion region_of(const Kdop& kdop) {
+  Planes planes(kdop.aabb());
+  for (std::size_t i = 0; i < kdop.size(); ++i) {
+    planes.add(kdop.set()->direction(i), kdop.max(i));
+    planes.add(-kdop.set()->direction(i), -kdop.min(i));
+  }
+  return planes.region();
+}
+
+ConvexRegion region_of(const Hull& hull) {
+  Planes planes(hull.aabb());
+  for (const HullPlane& plane : hull.planes())
+    planes.add(plane.normal, plane.offset);
+  return planes.region();
+}
+
+ConvexRegion region_of(const Sphere& sphere) {
+  ConvexRegion region = around(sphere, RegionShape::ball, sphere.center());
+  region.radius = sphere.radius();
+  return region;
+}
+
+ConvexRegion region_of(const Obb& box) {
+  ConvexRegion region = around(box, RegionShape::slabs, box.center(), box.axes());
+  region.slab = direction(box.half_extents());
+  return region;
+}
+
+ConvexRegion region_of(const Cylinder& cylinder) {
+  ConvexRegion region = around(cylinder, RegionShape::body, cylinder.center(), axes_about(cylinder.axis()));
+  region.slab[0] = cylinder.half_height();
+  region.weight = {0, 1, 1};
+  region.radius = cylinder.radius();
+  return region;
+}
+
+ConvexRegion region_of(const Capsule& capsule) {
+  const Eigen::Vector3d edge = capsule.b() - capsule.a();
+  const double length = edge.stableNorm();
+  const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(edge / length) : Eigen::Vector3d::UnitX();
+  ConvexRegion region = around(capsule, RegionShape::body, capsule.a() + 0.5 * edge, axes_about(unit));
+  region.doubt = 0x1p-50 * (taxicab3(capsule.a()) + taxicab3(capsule.b()));
+  region.core[0] = 0.5 * length;
+  region.radius = capsule.radius();
+  return region;
+}
+
+ConvexRegion region_of(const Ellipsoid& ellipsoid) {
+  ConvexRegion region = around(ellipsoid, RegionShape::body, ellipsoid.center(), ellipsoid.axes());
+  region.radius = ellipsoid.radii().maxCoeff();
+  for (int i = 0; i < 3; ++i) {
+    const double r = ellipsoid.radii()[i];
+    region.weight[static_cast<std::size_t>(i)] = r > 0 ? region.radius / r : kInfinity;
+  }
+  return region;
+}
+
+}  // namespace
+
+ConvexRegion convex_region(const AnyVolume& volume) {
+  const FloatEnvironment environment;
+  return std::visit([](const auto& shape) { return region_of(shape); }, volume);
+}
+
+}  // namespace pcl_bv

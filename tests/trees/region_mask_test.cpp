@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The mask is contains() of the grown volumes, point by point, however it is run.
+
+#include "pcl_bv/trees/region_mask.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "allocations.h"
+#include "any_volumes.h"
+#include "clouds.h"
+#include "executions.h"
+#include "flush_to_zero.h"
+#include "grown.h"
+#include "pcl_bv/kernels/point_groups.h"
+#include "sources.h"
+
+namespace pcl_bv {
+namespace {
+
+using namespace testing;
+using Marks = std::vector<std::uint8_t>;
+
+template <typename T>
+test::TestCloud<T> cloud_of(const std::vector<Vector3d>& points) {
+  test::TestCloud<T> cloud;
+  for (const Vector3d& p : points) {
+    for (const double c : p)
+      cloud.xyz.push_back(static_cast<T>(c));
+  }
+  return cloud;
+}
+
+Marks marks(const RegionMask& mask, const PointView& points, const Execution& execution = {}) {
+  Marks inside(points.count + 3, 7);
+  mask.mark(points, inside, execution);
+  return inside;
+}
+
+// One after another.
+Marks contained(const std::vector<Region>& regions, const PointView& points) {
+  Marks inside;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    inside.push_back(is_valid(p) && std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
+                       return contains(grown(region.volume, region.padding), Vector3d(p.x, p.y, p.z));
+                     }));
+  }
+  return inside;
+}
+
+// Boxes, spheres, oriented boxes, cylinders and capsules, two of each and one of every other kind, padded.
+std::vector<Region> ten_and_more(Random& random, const Scale& scale) {
+  std::vector<Region> regions;
+  for (int i = 0; i < 2; ++i) {
+    for (const AnyVolume& volume : volumes_of_every_kind(random, scale))
+      regions.push_back({volume, 0.02 * scale.extent * static_cast<double>(regions.size() % 4)});
+  }
+  return regions;
+}
+
+template <typename T>
+void expect_contains() {
+  Random random(1);
+  for (const Scale& scale : scales()) {
+    std::size_t in = 0, all = 0;
+    for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
+      for (const double part : {0.0, 1e-3, 0.5}) {
+        const double padding = part * scale.extent;
+        const auto cloud = cloud_of<T>(points_about(random, volume, padding, 40));
+        const Marks expected = contained({{volume, padding}}, cloud.view());
+        ASSERT_EQ(marks(RegionMask({{volume, padding}}), cloud.view()), expected)
+            << shape_name(volume) << ", " << scale.name << ", " << padding;
+        in += static_cast<std::size_t>(std::accumulate(expected.begin(), expected.end(), 0));
+        all += expected.size();
+      }
+    }
+    // Those of 1e99 are no floats, and those of 1e-100 are at 0.
+    if (sizeof(T) == 8 || (scale.extent > 1e-50 && scale.extent < 1e50)) {
+      EXPECT_GT(in, all / 10) << scale.name;
+      EXPECT_LT(in, all) << scale.name;
+    }
+  }
+}
+
+TEST(RegionMask, OfFloatsIsContainsOfTheGrownVolume) {
+  expect_contains<float>();
+}
+TEST(RegionMask, OfDoublesIsContainsOfTheGrownVolume) {
+  expect_contains<double>();
+}
+
+TEST(RegionMask, OfManyRegionsIsTheirUnion) {
+  Random random(2);
+  for (const Scale& scale : {scales()[0], scales()[1], scales()[3], scales()[5]}) {
+    const std::vector<Region> regions = ten_and_more(random, scale);
+    std::vector<Vector3d> points;
+    for (const auto& [volume, padding] : regions) {
+      for (const Vector3d& p : points_about(random, volume, padding, 10))
+        points.push_back(p);
+    }
+    const RegionMask mask(regions);
+    const auto floats = cloud_of<float>(points);
+    const auto doubles = cloud_of<double>(points);
+    EXPECT_EQ(marks(mask, floats.view()), contained(regions, floats.view())) << scale.name;
+    EXPECT_EQ(marks(mask, doubles.view()), contained(regions, doubles.view())) << scale.name;
+    for (std::size_t i = 0; i < points.size(); i += 7)
+      ASSERT_EQ(mask.contains(points[i]), marks(mask, doubles.view().slice(i, 1))[0] == 1);
+  }
+}
+
+TEST(RegionMask, OfNastyCloudsIsContainsOfTheVolumes) {
+  Random random(3);
+  std::vector<Region> regions = ten_and_more(random, scales().front());
+  regions.push_back({Aabb({-1e30, -1e30, 1e10}, {1e30, 2e38, 1e39}), 1});
+  regions.push_back({Sphere({5e6, 5e6, 5e6}, 10), 0.5});
+  const RegionMask mask(regions);
+  for (const auto& cloud : test::nasty_clouds<float>())
+    EXPECT_EQ(marks(mask, cloud.view()), contained(regions, cloud.view())) << cloud.name;
+  for (const auto& cloud : test::nasty_clouds<double>())
+    EXPECT_EQ(marks(mask, cloud.view()), contained(regions, cloud.view())) << cloud.name;
+}
+
+TEST(RegionMask, IsTheSameOnEveryInstructionSetAndAnyNumberOfThreads) {
+  Random random(4);
+  const std::vector<Region> regions = ten_and_more(random, scales().front());
+  const RegionMask mask(regions);
+  const auto cloud = test::gaussian<float>(test::kEmulated ? 140'000 : 330'001, 4);
+  const Marks expected = marks(mask, cloud.view(), {Serial{}, Isa::scalar});
+  EXPECT_GT(std::accumulate(expected.begin(), expected.end(), 0), 10'000);
+  for (const auto& [name, execution] : test::every_execution())
+    EXPECT_EQ(marks(mask, cloud.view(), execution), expected) << name;
+}
+
+TEST(RegionMask, FollowsEveryLayoutAndOrderOnEveryInstructionSet) {
+  Random random(5);
+  const RegionMask mask(ten_and_more(random, scales().front()));
+  const auto cloud = test::gaussian<float>(2 * kChunkPoints + 77, 5);
+  const Marks expected = marks(mask, cloud.view(), {Serial{}, Isa::scalar});
+  std::vector<std::int32_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  PointView shuffled = cloud.view();
+  shuffled.indices = order.data();
+  const test::Records<float> padded(cloud, 16), wide(cloud, 32, 4), odd(cloud, 13);
+  const test::CopyingSource<float> source(cloud);
+  const PointGroups groups(cloud.view());
+  for (const Isa isa : usable_isas()) {
+    const Execution execution{Threads{2}, isa};
+    for (const PointView& view : {padded.view(), wide.view(), odd.view(), source.view(), groups.view()})
+      EXPECT_EQ(marks(mask, view, execution), expected) << isa_name(isa);
+    const Marks permuted = marks(mask, shuffled, execution);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      ASSERT_EQ(permuted[i], expected[static_cast<std::size_t>(order[i])]) << isa_name(isa) << ", " << i;
+  }
+}
+
+TEST(RegionMask, MovesWithThePointsByPowersOfTwo) {
+  Random random(6);
+  const auto rounded = [&](double extent) -> Vector3d {
+    return (random.vector(extent) * 1024).array().round() / 1024;
+  };
+  for (const double step : {0x1p10, -0x1p20}) {
+    const Vector3d by(step, -step, 2 * step);
+    std::vector<Region> here, there;
+    for (int i = 0; i < 5; ++i) {
+      const Vector3d c = rounded(1), d = rounded(1), n = random.vector(1);
+      const Eigen::Matrix3d axes = random.isometry(1).linear();
+      const Vector3d low = c.cwiseMin(d), high = c.cwiseMax(d), size(0.3, 0.2, 0.1);
+      for (auto* regions : {&here, &there}) {
+        const Vector3d at = regions == &here ? Vector3d::Zero() : by;
+        regions->insert(regions->end(), {{Aabb(low + at, high + at), 0.125},
+                                         {Sphere(c + at, 0.3), 0.1},
+                                         {Obb(c + at, axes, size), 0.1},
+                                         {Cylinder(c + at, n, 0.3, 0.2), 0.1},
+                                         {Capsule(c + at, d + at, 0.1), 0.1},
+                                         {Ellipsoid(c + at, axes, size), 0.1}});
+      }
+    }
+    std::vector<Vector3d> points, moved;
+    for (int i = 0; i < 3000; ++i) {
+      points.push_back(rounded(2));
+      moved.push_back(points.back() + by);
+    }
+    EXPECT_EQ(marks(RegionMask(there), cloud_of<double>(moved).view()),
+              marks(RegionMask(here), cloud_of<double>(points).view()));
+  }
+}
+
+TEST(RegionMask, HoldsNoPointThatDoesNotCount) {
+  const RegionMask everywhere({{Aabb(Vector3d::Constant(-1e300), Vector3d::Constant(1e300)), 0},
+                               {Sphere({0, 0, 0}, 1e100), 1e100},
+                               {cube({-1e99, -1e99, -1e99}, 2e99), 1e100}});
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1.1e100, -1e200}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vector3d point(1, 2, 3);
+      point[axis] = bad;
+      EXPECT_FALSE(everywhere.contains(point)) << bad;
+      EXPECT_EQ(marks(everywhere, cloud_of<double>({point, {1, 2, 3}}).view()), (Marks{0, 1})) << bad;
+      if (std::abs(bad) < kInfinity) continue;
+      EXPECT_EQ(marks(everywhere, cloud_of<float>({point, {1, 2, 3}}).view()), (Marks{0, 1})) << bad;
+    }
+  }
+}
+
+TEST(RegionMask, OfNoRegionsOrEmptyOnesMarksNothing) {
+  const auto cloud = test::gaussian<float>(1000, 7);
+  const std::vector<Region> empty = {{Aabb(), 1},     {Kdop(), 1},    {Sphere(), 1},    {Obb(), 1},
+                                     {Cylinder(), 1}, {Capsule(), 1}, {Ellipsoid(), 1}, {Hull(), 1}};
+  for (const RegionMask& mask : {RegionMask({}), RegionMask(empty)}) {
+    EXPECT_EQ(marks(mask, cloud.view()), Marks(1000, 0));
+    EXPECT_EQ(marks(mask, PointView()), Marks());
+    EXPECT_FALSE(mask.contains({0, 0, 0}));
+  }
+}
+
+// A k-DOP whose slabs have no point in common is not empty(), and a plane may have any normal.
+TEST(RegionMask, AsksContainsOfVolumesThatAreNone) {
+  const auto set = KdopSet::dop14();
+  SlabVector min = SlabVector::Constant(7, -1), max = SlabVector::Constant(7, 1);
+  min[3] = 5, max[3] = 6;
+  const Hull half({{0, 0, 0}}, {}, {{Vector3d(0.1, 0.2, 0.3), 0.5}}, 0);
+  const Hull all({{0, 0, 0}}, {}, {{Vector3d::Zero(), 0}}, 0),
+      none({{0, 0, 0}}, {}, {{Vector3d::Zero(), -1}}, 0);
+  const auto cloud = test::gaussian<double>(2000, 8, 3);
+  for (const AnyVolume& volume :
+       {AnyVolume(Kdop(set, min, max)), AnyVolume(half), AnyVolume(all), AnyVolume(none)}) {
+    for (const double padding : {0.0, 0.5, 2.0}) {
+      const std::vector<Region> regions = {{volume, padding}};
+      EXPECT_EQ(marks(RegionMask(regions), cloud.view()), contained(regions, cloud.view())) << padding;
+    }
+  }
+}
+
+TEST(RegionMask, RefusesAPaddingThatIsNoneAndSaysSo) {
+  for (const double bad : {-1e-300, -1.0, kNan, kInfinity, 1.1e100}) {
+    EXPECT_THROW(RegionMask({{Sphere({0, 0, 0}, 1), 0.5}, {Sphere(), bad}}), std::invalid_argument) << bad;
+  }
+  try {
+    RegionMask({{Sphere({0, 0, 0}, 1), -0.25}});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("from 0 to 1e100, not -0.25"));
+  }
+}
+
+TEST(RegionMask, IsTheSameOnAHostThatFlushesToZero) {
+  Random random(9);
+  const Scale tiny{"1e-41", 0, 1e-41};
+  const std::vector<Region> regions = ten_and_more(random, tiny);
+  const auto cloud = test::gaussian<float>(3000, 9, 1e-41);
+  const Marks expected = marks(RegionMask(regions), cloud.view());
+  EXPECT_GT(std::accumulate(expected.begin(), expected.end(), 0), 100);
+  const test::FlushToZero flushing;
+  EXPECT_EQ(marks(RegionMask(regions), cloud.view()), expected);
+}
+
+TEST(RegionMask, AllocatesNothingInASecondPass) {
+  Random random(10);
+  const RegionMask mask(ten_and_more(random, scales().front()));
+  const auto cloud = test::gaussian<float>(3 * kChunkPoints, 10);
+  Marks inside;
+  mask.mark(cloud.view(), inside);
+  const std::size_t before = allocations();
+  mask.mark(cloud.view(), inside);
+  EXPECT_EQ(allocations(), before);
+}
+
+}  // namespace
+}  // namespace pcl_bv
