@@ -47,6 +47,24 @@ TEST_F(PcdBv, ClustersGetOneUprightBoxUnlessAskedOtherwise) {
   }
 }
 
+TEST_F(PcdBv, RegionsOfAnEarlierResultAreDroppedOrKept) {
+  const std::string cloud = ascii("two.pcd", {"1 0 0", "1.5 0 0", "1 0.5 0.25", "9 0 0", "9.5 0 0", "9 0.5 0.3"});
+  const std::string near = ascii("near.pcd", {"1 0 0", "1.5 0 0", "1 0.5 0.25"});
+  const std::string found = file("near.json", run({"--volume", "sphere", "--format", "json", near}).out);
+  const Json dropped = run({"--drop-inside", found, "--volume", "aabb", "--format", "jsonl", cloud}).json();
+  EXPECT_EQ(dropped["counts"]["inside"], 3);
+  EXPECT_EQ(dropped["clusters"][0]["volumes"][0]["min"], Json({9.0, 0.0, 0.0}));
+  const Json kept = run({"--keep-inside", found, "--volume", "aabb", "--format", "jsonl", cloud}).json();
+  EXPECT_EQ(kept["clusters"][0]["volumes"][0]["max"], Json({1.5, 0.5, 0.25}));
+  const Json grown =
+      run({"--drop-inside", found, "--padding", "10", "--format", "jsonl", "--min-size", "1", "--cluster", "1", cloud})
+          .json();
+  EXPECT_EQ(grown["counts"]["inside"], 6);
+  EXPECT_EQ(run({"--drop-inside", at("none.json"), cloud}).status, 1);
+  EXPECT_EQ(run({"--padding", "1", cloud}).status, 2);
+  EXPECT_EQ(run({"--drop-inside", found, "--padding", "-1", cloud}).status, 2);
+}
+
 TEST_F(PcdBv, AnOriginIsSubtractedFirstAndNamed) {
   const std::string far = ascii("far.pcd", {"1001 2001 0", "1003 2002 0.5"});
   const Json moved = run({"--origin", "1000,2000,0", "--volume", "aabb", "--range", "0:5", "--format", "jsonl",

@@ -11,9 +11,11 @@
 
 #include "frames.h"
 #include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/report/picture.h"
+#include "pcl_bv/trees/region_mask.h"
 
 namespace pcl_bv {
 namespace {
@@ -93,6 +95,46 @@ TEST(WholeCloud, PointsOfItAreThoseThatItsVolumesHold) {
     EXPECT_EQ(std::count(labels.begin(), labels.end(), 0U),
               static_cast<std::ptrdiff_t>(result.clusters.cluster_size(0)));
   }
+}
+
+TEST(Regions, DropWhatIsInsideOrOutsideAndCountIt) {
+  const std::vector<float> xyz = street_with_bad_points();
+  const PointView cloud = frame_of(xyz, 0).points;
+  const AnyVolume box = Aabb({-5, -5, -2}, {5, 5, 2}), ball = Sphere({8, 0, 0}, 3);
+  const Region grown_box{box, 0.5}, grown_ball{ball, 0.5};
+  const RegionMask mask({grown_box, grown_ball});
+  std::vector<std::uint8_t> inside;
+  mask.mark(cloud, inside);
+  const auto within = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
+  const std::size_t valid = cloud.count - (xyz.size() + 999) / 1000;
+  ASSERT_GT(within, 100U);
+  for (const bool keep : {false, true}) {
+    for (const double tolerance : {0.0, 0.5}) {  // as they come past, and by lists
+      PipelineConfig config = whole_cloud_config();
+      config.cluster.tolerance = tolerance;
+      config.cluster.min_size = 1;
+      config.filter.regions = {{"", keep, 0.5, {box}}, {"", keep, 0.5, {ball}}};
+      const FrameResult result = result_of(config, cloud);
+      EXPECT_EQ(result.counts.inside, keep ? valid - within : within);
+      std::size_t left = 0;
+      for (std::size_t c = 0; c < result.clusters.size(); ++c)
+        left += result.clusters.cluster_size(c);
+      EXPECT_EQ(left, keep ? within : valid - within);
+      const std::vector<std::uint32_t> labels = labels_of(result, cloud);
+      for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] == label_none) continue;
+        ASSERT_EQ(inside[i] != 0, keep) << i;
+      }
+    }
+  }
+}
+
+TEST(Regions, AFileThatCannotBeReadIsAnErrorBeforeAnyFrame) {
+  PipelineConfig config;
+  config.filter.regions = {{"/nonexistent.json"}};
+  EXPECT_THROW(FramePipeline{config}, IoError);
+  config.filter.regions = {{"/nonexistent.json", false, -1}};
+  EXPECT_THROW(FramePipeline{config}, std::invalid_argument);
 }
 
 TEST(WholeCloud, ThatIsNotInMemoryCannotBeToldApart) {

@@ -166,7 +166,8 @@ Json counts_json(const Counts& counts) {
           {"range", counts.range},
           {"ground", counts.ground},
           {"small", counts.small},
-          {"large", counts.large}};
+          {"large", counts.large},
+          {"inside", counts.inside}};
 }
 
 }  // namespace

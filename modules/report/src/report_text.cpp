@@ -136,6 +136,7 @@ std::string header(const Report& report) {
   };
   add(report.counts.nonfinite, " not finite");
   add(report.counts.range, " out of range");
+  add(report.counts.inside, " by regions");
   add(report.counts.ground, " ground");
   add(report.counts.small, " in small clusters");
   add(report.counts.large, " in large clusters");

@@ -43,7 +43,8 @@ void CommandLine::option(const char* name, std::string& value, const char* type,
 
 void CommandLine::option(const char* name, std::vector<std::string>& values, const char* type,
                          const std::string& help) {
-  app_->add_option(name, values, help)->type_name(type);
+  CLI::Option* const option = app_->add_option(name, values, help)->type_name(type);
+  if (name[0] == '-') option->allow_extra_args(false);  // one at a time: what follows may be an input
 }
 
 void CommandLine::flag(const char* name, bool& value, const std::string& help) {

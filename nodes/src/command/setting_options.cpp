@@ -45,6 +45,9 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
   line.option("--range", range_, "MIN:MAX",
               "Drop points nearer or farther than this from the origin (" + to_text(filter.range_min) + ":" +
                   to_text(filter.range_max) + ")");
+  line.option("--drop-inside", dropped_, "FILE.json", "Drop points inside the volumes of this result; repeatable");
+  line.option("--keep-inside", cropped_, "FILE.json", "Drop points outside of all its volumes; repeatable");
+  line.option("--padding", padding_, "M", "Grow those volumes by this in every direction (0)");
   const auto declare = [&](const Setting& setting, const auto& value) {
     if (!has_option(setting, stream_)) return;
     const std::string about(setting.about);
@@ -73,6 +76,15 @@ void SettingOptions::apply(StreamConfig& config) const {
   };
   visit_stream(config, read);
   FilterConfig& filter = config.pipeline.filter;
+  if (!dropped_.empty() || !cropped_.empty()) filter.regions.clear();
+  for (const auto& [files, keep] : {std::pair(&dropped_, false), {&cropped_, true}}) {
+    for (const std::string& file : *files)
+      filter.regions.push_back({file, keep});
+  }
+  for (RegionConfig& region : filter.regions) {
+    if (line_.given("--padding"))
+      parse_with("--padding", padding_, [&](const std::string& text) { read_text(text, region.padding); });
+  }
   if (line_.given("--range")) std::tie(filter.range_min, filter.range_max) = parse_range(range_);
 }
 
@@ -82,6 +94,7 @@ void SettingOptions::refuse_useless(const PipelineConfig& config) const {
       throw UsageError(std::string(option) + ": only useful with " + needed);
   };
   const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
+  refuse("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
   for (const char* option : {"--min-size", "--max-size"})
     refuse(option, clusters, "--cluster");

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "command/command_line.h"
 #include "pcl_bv/nodes/stream_config.h"
@@ -32,7 +33,8 @@ class SettingOptions {
   const StreamConfig defaults_;
   std::map<std::string_view, std::string> texts_;  ///< By option; nodes do not move.
   std::map<std::string_view, bool> flags_;
-  std::string preset_, file_, range_;
+  std::string preset_, file_, range_, padding_;
+  std::vector<std::string> dropped_, cropped_;
   bool stream_, print_config_ = false;
 };
 

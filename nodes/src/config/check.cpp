@@ -105,6 +105,15 @@ std::string problem_of(const Setting& /*setting*/, const std::optional<Eigen::Ve
   return point && !point->allFinite() ? "a coordinate is not finite" : "";
 }
 
+std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
+  for (const RegionConfig& region : regions) {
+    if (region.file.empty() && region.volumes.empty()) return "a region has neither a file nor volumes";
+    const std::string padding = problem_of(Setting{"", "", "", {0, 1e100}}, region.padding);
+    if (!padding.empty()) return "padding: " + padding;
+  }
+  return {};
+}
+
 std::vector<ConfigProblem> problems_of(const StreamConfig& config) {
   std::vector<ConfigProblem> problems;
   visit_stream(config, checker(problems));

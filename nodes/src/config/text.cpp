@@ -107,6 +107,15 @@ std::string to_text(const std::vector<std::string>& names) {
     list += (list.empty() ? "" : ", ") + name;
   return list;
 }
+std::string to_text(const std::vector<RegionConfig>& regions) {
+  std::string list;
+  for (const RegionConfig& region : regions) {
+    list += list.empty() ? "" : ", ";
+    list += "{file: \"" + region.file.string() + "\", keep: " + to_text(region.keep) +
+            ", padding: " + to_text(region.padding) + '}';
+  }
+  return list;
+}
 std::string to_text(GroundMethod method) {
   return find_name(kGroundMethods, method);
 }
@@ -158,6 +167,9 @@ void read_text(std::string_view text, std::vector<std::string>& names) {
       names.emplace_back(name);
     }
   }
+}
+void read_text(std::string_view text, std::vector<RegionConfig>& regions) {
+  regions = {{std::filesystem::path(text)}};
 }
 void read_text(std::string_view text, GroundMethod& method) {
   read_name(kGroundMethods, text, method);

@@ -116,6 +116,27 @@ class Reader {
   static void read(const YAML::Node& node, Eigen::Vector3d& value) {
     read_text(node.IsSequence() ? elements(node, "") : scalar(node), value);
   }
+  static void read(const YAML::Node& node, std::vector<RegionConfig>& regions) {
+    if (!node.IsSequence()) refuse(node, "a list of regions");
+    regions.clear();
+    for (const YAML::Node& element : node) {
+      RegionConfig region;
+      if (!element.IsMap()) refuse(element, "a region, {file: F.json, keep: false, padding: 0}");
+      for (const auto& item : element) {
+        const auto key = item.first.as<std::string>();
+        if (key == "file") {
+          region.file = scalar(item.second);
+        } else if (key == "keep") {
+          read(item.second, region.keep);
+        } else if (key == "padding") {
+          read(item.second, region.padding);
+        } else {
+          throw std::invalid_argument("unknown key '" + key + "' of a region");
+        }
+      }
+      regions.push_back(std::move(region));
+    }
+  }
   static void read(const YAML::Node& node, std::vector<std::string>& names) {
     const std::string list = elements(node, "a list of methods");
     names.clear();
@@ -151,8 +172,9 @@ class Writer {
  public:
   template <typename T>
   void operator()(const Setting& setting, const T& value) {
-    constexpr bool list =
-        std::is_same_v<T, std::vector<std::string>> || std::is_same_v<T, std::optional<Eigen::Vector3d>>;
+    constexpr bool list = std::is_same_v<T, std::vector<std::string>> ||
+                          std::is_same_v<T, std::optional<Eigen::Vector3d>> ||
+                          std::is_same_v<T, std::vector<RegionConfig>>;
     std::string text = to_text(value);
     if (text == "inf") text = ".inf";
     std::string comment(setting.unit);

@@ -5,50 +5,55 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <memory>
 #include <vector>
 
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/segmentation/counts.h"
+#include "pcl_bv/trees/region_mask.h"
 
 namespace pcl_bv {
 
-/// A configured filter, for one point at a time.
+/// Why a point is dropped.
+enum class Verdict : std::uint8_t { kept, nonfinite, range, inside };
+
+/// Memory that calls share.
+struct FilterScratch {
+  std::vector<Verdict> verdicts;
+  std::vector<std::uint8_t> inside;
+};
+
+/// A configured filter. Const calls may run side by side.
 class PointFilter {
  public:
-  explicit PointFilter(const FilterConfig& config);
+  /// Reads the files of regions without volumes; throws IoError for one that cannot be read.
+  PointFilter(const FilterConfig& config, UsableIsa isa);
 
-  struct Verdict {
-    bool valid, inside;  ///< Whether the point counts, and whether it is in range and not of the own vehicle.
-  };
+  /// Whether all finite points are kept.
+  bool keeps_all() const;
 
-  /// The square of a float is exact in double and the sum of three is rounded twice: a point is judged by its
-  /// true distance to within 2e-16 of it.
-  template <typename T>
-  Verdict judge(const T (&p)[3]) const {
-    const double x = p[0], y = p[1], z = p[2];
-    const double distance2 = (x * x + y * y) + z * z;
-    // The squares of finite floats are finite in double: one comparison instead of three.
-    const bool valid =
-        sizeof(T) == 4 ? distance2 < std::numeric_limits<double>::infinity() : is_valid({x, y, z});
-    bool inside = distance2 >= min2_ && distance2 <= max2_;
-    if (boxed_) {
-      inside = inside && !(x >= low_.x() && x <= high_.x() && y >= low_.y() && y <= high_.y() &&
-                           z >= low_.z() && z <= high_.z());
-    }
-    return {valid, inside};
-  }
+  /// Judges points in memory, one verdict each. The square of a float is exact in double and the sum of three
+  /// is rounded twice: a point is judged by its true distance to within 2e-16 of it.
+  void judge(const PointView& points, FilterScratch& scratch) const;
 
  private:
+  template <typename T>
+  void judge_distances(const PointView& points, std::vector<Verdict>& verdicts) const;
+  void drop(const PointView& points, const RegionMask& mask, bool inside, FilterScratch& scratch) const;
+
   double min2_, max2_;
   bool boxed_;
   Eigen::Vector3d low_, high_;  // of the own vehicle
+  std::unique_ptr<const RegionMask> dropped_, cropped_;
+  UsableIsa isa_;
 };
 
-/// Replaces `kept` with the numbers of the valid points in range and outside the own vehicle, in the order of
-/// the view; counts the others.
-void filter_points(const PointView& points, const FilterConfig& config, std::vector<std::int32_t>& kept,
-                   Counts& counts);
+/// Counts each reason.
+void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts);
+
+/// Replaces `kept` with the numbers of the points of the view that are kept, in its order; counts the others.
+void filter_points(const PointView& points, const PointFilter& filter, std::vector<std::int32_t>& kept,
+                   FilterScratch& scratch, Counts& counts);
 
 }  // namespace pcl_bv

@@ -4,10 +4,11 @@
 // A filter for clouds that are not held: it drops points as they come past.
 #pragma once
 
+#include <utility>
+
 #include "pcl_bv/kernels/point_source.h"
-#include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/parallel/policy.h"
-#include "pcl_bv/segmentation/counts.h"
+#include "stages/filter.h"
 
 namespace pcl_bv {
 
@@ -15,7 +16,8 @@ namespace pcl_bv {
 class FilteredPoints final : public PointSource {
  public:
   /// Keeps the view, whose points are not of an index list.
-  FilteredPoints(const PointView& points, const FilterConfig& config) : points_(points), config_(config) {}
+  FilteredPoints(const PointView& points, std::shared_ptr<const PointFilter> filter)
+      : points_(points), filter_(std::move(filter)) {}
 
   PointView view() const { return view_of(*this, points_.count, points_.scalar); }
 
@@ -26,7 +28,7 @@ class FilteredPoints final : public PointSource {
 
  private:
   PointView points_;
-  FilterConfig config_;
+  std::shared_ptr<const PointFilter> filter_;
 };
 
 }  // namespace pcl_bv

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "pcl_bv/fitting/batch.h"
-#include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pcl_bv/segmentation/up.h"
@@ -39,6 +38,7 @@ struct Prepared {
   PipelineConfig config;
   std::vector<const Method*> methods;
   MethodOptions options;
+  std::shared_ptr<const PointFilter> filter;
   Execution execution{Serial{}, Isa::scalar};  // until the configuration's set is known
   bool tells_apart = false;                    // ground or clusters
   bool looks = false;                          // at points before volumes are fitted
@@ -50,15 +50,15 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
     problems += (problems.empty() ? "" : "; ") + line;
   if (!problems.empty()) throw std::invalid_argument(problems);
   auto prepared = std::make_shared<Prepared>();
-  const FilterConfig& filter = config.filter;
   prepared->methods = config.methods();
   prepared->options = {config.growth, up_direction(config.ground.up)};
   prepared->tells_apart = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
-  prepared->looks = prepared->tells_apart || filter.range_min > 0 || filter.range_max < kNoLimit ||
-                    filter.own_box_min || config.cluster.least_size() > 0 ||
-                    config.cluster.max_size < std::numeric_limits<std::size_t>::max();
   prepared->execution.isa = parse_isa(config.isa);
   prepared->execution.parallel = config.policy();
+  prepared->filter = std::make_shared<PointFilter>(config.filter, prepared->execution.isa);
+  prepared->looks = prepared->tells_apart || !prepared->filter->keeps_all() ||
+                    config.cluster.least_size() > 0 ||
+                    config.cluster.max_size < std::numeric_limits<std::size_t>::max();
   prepared->config = std::move(config);
   return prepared;
 }
@@ -79,6 +79,7 @@ struct FramePipeline::State {
   mutable std::mutex mutex;
   std::shared_ptr<const Prepared> prepared;
 
+  FilterScratch scratch;
   GroundZones zones;
   EuclideanClusterer clusterer;
   std::vector<PointView> views;
@@ -93,11 +94,11 @@ PointView FramePipeline::State::filter(const Prepared& now, const PointView& clo
   if (!now.looks) return cloud;
   const bool listed = now.tells_apart || cloud.indices != nullptr;
   if (!listed && (cloud.source != nullptr || cloud.count > kChunkPoints)) {
-    auto filtered = std::make_shared<FilteredPoints>(cloud, now.config.filter);
+    auto filtered = std::make_shared<FilteredPoints>(cloud, now.filter);
     result.counts = filtered->count(now.execution.parallel);
     result.filtered = std::move(filtered);
   } else {
-    filter_points(cloud, now.config.filter, result.kept, result.counts);
+    filter_points(cloud, *now.filter, result.kept, scratch, result.counts);
   }
   return result.kept_points(cloud);
 }
@@ -113,7 +114,7 @@ PointView FramePipeline::State::remove_ground(const GroundConfig& config, const 
 // All points as one object, if their number is allowed.
 void take_all(const ClusterConfig& config, const PointView& points, FrameResult& result) {
   const Counts& counts = result.counts;
-  const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.ground;
+  const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;
   Clusters& all = result.clusters;
   all.indices.clear();
   all.offsets.assign(1, 0);

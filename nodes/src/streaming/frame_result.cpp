@@ -11,7 +11,7 @@
 namespace pcl_bv {
 
 PointView FrameResult::kept_points(const PointView& cloud) const {
-  if (counts.range == 0) return cloud;
+  if (counts.range + counts.inside == 0) return cloud;
   return filtered ? view_of(*filtered, points, cloud.scalar) : subset(cloud, kept);
 }
 
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> labels_of(const FrameResult& result, const PointView&
 
 std::string ground_remark(const PipelineConfig& config, const FrameResult& result) {
   const Counts& counts = result.counts;
-  const std::size_t looked_at = result.points - counts.nonfinite - counts.range;
+  const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
   if (config.ground.method == GroundMethod::none || looked_at == 0) return {};
   const std::string tried = " (up is " + up_text(config.ground.up) + ")";
   if (counts.ground == 0)

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -18,6 +19,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// Volumes that points are dropped for: a robot's own links, or what to crop to.
+struct RegionConfig {
+  std::filesystem::path file;  ///< Of volumes, as read_volumes() reads them, unless they are given:
+  bool keep = false;           ///< Drop what is outside of all such regions; otherwise what is inside.
+  double padding = 0;          ///< By which the volumes are grown in every direction, metres (trees/region_mask.h).
+  std::vector<AnyVolume> volumes{};
+};
+
 /// Points that are kept at all. Those that are not finite never are.
 struct FilterConfig {
   /// Distances from the origin that are kept, metres, both ends included. Dead beams are points at the
@@ -26,6 +35,7 @@ struct FilterConfig {
   double range_max = std::numeric_limits<double>::infinity();
   /// Corners of a box around the own vehicle, metres, whose points are dropped; both or none.
   std::optional<Eigen::Vector3d> own_box_min, own_box_max;
+  std::vector<RegionConfig> regions{};
 };
 
 enum class GroundMethod : std::uint8_t {

@@ -37,7 +37,7 @@ struct Setting {
 
 /// Calls visit(setting, value) for each: `value` is a bool, double, std::size_t, std::optional of one of the
 /// latter two or of a point, Eigen::Vector3d (a direction), std::string (the instruction set), a list of them
-/// (methods), or one of the enums, and const if the configuration is.
+/// (methods) or of regions, or one of the enums, and const if the configuration is.
 template <typename Pipeline, typename Visit>
 void visit_pipeline(Pipeline& c, Visit&& visit) {
   using S = Setting;
@@ -48,6 +48,8 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.filter.own_box_min);
   visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of the box whose points are dropped", {}, "no box"},
         c.filter.own_box_max);
+  visit(S{"filter.regions", "[{file: F.json, keep: false, padding: 0 m}]", "Drop points inside volumes; keep: outside of all"},
+        c.filter.regions);
   visit(S{"ground.method", "none, plane, zones", "Take the ground away first: none, plane or zones (outdoors)",
           {}, {}, "--ground", "KIND"},
         c.ground.method);
@@ -108,6 +110,7 @@ std::string to_text(std::size_t value);
 std::string to_text(const Eigen::Vector3d& direction);
 std::string to_text(const std::string& name);
 std::string to_text(const std::vector<std::string>& names);  ///< Separated by ", ".
+std::string to_text(const std::vector<RegionConfig>& regions);  ///< As the setting's unit shows it, without [].
 std::string to_text(GroundMethod method);
 std::string to_text(SphereGrowth growth);
 std::string to_text(QueuePolicy policy);
@@ -123,6 +126,7 @@ void read_text(std::string_view text, std::size_t& value);
 void read_text(std::string_view text, Eigen::Vector3d& direction);
 void read_text(std::string_view text, std::string& name);
 void read_text(std::string_view text, std::vector<std::string>& names);  ///< `all` stands for methods_of_all().
+void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One of that file's name.
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, SphereGrowth& growth);
 void read_text(std::string_view text, QueuePolicy& policy);
@@ -137,6 +141,7 @@ std::string problem_of(const Setting& setting, const Eigen::Vector3d& direction)
 std::string problem_of(const Setting& setting, const std::string& instruction_set);
 std::string problem_of(const Setting& setting, const std::vector<std::string>& methods);
 std::string problem_of(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
+std::string problem_of(const Setting& setting, const std::vector<RegionConfig>& regions);
 template <typename Choice>
 std::string problem_of(const Setting& /*setting*/, Choice /*any*/) {
   return {};
