@@ -57,7 +57,7 @@ void declare(CommandLine& line, Texts& texts) {
   line.option("--ground", texts.ground, "KIND",
               "Take the ground away first: plane, zones (outdoors) or none (none)");
   line.option("--up", texts.up, "AXIS",
-              "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z (z)");
+              "Against gravity, for --ground, upright boxes and --image: x, y, z, -x, -y, -z (z)");
   line.option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
@@ -98,12 +98,12 @@ void require_extension(const char* option, const std::string& name,
   throw UsageError(std::string(option) + ": '" + name + "' is no " + list + " file");
 }
 
-/// For those who ask: the ground and upright boxes.
-void set_up(UpAxis up, bool wants_ground, Options& options) {
+/// For those who ask: the ground, pictures and upright boxes.
+void set_up(UpAxis up, bool wanted, Options& options) {
   const bool wants_upright = std::any_of(options.methods.begin(), options.methods.end(),
                                          [](const Method* method) { return method->upright; });
-  if (!wants_ground && !wants_upright) {
-    throw UsageError("--up: only useful with --ground or an upright box, obb-yaw or obb-lshape");
+  if (!wanted && !wants_upright) {
+    throw UsageError("--up: only useful with --ground or an upright box, obb-yaw or obb-lshape, or --image");
   }
   if (options.ground) options.ground->up = up;
   options.method_options.up = up_direction(up);
@@ -163,7 +163,8 @@ Options to_options(const CommandLine& line, const Texts& texts) {
   read_segmentation(line, texts, options);
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
   if (line.given("--up"))
-    set_up(parse_with("--up", texts.up, parse_up_axis), line.given("--ground"), options);
+    set_up(parse_with("--up", texts.up, parse_up_axis), line.given("--ground") || line.given("--image"),
+           options);
   if (line.given("--growth"))
     options.method_options.growth = parse_with("--growth", texts.growth, parse_growth);
   read_outputs(line, texts, options);

@@ -99,12 +99,18 @@ Picture make_picture(const Segmentation& segmentation, const std::vector<std::ui
                      const Options& options, const Report& report) {
   Picture picture;
   picture.from = options.view;
+  picture.up = options.method_options.up;
+  for (const Method* method : options.methods)
+    picture.methods.emplace_back(method->name);
   picture.points = options.tolerance ? segmentation.in_range : segmentation.points;
   if (options.tolerance) picture.labels = labels.data();
   for (const ClusterEntry& cluster : report.clusters) {
-    for (std::size_t m = 0; m < cluster.volumes.size(); ++m) {
-      const std::size_t colour = options.tolerance ? cluster.id : m;
-      picture.volumes.push_back({cluster.volumes[m].volume, static_cast<std::uint32_t>(colour)});
+    std::string label =
+        options.tolerance ? std::to_string(cluster.id) : "";  // at the first volume that is one
+    for (std::uint32_t m = 0; m < cluster.volumes.size(); ++m) {
+      const AnyVolume& volume = cluster.volumes[m].volume;
+      const std::uint32_t colour = options.tolerance ? static_cast<std::uint32_t>(cluster.id) : m;
+      picture.volumes.push_back({volume, colour, empty(volume) ? "" : std::exchange(label, {}), m});
     }
   }
   return picture;
