@@ -160,6 +160,36 @@ TEST_F(PcdBv, PictureIsOfTheFormatAndFromTheSideAsked) {
   EXPECT_THAT(read_file(at("all.svg/box-500-3.svg")), HasSubstr("<svg"));
 }
 
+TEST_F(PcdBv, PictureTurnsUpUp) {
+  const std::string box = "synth:box:500:2";
+  EXPECT_EQ(run({"--image", at("z.png"), box}).status, 0);
+  EXPECT_EQ(run({"--up", "-y", "--image", at("y.png"), box}).status, 0);
+  EXPECT_TRUE(read_file(at("y.png")) != read_file(at("z.png")));
+}
+
+TEST_F(PcdBv, PictureShowsTheIdOfEachClusterAndTheNamesOfTheMethods) {
+  const std::string cloud =
+      ascii("c.pcd", {"1 1 1", "1 1.1 1", "1 1 1.1", "9 9 1", "9 9.1 1", "20 1 1", "20 1.1 1"});
+  const auto letters = [&](const std::string& methods, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"--volume", methods,     "--view", "top",
+                                          "--image",  at("c.svg"), cloud};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).status, 0);
+    const std::string svg = read_file(at("c.svg"));
+    std::size_t n = 0;
+    for (std::size_t i = svg.find("#glyph"); i != std::string::npos; i = svg.find("#glyph", i + 1))
+      ++n;
+    return n;
+  };
+  const std::vector<std::string> clusters = {"--cluster", "0.5", "--min-size", "1"};
+  const std::size_t plain = letters("aabb", {});
+  EXPECT_EQ(letters("aabb", clusters), plain + 3);
+  EXPECT_EQ(letters("aabb,sphere", clusters), plain + 3 +
+                                                  std::string("aabb"
+                                                              "sphere-exact")
+                                                      .size());
+}
+
 TEST_F(PcdBv, PictureIsTheSameEachTime) {
   const std::vector<std::string> common = {"--range",  "1:60", "--cluster",         "0.5",
                                            "--volume", "all",  "synth:street:16000"};

@@ -12,14 +12,15 @@ namespace pcl_bv {
 /// Red, green, blue in 0..1, as displayed (sRGB).
 using Colour = std::array<float, 3>;
 
-/// The colour of a cluster or volume: twelve of like brightness that keep apart on a dark ground, neighbours
-/// far apart in hue, again and again.
+/// Of like brightness, apart from one another on a dark ground, neighbours far apart in hue.
+inline constexpr Colour palette_colours[] = {
+    {0.37f, 0.78f, 0.97f}, {1.00f, 0.62f, 0.35f}, {0.49f, 0.91f, 0.53f}, {1.00f, 0.48f, 0.61f},
+    {0.78f, 0.61f, 1.00f}, {1.00f, 0.85f, 0.40f}, {0.31f, 0.88f, 0.82f}, {1.00f, 0.44f, 0.38f},
+    {0.56f, 0.70f, 1.00f}, {0.78f, 0.96f, 0.39f}, {0.97f, 0.66f, 0.88f}, {0.40f, 0.85f, 0.65f}};
+
+/// The colour of a cluster or volume: the twelve again and again.
 inline Colour palette(std::uint32_t number) {
-  constexpr Colour colours[] = {{0.37f, 0.78f, 0.97f}, {1.00f, 0.62f, 0.35f}, {0.49f, 0.91f, 0.53f},
-                                {1.00f, 0.48f, 0.61f}, {0.78f, 0.61f, 1.00f}, {1.00f, 0.85f, 0.40f},
-                                {0.31f, 0.88f, 0.82f}, {1.00f, 0.44f, 0.38f}, {0.56f, 0.70f, 1.00f},
-                                {0.78f, 0.96f, 0.39f}, {0.97f, 0.66f, 0.88f}, {0.40f, 0.85f, 0.65f}};
-  return colours[number % std::size(colours)];
+  return palette_colours[number % std::size(palette_colours)];
 }
 
 }  // namespace pcl_bv

@@ -21,7 +21,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double front_alpha = 0.95, back_alpha = 0.32, face_alpha = 0.07;
+constexpr double face_alpha = 0.07;
 
 struct Edge {
   std::int32_t from, to;
@@ -61,89 +61,73 @@ std::vector<Edge> drawn_edges(const Mesh& mesh, const View& view) {
   return edges;
 }
 
-/// One dark stroke below the coloured one keeps lines crisp on a crowd of points.
-void stroke(cairo_t* cairo, const Colour& colour, bool front) {
-  if (front) {
-    cairo_set_line_width(cairo, 3.6);
-    cairo_set_source_rgba(cairo, 0.03, 0.04, 0.07, 0.55);
-    cairo_stroke_preserve(cairo);
-  }
-  cairo_set_line_width(cairo, front ? 1.6 : 1.0);
-  set_colour(cairo, colour, front ? front_alpha : back_alpha);
-  cairo_stroke(cairo);
-}
-
-void draw_mesh(cairo_t* cairo, const Mesh& mesh, const View& view, const Colour& colour) {
-  std::vector<Eigen::Vector3d> at;
-  for (const Eigen::Vector3d& vertex : mesh.vertices)
-    at.push_back(view.project(vertex));
+void draw_mesh(cairo_t* cairo, const Mesh& mesh, const View& view, const Colour& colour, std::uint32_t dash) {
+  std::vector<Eigen::Vector3d> corners;
   for (const std::vector<std::int32_t>& face : mesh.faces) {
     if (!(normal(mesh, face).dot(view.toward) > 0)) continue;
+    corners.clear();
     for (const std::int32_t v : face)
-      cairo_line_to(cairo, at[v].x(), at[v].y());
-    cairo_close_path(cairo);
+      corners.push_back(mesh.vertices[v]);
+    add_path(cairo, view, corners, true);
     set_colour(cairo, colour, face_alpha);
     cairo_fill(cairo);
   }
   const std::vector<Edge> edges = drawn_edges(mesh, view);
   for (const bool front : {false, true}) {
     for (const Edge& edge : edges) {
-      if (edge.front != front) continue;
-      cairo_move_to(cairo, at[edge.from].x(), at[edge.from].y());
-      cairo_line_to(cairo, at[edge.to].x(), at[edge.to].y());
+      if (edge.front == front)
+        add_path(cairo, view, {mesh.vertices[edge.from], mesh.vertices[edge.to]}, false);
     }
-    stroke(cairo, colour, front);
+    stroke(cairo, colour, front, dash);
   }
 }
 
-/// Half of a great circle around `axis`: the half that the viewer sees, or the other.
-void half_circle(cairo_t* cairo, const Sphere& sphere, const View& view, const Eigen::Vector3d& axis,
-                 bool front) {
-  constexpr int steps = 48;
-  const Eigen::Vector3d side = axis.cross(view.toward).normalized();  // on the silhouette
-  const Eigen::Vector3d facing = side.cross(axis) * (front ? 1 : -1);
+/// An arc on a sphere from `from` towards `to`, unit vectors, as smooth as a pixel shows; closed if whole.
+void add_arc(cairo_t* cairo, const Sphere& sphere, const View& view, const Eigen::Vector3d& from,
+             const Eigen::Vector3d& to, double angle) {
+  const double fine = 1.6 * angle * std::sqrt(sphere.radius() * view.scale);
+  const int steps = static_cast<int>(std::max(24.0, std::min(1e5, fine)));
+  std::vector<Eigen::Vector3d> points;
   for (int i = 0; i <= steps; ++i) {
-    const double angle = M_PI * i / steps;
-    const Eigen::Vector3d p =
-        sphere.center() + sphere.radius() * (std::cos(angle) * side + std::sin(angle) * facing);
-    const Eigen::Vector3d at = view.project(p);
-    cairo_line_to(cairo, at.x(), at.y());
+    const double at = angle * i / steps;
+    points.emplace_back(sphere.center() + sphere.radius() * (std::cos(at) * from + std::sin(at) * to));
   }
-  cairo_new_sub_path(cairo);
+  add_path(cairo, view, points, angle > M_PI);
 }
 
-void draw_sphere(cairo_t* cairo, const Sphere& sphere, const View& view, const Colour& colour) {
-  const Eigen::Vector3d at = view.project(sphere.center());
-  const double radius = sphere.radius() * view.scale;
+/// Colours the path like a glass ball, unless that is beyond what a gradient can span.
+void fill_glass(cairo_t* cairo, const Eigen::Vector3d& at, double radius, const Colour& colour) {
+  constexpr double widest = 1e5;
+  if (!(std::max({std::abs(at.x()), std::abs(at.y()), radius}) < widest)) return cairo_new_path(cairo);
   cairo_pattern_t* glass = cairo_pattern_create_radial(at.x(), at.y(), 0, at.x(), at.y(), radius);
-  cairo_pattern_add_color_stop_rgba(glass, 0.0, colour[0], colour[1], colour[2], 0.02);
-  cairo_pattern_add_color_stop_rgba(glass, 0.7, colour[0], colour[1], colour[2], 0.05);
-  cairo_pattern_add_color_stop_rgba(glass, 1.0, colour[0], colour[1], colour[2], 0.16);
-  cairo_arc(cairo, at.x(), at.y(), radius, 0, 2 * M_PI);
+  for (const auto& [part, alpha] : {std::pair{0.0, 0.02}, {0.7, 0.05}, {1.0, 0.16}})
+    cairo_pattern_add_color_stop_rgba(glass, part, colour[0], colour[1], colour[2], alpha);
   cairo_set_source(cairo, glass);
   cairo_fill(cairo);
   cairo_pattern_destroy(glass);
+}
+
+void draw_sphere(cairo_t* cairo, const Sphere& sphere, const View& view, const Colour& colour,
+                 std::uint32_t dash) {
+  add_arc(cairo, sphere, view, view.right, view.up, 2 * M_PI);
+  fill_glass(cairo, view.project(sphere.center()), sphere.radius() * view.scale, colour);
   for (const bool front : {false, true}) {
-    for (int k = 0; k < 3; ++k)
-      half_circle(cairo, sphere, view, Eigen::Vector3d::Unit(k), front);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k), side = axis.cross(view.toward);
+      if (side.norm() < 1e-6) continue;  // this circle is the outline
+      const Eigen::Vector3d along = side.normalized();
+      add_arc(cairo, sphere, view, along, along.cross(axis) * (front ? 1 : -1), M_PI);
+    }
     cairo_set_line_width(cairo, 0.9);
     set_colour(cairo, colour, front ? 0.55 : 0.18);
     cairo_stroke(cairo);
   }
-  cairo_arc(cairo, at.x(), at.y(), radius, 0, 2 * M_PI);
-  stroke(cairo, colour, true);
-}
-
-void draw_volume(cairo_t* cairo, const PictureVolume& entry, const View& view) {
-  if (const auto* sphere = std::get_if<Sphere>(&entry.volume)) {
-    draw_sphere(cairo, *sphere, view, palette(entry.colour));
-  } else {
-    draw_mesh(cairo, mesh(entry.volume), view, palette(entry.colour));
-  }
+  add_arc(cairo, sphere, view, view.right, view.up, 2 * M_PI);
+  stroke(cairo, colour, true, dash);
 }
 
 /// Far volumes first, so that near ones cross over them.
-void draw_volumes(cairo_t* cairo, const Picture& picture, const View& view) {
+void draw_volumes(cairo_t* cairo, const Picture& picture, const View& view, const Styles& styles) {
   std::vector<std::pair<double, const PictureVolume*>> order;
   for (const PictureVolume& entry : picture.volumes) {
     if (empty(entry.volume)) continue;
@@ -153,8 +137,15 @@ void draw_volumes(cairo_t* cairo, const Picture& picture, const View& view) {
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-  for (const auto& [depth, entry] : order)
-    draw_volume(cairo, *entry, view);
+  for (const auto& [depth, entry] : order) {
+    const Colour colour = palette(entry->colour);
+    const std::uint32_t dash = styles.dash(entry->method);
+    if (const auto* sphere = std::get_if<Sphere>(&entry->volume)) {
+      draw_sphere(cairo, *sphere, view, colour, dash);
+    } else {
+      draw_mesh(cairo, mesh(entry->volume), view, colour, dash);
+    }
+  }
 }
 
 cairo_status_t append(void* file, const unsigned char* bytes, unsigned int n) {
@@ -167,11 +158,16 @@ void require(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(cairo_status_to_string(status));
 }
 
-void check_size(const Picture& picture) {
+void check(const Picture& picture) {
   for (const int side : {picture.width, picture.height}) {
     if (side < 16 || side > 16384) {
       throw std::invalid_argument("picture side " + std::to_string(side) + " is not within 16..16384 pixels");
     }
+  }
+  const Eigen::Vector3d& up = picture.up;
+  if (!up.allFinite() || up.isZero(0)) {
+    throw std::invalid_argument("picture up " + std::to_string(up.x()) + " " + std::to_string(up.y()) + " " +
+                                std::to_string(up.z()) + " is zero or not finite");
   }
 }
 
@@ -179,11 +175,10 @@ using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
 using Context = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
 
 /// The pixels must outlive the surface.
-Surface surface_of(std::vector<std::uint32_t>& pixels, const Picture& picture) {
-  return {
-      cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()), CAIRO_FORMAT_RGB24,
-                                          picture.width, picture.height, picture.width * 4),
-      cairo_surface_destroy};
+Surface surface_of(std::vector<std::uint32_t>& pixels, const View& view) {
+  return {cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
+                                              CAIRO_FORMAT_RGB24, view.width, view.height, view.width * 4),
+          cairo_surface_destroy};
 }
 
 /// Draws the volumes, over the points if they are given apart.
@@ -193,18 +188,19 @@ void draw(cairo_surface_t* surface, cairo_surface_t* points, const Picture& pict
     cairo_set_source_surface(cairo.get(), points, 0, 0);
     cairo_paint(cairo.get());
   }
-  draw_volumes(cairo.get(), picture, view);
-  if (!view.empty) draw_marks(cairo.get(), view);
+  const Styles styles(picture);
+  draw_volumes(cairo.get(), picture, view, styles);
+  if (!view.empty && has_marks(view)) draw_marks(cairo.get(), picture, view, styles);
   require(cairo_status(cairo.get()));
 }
 
 }  // namespace
 
 std::string picture_png(const Picture& picture) {
-  check_size(picture);
+  check(picture);
   const View view = fit_view(picture);
   std::vector<std::uint32_t> pixels = draw_points(picture, view);
-  const Surface surface = surface_of(pixels, picture);
+  const Surface surface = surface_of(pixels, view);
   draw(surface.get(), nullptr, picture, view);
   cairo_surface_flush(surface.get());
   std::string png;
@@ -213,12 +209,12 @@ std::string picture_png(const Picture& picture) {
 }
 
 std::string picture_svg(const Picture& picture) {
-  check_size(picture);
+  check(picture);
   const View view = fit_view(picture);
   std::vector<std::uint32_t> pixels = draw_points(picture, view);
-  const Surface points = surface_of(pixels, picture);
+  const Surface points = surface_of(pixels, view);
   std::string svg;
-  const Surface surface(cairo_svg_surface_create_for_stream(append, &svg, picture.width, picture.height),
+  const Surface surface(cairo_svg_surface_create_for_stream(append, &svg, view.width, view.height),
                         cairo_surface_destroy);
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   draw(surface.get(), points.get(), picture, view);

@@ -1,90 +1,96 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Letters are strokes of our own: fonts differ from machine to machine, and finding one takes longer than a
-// picture.
-
-#include "picture_parts.h"
-
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
-#include <string_view>
+
+#include "picture_parts.h"
 
 namespace pcl_bv {
 namespace {
 
-constexpr double margin_pixels = 30, axis_length = 44, letter_width = 6.4, letter_height = 9.6;
+constexpr double margin = 30, axis_length = 44, text_size = 13, cap_height = 10, row_height = 22;
+constexpr Colour plain{0.86f, 0.88f, 0.92f};
 
-// Lines from point to point, "xy" with x from 0 to 4 and y from 0, above, to 6; a bar begins a new one.
-struct Letter {
-  char name;
-  std::string_view strokes;
+using Box = Eigen::AlignedBox2d;
+
+class Marks {
+ public:
+  Marks(cairo_t* cairo, const View& view) : cairo_(cairo), view_(view), bottom_(view.height - margin) {
+    // Cairo's own letters: fonts differ from machine to machine, and finding one takes longer than a picture.
+    cairo_select_font_face(cairo, "@cairo:", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
+    cairo_set_font_size(cairo, text_size);
+  }
+
+  void draw_axes();
+  void draw_scale(const std::string& unit);
+  void draw_legend(const std::vector<std::string>& methods, const Styles& styles);
+  void draw_labels(const std::vector<PictureVolume>& volumes);
+
+ private:
+  double width_of(const std::string& text) const {
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo_, text.c_str(), &extents);
+    return extents.x_advance;
+  }
+
+  Box box_of(const std::string& text, double x, double y) const {
+    return {Eigen::Vector2d(x - 3, y - cap_height - 3), Eigen::Vector2d(x + width_of(text) + 3, y + 4)};
+  }
+
+  void darken(const Box& box) {
+    cairo_rectangle(cairo_, box.min().x(), box.min().y(), box.sizes().x(), box.sizes().y());
+    cairo_set_source_rgba(cairo_, 0.03, 0.04, 0.07, 0.6);
+    cairo_fill(cairo_);
+    taken_.push_back(box);
+  }
+
+  /// The text's left end and foot are at x, y.
+  void write(const std::string& text, double x, double y, const Colour& colour) {
+    cairo_set_source_rgb(cairo_, colour[0], colour[1], colour[2]);
+    cairo_move_to(cairo_, x, y);
+    cairo_show_text(cairo_, text.c_str());
+  }
+
+  void line(double x0, double y0, double x1, double y1) {
+    cairo_move_to(cairo_, x0, y0);
+    cairo_line_to(cairo_, x1, y1);
+  }
+
+  cairo_t* cairo_;
+  const View& view_;
+  double bottom_;
+  std::vector<Box> taken_;  ///< Where there is something to read.
 };
-constexpr Letter letters[] = {{'0', "10 30 41 45 36 16 05 01 10"},
-                              {'1', "11 20 26"},
-                              {'2', "01 10 30 41 42 06 46"},
-                              {'3', "01 10 30 41 42 33 13 33 44 45 36 16 05"},
-                              {'4', "36 30 04 44"},
-                              {'5', "40 00 02 32 43 45 36 16 05"},
-                              {'6', "40 20 02 05 16 36 45 44 33 03"},
-                              {'7', "00 40 16"},
-                              {'8', "13 02 01 10 30 41 42 33 13 04 05 16 36 45 44 33"},
-                              {'9', "06 26 44 41 30 10 01 02 13 43"},
-                              {'.', "26 26"},
-                              {'-', "13 33"},
-                              {'+', "03 43|21 25"},
-                              {'e', "04 44 43 32 12 03 05 16 36"},
-                              {'x', "02 46|06 42"},
-                              {'y', "02 24|42 06"},
-                              {'z', "02 42 06 46"}};
 
-void add_letter(cairo_t* cairo, char name, double x, double y) {
-  const Letter* letter = std::find_if(std::begin(letters), std::end(letters),
-                                      [&](const Letter& known) { return known.name == name; });
-  if (letter == std::end(letters)) return;
-  bool first = true;
-  for (std::size_t i = 0; i + 1 < letter->strokes.size(); i += 3) {
-    const double at_x = x + (letter->strokes[i] - '0') * letter_width / 4;
-    const double at_y = y + (letter->strokes[i + 1] - '0') * letter_height / 6;
-    first ? cairo_move_to(cairo, at_x, at_y) : cairo_line_to(cairo, at_x, at_y);
-    first = i + 2 < letter->strokes.size() && letter->strokes[i + 2] == '|';
-  }
-}
-
-// The upper left corner of the text is at (x, y).
-void add_text(cairo_t* cairo, std::string_view text, double x, double y) {
-  for (const char letter : text) {
-    add_letter(cairo, letter, x, y);
-    x += letter_width + 3.2;
-  }
-}
-
-void stroke(cairo_t* cairo, double red, double green, double blue) {
-  cairo_set_line_width(cairo, 4);
-  cairo_set_source_rgba(cairo, 0.03, 0.04, 0.07, 0.7);
-  cairo_stroke_preserve(cairo);
-  cairo_set_line_width(cairo, 1.6);
-  cairo_set_source_rgb(cairo, red, green, blue);
-  cairo_stroke(cairo);
+/// What Cairo's letters can show, and Cairo does not refuse.
+std::string readable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
 }
 
 // Red, green and blue, as in RViz and CloudCompare; those that point at the viewer are drawn last.
-void draw_axes(cairo_t* cairo, const View& view, double x, double y) {
-  constexpr double colours[3][3] = {{0.95, 0.35, 0.35}, {0.45, 0.85, 0.4}, {0.42, 0.6, 1.0}};
+void Marks::draw_axes() {
+  constexpr Colour colours[3] = {{0.95f, 0.35f, 0.35f}, {0.45f, 0.85f, 0.4f}, {0.42f, 0.6f, 1.0f}};
+  const double reach = axis_length + 13, x = margin + axis_length, y = bottom_ - axis_length;
   int order[3] = {0, 1, 2};
   std::stable_sort(std::begin(order), std::end(order),
-                   [&](int a, int b) { return view.toward[a] < view.toward[b]; });
+                   [&](int a, int b) { return view_.toward[a] < view_.toward[b]; });
   for (const int axis : order) {
-    const double across = view.right[axis], down = -view.up[axis];
+    const double across = view_.right[axis], down = -view_.up[axis];
     if (across * across + down * down < 0.01) continue;
-    cairo_move_to(cairo, x, y);
-    cairo_line_to(cairo, x + axis_length * across, y + axis_length * down);
-    add_letter(cairo, "xyz"[axis], x + (axis_length + 13) * across - letter_width / 2,
-               y + (axis_length + 13) * down - letter_height * 2 / 3);
-    stroke(cairo, colours[axis][0], colours[axis][1], colours[axis][2]);
+    line(x, y, x + axis_length * across, y + axis_length * down);
+    stroke(cairo_, colours[axis], true);
+    const std::string name(1, "xyz"[axis]);
+    const double left = x + reach * across - width_of(name) / 2, foot = y + reach * down + cap_height / 3;
+    darken(box_of(name, left, foot));
+    write(name, left, foot, colours[axis]);
   }
+  taken_.emplace_back(Eigen::Vector2d(x - reach, y - reach), Eigen::Vector2d(x + reach, y + reach));
 }
 
 // The greatest of 1, 2 and 5 times a power of ten that is at most this.
@@ -96,29 +102,70 @@ double round_length(double most) {
   return power;
 }
 
-void draw_scale(cairo_t* cairo, const View& view, double x, double y) {
-  constexpr double longest = 180, tick = 5;
-  const double length = round_length(longest / view.scale);
-  const double pixels = length * view.scale;
+void Marks::draw_scale(const std::string& unit) {
+  constexpr double longest = 180, tick = 5, x = margin + 2 * axis_length + 46;
+  const double length = round_length(longest / view_.scale);
+  const double pixels = length * view_.scale;
   if (!(pixels > 1) || !(pixels <= longest * 1.01)) return;  // of a scene beyond what can be written
-  cairo_move_to(cairo, x, y - tick);
-  cairo_line_to(cairo, x, y);
-  cairo_line_to(cairo, x + pixels, y);
-  cairo_line_to(cairo, x + pixels, y - tick);
+  line(x, bottom_ - tick, x, bottom_);
+  cairo_line_to(cairo_, x + pixels, bottom_);
+  cairo_line_to(cairo_, x + pixels, bottom_ - tick);
+  stroke(cairo_, plain, true);
   char digits[32];
   const auto written = std::to_chars(digits, digits + sizeof digits, length, std::chars_format::general, 3);
-  add_text(cairo, {digits, static_cast<std::size_t>(written.ptr - digits)}, x + 8, y - letter_height - 5);
-  stroke(cairo, 0.86, 0.88, 0.92);
+  const std::string text = std::string(digits, written.ptr) + (unit.empty() ? "" : " " + readable(unit));
+  taken_.push_back(box_of(text, x + 8, bottom_ - 6).extend(Eigen::Vector2d(x + pixels, bottom_)));
+  write(text, x + 8, bottom_ - 6, plain);
+}
+
+void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& styles) {
+  if (styles.colour_of.size() < 2) return;
+  constexpr double sample = 52;
+  double x = margin, y = margin, widest = 0;
+  for (const auto& [method, number] : styles.colour_of) {
+    if (method >= methods.size()) continue;
+    if (y > bottom_ - mark_room) {  // a further column
+      x += sample + 24 + widest;
+      y = margin, widest = 0;
+    }
+    const Colour colour = styles.by_colour ? palette(number) : plain;
+    const std::string name = readable(methods[method]);
+    darken(box_of(name, x + sample + 12, y).extend(Eigen::Vector2d(x - 6, y)));
+    line(x, y - cap_height / 2, x + sample, y - cap_height / 2);
+    stroke(cairo_, colour, true, styles.dash(method));
+    write(name, x + sample + 12, y, plain);
+    widest = std::max(widest, width_of(name));
+    y += row_height;
+  }
+}
+
+void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
+  const Box frame(Eigen::Vector2d(0, 0), Eigen::Vector2d(view_.width, view_.height));
+  for (const PictureVolume& entry : volumes) {
+    if (entry.label.empty() || empty(entry.volume)) continue;
+    const Eigen::Vector2d center = view_.project(pcl_bv::center(entry.volume)).head<2>();
+    if (!frame.contains(center)) continue;
+    const std::string text = readable(entry.label);
+    const double width = width_of(text);
+    const double top = view_.project(support(entry.volume, view_.up)).y();
+    const double x = std::max(4.0, std::min(center.x() - width / 2, view_.width - width - 4));
+    const double y = std::max(cap_height + 4, top - 7);
+    const Box box = box_of(text, x, y);
+    if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return other.intersects(box); }))
+      continue;
+    darken(box);
+    write(text, x, y, palette(entry.colour));
+  }
 }
 
 }  // namespace
 
-void draw_marks(cairo_t* cairo, const View& view) {
-  if (view.width < 480 || view.height < 320) return;
-  const double bottom = view.height - margin_pixels;
-  const double axes_x = margin_pixels + axis_length, axes_y = bottom - axis_length;
-  draw_axes(cairo, view, axes_x, axes_y);
-  draw_scale(cairo, view, axes_x + axis_length + 46, bottom);
+void draw_marks(cairo_t* cairo, const Picture& picture, const View& view, const Styles& styles) {
+  Marks marks(cairo, view);
+  marks.draw_axes();
+  marks.draw_scale(picture.unit);
+  marks.draw_legend(picture.methods, styles);
+  marks.draw_labels(picture.volumes);
 }
 
 }  // namespace pcl_bv

@@ -128,35 +128,21 @@ std::vector<std::uint32_t> shade(const Raster& raster) {
   return pixels;
 }
 
-/// Central heights of the scene, for the colours by height.
-std::array<double, 2> height_range(const Picture& picture) {
-  std::vector<double> z;
-  for (const Eigen::Vector3d& p : framed_points(picture))
-    z.push_back(p.z());
-  if (z.empty()) return {0, 1};
-  const std::size_t cut = z.size() / 50;
-  std::nth_element(z.begin(), z.begin() + cut, z.end());
-  const double low = z[cut];
-  std::nth_element(z.begin(), z.end() - 1 - cut, z.end());
-  const double high = z[z.size() - 1 - cut];
-  return {low, high > low ? high : low + 1};
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view) {
-  Raster raster(picture.width * samples, picture.height * samples);
+  Raster raster(view.width * samples, view.height * samples);
   const double area = static_cast<double>(raster.width) * raster.height;
   const double spacing =
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(picture.points.count, 1)));
   const Offsets plain = disc(std::clamp(0.17 * spacing, 0.5, 6.0));
   const Offsets clustered = disc(std::clamp(0.26 * spacing, 1.0, 6.0));
-  const auto [low, high] = picture.labels ? std::array{0.0, 1.0} : height_range(picture);
-  const auto draw = [&, low = low, high = high](const Coordinates& p, std::size_t index) {
-    const Eigen::Vector3d at = view.project({p.x, p.y, p.z});
+  const auto draw = [&](const Coordinates& p, std::size_t index) {
+    const Eigen::Vector3d point(p.x, p.y, p.z), at = view.project(point);
     const Eigen::Vector3d sample(at.x() * samples, at.y() * samples, at.z() * samples);
-    if (!picture.labels)
-      return splat(raster, sample, clustered, height_colour(static_cast<float>((p.z - low) / (high - low))));
+    const auto& [low, high] = view.heights;
+    const double height = (point.dot(view.sky) - low) / (high - low);
+    if (!picture.labels) return splat(raster, sample, clustered, height_colour(static_cast<float>(height)));
     const std::uint32_t label = picture.labels[index];
     if (label < label_ground) return splat(raster, sample, clustered, palette(label));
     const double near = 0.5 - at.z() / picture.height;

@@ -26,7 +26,9 @@ struct Interval {
 };
 
 /// From the lowest of the lows to the highest of the highs, leaving out the most extreme `cut` of either.
+/// Nothing covers from infinity to minus infinity.
 Interval span(std::vector<Interval>& parts, std::size_t cut) {
+  if (parts.empty()) return {INFINITY, -INFINITY};
   Interval result;
   std::nth_element(parts.begin(), parts.begin() + cut, parts.end(),
                    [](const Interval& a, const Interval& b) { return a.low < b.low; });
@@ -37,88 +39,10 @@ Interval span(std::vector<Interval>& parts, std::size_t cut) {
   return result;
 }
 
-using Corners = std::vector<Eigen::Vector3d>;
-
-/// Of each volume that is not empty.
-std::vector<Corners> volume_corners(const Picture& picture) {
-  std::vector<Corners> corners;
-  for (const PictureVolume& entry : picture.volumes) {
-    if (!empty(entry.volume)) corners.push_back(mesh(entry.volume).vertices);
-  }
-  return corners;
-}
-
-Interval along(const Corners& corners, const Eigen::Vector3d& axis) {
-  Interval interval{INFINITY, -INFINITY};
-  for (const Eigen::Vector3d& p : corners) {
-    interval.low = std::min(interval.low, p.dot(axis));
-    interval.high = std::max(interval.high, p.dot(axis));
-  }
-  return interval;
-}
-
-/// What the frame holds along an axis.
-Interval framed(const std::vector<Corners>& volumes, const Corners& points, const Eigen::Vector3d& axis) {
-  Interval result{INFINITY, -INFINITY};
-  const auto include = [&](std::vector<Interval> parts, std::size_t cut) {
-    if (parts.empty()) return;
-    const Interval part = span(parts, cut);
-    result = {std::min(result.low, part.low), std::max(result.high, part.high)};
-  };
-  std::vector<Interval> parts;
-  parts.reserve(volumes.size());
-  for (const Corners& corners : volumes)
-    parts.push_back(along(corners, axis));
-  // Of a street's hundred objects the few farthest would make all others small.
-  include(parts, parts.size() / 16);
-  parts.clear();
-  for (const Eigen::Vector3d& p : points)
-    parts.push_back({p.dot(axis), p.dot(axis)});
-  include(parts, parts.size() / 100);
-  return result;
-}
-
-void look_from_above_a_corner(View& view) {
-  const double ce = std::cos(elevation), se = std::sin(elevation);
-  const double ca = std::cos(azimuth), sa = std::sin(azimuth);
-  view.toward = {ce * ca, ce * sa, se};
-  view.right = {-sa, ca, 0};
-  view.up = {-se * ca, -se * sa, ce};
-}
-
-void look_along_axes(View& view, const Eigen::Vector3d& right, const Eigen::Vector3d& up) {
-  view.right = right;
-  view.up = up;
-  view.toward = right.cross(up);
-}
-
-View oriented(const Picture& picture) {
-  const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  View view;
-  switch (picture.from) {
-    case ViewFrom::iso:
-      look_from_above_a_corner(view);
-      break;
-    case ViewFrom::top:
-      look_along_axes(view, x, y);
-      break;
-    case ViewFrom::front:
-      look_along_axes(view, x, z);
-      break;
-    case ViewFrom::side:
-      look_along_axes(view, y, z);
-      break;
-  }
-  view.width = picture.width;
-  view.height = picture.height;
-  return view;
-}
-
-}  // namespace
-
-Corners framed_points(const Picture& picture) {
+/// A sample of the drawn points that matter for the frame: those in clusters if there are labels, else all.
+std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
   constexpr std::size_t enough = 100000;  // stand for any number of points
-  Corners points;
+  std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < picture.points.count; i += picture.points.count / enough + 1) {
     const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
     const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
@@ -127,23 +51,74 @@ Corners framed_points(const Picture& picture) {
   return points;
 }
 
+/// What points cover, but for one in `extreme` at either end.
+Interval central(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
+                 std::size_t extreme) {
+  std::vector<Interval> parts;
+  for (const Eigen::Vector3d& p : points)
+    parts.push_back({p.dot(axis), p.dot(axis)});
+  return span(parts, parts.size() / extreme);
+}
+
+/// The same for volumes that are not empty. Of a street's hundred objects the few farthest would make all
+/// others small.
+Interval central(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
+  std::vector<Interval> parts;
+  for (const auto& [volume, colour, label, method] : volumes) {
+    if (!empty(volume)) parts.push_back({support(volume, -axis).dot(axis), support(volume, axis).dot(axis)});
+  }
+  return span(parts, parts.size() / 16);
+}
+
+View oriented(const Picture& picture) {
+  View view;
+  const Eigen::Vector3d z = view.sky = (picture.up / picture.up.cwiseAbs().maxCoeff()).normalized();
+  const Eigen::Vector3d level = Eigen::Vector3d::Unit(std::abs(z.x()) < 0.9 ? 0 : 1);
+  const Eigen::Vector3d x = (level - level.dot(z) * z).normalized(), y = z.cross(x);
+  const Eigen::Vector3d level_toward = std::cos(azimuth) * x + std::sin(azimuth) * y;
+  const Eigen::Vector3d rights[] = {z.cross(level_toward), x, x, y};  // in the order of ViewFrom
+  const Eigen::Vector3d ups[] = {std::cos(elevation) * z - std::sin(elevation) * level_toward, y, z, z};
+  view.right = rights[static_cast<int>(picture.from)];
+  view.up = ups[static_cast<int>(picture.from)];
+  view.toward = view.right.cross(view.up);
+  view.width = picture.width;
+  view.height = picture.height;
+  return view;
+}
+
+/// What of a picture's side is kept around so many pixels of content.
+int cropped(int side, double content, int least) {
+  return std::min(side, std::max(least, static_cast<int>(std::min<double>(side, content)) + 2 * mark_room));
+}
+
+}  // namespace
+
 View fit_view(const Picture& picture) {
   View view = oriented(picture);
-  const std::vector<Corners> volumes = volume_corners(picture);
-  const bool by_points = picture.labels || volumes.empty();
-  const Corners points = by_points ? framed_points(picture) : Corners();
-  if (volumes.empty() && points.empty()) return view;
-  view.empty = false;
+  const bool any_volume = std::any_of(picture.volumes.begin(), picture.volumes.end(),
+                                      [](const PictureVolume& entry) { return !empty(entry.volume); });
+  std::vector<Eigen::Vector3d> points = framed_points(picture);
+  view.empty = !any_volume && points.empty();
+  if (view.empty) return view;
+  const Interval heights = central(points, view.sky, 50);
+  view.heights = {heights.low, heights.low < heights.high ? heights.high : heights.low + 1};
+  if (!picture.labels && any_volume) points.clear();
 
   const Eigen::Vector3d axes[3] = {view.right, view.up, view.toward};
   Eigen::Vector3d size;
   for (int k = 0; k < 3; ++k) {
-    const Interval covered = framed(volumes, points, axes[k]);
-    view.center += (covered.low / 2 + covered.high / 2) * axes[k];
-    size[k] = covered.high - covered.low;
+    const Interval a = central(picture.volumes, axes[k]), b = central(points, axes[k], 100);
+    const double low = std::min(a.low, b.low), high = std::max(a.high, b.high);
+    view.center += (low / 2 + high / 2) * axes[k];
+    size[k] = high - low;
   }
   const double fill = std::max(size[0] / picture.width, size[1] / picture.height);
   if (fill > 0) view.scale = (1 - 2 * margin_part) / fill;
+  const bool crops = picture.from == ViewFrom::front || picture.from == ViewFrom::side;
+  if (crops && has_marks(view)) {
+    view.width = cropped(picture.width, size[0] * view.scale, marked_width);
+    view.height = cropped(picture.height, size[1] * view.scale, marked_height);
+  }
   return view;
 }
 

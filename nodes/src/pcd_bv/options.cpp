@@ -82,8 +82,10 @@ void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
     throw UsageError("--view: only useful with --image");
   const std::vector<const Method*> methods = config.methods();
   const bool upright = std::any_of(methods.begin(), methods.end(), [](const Method* m) { return m->upright; });
-  if (line.given("--up") && !upright && config.ground.method == GroundMethod::none && !line.given("--ground"))
-    throw UsageError("--up: only useful with --ground or an upright box, obb-yaw or obb-lshape");
+  const bool useful = upright || config.ground.method != GroundMethod::none || line.given("--ground") ||
+                      line.given("--image");
+  if (line.given("--up") && !useful)
+    throw UsageError("--up: only useful with --ground, --image or an upright box, obb-yaw or obb-lshape");
 }
 
 void read_outputs(const CommandLine& line, const Texts& texts, Options& options) {

@@ -78,15 +78,20 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
 Picture make_picture(const PointView& cloud, const FrameResult& result,
                      const std::vector<std::uint32_t>& labels, const Options& options, const Report& report) {
   const bool clusters = options.clusters();
+  const bool ground = !clusters && options.pipeline.ground.method != GroundMethod::none;
   Picture picture;
   picture.from = options.view;
-  const bool ground = !clusters && options.pipeline.ground.method != GroundMethod::none;
+  picture.up = options.pipeline.ground.up;
+  for (const Method* method : result.methods)
+    picture.methods.emplace_back(method->name);
   picture.points = ground ? subset(cloud, result.ground.rest) : result.kept_points(cloud);
   if (clusters) picture.labels = labels.data();
   for (const ClusterEntry& cluster : report.clusters) {
-    for (std::size_t m = 0; m < cluster.volumes.size(); ++m) {
-      const std::size_t colour = clusters ? cluster.id : m;
-      picture.volumes.push_back({cluster.volumes[m].volume, static_cast<std::uint32_t>(colour)});
+    std::string label = clusters ? std::to_string(cluster.id) : "";  // at the first volume that is one
+    for (std::uint32_t m = 0; m < cluster.volumes.size(); ++m) {
+      const AnyVolume& volume = cluster.volumes[m].volume;
+      const std::uint32_t colour = clusters ? static_cast<std::uint32_t>(cluster.id) : m;
+      picture.volumes.push_back({volume, colour, empty(volume) ? "" : std::exchange(label, {}), m});
     }
   }
   return picture;
