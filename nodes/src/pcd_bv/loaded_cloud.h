@@ -22,6 +22,11 @@ class LoadedCloud {
 
   PointView xyz() const { return file_ ? file_->xyz() : held_.xyz(); }
 
+  /// Throws IoError if it was left in its file and that has been changed.
+  void require_unchanged() const {
+    if (file_) file_->require_unchanged();
+  }
+
   /// To be changed by its last user.
   RawCloud take() { return std::move(held_); }
 

@@ -15,6 +15,7 @@
 #include "loaded_cloud.h"
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
@@ -83,8 +84,7 @@ Status check(const Segmentation& segmentation, const Options& options, Report& r
 template <typename Write>
 Status write_file(const std::filesystem::path& path, const Write& write) {
   try {
-    std::error_code failure;
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failure);
+    make_folder_of(path);
     write();
     return Status::done;
   } catch (const std::bad_alloc&) {
@@ -152,6 +152,7 @@ Status process(const Job& job, const Options& options, Report& report) {
   if (options.info) report.info = cloud_info(loaded.cloud(), loaded.xyz(), options.execution.parallel);
   if (options.timings) report.seconds = seconds;
   const Status checked = check(segmentation, options, report);
+  loaded.require_unchanged();
   return worse(checked, write_files(job, options, segmentation, report, loaded.take()));
 }
 
