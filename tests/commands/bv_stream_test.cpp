@@ -201,6 +201,16 @@ TEST_F(BvStream, WritesCsvAndMeshesThatParaViewPlays) {
   EXPECT_THAT(read_file(folder + "/frames.pvd"), HasSubstr("frame000001.vtp"));
 }
 
+TEST_F(BvStream, MakesTheFoldersOfItsOutputs) {
+  const Result result =
+      stream({"--source", "synth:street-sequence:1", "--rate", "max", "--volume", "aabb", "--sink",
+              "csv:" + at("c/new/a.csv"), "--sink", "jsonl:" + at("j/new/a.jsonl"), "--sink",
+              "vtp:" + at("v/new"), "--stats", at("s/new/a.json")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const char* name : {"c/new/a.csv", "j/new/a.jsonl", "v/new/frames.pvd", "s/new/a.json"})
+    EXPECT_NE(read_file(at(name)), "") << name;
+}
+
 TEST_F(BvStream, ASignalLetsTheQueueBeDoneAndWritesTheStatistics) {
   for (const char* signal : {"INT", "TERM"}) {
     const std::string stats = at(std::string(signal) + ".json");
@@ -227,7 +237,7 @@ TEST_F(BvStream, AReaderThatGoesAwayEndsItQuietly) {
     EXPECT_EQ(result.err, "") << sink;
   }
   const Result stats = stream({"--source", "synth:street-sequence:1", "--loop", "1000", "--rate", "max",
-                               "--stats", "/nonexistent/s.json"},
+                               "--stats", "/proc/nonexistent/s.json"},
                               surroundings);
   EXPECT_EQ(stats.status, 1);
   EXPECT_EQ(stats.error_lines(), 1U);
@@ -285,9 +295,9 @@ TEST_F(BvStream, AllMeansEveryMethodButTheHull) {
 TEST_F(BvStream, AnOutputThatCannotBeWrittenFails) {
   const std::vector<std::string> source = {"--source", "synth:street-sequence:1", "--rate", "max"};
   for (const std::vector<std::string>& output :
-       std::vector<std::vector<std::string>>{{"--sink", "jsonl:/nonexistent/a"},
+       std::vector<std::vector<std::string>>{{"--sink", "jsonl:/proc/nonexistent/a"},
                                              {"--sink", "vtp:/proc/a"},
-                                             {"--stats", "/nonexistent/a"},
+                                             {"--stats", "/proc/nonexistent/a"},
                                              {"--sink", "jsonl:/dev/full"}}) {
     std::vector<std::string> arguments = source;
     arguments.insert(arguments.end(), output.begin(), output.end());

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -75,11 +76,22 @@ class Terminal {
 };
 
 int spawn_and_wait(std::vector<std::string> arguments, std::vector<std::string> variables,
-                   const posix_spawn_file_actions_t& actions, Terminal* terminal, std::string& shown) {
+                   const posix_spawn_file_actions_t& actions, Terminal* terminal,
+                   const std::function<void(int)>& meanwhile, std::string& shown) {
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t interrupts;  // which some shells ignore in the background
+  sigemptyset(&interrupts);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    sigaddset(&interrupts, signal);
+  posix_spawnattr_setsigdefault(&attributes, &interrupts);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t child = 0;
-  const int error = posix_spawn(&child, arguments[0].c_str(), &actions, nullptr, pointers(arguments).data(),
-                                pointers(variables).data());
+  const int error = posix_spawn(&child, arguments[0].c_str(), &actions, &attributes,
+                                pointers(arguments).data(), pointers(variables).data());
+  posix_spawnattr_destroy(&attributes);
   if (error != 0) throw std::runtime_error("cannot start " + arguments[0]);
+  if (meanwhile) meanwhile(child);
   if (terminal != nullptr) shown = terminal->read();
   int status = 0;
   waitpid(child, &status, 0);
@@ -149,7 +161,7 @@ Result PcdBv::run(const std::vector<std::string>& arguments, const Surroundings&
   Result result;
   std::string shown;
   result.status = spawn_and_wait(std::move(command), environment(surroundings.isa), actions,
-                                 terminal ? &*terminal : nullptr, shown);
+                                 terminal ? &*terminal : nullptr, surroundings.meanwhile, shown);
   posix_spawn_file_actions_destroy(&actions);
   if (dead_end >= 0) close(dead_end);
   result.out = read_file(captured);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -33,6 +34,8 @@ struct Surroundings {
   bool nobody_reads = false;       ///< Standard output is a pipe whose reader has gone.
   bool terminal = false;           ///< Standard error is a terminal of 80 columns.
   std::vector<int> closed{};       ///< Descriptors that are closed from the start.
+  /// Done while it runs, with its number. What it has written so far is in captured.out and captured.err.
+  std::function<void(int process)> meanwhile{};
 };
 
 /// Whether this system gives out pseudo-terminals: a bare chroot has none.

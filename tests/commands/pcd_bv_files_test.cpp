@@ -34,7 +34,7 @@ TEST_F(PcdBv, OutputFileHoldsWhatStandardOutputWould) {
 TEST_F(PcdBv, OutputThatCannotBeWrittenIsStatusOneAndOneLine) {
   const std::string cloud = ascii("c.pcd", {"0 0 0"});
   fs::create_directory(at("folder"));
-  for (const std::string& output : {at("no/such/folder/out"), at("folder"), cloud + "/out"}) {
+  for (const std::string& output : {cloud + "/folder/out", at("folder"), cloud + "/out"}) {
     const Result result = run({"--output", output, cloud});
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.err, StartsWith("pcd_bv: " + output + ": "));
@@ -42,6 +42,38 @@ TEST_F(PcdBv, OutputThatCannotBeWrittenIsStatusOneAndOneLine) {
   }
   EXPECT_TRUE(fs::is_directory(at("folder")));
   EXPECT_TRUE(fs::is_regular_file(cloud));
+}
+
+TEST_F(PcdBv, FoldersOfEveryOutputAreMade) {
+  const std::string cloud = ascii("c.pcd", {"0 0 0", "1 2 3"});
+  for (const auto& [option, name] : {std::pair{"--output", "o/new/out.txt"},
+                                     {"--labels", "l/new/x.pcd"},
+                                     {"--mesh", "m/new/x.ply"},
+                                     {"--image", "i/new/x.png"}}) {
+    const Result result = run({option, at(name), cloud});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_GT(fs::file_size(at(name)), 0U);
+  }
+}
+
+TEST_F(PcdBv, AFileOfNoFormatIsRefusedBeforeAnyWork) {
+  const std::string cloud = ascii("c.pcd", {"0 0 0", "1 2 3"});
+  for (const auto& [option, name, reason] : {std::tuple{"--labels", "x.ply", "is no .pcd file"},
+                                             {"--labels", "x", "has no suffix such as .pcd"},
+                                             {"--mesh", "x", "has no suffix such as .ply"},
+                                             {"--image", "x", "has no suffix such as .png"}}) {
+    const Result result = run({option, at(name), cloud});
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_EQ(result.err, "pcd_bv: " + std::string(option) + ": '" + at(name) + "' " + reason + "\n");
+    EXPECT_FALSE(fs::exists(at(name)));
+  }
+  fs::create_directory(at("folder.d"));
+  for (const std::string folder : {"folder.d", "new/"}) {
+    const Result result = run({"--labels", at(folder), "--mesh", at(folder), "--image", at(folder), cloud});
+    EXPECT_EQ(result.status, 0) << result.err;
+    for (const char* name : {"/c.pcd", "/c.ply", "/c.png"})
+      EXPECT_TRUE(fs::is_regular_file(at(folder) + name)) << folder << name;
+  }
 }
 
 TEST_F(PcdBv, FilesThatCannotBeWrittenLeaveTheReportAndTheOldFiles) {

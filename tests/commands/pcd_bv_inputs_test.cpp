@@ -10,6 +10,7 @@
 namespace pcl_bv::test {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -89,6 +90,20 @@ TEST_F(PcdBv, FolderIsReadInNaturalOrder) {
   EXPECT_EQ(reports[1]["file"], at("frames/scan10.pcd"));
   EXPECT_EQ(reports[2]["file"], at("frames/scan11.bin"));
   EXPECT_EQ(reports[3]["file"], at("frames/scan100.pcd"));
+}
+
+TEST_F(PcdBv, SubfoldersThatAreNotReadAreSaid) {
+  const std::string folder = at("frames");
+  ascii("frames/a.pcd", {"1 2 3"});
+  fs::create_directory(at("frames/.git"));
+  EXPECT_EQ(run({folder}).err, "");
+  ascii("frames/1/b.pcd", {"1 2 3"});
+  EXPECT_EQ(run({folder}).err, "pcd_bv: " + folder + ": 1 subfolder is not read\n");
+  fs::create_directory(at("frames/2.pcd"));
+  const Result result = run({folder, "--format", "json"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "pcd_bv: " + folder + ": 2 subfolders are not read\n");
+  EXPECT_EQ(result.json().size(), 1U);
 }
 
 TEST_F(PcdBv, EveryFormatGivesTheSameVolumes) {

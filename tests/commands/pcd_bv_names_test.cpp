@@ -92,7 +92,7 @@ TEST_F(PcdBv, TwoInputsOfOneStemAreRefusedForEveryKindOfFile) {
 
 TEST_F(PcdBv, TwoOutputsIntoOneFileAreRefusedButDevicesTakeAll) {
   const std::string cloud = ascii("x.pcd", {"1 2 3"});
-  EXPECT_EQ(run({"--mesh", at("same"), "--labels", at("./same"), cloud}).status, 2);
+  EXPECT_EQ(run({"--output", at("same.pcd"), "--labels", at("./same.pcd"), cloud}).status, 2);
   EXPECT_EQ(run({"--output", "/dev/null", "--labels", "/dev/null", cloud}).status, 0);
 }
 

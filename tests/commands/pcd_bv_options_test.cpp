@@ -87,6 +87,27 @@ TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
   }
 }
 
+TEST_F(PcdBv, AnEmptyValueIsRefusedAndTakesNoInput) {
+  const std::string good = ascii("good.pcd", {"1 2 3"}), content = read_file(good);
+  for (const std::string option : {"--output", "--labels", "--mesh", "--image"}) {
+    const std::string error = "pcd_bv: " + option + ": the name is empty\n";
+    EXPECT_EQ(run({option + "=", good}).err, error);
+    EXPECT_EQ(run({option, "", good}).err, error);
+    EXPECT_EQ(run({good, option + "="}).err, error);
+    EXPECT_EQ(run({option + "=", good}).status, 2);
+  }
+  EXPECT_EQ(read_file(good), content);
+  for (const std::string option :
+       {"--volume", "--range", "--cluster", "--ground", "--format", "--threads", "--isa"})
+    EXPECT_EQ(run({option + "=", good, good}).err, "pcd_bv: " + option + ": the value is empty\n");
+  for (const std::string option : {"--stats", "--sink", "--source", "--config"}) {
+    const Result result = run({option + "="}, {.program = "bv_stream"});
+    EXPECT_EQ(result.err, "bv_stream: " + option + ": the name is empty\n");
+    EXPECT_EQ(result.status, 2);
+  }
+  EXPECT_EQ(run({"--", "--output="}).err, "pcd_bv: --output=: no such file or directory\n");
+}
+
 TEST_F(PcdBv, OptionsThatNameTheDefaultAreAccepted) {
   const std::string good = ascii("good.pcd", {"1 2 3", "4 5 7"});
   const Result plain = run({good});

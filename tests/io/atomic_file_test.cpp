@@ -10,10 +10,23 @@
 #include <sys/stat.h>
 
 #include <csignal>
+#include <functional>
 #include <thread>
+#include <vector>
 
 #include "files.h"
 #include "pcl_bv/io/io_error.h"
+
+namespace {
+std::function<int(bool is_folder)> on_fsync;
+}
+
+// In place of the system's: no test waits for the disk.
+extern "C" int fsync(int descriptor) {
+  struct stat status;
+  ::fstat(descriptor, &status);
+  return on_fsync ? on_fsync(S_ISDIR(status.st_mode)) : 0;
+}
 
 namespace pcl_bv {
 namespace {
@@ -23,6 +36,8 @@ using testing::HasSubstr;
 
 class AtomicFile : public FileTest {
  protected:
+  ~AtomicFile() override { on_fsync = nullptr; }
+
   static std::string reason(const fs::path& path, std::string_view content) {
     try {
       write_file_atomically(path, content);
@@ -100,6 +115,65 @@ TEST_F(AtomicFile, LeavesNothingWhenTheDiskIsFull) {
     EXPECT_THROW(write_file_atomically(file("a"), std::string(100000, 'n')), IoError);
   }
   EXPECT_EQ(entries(), 0);
+}
+
+TEST_F(AtomicFile, IsOnTheDiskBeforeItTakesTheNameAndTheNameIsWhenItHas) {
+  write_text(file("a"), "old");
+  std::vector<std::pair<bool, std::string>> synced;
+  on_fsync = [&](bool is_folder) {
+    synced.emplace_back(is_folder, file_content(file("a")));
+    return 0;
+  };
+  write_file_atomically(file("a"), "new");
+  EXPECT_THAT(synced, testing::ElementsAre(std::pair(false, "old"), std::pair(true, "new")));
+}
+
+TEST_F(AtomicFile, ADiskThatFailsIsAnErrorOfTheWrite) {
+  for (const bool fails_for_folder : {false, true}) {
+    write_text(file("a"), "old");
+    on_fsync = [&](bool is_folder) {
+      errno = EIO;
+      return is_folder == fails_for_folder ? -1 : 0;
+    };
+    EXPECT_EQ(reason(file("a"), "new"), "cannot write: input/output error");
+    EXPECT_EQ(file_content(file("a")), fails_for_folder ? "new" : "old");
+    EXPECT_EQ(entries(), 1);
+  }
+}
+
+TEST_F(AtomicFile, AFileSystemThatCannotSynchroniseFoldersIsNone) {
+  on_fsync = [](bool is_folder) {
+    errno = EINVAL;
+    return is_folder ? -1 : 0;
+  };
+  EXPECT_EQ(reason(file("a"), "new"), "");
+}
+
+TEST_F(AtomicFile, AnUnfinishedOneIsRemovedAndNoneIsWrittenAnyMore) {
+  write_text(file("a"), "old");
+  const auto write_and_end = [&] {
+    on_fsync = [&](bool) {
+      if (entries() != 2) _exit(1);  // the old file and the temporary one
+      remove_temporary_files();
+      if (entries() != 1) _exit(2);
+      return 0;
+    };
+    const std::string why = "cannot write: the program is being ended";
+    if (reason(file("a"), "new") != why || file_content(file("a")) != "old") _exit(3);
+    if (reason(file("b"), "new") != why || entries() != 1) _exit(4);
+    _exit(0);
+  };
+  EXPECT_EXIT(write_and_end(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(AtomicFile, ItsFoldersAreMadeWhereTheyAreMissing) {
+  make_folder_of(file("new/folder/a"));
+  EXPECT_TRUE(fs::is_directory(file("new/folder")));
+  EXPECT_FALSE(fs::exists(file("new/folder/a")));
+  make_folder_of(file("new/folder/b"));
+  make_folder_of("plain");
+  write_text(file("blocked"), "old");
+  EXPECT_THROW(make_folder_of(file("blocked/folder/a")), IoError);
 }
 
 TEST_F(AtomicFile, AReaderSeesTheOldOrTheNewContentNeverAPart) {

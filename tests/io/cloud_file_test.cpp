@@ -13,6 +13,7 @@
 #include "allocations.h"
 #include "files.h"
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "sample_clouds.h"
@@ -167,6 +168,76 @@ TEST_F(CloudInFile, ThatIsRewrittenByOneWhoHidesItIsAnErrorToo) {
   change_in_place(path, -1);
   std::filesystem::last_write_time(path, written);
   EXPECT_EQ(reason_for_fit(*opened), "the file was changed while it was read");
+}
+
+// With what other writers can hide: the size is the same, st_mtim put back, and st_ctim counts for nothing
+// once the file has another link.
+void rewrite_unseen(const std::filesystem::path& path, std::string content) {
+  const auto written = std::filesystem::last_write_time(path);
+  ASSERT_EQ(content.size(), std::filesystem::file_size(path));
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << content;
+  std::filesystem::last_write_time(path, written);
+  std::filesystem::create_hard_link(path, path.string() + ".link");
+}
+
+constexpr char kChanged[] = "the file was changed while it was read";
+
+TEST_F(CloudInFile, ThatIsRewrittenBetweenPassesUnseenIsAnErrorWhateverItsLayout) {
+  for (const Layout& layout : layouts()) {
+    SCOPED_TRACE(layout.name);
+    const std::filesystem::path path = write(sample_cloud(layout, kPoints, 1, 2));
+    const std::string other = file_content(path);
+    write(sample_cloud(layout, kPoints, 1, 1));
+    const auto opened = CloudFile::open(path);
+    EXPECT_EQ(reason_for_fit(*opened), "");
+    rewrite_unseen(path, other);
+    opened->require_unchanged();
+    EXPECT_EQ(reason_for_fit(*opened), kChanged);
+    std::filesystem::remove(path.string() + ".link");
+  }
+}
+
+TEST_F(CloudInFile, IsTheSameForEachPassOfManyThreadsAndNotAfterItWasRewritten) {
+  const std::filesystem::path path = write(sample_cloud(sample_layouts()[0], 5 * kPoints, 1, 2));
+  const std::string other = file_content(path);
+  write(sample_cloud(sample_layouts()[0], 5 * kPoints, 1, 1));
+  const auto opened = CloudFile::open(path);
+  const Execution four{Threads{4}};
+  AnyVolume box;
+  for (int pass = 0; pass < 10; ++pass)
+    find_method("aabb")->fit(opened->xyz(), box, four);
+  EXPECT_EQ(verify(box, opened->xyz(), four).outside, 0U);
+  rewrite_unseen(path, other);
+  EXPECT_THROW(verify(box, opened->xyz(), four), IoError);
+}
+
+TEST_F(CloudInFile, KnowsEveryBlockAgainHoweverItIsCut) {
+  const std::filesystem::path path = write(sample_cloud(sample_layouts()[0], kPoints, 1, 2));
+  const std::string other = file_content(path);
+  write(sample_cloud(sample_layouts()[0], kPoints, 1, 1));
+  const auto opened = CloudFile::open(path);
+  EXPECT_EQ(reason_for_fit(*opened), "");
+  const PointView points = opened->xyz();
+  const auto load = [&](std::size_t first, std::size_t count) { LoadedPoints(points, first, count); };
+  const std::vector<std::pair<std::size_t, std::size_t>> cuts = {{0, kBlockPoints},
+                                                                 {5 * kBlockPoints, kBlockPoints},
+                                                                 {100, 2 * kBlockPoints},
+                                                                 {kChunkPoints, kPoints - kChunkPoints}};
+  for (const auto& [first, count] : cuts)
+    EXPECT_NO_THROW(load(first, count)) << first;
+  rewrite_unseen(path, other);
+  for (const auto& [first, count] : cuts)
+    EXPECT_THROW(load(first, count), IoError) << first;
+}
+
+TEST_F(CloudInFile, SaysInTheEndWhetherItWasChanged) {
+  for (const long from_end : {-1, 0}) {
+    const std::filesystem::path path = write(sample_cloud(sample_layouts()[0], kPoints, 1, 1));
+    const auto opened = CloudFile::open(path);
+    EXPECT_NO_THROW(opened->require_unchanged());
+    change_in_place(path, from_end);
+    EXPECT_THROW(opened->require_unchanged(), IoError);
+  }
 }
 
 TEST_F(CloudInFile, ThatAnotherTakesThePlaceOfIsReadToItsEnd) {

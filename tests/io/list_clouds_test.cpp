@@ -83,10 +83,13 @@ TEST_F(ListClouds, GivesCloudFilesInNaturalOrder) {
         "frame01.Pcd", "frame3.ply", "frame4.BIN", "frame5.vtp"}) {
     write_text(file(name), "");
   }
-  std::filesystem::create_directory(file("folder.pcd"));
-  EXPECT_THAT(list_clouds(folder()),
+  for (const char* name : {"folder.pcd", "folder", ".folder"})
+    std::filesystem::create_directory(file(name));
+  std::size_t subfolders = 0;
+  EXPECT_THAT(list_clouds(folder(), &subfolders),
               ElementsAre(file("frame01.Pcd"), file("frame1.pcd"), file("frame2.PCD"), file("frame3.ply"),
                           file("frame4.BIN"), file("frame10.pcd")));
+  EXPECT_EQ(subfolders, 2U);
 }
 
 TEST_F(ListClouds, KeepsABrokenLinkSoThatReadingItGivesTheReason) {

@@ -167,5 +167,20 @@ TEST_F(TextPieces, EveryEncodingIsTheSameByAnyNumberOfThreads) {
   }
 }
 
+// Between the pass that counts rows and the one that reads them.
+TEST_F(TextPieces, ThatGrowWhileTheyAreReadAreAnError) {
+  constexpr std::size_t points = 200'000;
+  write_text(file("a.pcd"), numbered(points, points));
+  int passes = 0;
+  const Executor appending{2, [&](std::size_t tasks, const std::function<void(std::size_t)>& task) {
+                             if (++passes == 2) std::ofstream(file("a.pcd"), std::ios::app) << ' ';
+                             for (std::size_t i = 0; i < tasks; ++i)
+                               task(i);
+                           }};
+  EXPECT_THROW(read_cloud(file("a.pcd"), appending), IoError);
+  EXPECT_EQ(passes, 2);
+  EXPECT_EQ(read_cloud(file("a.pcd")).size(), points);
+}
+
 }  // namespace
 }  // namespace pcl_bv

@@ -8,9 +8,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <mutex>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "posix_file.h"
 
@@ -27,7 +31,7 @@ void require(bool success) {
   if (!success) throw IoError(cannot_write + system_reason(errno));
 }
 
-void write_and_close(FileDescriptor& file, Pieces pieces) {
+void write_all(const FileDescriptor& file, Pieces pieces) {
   for (std::string_view rest : pieces) {
     while (!rest.empty()) {
       const ssize_t written = ::write(file.get(), rest.data(), rest.size());
@@ -36,7 +40,11 @@ void write_and_close(FileDescriptor& file, Pieces pieces) {
       rest.remove_prefix(static_cast<std::size_t>(written));
     }
   }
-  require(file.close());
+}
+
+// Some file systems cannot do that for folders, and say EINVAL.
+void wait_for_the_disk(const FileDescriptor& file) {
+  require(::fsync(file.get()) == 0 || errno == EINVAL);
 }
 
 // 64 random bits, and O_EXCL when it is opened: no two writers, on whatever machines, share a temporary file.
@@ -45,28 +53,54 @@ fs::path temporary_name() {
   return ".pcl_bv-" + std::to_string(random()) + "-" + std::to_string(random()) + ".tmp";
 }
 
-// Removes the file unless it has been renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& folder)
-      : path_(folder / temporary_name()), file_(path_, O_WRONLY | O_CREAT | O_EXCL, 0644, cannot_write) {}
-  ~TemporaryFile() {
-    if (!renamed_) ::unlink(path_.c_str());
+// Temporary files there are; `ended` when there must be no more. Lives until the process ends, as threads
+// may.
+struct Temporaries {
+  std::mutex mutex;
+  std::vector<fs::path> paths;
+  bool ended = false;
+
+  // To be called with the lock held.
+  void require_not_ended() const {
+    if (ended) throw IoError(std::string(cannot_write) + "the program is being ended");
   }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+};
 
-  FileDescriptor& file() { return file_; }
+Temporaries& temporaries() {
+  static auto* const all = new Temporaries;
+  return *all;
+}
 
-  void rename_to(const fs::path& target) {
+// A name that is known while it lives, and means no file any more after it.
+class TemporaryName {
+ public:
+  explicit TemporaryName(fs::path path) : path_(std::move(path)) {
+    const std::lock_guard lock(temporaries().mutex);
+    temporaries().paths.push_back(path_);
+  }
+  ~TemporaryName() {
+    const std::lock_guard lock(temporaries().mutex);
+    ::unlink(path_.c_str());
+    std::vector<fs::path>& paths = temporaries().paths;
+    paths.erase(std::find(paths.begin(), paths.end(), path_));
+  }
+  TemporaryName(const TemporaryName&) = delete;
+  TemporaryName& operator=(const TemporaryName&) = delete;
+
+  FileDescriptor create() const {
+    const std::lock_guard lock(temporaries().mutex);
+    temporaries().require_not_ended();
+    return {path_, O_WRONLY | O_CREAT | O_EXCL, 0644, cannot_write};
+  }
+
+  void rename_to(const fs::path& target) const {
+    const std::lock_guard lock(temporaries().mutex);
+    temporaries().require_not_ended();
     require(::rename(path_.c_str(), target.c_str()) == 0);
-    renamed_ = true;
   }
 
  private:
   fs::path path_;
-  FileDescriptor file_;
-  bool renamed_ = false;
 };
 
 }  // namespace
@@ -84,16 +118,37 @@ void write_file_atomically(const fs::path& link_or_file, Pieces pieces) {
       link_or_file.native().starts_with("/dev/") || link_or_file.native().starts_with("/proc/");
   if (special || (exists && !S_ISREG(old.st_mode))) {
     FileDescriptor direct(link_or_file, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0644, cannot_write);
-    return write_and_close(direct, pieces);
+    write_all(direct, pieces);
+    return require(direct.close());
   }
   std::error_code unresolved;
   const fs::path resolved = fs::weakly_canonical(link_or_file, unresolved);
   const fs::path path = exists && !unresolved ? resolved : link_or_file;
   if (exists) require(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
-  TemporaryFile temporary(path.parent_path());
-  if (exists) require(::fchmod(temporary.file().get(), old.st_mode & 0777) == 0);
-  write_and_close(temporary.file(), pieces);
-  temporary.rename_to(path);
+  const fs::path folder = path.parent_path();
+  // Opened first: what cannot be made to last must not take the place of the old file.
+  const FileDescriptor opened(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, 0, cannot_write);
+  const TemporaryName name(folder / temporary_name());
+  FileDescriptor file = name.create();
+  if (exists) require(::fchmod(file.get(), old.st_mode & 0777) == 0);
+  write_all(file, pieces);
+  wait_for_the_disk(file);
+  require(file.close());
+  name.rename_to(path);
+  wait_for_the_disk(opened);
+}
+
+void make_folder_of(const fs::path& file) {
+  std::error_code failure;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
+  if (failure) throw IoError("cannot make its folder: " + system_reason(failure.value()));
+}
+
+void remove_temporary_files() noexcept {
+  const std::lock_guard lock(temporaries().mutex);
+  temporaries().ended = true;
+  for (const fs::path& path : temporaries().paths)
+    ::unlink(path.c_str());
 }
 
 }  // namespace pcl_bv

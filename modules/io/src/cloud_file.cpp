@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "block_sums.h"
 #include "coordinate_fields.h"
 #include "copy_strided.h"
 #include "pcd_format.h"
@@ -18,6 +19,7 @@ struct CloudFile::Opened {
   InputFile file;
   PcdHeader header;
   CoordinateFields fields;
+  mutable BlockSums sums;
 };
 
 namespace {
@@ -77,8 +79,9 @@ std::unique_ptr<CloudFile> CloudFile::open(const std::filesystem::path& path, st
   if (!header || header->cloud.size() <= kChunkPoints) return nullptr;
   const CoordinateFields fields = coordinate_fields(header->cloud);
   file.prefetch(header->data_offset, 2 * kAhead);
-  return std::unique_ptr<CloudFile>(
-      new CloudFile(std::make_unique<Opened>(Opened{std::move(file), std::move(*header), fields})));
+  BlockSums sums(header->cloud.size());
+  return std::unique_ptr<CloudFile>(new CloudFile(
+      std::unique_ptr<Opened>(new Opened{std::move(file), std::move(*header), fields, std::move(sums)})));
 }
 
 CloudFile::CloudFile(std::unique_ptr<Opened> file) : file_(std::move(file)) {}
@@ -86,6 +89,10 @@ CloudFile::~CloudFile() = default;
 
 const RawCloud& CloudFile::header() const {
   return file_->header.cloud;
+}
+
+void CloudFile::require_unchanged() const {
+  file_->file.require_unchanged();
 }
 
 PointView CloudFile::xyz() const {
@@ -111,6 +118,7 @@ PointView CloudFile::load(std::size_t first, std::size_t count, std::vector<std:
     view.data = buffer.data();
     view.stride = view.readable = 3 * size_of(fields.scalar);
   }
+  file_->sums.check(first, count, buffer.data(), view.stride);
   return view;
 }
 

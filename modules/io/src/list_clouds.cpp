@@ -54,18 +54,22 @@ bool natural_less(std::string_view a, std::string_view b) {
   return order != 0 ? order < 0 : a < b;
 }
 
-std::vector<fs::path> list_clouds(const fs::path& folder) {
+std::vector<fs::path> list_clouds(const fs::path& folder, std::size_t* subfolders) {
   std::vector<fs::path> clouds;
+  std::size_t folders = 0;
   std::error_code error;
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     std::error_code ignored;  // what cannot be looked at is listed, so that reading it gives the reason
-    const bool hidden = entry->path().filename().native().front() == '.';
-    if (!hidden && is_cloud_name(entry->path()) && !entry->is_directory(ignored)) {
+    if (entry->path().filename().native().front() == '.') continue;
+    if (entry->is_directory(ignored)) {
+      ++folders;
+    } else if (is_cloud_name(entry->path())) {
       clouds.push_back(entry->path());
     }
   }
   if (error) throw IoError("cannot list the folder: " + system_reason(error.value()));
+  if (subfolders != nullptr) *subfolders = folders;
   std::sort(clouds.begin(), clouds.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().native(), b.filename().native());
   });

@@ -63,8 +63,8 @@ void InputFile::read(std::size_t offset, void* to, std::size_t bytes) const {
 
 // The status is of the open file, whatever its name has come to mean: one that takes this one's place changes
 // the number of links and with it st_ctim, but nothing that is read here. st_ctim also tells of writers that
-// put st_mtim back. What is written within a tick of the system's clock (4 ms) of the opening stays
-// unnoticed.
+// put st_mtim back. What is written within a tick of the system's clock (4 ms) of the opening stays unnoticed
+// here, and so does what is written through a mapping made before; CloudFile has checksums for that.
 void InputFile::require_unchanged() const {
   const struct stat now = status_of(file_);
   if (now.st_size < opened_.st_size) throw IoError(kCut);
@@ -72,7 +72,7 @@ void InputFile::require_unchanged() const {
   if (now.st_size == opened_.st_size && same(now.st_mtim, opened_.st_mtim) &&
       (relinked || same(now.st_ctim, opened_.st_ctim)))
     return;
-  throw IoError("the file was changed while it was read");
+  throw IoError(kChangedWhileRead);
 }
 
 void InputFile::prefetch(std::size_t offset, std::size_t bytes) const {

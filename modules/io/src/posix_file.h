@@ -19,6 +19,8 @@ namespace pcl_bv {
 /// The system's words for an errno value, starting in lower case: "permission denied".
 std::string system_reason(int error);
 
+inline constexpr char kChangedWhileRead[] = "the file was changed while it was read";
+
 /// Owns an open descriptor.
 class FileDescriptor {
  public:
@@ -54,9 +56,10 @@ class InputFile {
   /// Tells the system that these bytes will be read soon.
   void prefetch(std::size_t offset, std::size_t bytes) const;
 
- private:
+  /// Throws IoError if size or times are not those of the opening.
   void require_unchanged() const;
 
+ private:
   FileDescriptor file_;
   std::size_t size_ = 0;
   struct stat opened_ {};

@@ -134,7 +134,7 @@ class RowReader {
       if (first >= wanted_.count) return;
       const std::size_t stop = std::min(end[piece], wanted_.count);
       const std::size_t found = read_piece(piece, first, stop, text);
-      if (found != std::min(end[piece], stop + 1)) throw IoError("the file was changed while it was read");
+      if (found != std::min(end[piece], stop + 1)) throw IoError(kChangedWhileRead);
     });
     return {std::min(end.back(), wanted_.count), end.back() > wanted_.count};
   }

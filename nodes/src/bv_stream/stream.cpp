@@ -123,6 +123,7 @@ void read_frames(const StreamOptions& options, FrameSource& source, StreamRunner
 
 void write_stats(const std::filesystem::path& file, const RunnerStats& stats) {
   try {
+    make_folder_of(file);
     write_file_atomically(file, stats_json(stats) + '\n');
   } catch (const IoError& error) {
     throw IoError(file.string() + ": " + error.what());

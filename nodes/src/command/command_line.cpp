@@ -6,6 +6,8 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <utility>
 
 #include "pcl_bv/kernels/isa.h"
 #include "usage_error.h"
@@ -20,6 +22,35 @@ std::string version_text(const std::string& command) {
   return text + '\n';
 }
 
+// CLI11 would give an option without a value ("--output= scan.pcd") the next argument, an input: it gets a
+// value of no characters of its own. In the order that CLI11 takes, the last one first.
+std::vector<std::string> last_first(const CLI::App& app, int argc, const char* const* argv) {
+  const auto inputs = std::find(argv, argv + argc, std::string_view("--")) - argv;
+  std::vector<std::string> arguments;
+  for (int i = argc - 1; i > 0; --i) {
+    std::string argument = argv[i];
+    if (i < inputs && argument.size() > 1 && argument.find('=') == argument.size() - 1) {
+      const CLI::Option* option = app.get_option_no_throw(argument.substr(0, argument.size() - 1));
+      if (option != nullptr && option->get_items_expected_max() > 0) {
+        arguments.emplace_back();
+        argument.pop_back();
+      }
+    }
+    arguments.push_back(std::move(argument));
+  }
+  return arguments;
+}
+
+void refuse_empty_values(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (option->get_positional() || std::find(values.begin(), values.end(), "") == values.end()) continue;
+    const std::string type = option->get_type_name();
+    const bool is_name = type.starts_with("FILE") || type == "PATH" || type == "KIND:PLACE";
+    throw UsageError(option->get_name() + (is_name ? ": the name is empty" : ": the value is empty"));
+  }
+}
+
 }  // namespace
 
 struct CommandLine::App : CLI::App {
@@ -27,7 +58,8 @@ struct CommandLine::App : CLI::App {
   bool version = false;
 };
 
-CommandLine::CommandLine(const std::string& command, const std::string& description, const std::string& footer)
+CommandLine::CommandLine(const std::string& command, const std::string& description,
+                         const std::string& footer)
     : app_(std::make_unique<App>(description, command)) {
   app_->footer(footer);
   app_->get_formatter()->column_width(26);
@@ -53,7 +85,8 @@ void CommandLine::flag(const char* name, bool& value, const std::string& help) {
 
 std::optional<std::string> CommandLine::parse(int argc, const char* const* argv) {
   try {
-    app_->parse(argc, argv);
+    app_->parse(last_first(*app_, argc, argv));
+    refuse_empty_values(*app_);
   } catch (const CLI::CallForHelp&) {
     return app_->help();
   } catch (const CLI::ParseError& error) {

@@ -20,14 +20,13 @@ fs::path identity(const fs::path& path) {
   return unknown ? fs::absolute(path).lexically_normal() : canonical;
 }
 
-// Many results may go to one terminal or to /dev/null.
+}  // namespace
+
 bool is_device(const fs::path& file) {
   std::error_code unknown;
   const fs::file_status status = fs::status(file, unknown);
   return fs::exists(status) && fs::is_other(status);
 }
-
-}  // namespace
 
 void OutputClaims::add_input(const fs::path& file) {
   inputs_.insert(identity(file));

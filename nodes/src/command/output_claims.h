@@ -9,6 +9,9 @@
 
 namespace pcl_bv {
 
+/// Whether this is a terminal, a pipe, /dev/null or the like: what many results may go to.
+bool is_device(const std::filesystem::path& file);
+
 /// Files by what they are, whatever links and detours lead to them.
 class OutputClaims {
  public:

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 
+#include "command/messages.h"
 #include "command/output_claims.h"
+#include "command/values.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/read_cloud.h"
@@ -33,12 +35,19 @@ bool is_folder(const std::string& path) {
   return !is_synth(path) && fs::is_directory(path, unknown);
 }
 
+void say_what_is_skipped(const std::string& folder, std::size_t subfolders) {
+  if (subfolders == 1) complain(folder + ": 1 subfolder is not read");
+  if (subfolders > 1) complain(folder + ": " + std::to_string(subfolders) + " subfolders are not read");
+}
+
 std::vector<Job> expand(const std::string& argument) {
   if (!is_folder(argument)) return {{argument, {}, {}, {}, {}, 0}};
   try {
     std::vector<Job> jobs;
-    for (const fs::path& path : list_clouds(argument))
+    std::size_t subfolders = 0;
+    for (const fs::path& path : list_clouds(argument, &subfolders))
       jobs.push_back({path.string(), {}, {}, {}, {}, 0});
+    say_what_is_skipped(argument, subfolders);
     if (!jobs.empty()) return jobs;
     return {{argument, "no .pcd, .ply, .las or .bin file in this folder", {}, {}, {}, 0}};
   } catch (const IoError& error) {
@@ -64,8 +73,12 @@ std::vector<Job> plan_jobs(const Options& options) {
     }
   }
   const bool several = jobs.size() > 1 || is_folder(options.inputs.front());
-  const auto target = [&](const fs::path& given, const Job& job, const char* extension) {
-    return several || is_folder(given.string()) ? given / (stem(job.input) + extension) : given;
+  const auto target = [&](const char* option, const fs::path& given, const Job& job, const char* extension) {
+    if (several || !given.has_filename() || is_folder(given.string()))
+      return given / (stem(job.input) + extension);
+    if (given.has_extension() || is_device(given)) return given;
+    throw UsageError(std::string(option) + ": " + pcl_bv::quoted(given.string()) + " has no suffix such as " +
+                     extension);
   };
   // A folder gets what its name ends in.
   const bool svg = options.image && lower_case_extension(*options.image) == ".svg";
@@ -79,9 +92,10 @@ std::vector<Job> plan_jobs(const Options& options) {
   if (options.output) claims.claim(*options.output);
   for (Job& job : jobs) {
     if (job.error) continue;
-    if (options.labels) claims.claim(job.labels.emplace(target(*options.labels, job, ".pcd")));
-    if (options.mesh) claims.claim(job.mesh.emplace(target(*options.mesh, job, mesh_extension)));
-    if (options.image) claims.claim(job.image.emplace(target(*options.image, job, image_extension)));
+    if (options.labels) claims.claim(job.labels.emplace(target("--labels", *options.labels, job, ".pcd")));
+    if (options.mesh) claims.claim(job.mesh.emplace(target("--mesh", *options.mesh, job, mesh_extension)));
+    if (options.image)
+      claims.claim(job.image.emplace(target("--image", *options.image, job, image_extension)));
   }
   return jobs;
 }

@@ -26,6 +26,11 @@ class LoadedCloud {
   /// What was subtracted, if that was asked for.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
+  /// Throws IoError if it was left in its file and that has been changed.
+  void require_unchanged() const {
+    if (file_) file_->require_unchanged();
+  }
+
   /// To be changed by its last user.
   RawCloud take() { return std::move(held_); }
 

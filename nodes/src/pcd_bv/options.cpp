@@ -59,7 +59,6 @@ void declare(CommandLine& line, Texts& texts) {
 std::optional<std::filesystem::path> path_or_none(const CommandLine& line, const char* option,
                                                   const std::string& text) {
   if (!line.given(option)) return std::nullopt;
-  if (text.empty()) throw UsageError(std::string(option) + ": the name is empty");
   return text;
 }
 
@@ -94,6 +93,7 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   options.labels = path_or_none(line, "--labels", texts.labels);
   options.mesh = path_or_none(line, "--mesh", texts.mesh);
   options.image = path_or_none(line, "--image", texts.image);
+  require_extension("--labels", texts.labels, {".pcd"});
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
   if (line.given("--view")) options.view = parse_view(texts.view);

@@ -48,8 +48,10 @@ bool ReportWriter::add(const std::string& rendered) {
 
 bool ReportWriter::finish() {
   const bool read = format_ != OutputFormat::json || write("\n]\n");
-  if (file_) write_file_atomically(*file_, pending_);
-  return read;
+  if (!file_) return read;
+  make_folder_of(*file_);
+  write_file_atomically(*file_, pending_);
+  return true;
 }
 
 bool ReportWriter::write(const std::string& text) {

@@ -15,6 +15,7 @@
 #include "command/messages.h"
 #include "loaded_cloud.h"
 #include "pcl_bv/fitting/verify.h"
+#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
@@ -63,8 +64,7 @@ Status check(const PointView& cloud, const FrameResult& result, const Options& o
 template <typename Write>
 Status write_file(const std::filesystem::path& path, const Write& write) {
   try {
-    std::error_code failure;
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failure);
+    make_folder_of(path);
     write();
     return Status::done;
   } catch (const std::bad_alloc&) {
@@ -170,6 +170,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   const StageTimes& ms = result.ms;
   if (options.timings) report.seconds = {read, (ms.filter + ms.ground + ms.cluster) / 1e3, ms.fit / 1e3};
   const Status checked = check(loaded.xyz(), result, options, report);
+  loaded.require_unchanged();
   return worse(checked, write_files(job, options, result, report, loaded));
 }
 

@@ -18,6 +18,7 @@
 #include <string>
 #include <utility>
 
+#include "command/interruption.h"
 #include "command/messages.h"
 #include "output.h"
 #include "pcl_bv/io/io_error.h"
@@ -99,10 +100,22 @@ class InOrder {
 
   /// After the last result.
   Status finish() {
+    const std::lock_guard lock(mutex_);
     if (reports_ == Reports::wanted) attempt_to_write([&] { return writer_.finish(); });
     progress_.erase();
     if (jobs_ > 1 && written_ == jobs_ && reports_ != Reports::unread) say(summary());
+    reports_ = Reports::unread;
     return status_;
+  }
+
+  /// Ends the writing where it is, and makes whole what is written: the file, the array.
+  void interrupt() {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    progress_.erase();
+    if (reports_ == Reports::wanted && written_ > 0) attempt_to_write([&] { return writer_.finish(); });
+    reports_ = Reports::unread;
+    say("interrupted: " + std::to_string(written_) + " of " + std::to_string(jobs_) + " files done");
   }
 
  private:
@@ -184,6 +197,7 @@ Status process_all(const std::vector<Job>& jobs, const Options& options) {
   if (workers > 1) each.pipeline.threads = 1;
   if (jobs.size() > 1) keep_freed_memory();
   InOrder order(options, jobs.size(), workers);
+  const Interruption interruption([&] { order.interrupt(); });
   for_each_chunk(policy, workers, [&](std::size_t) { work(jobs, each, order); });
   return order.finish();
 }

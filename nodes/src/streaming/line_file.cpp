@@ -13,11 +13,18 @@
 #include <cstring>
 #include <utility>
 
+#include "pcl_bv/io/atomic_file.h"
+
 namespace pcl_bv {
 
 LineFile::LineFile(const std::filesystem::path& file)
     : descriptor_(STDOUT_FILENO), name_(file == "-" ? "standard output" : file.string()) {
   if (file == "-") return;
+  try {
+    make_folder_of(file);
+  } catch (const IoError& error) {
+    throw IoError(name_ + ": " + error.what());
+  }
   descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor_ < 0) throw IoError(name_ + ": " + std::strerror(errno));
 }

@@ -16,13 +16,22 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// A new file has mode 0644 less the umask; one that was there keeps its mode, and if it may not be written
 /// by this process it is left alone. A symbolic link stays, and the file it leads to is replaced. What is not
-/// a regular file (a device, a pipe) or lies in /dev or /proc (/dev/stdout, whatever it leads to) is opened and
-/// written directly, without that promise.
+/// a regular file (a device, a pipe) or lies in /dev or /proc (/dev/stdout, whatever it leads to) is opened
+/// and written directly, without that promise.
 ///
-/// Throws IoError with the reason. Does not wait for the disk (no fsync).
+/// Returns when file and name are on the disk (fsync of both, some milliseconds). Throws IoError with the
+/// reason, also for what the disk says so late; then, if it is the folder that could not be synchronised, the
+/// new content is in place, but may not outlast a loss of power.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// The same for a content in pieces, such as a header and a body, without joining them in memory.
 void write_file_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces);
+
+/// Makes the folders that lead to a file, where they are missing. Throws IoError with the reason.
+void make_folder_of(const std::filesystem::path& file);
+
+/// For a process that is about to end while other threads may be in write_file_atomically(): removes their
+/// unfinished files. From now on all such calls throw IoError and leave what is there.
+void remove_temporary_files() noexcept;
 
 }  // namespace pcl_bv

@@ -15,6 +15,12 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An open binary .pcd or .bin. Points are read where and when they are asked for, by position, so that
 /// several threads read and fit side by side; the system is told what comes next, 8 MiB ahead.
+///
+/// A file that is changed while it is read gives an IoError, not volumes of two clouds. Its size and times
+/// are looked at after each reading; and what writers can hide from those (st_mtim put back together with a
+/// new link, a mapping written late) shows in a checksum of every 1024 points, kept from their first reading:
+/// of one byte in 16, so that a cloud in the place of another is seen, but not each edit of one point. What
+/// is cut out of 1024 points has no checksum.
 class CloudFile final : public PointSource {
  public:
   /// Opens the file and reads its header only; null if its points can only be read from first to last (ascii,
@@ -28,6 +34,10 @@ class CloudFile final : public PointSource {
 
   /// All points, as a view that lives as long as this object.
   PointView xyz() const;
+
+  /// Throws IoError if the file has been cut or changed since it was opened: to be called when all that was
+  /// wanted of it is there.
+  void require_unchanged() const;
 
   /// Throws IoError, also for a file that has been cut or changed since it was opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;

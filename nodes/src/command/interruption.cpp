@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A thread that waits, not a handler: a handler may not take locks, remove files by name or write JSON.
+
+#include "interruption.h"
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <system_error>
+#include <utility>
+
+#include "pcl_bv/io/atomic_file.h"
+
+namespace pcl_bv {
+namespace {
+
+// Ends the watcher when there is nothing left to watch.
+int farewell() {
+  return SIGRTMIN;
+}
+
+bool is_ignored(int signal) {
+  struct sigaction action = {};
+  sigaction(signal, nullptr, &action);
+  return action.sa_handler == SIG_IGN;
+}
+
+[[noreturn]] void end_with(int signal) {
+  remove_temporary_files();
+  _exit(128 + signal);
+}
+
+}  // namespace
+
+Interruption::Interruption(std::function<void()> finish) : finish_(std::move(finish)) {
+  sigemptyset(&awaited_);
+  sigaddset(&awaited_, farewell());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (!is_ignored(signal)) sigaddset(&awaited_, signal);
+  }
+  pthread_sigmask(SIG_BLOCK, &awaited_, &before_);
+  watcher_ = std::thread([this] { watch(); });
+}
+
+Interruption::~Interruption() {
+  pthread_kill(watcher_.native_handle(), farewell());
+  watcher_.join();
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void Interruption::watch() const {
+  int signal = 0;
+  sigwait(&awaited_, &signal);
+  if (signal == farewell()) return;
+  const auto finish = [this, signal] {
+    try {
+      finish_();
+    } catch (...) {  // the process ends all the same
+    }
+    end_with(signal);
+  };
+  try {
+    std::thread(finish).detach();
+  } catch (const std::system_error&) {
+    finish();  // no more threads: then no second signal is heard
+  }
+  int second = 0;
+  do
+    sigwait(&awaited_, &second);
+  while (second == farewell());
+  end_with(second);
+}
+
+}  // namespace pcl_bv
