@@ -129,7 +129,7 @@ TEST_F(PcdBv, BadGroundValuesAreWrongUse) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--ground", "plane", "--up", "w"}, "--up: up is 'w', must be x, y, z, -x, -y, -z or X,Y,Z"},
       {{"--ground", "plane", "--up", "0,0,0"}, "--up: up is '0,0,0'"},
-      {{"--up", "y"}, "--up: only useful with --ground or an upright box"},
+      {{"--up", "y"}, "--up: only useful with --ground, --image or an upright box"},
       {{"--sensor-height", "1.7"}, "--sensor-height: only useful with --ground"},
       {{"--ground", "plane", "--sensor-height", "-1"}, "--sensor-height: -1 is not at least 0 and finite"},
       {{"--ground", "plane", "--sensor-height", "nan"}, "--sensor-height: nan is not at least 0"},
