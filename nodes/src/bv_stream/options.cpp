@@ -49,7 +49,7 @@ void declare(CommandLine& line, Texts& t) {
   line.option("--range", t.range, "MIN:MAX",
               "Drop points nearer or farther than this from the origin (0.5:inf)");
   line.option("--ground", t.ground, "KIND", "Take the ground away first: none, plane or zones (zones)");
-  line.option("--up", t.up, "AXIS", "Against gravity: x, y, z, -x, -y, -z or X,Y,Z (z)");
+  line.option("--up", t.up, "AXIS", "Against gravity: x|y|z|-x|-y|-z|X,Y,Z (z)");
   line.option("--sensor-height", t.sensor_height, "M", "Of the origin above the ground (learnt)");
   line.option("--cluster", t.cluster, "TOL", "Points nearer than TOL to each other are one object (0.5)");
   line.option("--min-size", t.min_size, "N", "Drop clusters of fewer points (10)");

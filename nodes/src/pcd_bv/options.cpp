@@ -58,7 +58,7 @@ void declare(CommandLine& line, Texts& texts) {
   line.option("--ground", texts.ground, "KIND",
               "Take the ground away first: plane, zones (outdoors) or none (none)");
   line.option("--up", texts.up, "AXIS",
-              "Against gravity, for --ground and upright boxes: x, y, z, -x, -y, -z or X,Y,Z (z)");
+              "Against gravity, for --ground, upright boxes: x|y|z|-x|-y|-z|X,Y,Z (z)");
   line.option("--sensor-height", texts.sensor_height, "M", "Of the origin above the ground (learnt)");
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
