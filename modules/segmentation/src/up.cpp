@@ -71,10 +71,10 @@ Vector3d up_direction(const Vector3d& up) {
 }
 
 UpFrame::UpFrame(const Vector3d& any_length) : up(up_direction(any_length)) {
-  Index nearest = 0;
   up.cwiseAbs().maxCoeff(&nearest);
   Vector3d axis = Vector3d::Zero();
   axis[nearest] = std::copysign(1, up[nearest]);
+  along_axis = up == axis;
   const auto turned = [&](Index i) -> Vector3d {  // as the axis is turned to up
     return Vector3d::Unit(i) - up[i] / (1 + std::abs(up[nearest])) * (up + axis);
   };

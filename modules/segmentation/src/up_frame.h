@@ -14,6 +14,8 @@ struct UpFrame {
   explicit UpFrame(const Eigen::Vector3d& any_length);
 
   Eigen::Vector3d u, v, up;
+  Eigen::Index nearest = 0;  ///< The axis nearest to up.
+  bool along_axis;           ///< Whether up is that axis, or its opposite.
 };
 
 }  // namespace pcl_bv
