@@ -19,7 +19,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A file that is changed while it is read gives an IoError, not volumes of two clouds. Its size and times
 /// are looked at after each reading; and what writers can hide from those (st_mtim put back together with a
 /// new link, a mapping written late) shows in a checksum of every 1024 points, kept from their first reading:
-/// of one byte in 16, so that a cloud in the place of another is seen, but not each edit of one point. What
+/// of one byte in 64, so that a cloud in the place of another is seen, but not each edit of one point. What
 /// is cut out of 1024 points has no checksum.
 class CloudFile final : public PointSource {
  public:
