@@ -10,6 +10,7 @@
 #include "command/command_line.h"
 #include "command/run_command.h"
 #include "command/usage_error.h"
+#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/synth/street.h"
@@ -71,7 +72,10 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
     write_sequence(parse_street_sequence(scene), output);
   } else {
     const SynthSpec spec = parse_synth(scene);
-    naming(output, [&] { write_pcd(output, to_raw_cloud(make_synth(spec))); });
+    naming(output, [&] {
+      make_folder_of(output);
+      write_pcd(output, to_raw_cloud(make_synth(spec)));
+    });
   }
 }
 
