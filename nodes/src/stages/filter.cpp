@@ -6,7 +6,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/report/read_volumes.h"
 
 namespace pcl_bv {
@@ -40,8 +39,10 @@ bool PointFilter::keeps_all() const {
   return min2_ == 0 && max2_ == std::numeric_limits<double>::infinity() && !boxed_ && !dropped_ && !cropped_;
 }
 
-template <typename T>
-void PointFilter::judge_distances(const PointView& points, std::vector<Verdict>& verdicts) const {
+// Calls take(i, valid, kept) for each point, by its distance and the own vehicle: two values without a branch.
+template <typename T, typename Take>
+void PointFilter::each_distance(const PointView& points, const Take& take) const {
+  const double min2 = min2_, max2 = max2_;  // not read again after each store
   for (std::size_t i = 0; i < points.count; ++i) {
     T p[3];
     load_point(points, i, p);
@@ -50,13 +51,19 @@ void PointFilter::judge_distances(const PointView& points, std::vector<Verdict>&
     // The squares of finite floats are finite in double: one comparison instead of three.
     const bool valid =
         sizeof(T) == 4 ? distance2 < std::numeric_limits<double>::infinity() : is_valid({x, y, z});
-    bool in_range = distance2 >= min2_ && distance2 <= max2_;
+    bool in_range = distance2 >= min2 && distance2 <= max2;
     if (boxed_) {
       in_range = in_range && !(x >= low_.x() && x <= high_.x() && y >= low_.y() && y <= high_.y() &&
                                z >= low_.z() && z <= high_.z());
     }
-    verdicts[i] = valid ? in_range ? Verdict::kept : Verdict::range : Verdict::nonfinite;
+    take(i, valid, valid && in_range);
   }
+}
+
+template <typename Take>
+void PointFilter::each_distance(const PointView& points, const Take& take) const {
+  points.scalar == ScalarType::float64 ? each_distance<double>(points, take)
+                                       : each_distance<float>(points, take);
 }
 
 void PointFilter::drop(const PointView& points, const RegionMask& mask, bool inside,
@@ -70,11 +77,9 @@ void PointFilter::drop(const PointView& points, const RegionMask& mask, bool ins
 
 void PointFilter::judge(const PointView& points, FilterScratch& scratch) const {
   scratch.verdicts.resize(points.count);
-  if (points.scalar == ScalarType::float64) {
-    judge_distances<double>(points, scratch.verdicts);
-  } else {
-    judge_distances<float>(points, scratch.verdicts);
-  }
+  each_distance(points, [&](std::size_t i, bool valid, bool kept) {
+    scratch.verdicts[i] = kept ? Verdict::kept : valid ? Verdict::range : Verdict::nonfinite;
+  });
   if (dropped_) drop(points, *dropped_, true, scratch);
   if (cropped_) drop(points, *cropped_, false, scratch);
 }
@@ -88,20 +93,30 @@ void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts) {
   counts.inside += of[static_cast<std::size_t>(Verdict::inside)];
 }
 
-void filter_points(const PointView& points, const PointFilter& filter, std::vector<std::int32_t>& kept,
-                   FilterScratch& scratch, Counts& counts) {
+void PointFilter::select(const PointView& points, std::vector<std::int32_t>& kept, FilterScratch& scratch,
+                         Counts& counts) const {
   if (points.count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw std::length_error("more than 2147483647 points: too many to select from");
   kept.resize(points.count);
   std::size_t n = 0;
-  for (std::size_t first = 0; first < points.count; first += kChunkPoints) {
-    const PointView part = points.slice(first, std::min(kChunkPoints, points.count - first));
-    filter.judge(part, scratch);
+  std::int32_t* const to = kept.data();
+  const auto take = [&](std::size_t i, bool keep) {
+    to[n] = static_cast<std::int32_t>(points.index(i));
+    n += keep;
+  };
+  if (dropped_ || cropped_) {
+    judge(points, scratch);
     count_verdicts(scratch.verdicts, counts);
-    for (std::size_t i = 0; i < part.count; ++i) {
-      kept[n] = static_cast<std::int32_t>(part.index(i));
-      n += scratch.verdicts[i] == Verdict::kept;
-    }
+    for (std::size_t i = 0; i < points.count; ++i)
+      take(i, scratch.verdicts[i] == Verdict::kept);
+  } else {
+    std::size_t invalid = 0;
+    each_distance(points, [&](std::size_t i, bool valid, bool keep) {
+      invalid += !valid;
+      take(i, keep);
+    });
+    counts.nonfinite += invalid;
+    counts.range += points.count - invalid - n;
   }
   kept.resize(n);
 }

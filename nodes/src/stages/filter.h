@@ -37,9 +37,16 @@ class PointFilter {
   /// is rounded twice: a point is judged by its true distance to within 2e-16 of it.
   void judge(const PointView& points, FilterScratch& scratch) const;
 
+  /// Replaces `kept` with the numbers of the points of the view that are kept, in its order; counts the
+  /// others. Throws std::length_error beyond 2^31 - 1 points.
+  void select(const PointView& points, std::vector<std::int32_t>& kept, FilterScratch& scratch,
+              Counts& counts) const;
+
  private:
-  template <typename T>
-  void judge_distances(const PointView& points, std::vector<Verdict>& verdicts) const;
+  template <typename T, typename Take>
+  void each_distance(const PointView& points, const Take& take) const;
+  template <typename Take>
+  void each_distance(const PointView& points, const Take& take) const;
   void drop(const PointView& points, const RegionMask& mask, bool inside, FilterScratch& scratch) const;
 
   double min2_, max2_;
@@ -49,11 +56,7 @@ class PointFilter {
   UsableIsa isa_;
 };
 
-/// Counts each reason.
+/// Adds up the reasons.
 void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts);
-
-/// Replaces `kept` with the numbers of the points of the view that are kept, in its order; counts the others.
-void filter_points(const PointView& points, const PointFilter& filter, std::vector<std::int32_t>& kept,
-                   FilterScratch& scratch, Counts& counts);
 
 }  // namespace pcl_bv

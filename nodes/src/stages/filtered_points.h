@@ -12,7 +12,7 @@
 
 namespace pcl_bv {
 
-/// The points of a view; those that filter_points() would drop are not valid (NaN).
+/// The points of a view; those that the filter drops are not valid (NaN).
 class FilteredPoints final : public PointSource {
  public:
   /// Keeps the view, whose points are not of an index list.

@@ -98,7 +98,7 @@ PointView FramePipeline::State::filter(const Prepared& now, const PointView& clo
     result.counts = filtered->count(now.execution.parallel);
     result.filtered = std::move(filtered);
   } else {
-    filter_points(cloud, *now.filter, result.kept, scratch, result.counts);
+    now.filter->select(cloud, result.kept, scratch, result.counts);
   }
   return result.kept_points(cloud);
 }
