@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Pictures, decoded again.
+// Small scenes, and pictures decoded again.
 #pragma once
 
 #include <cairo.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "palette.h"
+#include "pcl_bv/report/picture.h"
 
 namespace pcl_bv::test {
 
@@ -56,6 +60,26 @@ inline std::size_t difference(const std::string& a, const std::string& b) {
   for (std::size_t i = 0; i < p.rgb.size(); ++i)
     n += p.rgb[i] != q.rgb[i];
   return n;
+}
+
+inline Picture sized(int width = 800, int height = 600, ViewFrom from = ViewFrom::top) {
+  Picture picture;
+  picture.width = width;
+  picture.height = height;
+  picture.from = from;
+  return picture;
+}
+
+inline Aabb box_at(double x, double y, double size = 1) {
+  return {{x, y, 0}, {x + size, y + size, size}};
+}
+
+inline bool is_like(std::uint32_t rgb, const Colour& colour) {
+  for (int k = 0; k < 3; ++k) {
+    const double channel = (rgb >> (16 - 8 * k) & 0xff) / 255.0;
+    if (std::abs(channel - static_cast<double>(colour[k])) > 0.25) return false;
+  }
+  return true;
 }
 
 }  // namespace pcl_bv::test

@@ -43,7 +43,7 @@ class Marks {
 
   void darken(const Box& box) {
     cairo_rectangle(cairo_, box.min().x(), box.min().y(), box.sizes().x(), box.sizes().y());
-    cairo_set_source_rgba(cairo_, 0.03, 0.04, 0.07, 0.6);
+    cairo_set_source_rgba(cairo_, 0.03, 0.04, 0.07, 0.75);
     cairo_fill(cairo_);
     taken_.push_back(box);
   }
@@ -141,14 +141,18 @@ void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& s
 
 void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
   const Box frame(Eigen::Vector2d(0, 0), Eigen::Vector2d(view_.width, view_.height));
+  // Above the middle of what lies on top; from above, there is no top to be seen.
+  const Eigen::Vector3d& rise = view_.sky.dot(view_.toward) > 0.9 ? view_.up : view_.sky;
   for (const PictureVolume& entry : volumes) {
     if (entry.label.empty() || empty(entry.volume)) continue;
-    const Eigen::Vector2d center = view_.project(pcl_bv::center(entry.volume)).head<2>();
-    if (!frame.contains(center)) continue;
+    const Eigen::Vector3d middle = center(entry.volume);
+    const Eigen::Vector2d at = view_.project(middle).head<2>();
+    if (!frame.contains(at)) continue;
     const std::string text = readable(entry.label);
     const double width = width_of(text);
-    const double top = view_.project(support(entry.volume, view_.up)).y();
-    const double x = std::max(4.0, std::min(center.x() - width / 2, view_.width - width - 4));
+    const double height = (support(entry.volume, rise) - middle).dot(rise);
+    const double top = view_.project(middle + height * rise).y();
+    const double x = std::max(4.0, std::min(at.x() - width / 2, view_.width - width - 4));
     const double y = std::max(cap_height + 4, top - 7);
     const Box box = box_of(text, x, y);
     if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return other.intersects(box); }))
