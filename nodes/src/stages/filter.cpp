@@ -51,12 +51,12 @@ void PointFilter::each_distance(const PointView& points, const Take& take) const
     // The squares of finite floats are finite in double: one comparison instead of three.
     const bool valid =
         sizeof(T) == 4 ? distance2 < std::numeric_limits<double>::infinity() : is_valid({x, y, z});
-    bool in_range = distance2 >= min2 && distance2 <= max2;
+    bool in_range = (distance2 >= min2) & (distance2 <= max2);  // no branch: dead beams come at random
     if (boxed_) {
       in_range = in_range && !(x >= low_.x() && x <= high_.x() && y >= low_.y() && y <= high_.y() &&
                                z >= low_.z() && z <= high_.z());
     }
-    take(i, valid, valid && in_range);
+    take(i, valid, valid & in_range);
   }
 }
 
