@@ -74,7 +74,7 @@ std::unique_ptr<CloudFile> CloudFile::open(const std::filesystem::path& path, st
   InputFile file(path);
   std::optional<PcdHeader> header = binary_header(file, path, bin_fields);
   if (!header || header->cloud.size() <= kChunkPoints) return nullptr;
-  const CoordinateFields fields = coordinate_fields(header->cloud);
+  const CoordinateFields fields = coordinate_fields(header->cloud.fields);
   file.prefetch(header->data_offset, 2 * kAhead);
   return std::unique_ptr<CloudFile>(
       new CloudFile(std::make_unique<Opened>(Opened{std::move(file), std::move(*header), fields})));
