@@ -28,20 +28,32 @@ first (a second one ends at once, with 130); 1 no readable source or an output n
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {
-  std::string source, rate, stamps, config, volume, range, ground, up, sensor_height, cluster, min_size,
-      max_size, threads, isa, bin_fields, loop, queue, policy, stats;
+  std::string source, rate, stamps, frame_id, poses, config, volume, range, ground, up, sensor_height,
+      cluster, min_size, max_size, threads, isa, bin_fields, loop, queue, policy, stats, report;
   std::vector<std::string> sinks;
   bool print_config = false, track = false;
 };
 
-void declare(CommandLine& line, Texts& t) {
-  line.option("--source", t.source, "PATH",
-              "A folder of clouds, one file, or synth:street-sequence[:FRAMES[:SEED]]");
+void declare_frames(CommandLine& line, Texts& t) {
+  line.option("--source", t.source, "SOURCE", "Frames: " + source_syntax());
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
-  line.option("--rate", t.rate, "HZ", "Frames a second, or max (10)");
+  line.option("--rate", t.rate, "HZ", "Frames a second, recorded (by their stamps) or max (10)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
-  line.option("--stamps", t.stamps, "RULE",
-              "Times of the frames: by rate, or by the number in the name (rate)");
+  line.option(
+      "--stamps", t.stamps, "RULE",
+      "Times of the frames: by rate, or name: by the number in it (rate, or name with --rate recorded)");
+  line.option("--frame-id", t.frame_id, "NAME", "The coordinate frame of the points");
+  line.option("--poses", t.poses, "FILE", "Where the sensor was: poses of KITTI by frame, or of TUM by time");
+}
+
+void declare_results(CommandLine& line, Texts& t) {
+  line.option("--sink", t.sinks, "SINK", sink_syntax() + "; repeatable (jsonl on standard output)");
+  line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
+  line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
+}
+
+void declare(CommandLine& line, Texts& t) {
+  declare_frames(line, t);
   line.option("--config", t.config, "FILE.yaml", "Settings; the options below override them");
   line.flag("--print-config", t.print_config, "Print the settings that would be used, as such a file");
   line.option("--volume", t.volume, "LIST", "Methods separated by commas (aabb,sphere,obb-yaw)");
@@ -56,12 +68,11 @@ void declare(CommandLine& line, Texts& t) {
   line.flag("--track", t.track, "Give objects ids that last from frame to frame");
   line.option("--queue", t.queue, "N", "Frames that may wait (1)");
   line.option("--policy", t.policy, "NAME",
-              "When they do: drop_oldest, drop_newest or block (block with --rate max)");
+              "When they do: auto, drop_oldest, drop_newest or block (auto: block with --rate max, else\n"
+              "drop_oldest)");
   line.option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (0)");
   line.option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
-  line.option("--sink", t.sinks, "KIND:PLACE",
-              "jsonl:FILE, csv:FILE or vtp:FOLDER; repeatable (jsonl on standard output)");
-  line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
+  declare_results(line, t);
 }
 
 double number(const char* option, std::string_view text, const char* wanted) {
@@ -81,7 +92,6 @@ std::vector<std::string> names(const std::vector<const Method*>& methods) {
 StreamConfig read_config(const CommandLine& line, const Texts& t) {
   StreamConfig config;
   config.pipeline.threads = 0;
-  if (t.rate == "max") config.runner.policy = QueuePolicy::block;
   try {
     if (line.given("--config")) config = read_stream_config(t.config, config);
   } catch (const ConfigError& error) {
@@ -112,6 +122,7 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   OutputClaims claims;
   claims.add_input(options.source);
   if (!config.empty()) claims.add_input(config);
+  if (!options.replay.poses.empty()) claims.add_input(options.replay.poses);
   std::error_code unknown;
   try {
     if (std::filesystem::is_directory(options.source, unknown)) {
@@ -121,9 +132,31 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   } catch (const IoError& error) {
     throw IoError(options.source + ": " + error.what());
   }
-  for (const SinkDescription& sink : options.sinks)
-    claims.claim(sink.kind == SinkKind::vtp ? sink.place / "frames.pvd" : sink.place);
+  for (const SinkDescription& sink : options.sinks) {
+    const std::string_view files = sink.kind->files;
+    claims.claim(files.empty() ? sink.place : sink.place / ("frame000000" + std::string(files)));
+    if (files == ".pcd") claims.refuse_input(sink.place);  // its clouds would be read for the source's
+  }
   if (options.stats) claims.claim(*options.stats);
+}
+
+void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options) {
+  ReplayOptions& replay = options.replay;
+  options.rate = t.rate == "max" ? Rate::max : t.rate == "recorded" ? Rate::recorded : Rate::fixed;
+  if (line.given("--rate") && options.rate == Rate::fixed)
+    replay.rate_hz = number("--rate", t.rate, "a rate, recorded or max");
+  if (!(replay.rate_hz >= kLeastRate && replay.rate_hz <= kGreatestRate))
+    throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, recorded or max");
+  if (line.given("--loop")) replay.loops = parse_whole_number("--loop", t.loop, 1);
+  if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
+    throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
+  replay.from_name = line.given("--stamps")
+                         ? t.stamps == "name"
+                         : options.rate == Rate::recorded && source_kind(t.source).has_names;
+  if (line.given("--bin-fields")) replay.bin_fields = parse_bin_fields(t.bin_fields);
+  replay.frame_id = t.frame_id;
+  if (line.given("--poses") && t.poses.empty()) throw UsageError("--poses: no file");
+  replay.poses = t.poses;
 }
 
 StreamOptions to_options(const CommandLine& line, const Texts& t, StreamConfig config) {
@@ -131,22 +164,13 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, StreamConfig c
   options.config = std::move(config);
   if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
   options.source = t.source;
-  options.paced = t.rate != "max";
-  if (line.given("--rate") && options.paced)
-    options.stamps.rate_hz = number("--rate", t.rate, "a rate or max");
-  if (!(options.stamps.rate_hz >= kLeastRate && options.stamps.rate_hz <= kGreatestRate))
-    throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, or max");
-  if (line.given("--loop")) options.loops = parse_whole_number("--loop", t.loop, 1);
-  if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
-    throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
-  options.stamps.from_name = t.stamps == "name";
-  if (line.given("--bin-fields")) options.stamps.bin_fields = parse_bin_fields(t.bin_fields);
-  if (options.stamps.from_name && t.source.rfind("synth:", 0) == 0)
-    throw UsageError("--stamps name: synth: has no names");
-  if (line.given("--sink")) options.sinks.clear();
-  for (const std::string& sink : t.sinks)
+  read_replay(line, t, options);
+  for (const std::string& sink : line.given("--sink") ? t.sinks : std::vector<std::string>{"jsonl:-"})
     options.sinks.push_back(parse_with("--sink", sink, parse_sink));
   if (line.given("--stats")) options.stats = t.stats;
+  if (line.given("--report")) options.report_seconds = number("--report", t.report, "seconds");
+  if (line.given("--report") && !(options.report_seconds >= 0.001 && options.report_seconds <= 1e6))
+    throw UsageError("--report: '" + t.report + "' is not seconds from 0.001 to 1000000");
   claim_outputs(options, t.config);
   return options;
 }

@@ -50,7 +50,7 @@ template <typename Stream, typename Visitor>
 void visit_stream(Stream& c, Visitor&& visit) {
   visit_pipeline(c.pipeline, visit);
   visit.whole("runner.queue", c.runner.queue, 1, 100'000, "frames");
-  visit.choice("runner.policy", c.runner.policy, "drop_oldest, drop_newest, block");
+  visit.choice("runner.policy", c.runner.policy, "auto, drop_oldest, drop_newest, block");
   visit.number("runner.max_age_ms", c.runner.max_age_ms, NumberRange{}, "ms; 0: any age");
   visit.number("runner.watchdog_s", c.runner.watchdog_s, NumberRange{}, "s; 0: none");
 }

@@ -17,7 +17,8 @@ using Names = std::array<std::pair<std::string_view, Choice>, n>;
 
 constexpr Names<GroundMethod, 3> kGroundMethods{
     {{"none", GroundMethod::none}, {"plane", GroundMethod::plane}, {"zones", GroundMethod::zones}}};
-constexpr Names<QueuePolicy, 3> kPolicies{{{"drop_oldest", QueuePolicy::drop_oldest},
+constexpr Names<QueuePolicy, 4> kPolicies{{{"auto", QueuePolicy::automatic},
+                                           {"drop_oldest", QueuePolicy::drop_oldest},
                                            {"drop_newest", QueuePolicy::drop_newest},
                                            {"block", QueuePolicy::block}}};
 constexpr Names<UpAxis, 6> kAxes{{{"x", UpAxis::x},
@@ -58,6 +59,10 @@ QueuePolicy parse_queue_policy(std::string_view text) {
 }
 std::string_view name_of(QueuePolicy policy) {
   return find_name(kPolicies, policy);
+}
+QueuePolicy resolved(QueuePolicy policy, bool paced) {
+  if (policy != QueuePolicy::automatic) return policy;
+  return paced ? QueuePolicy::drop_oldest : QueuePolicy::block;
 }
 std::string_view name_of(UpAxis axis) {
   return find_name(kAxes, axis);
