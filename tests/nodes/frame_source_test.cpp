@@ -4,31 +4,16 @@
 #include "pcl_bv/nodes/frame_source.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <fstream>
+#include <future>
 
+#include "folder.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/io/pcd.h"
-#include "pcl_bv/synth/synth.h"
 
 namespace pcl_bv {
 namespace {
 
-class Folder : public testing::Test {
- protected:
-  void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() / ("pcl_bv_source_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  void TearDown() override { std::filesystem::remove_all(path_); }
-
-  void add(const std::string& name, std::size_t points) {
-    write_pcd(path_ / name, to_raw_cloud(make_synth(parse_synth("gauss:" + std::to_string(points)))));
-  }
-
-  std::filesystem::path path_;
-};
+using FolderSource = Folder;
 
 constexpr std::chrono::milliseconds kPatience{20'000};
 
@@ -55,7 +40,7 @@ TEST(StampInName, ReadsTimesAndNoFrameNumbers) {
   EXPECT_EQ(stamp_in_name("99999999999.5"), -1);
 }
 
-TEST_F(Folder, GivesItsCloudsInNaturalOrderWithTheRatesStamps) {
+TEST_F(FolderSource, GivesItsCloudsInNaturalOrderWithTheRatesStamps) {
   add("frame10.pcd", 10);
   add("frame9.pcd", 9);
   add("frame1.pcd", 1);
@@ -71,7 +56,7 @@ TEST_F(Folder, GivesItsCloudsInNaturalOrderWithTheRatesStamps) {
   EXPECT_EQ(sizes, (std::vector<std::size_t>{1, 9, 10, 1, 9, 10}));
 }
 
-TEST_F(Folder, NamesAFrameThatCannotBeReadAndGoesOn) {
+TEST_F(FolderSource, NamesAFrameThatCannotBeReadAndGoesOn) {
   add("1.pcd", 3);
   std::ofstream(path_ / "2.pcd") << "no cloud";
   add("3.pcd", 5);
@@ -92,7 +77,7 @@ TEST_F(Folder, NamesAFrameThatCannotBeReadAndGoesOn) {
   EXPECT_FALSE(next(*source, frame));
 }
 
-TEST_F(Folder, TakesStampsFromNamesIfAsked) {
+TEST_F(FolderSource, TakesStampsFromNamesIfAsked) {
   add("1000000000.5.pcd", 3);
   add("nothing.pcd", 3);
   const auto source = open_source(path_, {10, true});
@@ -103,7 +88,25 @@ TEST_F(Folder, TakesStampsFromNamesIfAsked) {
   EXPECT_FALSE(next(*source, frame));
 }
 
-TEST_F(Folder, WithoutACloudIsAnError) {
+TEST_F(FolderSource, RefusesStampsFromNamesThatCountFrames) {
+  add("000000.pcd", 3);
+  add("000001.pcd", 3);
+  EXPECT_THROW(open_source(path_, {10, true}), std::invalid_argument);
+  EXPECT_THROW(open_source("synth:street-sequence:1", {10, true}), std::invalid_argument);
+}
+
+TEST_F(FolderSource, NamesFilesAndTheirCoordinateFrame) {
+  add("1.pcd", 3);
+  ReplayOptions options;
+  options.frame_id = "lidar_top";
+  Frame frame;
+  ASSERT_TRUE(next(*open_source(path_, options), frame));
+  EXPECT_EQ(frame.header.frame_id, "lidar_top");
+  EXPECT_EQ(frame.file, path_ / "1.pcd");
+  EXPECT_FALSE(frame.pose);
+}
+
+TEST_F(FolderSource, WithoutACloudIsAnError) {
   EXPECT_THROW(open_source(path_), IoError);
   EXPECT_THROW(open_source(path_ / "missing"), IoError);
   EXPECT_THROW(open_source("synth:nothing"), std::invalid_argument);
@@ -132,8 +135,56 @@ TEST(FunctionSource, EndsWhenTheFunctionSaysSo) {
   });
   Frame frame;
   EXPECT_TRUE(next(*source, frame));
+  EXPECT_EQ(frame.header.seq, 5U);
   EXPECT_TRUE(next(*source, frame));
   EXPECT_FALSE(next(*source, frame));
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(FunctionSource, ASilentOneIsNotWaitedFor) {
+  struct Shared {
+    std::promise<void> begun, speak, spoken;
+    int calls = 0;
+  };
+  const auto shared = std::make_shared<Shared>();
+  auto source = make_source([shared](Frame&) {
+    if (++shared->calls < 2) return true;
+    shared->begun.set_value();
+    shared->speak.get_future().wait();
+    shared->spoken.set_value();
+    return true;
+  });
+  Frame frame;
+  ASSERT_TRUE(next(*source, frame));
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(source->next(frame, std::chrono::milliseconds(1)), Next::nothing);
+  shared->begun.get_future().wait();
+  source.reset();
+  shared->speak.set_value();
+  shared->spoken.get_future().wait();
+  EXPECT_EQ(shared->calls, 2);  // called once, however often it was asked for
+}
+
+TEST(FunctionSource, ItsExceptionsCostTheirFramesOnly) {
+  int calls = 0;
+  const auto source = make_source([&](Frame& frame) {
+    if (++calls == 1) throw FrameError(frame, "dust");
+    if (calls == 2) throw std::runtime_error("unplugged");
+    return true;
+  });
+  Frame frame;
+  EXPECT_THROW(next(*source, frame), FrameError);
+  try {
+    next(*source, frame);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "unplugged");
+  }
+  EXPECT_TRUE(next(*source, frame));
+}
+
+TEST(SourceKinds, AreListedForUsers) {
+  EXPECT_EQ(source_syntax(), "a folder of clouds, one file or synth:street-sequence[:FRAMES[:SEED]]");
 }
 
 }  // namespace

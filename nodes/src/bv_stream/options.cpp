@@ -22,9 +22,9 @@ constexpr const char* examples = R"(Examples:
   bv_stream --print-config > robot.yaml; bv_stream --config robot.yaml --source sweeps/
   bv_stream --source synth:street-sequence:100 --volume aabb,dop26 | jq -c .counts
 
-Exit status: 0 done, also after SIGINT or SIGTERM, which let the frames in the queue be done
-first (a second one ends at once, with 130); 1 no readable source or an output not written;
-2 wrong use or a bad configuration.
+Exit status: 0 done, also after SIGINT, SIGTERM or SIGHUP, which let the frames in the queue be
+done first (a second one ends at once, with 130); 1 no readable source or poses, or an output
+not written; 2 wrong use or a bad configuration.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {
@@ -39,15 +39,15 @@ void declare_frames(CommandLine& line, Texts& t) {
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
   line.option("--rate", t.rate, "HZ", "Frames a second, recorded (by their stamps) or max (10)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
-  line.option(
-      "--stamps", t.stamps, "RULE",
-      "Times of the frames: by rate, or name: by the number in it (rate, or name with --rate recorded)");
+  line.option("--stamps", t.stamps, "RULE",
+              "Times of the frames: by rate, or name: by the number in it\n"
+              "(rate; name with --rate recorded)");
   line.option("--frame-id", t.frame_id, "NAME", "The coordinate frame of the points");
   line.option("--poses", t.poses, "FILE", "Where the sensor was: poses of KITTI by frame, or of TUM by time");
 }
 
 void declare_results(CommandLine& line, Texts& t) {
-  line.option("--sink", t.sinks, "SINK", sink_syntax() + "; repeatable (jsonl on standard output)");
+  line.option("--sink", t.sinks, "SINK", sink_syntax() + ";\nrepeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
   line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
 }

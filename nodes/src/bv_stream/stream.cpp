@@ -44,130 +44,96 @@ class Progress {
   const bool terminal_ = errors_go_to_a_terminal() && isatty(STDOUT_FILENO) == 0;
 };
 
-// When frames are due. A clock cannot count beyond some centuries.
-class Pace {
- public:
-  explicit Pace(const StreamOptions& options) : options_(options) {}
-
-  Clock::time_point due(const Frame& frame) {
-    double step = 1 / options_.replay.rate_hz;
-    if (options_.rate == Rate::recorded)
-      step = std::max(1e-9 * static_cast<double>(frame.header.stamp_ns - last_stamp_ns_), 0.0);
-    if (frames_++ > 0) seconds_ = std::min(seconds_ + step, 1e9);
-    last_stamp_ns_ = frame.header.stamp_ns;
-    return begin_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds_));
-  }
-
- private:
-  const StreamOptions& options_;
-  const Clock::time_point begin_ = Clock::now();
-  std::uint64_t frames_ = 0;
-  std::int64_t last_stamp_ns_ = 0;
-  double seconds_ = 0;
-};
-
-// The line of --report.
-class Report {
- public:
-  Report(double seconds, const StreamRunner& runner) : seconds_(seconds), runner_(runner) {}
-
-  void tick() {
-    if (seconds_ <= 0 || Seconds(Clock::now() - last_).count() < seconds_) return;
-    last_ = Clock::now();
-    const RunnerStats stats = runner_.stats();
-    const FrameTotals& f = stats.frames;
-    char line[200];
-    std::snprintf(
-        line, sizeof line,
-        "%llu frames, %llu done, dropped %llu queue, %llu age, %llu error; latency p50 %.1f ms, p99 %.1f ms",
-        as_printed(f.in), as_printed(f.processed), as_printed(f.dropped_queue), as_printed(f.dropped_age),
-        as_printed(f.dropped_error), stats.ms.latency.percentile(0.5), stats.ms.latency.percentile(0.99));
-    say(line);
-  }
-
- private:
-  static unsigned long long as_printed(std::uint64_t n) { return n; }
-
-  const double seconds_;
-  const StreamRunner& runner_;
-  Clock::time_point last_ = Clock::now();
-};
-
 // What the reading thread does until the source ends, a signal comes, or nobody takes results any more.
 class Reader {
  public:
   Reader(const StreamOptions& options, StreamRunner& runner, const SinkGroup& sinks,
          const std::atomic<bool>& interrupted)
-      : options_(options),
-        runner_(runner),
-        sinks_(sinks),
-        interrupted_(interrupted),
-        report_(options.report_seconds, runner) {}
+      : options_(options), runner_(runner), sinks_(sinks), interrupted_(interrupted) {}
 
   void read(FrameSource& source) {
-    Pace pace(options_);
-    for (bool more = true; more && wanted(); report_.tick()) {
+    for (bool more = true; more && wanted();) {
       Frame frame;
       try {
         const Next next = source.next(frame, kPatience);
         more = next != Next::end;
-        if (next == Next::frame) hand_over(std::move(frame), pace);
+        if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
+        if (error.frame.header.stamp_ns >= 0) due(error.frame);  // it takes its time, too
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
         runner_.report_unreadable({}, std::string("the source ends: ") + error.what());
-        failed_ = true;
-        return;
+        more = false;
+        failed = true;
       }
     }
   }
 
-  std::uint64_t without_pose() const { return without_pose_; }
-  bool failed() const { return failed_; }
+  std::uint64_t without_pose = 0;
+  bool failed = false;
 
  private:
-  bool wanted() const { return !interrupted_ && sinks_.alive(); }
+  // Asked again and again while nothing comes, so it is also when to report.
+  bool wanted() {
+    if (options_.report_seconds > 0 && Seconds(Clock::now() - reported_).count() >= options_.report_seconds) {
+      reported_ = Clock::now();
+      report(runner_.stats());
+    }
+    return !interrupted_ && sinks_.alive();
+  }
 
-  void hand_over(Frame frame, Pace& pace) {
+  static void report(const RunnerStats& stats) {
+    const FrameTotals& f = stats.frames;
+    const auto count = [](std::uint64_t n, const char* what) { return std::to_string(n) + what; };
+    char latency[80];
+    std::snprintf(latency, sizeof latency, "latency p50 %.1f ms, p99 %.1f ms",
+                  stats.ms.latency.percentile(0.5), stats.ms.latency.percentile(0.99));
+    say(count(f.in, " frames, ") + count(f.processed, " done, dropped ") +
+        count(f.dropped_queue, " queue, ") + count(f.dropped_age, " age, ") +
+        count(f.dropped_error, " error; ") + latency);
+  }
+
+  void hand_over(Frame frame) {
     if (options_.rate != Rate::max) {
-      frame.taken = pace.due(frame);
-      for (; wanted() && Clock::now() < frame.taken; report_.tick())
+      frame.taken = due(frame);
+      while (wanted() && Clock::now() < frame.taken)
         std::this_thread::sleep_until(std::min(frame.taken, Clock::now() + kPatience));
     }
     if (!wanted()) return;
-    without_pose_ += !options_.replay.poses.empty() && !frame.pose;
+    without_pose += !options_.replay.poses.empty() && !frame.pose;
     runner_.push(std::move(frame));
+  }
+
+  // A clock cannot count beyond some centuries. Stamps that go back cost no time.
+  Clock::time_point due(const Frame& frame) {
+    double step = 1 / options_.replay.rate_hz;
+    if (options_.rate == Rate::recorded)
+      step = std::max(1e-9 * static_cast<double>(frame.header.stamp_ns - last_stamp_ns_), 0.0);
+    if (paced_++ > 0) seconds_ = std::min(seconds_ + step, 1e9);
+    last_stamp_ns_ = frame.header.stamp_ns;
+    return begin_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds_));
   }
 
   const StreamOptions& options_;
   StreamRunner& runner_;
   const SinkGroup& sinks_;
   const std::atomic<bool>& interrupted_;
-  Report report_;
-  std::uint64_t without_pose_ = 0;
-  bool failed_ = false;
+  const Clock::time_point begin_ = Clock::now();
+  Clock::time_point reported_ = begin_;
+  std::uint64_t paced_ = 0;
+  std::int64_t last_stamp_ns_ = 0;
+  double seconds_ = 0;
 };
 
-bool write_stats(const std::filesystem::path& file, const RunnerStats& stats) {
-  try {
-    write_file_atomically(file, stats_json(stats) + '\n');
-    return true;
-  } catch (const std::exception& error) {
-    complain(file.string() + ": " + error.what());
-    return false;
-  }
-}
-
 // Errors have had their lines.
-void say_what_is_missing(const FrameTotals& frames, const Reader& reader) {
-  const auto of = [](std::uint64_t n, std::uint64_t all) {
-    return std::to_string(n) + " of " + std::to_string(all) + " frames";
-  };
-  if (const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age; dropped > 0) {
-    say("dropped " + of(dropped, frames.in) + ": " + std::to_string(frames.dropped_queue) + " queue, " +
-        std::to_string(frames.dropped_age) + " age");
+void say_what_is_missing(const FrameTotals& frames, std::uint64_t without_pose) {
+  const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age;
+  const std::string all = " of " + std::to_string(frames.in) + " frames";
+  if (dropped > 0) {
+    say("dropped " + std::to_string(dropped) + all + ": " + std::to_string(frames.dropped_queue) +
+        " queue, " + std::to_string(frames.dropped_age) + " age");
   }
-  if (reader.without_pose() > 0) say(of(reader.without_pose(), frames.in) + " have no pose");
+  if (without_pose > 0) say(std::to_string(without_pose) + all + " have no pose");
 }
 
 StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, Progress& progress) {
@@ -210,10 +176,16 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   sinks.close();
   RunnerStats stats = runner.stats();
   stats.sinks = sinks.times();
-  say_what_is_missing(stats.frames, reader);
-  const bool written = !options.stats || write_stats(*options.stats, stats);
+  say_what_is_missing(stats.frames, reader.without_pose);
   const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
-  return sinks.failed() || !written || reader.failed() || nothing_read ? 1 : 0;
+  int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
+  try {
+    if (options.stats) write_file_atomically(*options.stats, stats_json(stats) + '\n');
+  } catch (const IoError& error) {
+    complain(options.stats->string() + ": " + error.what());
+    status = 1;
+  }
+  return status;
 }
 
 }  // namespace pcl_bv

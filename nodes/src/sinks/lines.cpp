@@ -11,33 +11,33 @@
 namespace pcl_bv {
 namespace {
 
-class JsonlSink : public FrameSink {
- public:
-  explicit JsonlSink(const std::filesystem::path& file) : file_(file) {}
-  void write(const Frame& frame, const FrameResult& result) override {
-    file_.write(frame_json(to_report(frame, result)) + '\n');
-  }
-  void write_lost(const Frame& frame, const std::string& reason) override {
-    file_.write(frame_json(to_report(frame, reason)) + '\n');
-  }
-  void close() override { file_.close(); }
+std::string first_columns(const FrameReport& report) {
+  return std::to_string(report.seq) + ',' + std::to_string(report.stamp_ns) + ',';
+}
 
- private:
-  LineFile file_;
-};
-
-class CsvSink : public FrameSink {
- public:
-  explicit CsvSink(const std::filesystem::path& file) : file_(file) {}
-  void write(const Frame& frame, const FrameResult& result) override {
-    std::string lines;
-    for (const auto& [cluster, track] : to_report(frame, result).clusters)
-      append_csv(first_columns(frame) + (track ? std::to_string(*track) : ""), cluster, lines);
-    write(lines);
-  }
+std::string csv_lines(const FrameReport& report) {
   // A line of a volume without numbers, whose method is the reason.
+  if (report.error)
+    return first_columns(report) + ",,," + csv_field("error: " + *report.error) + std::string(12, ',') + '\n';
+  std::string lines;
+  for (const auto& [cluster, track] : report.clusters)
+    append_csv(first_columns(report) + (track ? std::to_string(*track) : ""), cluster, lines);
+  return lines;
+}
+
+std::string json_line(const FrameReport& report) {
+  return frame_json(report) + '\n';
+}
+
+class LineSink : public FrameSink {
+ public:
+  LineSink(const SinkDescription& description, std::string heading, std::string (*lines)(const FrameReport&))
+      : heading_(std::move(heading)), lines_(lines), file_(description.place) {}
+  void write(const Frame& frame, const FrameResult& result) override {
+    write(lines_(to_report(frame, result)));
+  }
   void write_lost(const Frame& frame, const std::string& reason) override {
-    write(first_columns(frame) + ",,," + csv_field("error: " + reason) + std::string(12, ',') + '\n');
+    write(lines_(to_report(frame, reason)));
   }
   void close() override {
     write("");
@@ -45,27 +45,25 @@ class CsvSink : public FrameSink {
   }
 
  private:
-  static std::string first_columns(const Frame& frame) {
-    return std::to_string(frame.header.seq) + ',' + std::to_string(frame.header.stamp_ns) + ',';
-  }
   void write(const std::string& lines) {
-    if (!headed_) file_.write("seq,stamp_ns,track," + std::string(csv_columns) + '\n');
-    headed_ = true;
-    if (!lines.empty()) file_.write(lines);
+    const std::string text = std::exchange(heading_, "") + lines;
+    if (!text.empty()) file_.write(text);
   }
 
+  std::string heading_;
+  std::string (*lines_)(const FrameReport&);
   LineFile file_;
-  bool headed_ = false;
 };
 
 }  // namespace
 
 std::unique_ptr<FrameSink> open_jsonl(const SinkDescription& description) {
-  return std::make_unique<JsonlSink>(description.place);
+  return std::make_unique<LineSink>(description, "", json_line);
 }
 
 std::unique_ptr<FrameSink> open_csv(const SinkDescription& description) {
-  return std::make_unique<CsvSink>(description.place);
+  return std::make_unique<LineSink>(description, "seq,stamp_ns,track," + std::string(csv_columns) + '\n',
+                                    csv_lines);
 }
 
 }  // namespace pcl_bv
