@@ -35,7 +35,7 @@ const std::vector<Frame>& frames_of(const std::string& source) {
   if (loaded == source) return frames;
   frames.clear();
   const std::unique_ptr<FrameSource> stream = open_source(source);
-  for (Frame frame; stream->next(frame);)
+  for (Frame frame; stream->next(frame, std::chrono::seconds(1)) == Next::frame;)
     frames.push_back(frame);
   loaded = source;
   return frames;

@@ -18,8 +18,8 @@ int main() {
   callbacks.process = [&](const pcl_bv::Frame& frame, pcl_bv::FrameResult& result) {
     pipeline.process(frame, result);
   };
-  callbacks.on_result = [](const pcl_bv::FrameResult& result) {
-    std::printf("frame %d: %d objects\n", static_cast<int>(result.header.seq),
+  callbacks.on_result = [](const pcl_bv::Frame& frame, const pcl_bv::FrameResult& result) {
+    std::printf("frame %d: %d objects\n", static_cast<int>(frame.header.number),
                 static_cast<int>(result.clusters.size()));
   };
   pcl_bv::StreamRunner runner(callbacks,

@@ -32,6 +32,13 @@ class BvStream : public PcdBv {
     return run(wrapper, surroundings);
   }
 
+  // In the test's folder: the command runs in the background as $!, `then` is what follows it.
+  Result stream_in_shell(const std::string& then, const std::vector<std::string>& arguments,
+                         const std::string& before = "") const {
+    const std::string command = "cd '" + at("") + "'; " + before + "\"$@\" & " + then;
+    return stream_under({"/bin/sh", "-c", command, "sh"}, arguments);
+  }
+
   std::string synth(const std::string& name) const {
     Surroundings surroundings;
     surroundings.program = "synth";
@@ -104,14 +111,14 @@ TEST_F(BvStream, AFrameThatCannotBeReadIsALineAndTheStreamGoesOn) {
   const Result result = stream({"--source", at("sweeps"), "--rate", "max", "--stats", stats});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.error_lines(), 1U);
-  EXPECT_THAT(result.err, HasSubstr(bad));
+  EXPECT_THAT(result.err, testing::StartsWith("bv_stream: " + bad + ": frame 1: "));
   const std::vector<Json> frames = lines(result.out);
   ASSERT_EQ(frames.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(frames[i]["seq"], i);
     EXPECT_EQ(frames[i].contains("error"), i == 1);
   }
-  EXPECT_THAT(frames[1]["error"].get<std::string>(), HasSubstr("2.pcd"));
+  EXPECT_EQ(frames[1]["file"], bad);
   const Json totals = Json::parse(read_file(stats))["frames"];
   EXPECT_EQ(totals["in"], 3);
   EXPECT_EQ(totals["processed"], 2);
@@ -176,6 +183,11 @@ TEST_F(BvStream, WrongUseIsOneLineAndStatusTwo) {
            {"--source", source, "--isa", "mmx"},
            {"--source", source, "--sink", "xml:a"},
            {"--source", source, "--sink", "csv:"},
+           {"--source", source, "--sink", "vtp:,points"},
+           {"--source", source, "--sink", "vtp:" + at("v"), "--sink", "vtp:" + at("v") + ",points"},
+           {"--source", source, "--report", "0"},
+           {"--source", source, "--report", "nan"},
+           {"--source", source, "--poses", ""},
            {"--source", "synth:nothing"},
            {"--source", source, "--config", at("missing.yaml")}}) {
     const Result result = stream(arguments);
@@ -212,18 +224,124 @@ TEST_F(BvStream, MakesTheFoldersOfItsOutputs) {
 }
 
 TEST_F(BvStream, ASignalLetsTheQueueBeDoneAndWritesTheStatistics) {
-  for (const char* signal : {"INT", "TERM"}) {
+  for (const char* signal : {"INT", "TERM", "HUP"}) {
     const std::string stats = at(std::string(signal) + ".json");
-    const Result result = stream_under({"/usr/bin/timeout", "--preserve-status", "-s", signal, "1"},
-                                       {"--source", "synth:street-sequence:5", "--loop", "1000", "--rate",
-                                        "20", "--volume", "aabb", "--stats", stats});
-    EXPECT_EQ(result.status, 0) << result.err;
+    const Result result = stream_in_shell(
+        "while ! [ -s seen ]; do sleep 0.05; done; kill -" + std::string(signal) + " $!; wait $!",
+        {"--source", "synth:street-sequence:5", "--loop", "1000", "--rate", "20", "--volume", "aabb",
+         "--sink", "jsonl:" + at("seen"), "--stats", stats});
+    EXPECT_EQ(result.status, 0) << signal << result.err;
     const Json totals = Json::parse(read_file(stats))["frames"];
     const int dropped = totals["dropped"]["queue"].get<int>() + totals["dropped"]["age"].get<int>() +
                         totals["dropped"]["error"].get<int>();
+    EXPECT_GE(totals["processed"].get<int>(), 1);
     EXPECT_EQ(totals["in"].get<int>(), totals["processed"].get<int>() + dropped);
-    EXPECT_EQ(lines(result.out).size(), totals["processed"].get<std::size_t>());
+    EXPECT_EQ(lines(read_file(at("seen"))).size(), totals["in"].get<std::size_t>());
+    std::filesystem::remove(at("seen"));
   }
+}
+
+TEST_F(BvStream, ASignalIsHeededWhileNothingComes) {
+  ascii("sweeps/1.pcd", {"1 2 3"});
+  const Result result = stream_in_shell(
+      "while ! [ -s seen ]; do sleep 0.05; done; kill -INT $!; wait $!",
+      {"--source", at("sweeps"), "--loop", "9", "--rate", "0.001", "--sink", "jsonl:" + at("seen")});
+  EXPECT_EQ(result.status, 0) << result.err;  // the second frame would be due in 17 minutes
+  EXPECT_EQ(lines(read_file(at("seen"))).size(), 1U);
+}
+
+TEST_F(BvStream, ASecondSignalEndsItAtOnce) {
+  const Result result = stream_in_shell(
+      "while ! [ -s seen ]; do sleep 0.05; done; sleep 0.3; kill -HUP $!; sleep 0.3; kill -0 $! || exit 99; "
+      "kill -INT $!; wait $!; status=$?; kill $reader; exit $status",
+      {"--source", "synth:street-sequence:5", "--loop", "1000", "--rate", "max", "--sink",
+       "jsonl:" + at("seen"), "--sink", "jsonl:" + at("full")},
+      "mkfifo full; sleep 600 < full & reader=$!; ");  // who never reads
+  EXPECT_EQ(result.status, 130) << result.err;
+}
+
+TEST_F(BvStream, APipeIsNoSourceAndNotWaitedFor) {
+  const Result result =
+      stream_in_shell("wait $!", {"--source", at("pipe"), "--rate", "max"}, "mkfifo pipe; ");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("pipe: frame 0: "));
+}
+
+TEST_F(BvStream, DroppedFramesAreSaidAndHaveTheirLines) {
+  ascii("sweeps/1.pcd", {"1 2 3"});
+  const std::string stats = at("stats.json"), folder = at("pictures");  // slow
+  const Result result =
+      stream({"--source", at("sweeps"), "--loop", "40", "--rate", "1000000", "--sink", "jsonl:-", "--sink",
+              "csv:" + at("a.csv"), "--sink", "image:" + folder, "--stats", stats});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json totals = Json::parse(read_file(stats))["frames"];
+  const std::string dropped = std::to_string(totals["dropped"]["queue"].get<int>());
+  ASSERT_NE(dropped, "0");
+  EXPECT_EQ(result.err, "bv_stream: dropped " + dropped + " of 40 frames: " + dropped + " queue, 0 age\n");
+  const std::vector<Json> frames = lines(result.out);
+  ASSERT_EQ(frames.size(), 40U);
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < 40; ++i) {
+    EXPECT_EQ(frames[i]["seq"], i);
+    EXPECT_EQ(frames[i]["file"], at("sweeps") + "/1.pcd");
+    lost += frames[i].contains("error");
+    if (!frames[i].contains("error")) continue;
+    EXPECT_EQ(frames[i]["error"], "dropped: queue");
+    EXPECT_THAT(read_file(at("a.csv")), HasSubstr("\n" + std::to_string(i) + ","));
+  }
+  EXPECT_EQ(std::to_string(lost), dropped);
+  EXPECT_GT(Json::parse(read_file(stats))["ms"]["sinks"]["image:" + folder]["p50"], 0);
+}
+
+TEST_F(BvStream, AnIndexIsWholeWheneverItIsCutOff) {
+  const Result result = stream_in_shell(
+      "while ! [ -f v/frame000003.vtp ]; do sleep 0.02; done; kill -KILL $!; wait $!; "
+      "exec python3 -c 'import glob, xml.etree.ElementTree as tree\n"
+      "names = [e.get(\"file\") for e in tree.parse(\"v/frames.pvd\").iter(\"DataSet\")]\n"
+      "assert len(names) >= 6, names\n"
+      "for name in names: assert tree.parse(\"v/\" + name).getroot().get(\"type\") == \"PolyData\"\n'",
+      {"--source", "synth:street-sequence:5", "--loop", "1000", "--rate", "max", "--volume", "aabb", "--sink",
+       "vtp:" + at("v") + ",points"});
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
+TEST_F(BvStream, PosesOfAnotherLengthFailAndFramesWithoutAPoseAreSaid) {
+  ascii("sweeps/1.pcd", {"1 2 3"});
+  const std::string kitti = file("kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 0\n");
+  const Result wrong = stream({"--source", at("sweeps"), "--rate", "max", "--poses", kitti});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_EQ(wrong.err, "bv_stream: " + kitti + ": 2 poses of 1 frames\n");
+  EXPECT_EQ(stream({"--source", at("sweeps"), "--poses", at("none")}).status, 1);
+  const std::string tum = file("tum.txt", "0 0 0 0 0 0 0 1\n0.1 0 0 0 0 0 0 1\n");
+  const Result some = stream({"--source", at("sweeps"), "--rate", "max", "--loop", "5", "--poses", tum});
+  EXPECT_EQ(some.status, 0);
+  EXPECT_EQ(some.err, "bv_stream: 3 of 5 frames have no pose\n");  // rate max: stamps of 10 Hz
+}
+
+TEST_F(BvStream, PacesByJitteringStampsAndThoseThatGoBack) {
+  const std::vector<std::int64_t> stamps = {1'317'384'506'400'000'000, 1'317'384'506'400'000'001,
+                                            1'317'384'506'430'000'000, 1'317'384'506'431'000'000};
+  for (const std::int64_t stamp : stamps)
+    ascii("sweeps/" + std::to_string(stamp) + ".pcd", {"1 2 3"});
+  const Result result = stream({"--source", at("sweeps"), "--rate", "recorded", "--loop", "2", "--policy",
+                                "block", "--report", "0.02", "--frame-id", "velodyne"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("bv_stream: "));
+  EXPECT_THAT(result.err, HasSubstr(" done, dropped 0 queue, 0 age, 0 error; latency p50 "));
+  const std::vector<Json> frames = lines(result.out);
+  ASSERT_EQ(frames.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(frames[i]["stamp_ns"], stamps[i % 4]);
+    EXPECT_EQ(frames[i]["frame_id"], "velodyne");
+  }
+}
+
+TEST_F(BvStream, FrameNumbersAreNotTakenForTimes) {
+  ascii("sweeps/000000.pcd", {"1 2 3"});
+  const Result result = stream({"--source", at("sweeps"), "--stamps", "name"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("000000.pcd: no time in its name"));
+  EXPECT_EQ(stream({"--source", at("sweeps"), "--rate", "recorded"}).status, 2);
 }
 
 TEST_F(BvStream, AReaderThatGoesAwayEndsItQuietly) {
@@ -250,6 +368,8 @@ TEST_F(BvStream, NeverWritesOverWhatItReads) {
            {"--source", first, "--sink", "csv:" + first},
            {"--source", at("sweeps"), "--stats", first},
            {"--source", at("sweeps"), "--sink", "jsonl:" + at("sweeps/../sweeps/1.pcd")},
+           {"--source", at("sweeps"), "--sink", "labels:" + at("sweeps")},
+           {"--source", at("sweeps"), "--poses", config, "--stats", config},
            {"--source", at("sweeps"), "--config", config, "--stats", config}}) {
     EXPECT_EQ(stream(arguments).status, 2) << testing::PrintToString(arguments);
     EXPECT_EQ(read_file(first), before);
@@ -267,6 +387,12 @@ TEST_F(BvStream, AsFastAsPossibleLosesNothingAlsoWithAConfiguration) {
                 .status,
             0);
   EXPECT_EQ(Json::parse(read_file(stats))["frames"]["processed"], 200);
+  const std::string printed = file("printed.yaml", stream({"--print-config"}).out);
+  EXPECT_THAT(read_file(printed), HasSubstr("policy: auto"));
+  const Result again = stream(
+      {"--source", at("sweeps"), "--loop", "200", "--rate", "max", "--config", printed, "--stats", stats});
+  EXPECT_EQ(again.err, "");
+  EXPECT_EQ(Json::parse(read_file(stats))["frames"]["processed"], 200);
 }
 
 TEST_F(BvStream, ATerminalShowsTheFrameBelowTheProblemsAndNothingInTheEnd) {
@@ -278,7 +404,7 @@ TEST_F(BvStream, ATerminalShowsTheFrameBelowTheProblemsAndNothingInTheEnd) {
   EXPECT_EQ(result.status, 0);
   const std::string erased = "\r" + std::string(std::string("frame 0: 0 objects, 0.0 ms").size(), ' ') + "\r";
   EXPECT_THAT(result.err, testing::StartsWith("frame 0: 0 objects, "));
-  EXPECT_THAT(result.err, HasSubstr(" ms" + erased + "bv_stream: frame 1: "));
+  EXPECT_THAT(result.err, HasSubstr(" ms" + erased + "bv_stream: " + at("sweeps/2.pcd") + ": frame 1: "));
   EXPECT_THAT(result.err, testing::EndsWith(erased));
 }
 
@@ -314,8 +440,14 @@ TEST_F(BvStream, ReadsRecordedFramesAndTheirStamps) {
   ASSERT_EQ(recorded.status, 0) << recorded.err;
   std::vector<Json> a = results(recorded.out), b = results(made.out);
   ASSERT_EQ(a.size(), 2U);
-  for (std::size_t i = 0; i < 2; ++i)
+  for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(a[i]["clusters"], b[i]["clusters"]);
+    EXPECT_EQ(a[i]["stamp_ns"], 100'000'000 * i);
+  }
+  ascii("timed/1317384506.5.pcd", {"1 2 3"});
+  const Result timed = stream({"--source", at("timed"), "--rate", "max", "--stamps", "name"});
+  ASSERT_EQ(timed.status, 0) << timed.err;
+  EXPECT_EQ(results(timed.out)[0]["stamp_ns"], 1'317'384'506'500'000'000);
 }
 
 }  // namespace

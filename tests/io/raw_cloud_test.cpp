@@ -50,6 +50,47 @@ TEST_F(RawCloudFile, XyzGivesTheCoordinatesOfEveryLayout) {
   }
 }
 
+TEST(ViewOfFields, FindsTheCoordinatesInAMessagesRecords) {
+  std::vector<std::byte> data(3 * 40 + 1);
+  const std::vector<PointField> fields = {{"ring", 'U', 2, 1, 0},
+                                          {"z", 'F', 8, 1, 26},
+                                          {"x", 'F', 8, 1, 10},
+                                          {"y", 'F', 8, 1, 18},
+                                          {"t", 'U', 4, 1, 34}};
+  for (std::size_t i = 0; i < 9; ++i) {  // at an odd address
+    const double value = 0.1 * static_cast<double>(i);
+    std::memcpy(data.data() + 1 + i / 3 * 40 + 10 + i % 3 * 8, &value, 8);
+  }
+  const PointView view = view_of_fields(data.data() + 1, 3, 40, fields);
+  ASSERT_EQ(view.count, 3u);
+  EXPECT_EQ(view.scalar, ScalarType::float64);
+  EXPECT_EQ(view.readable, 30u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(load_point(view, i).x, 0.1 * static_cast<double>(3 * i));
+    EXPECT_EQ(load_point(view, i).z, 0.1 * static_cast<double>(3 * i + 2));
+  }
+  EXPECT_EQ(view_of_fields(nullptr, 0, 40, fields).count, 0u);
+}
+
+TEST(ViewOfFields, RefusesWhatAViewCannotBe) {
+  const std::vector<std::byte> data(64);
+  const PointField x{"x", 'F', 4, 1, 0}, y{"y", 'F', 4, 1, 4}, z{"z", 'F', 4, 1, 8};
+  const auto refused = [&](const std::vector<PointField>& fields, std::size_t step = 16) {
+    EXPECT_THROW(view_of_fields(data.data(), 1, step, fields), std::invalid_argument);
+  };
+  EXPECT_EQ(view_of_fields(data.data(), 5, 12, {x, y, z}).count, 5u);
+  refused({x, y});
+  refused({x, y, z, x});
+  refused({x, y, z}, 11);
+  refused({x, y, z}, 0);
+  refused({x, y, {"z", 'F', 4, 1, 12}});
+  refused({x, y, {"z", 'F', 8, 1, 8}});
+  refused({x, y, {"z", 'I', 4, 1, 8}});
+  refused({x, y, {"z", 'F', 4, 2, 8}});
+  refused({x, y, {"z", 'F', 4, 1, SIZE_MAX}});
+  EXPECT_THROW(view_of_fields(nullptr, 1, 16, {x, y, z}), std::invalid_argument);
+}
+
 TEST_F(RawCloudFile, XyzViewsTheRecordWhereItCan) {
   write_pcd(file("a.pcd"),
             sample_cloud({"", {{"ring", 'U', 2}, {"x"}, {"y"}, {"z"}, {"i", 'U', 1}}}, 3, 1, 5));

@@ -4,53 +4,50 @@
 #include "pcl_bv/nodes/frame_source.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <fstream>
+#include <future>
 
+#include "folder.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/io/pcd.h"
-#include "pcl_bv/synth/synth.h"
 
 namespace pcl_bv {
 namespace {
 
-class Folder : public testing::Test {
- protected:
-  void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() / ("pcl_bv_source_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  void TearDown() override { std::filesystem::remove_all(path_); }
+using FolderSource = Folder;
 
-  void add(const std::string& name, std::size_t points) {
-    write_pcd(path_ / name, to_raw_cloud(make_synth(parse_synth("gauss:" + std::to_string(points)))));
-  }
+constexpr std::chrono::milliseconds kPatience{20'000};
 
-  std::filesystem::path path_;
-};
+bool next(FrameSource& source, Frame& frame) {
+  const Next next = source.next(frame, kPatience);
+  EXPECT_NE(next, Next::nothing);
+  return next == Next::frame;
+}
 
-TEST(StampInName, ReadsNanosecondsAndSeconds) {
+TEST(StampInName, ReadsTimesAndNoFrameNumbers) {
   EXPECT_EQ(stamp_in_name("1317384506400000000"), 1'317'384'506'400'000'000);
-  EXPECT_EQ(stamp_in_name("sweep_000012"), 12);
+  EXPECT_EQ(stamp_in_name("n015__LIDAR_TOP__1532402927647951.pcd"), 1'532'402'927'647'951'000);
   EXPECT_EQ(stamp_in_name("1317384506.25"), 1'317'384'506'250'000'000);
   EXPECT_EQ(stamp_in_name("lidar-12.000000001"), 12'000'000'001);
   EXPECT_EQ(stamp_in_name("12.1234567899"), 12'123'456'789);
-  EXPECT_EQ(stamp_in_name("a.5"), 5);
+  EXPECT_EQ(stamp_in_name("a.1317384506400000000"), 1'317'384'506'400'000'000);
+  EXPECT_EQ(stamp_in_name("1000000000000000"), 1'000'000'000'000'000'000);
+  EXPECT_EQ(stamp_in_name("10000000000000000"), 10'000'000'000'000'000);
+  for (const char* number : {"000000", "sweep_000012", "a.5", "999999999999999"})
+    EXPECT_EQ(stamp_in_name(number), -1) << number;
   EXPECT_EQ(stamp_in_name("sweep"), -1);
   EXPECT_EQ(stamp_in_name(""), -1);
   EXPECT_EQ(stamp_in_name("99999999999999999999"), -1);
   EXPECT_EQ(stamp_in_name("99999999999.5"), -1);
 }
 
-TEST_F(Folder, GivesItsCloudsInNaturalOrderWithTheRatesStamps) {
+TEST_F(FolderSource, GivesItsCloudsInNaturalOrderWithTheRatesStamps) {
   add("frame10.pcd", 10);
   add("frame9.pcd", 9);
   add("frame1.pcd", 1);
-  const auto source = open_folder(path_, {20, false}, 2);
+  const auto source = open_source(path_, {20, false, 0, 2});
   Frame frame;
   std::vector<std::size_t> sizes;
-  for (std::uint64_t seq = 0; source->next(frame); ++seq) {
+  for (std::uint64_t seq = 0; next(*source, frame); ++seq) {
     EXPECT_EQ(frame.header.seq, seq);
     EXPECT_EQ(frame.header.stamp_ns, static_cast<std::int64_t>(seq) * 50'000'000);
     EXPECT_GT(frame.decode_ms, 0);
@@ -59,55 +56,75 @@ TEST_F(Folder, GivesItsCloudsInNaturalOrderWithTheRatesStamps) {
   EXPECT_EQ(sizes, (std::vector<std::size_t>{1, 9, 10, 1, 9, 10}));
 }
 
-TEST_F(Folder, NamesAFrameThatCannotBeReadAndGoesOn) {
+TEST_F(FolderSource, NamesAFrameThatCannotBeReadAndGoesOn) {
   add("1.pcd", 3);
   std::ofstream(path_ / "2.pcd") << "no cloud";
   add("3.pcd", 5);
-  const auto source = open_folder(path_);
+  const auto source = open_source(path_);
   Frame frame;
-  EXPECT_TRUE(source->next(frame));
+  EXPECT_TRUE(next(*source, frame));
   try {
-    source->next(frame);
+    next(*source, frame);
     FAIL();
   } catch (const FrameError& error) {
-    EXPECT_EQ(error.header.seq, 1U);
+    EXPECT_EQ(error.frame.header.seq, 1U);
+    EXPECT_EQ(error.frame.file, path_ / "2.pcd");
+    EXPECT_EQ(std::string(error.what()), error.frame.file + ": " + error.reason);
     EXPECT_NE(std::string(error.what()).find("2.pcd: "), std::string::npos);
   }
-  EXPECT_TRUE(source->next(frame));
+  EXPECT_TRUE(next(*source, frame));
   EXPECT_EQ(frame.points.count, 5U);
-  EXPECT_FALSE(source->next(frame));
+  EXPECT_FALSE(next(*source, frame));
 }
 
-TEST_F(Folder, TakesStampsFromNamesIfAsked) {
+TEST_F(FolderSource, TakesStampsFromNamesIfAsked) {
   add("1000000000.5.pcd", 3);
   add("nothing.pcd", 3);
-  const auto source = open_folder(path_, {10, true});
+  const auto source = open_source(path_, {10, true});
   Frame frame;
-  EXPECT_TRUE(source->next(frame));
+  EXPECT_TRUE(next(*source, frame));
   EXPECT_EQ(frame.header.stamp_ns, 1'000'000'000'500'000'000);
-  EXPECT_THROW(source->next(frame), FrameError);
-  EXPECT_FALSE(source->next(frame));
+  EXPECT_THROW(next(*source, frame), FrameError);
+  EXPECT_FALSE(next(*source, frame));
 }
 
-TEST_F(Folder, WithoutACloudIsAnError) {
-  EXPECT_THROW(open_folder(path_), IoError);
-  EXPECT_THROW(open_folder(path_ / "missing"), IoError);
+TEST_F(FolderSource, RefusesStampsFromNamesThatCountFrames) {
+  add("000000.pcd", 3);
+  add("000001.pcd", 3);
+  EXPECT_THROW(open_source(path_, {10, true}), std::invalid_argument);
+  EXPECT_THROW(open_source("synth:street-sequence:1", {10, true}), std::invalid_argument);
+}
+
+TEST_F(FolderSource, NamesFilesAndTheirCoordinateFrame) {
+  add("1.pcd", 3);
+  ReplayOptions options;
+  options.frame_id = "lidar_top";
+  Frame frame;
+  ASSERT_TRUE(next(*open_source(path_, options), frame));
+  EXPECT_EQ(frame.header.frame_id, "lidar_top");
+  EXPECT_EQ(frame.file, path_ / "1.pcd");
+  EXPECT_FALSE(frame.pose);
+}
+
+TEST_F(FolderSource, WithoutACloudIsAnError) {
+  EXPECT_THROW(open_source(path_), IoError);
+  EXPECT_THROW(open_source(path_ / "missing"), IoError);
   EXPECT_THROW(open_source("synth:nothing"), std::invalid_argument);
-  EXPECT_THROW(open_folder(path_, {0, false}), std::invalid_argument);
+  EXPECT_THROW(open_source(path_, {0, false}), std::invalid_argument);
 }
 
 TEST(SynthSource, GivesTheFramesOfTheSequence) {
-  const auto source = open_source("synth:street-sequence:2:7", {}, 2);
+  const auto source = open_source("synth:street-sequence:2:7", {10, false, 0, 2});
   Frame frame;
   std::vector<float> first;
   for (int i = 0; i < 4; ++i) {
-    ASSERT_TRUE(source->next(frame));
+    ASSERT_TRUE(next(*source, frame));
     EXPECT_EQ(frame.points.count, 128'000U);
     const float x = static_cast<float>(load_point(frame.points, 90'000).x);
     if (i < 2) first.push_back(x);
     EXPECT_EQ(x, first[static_cast<std::size_t>(i) % 2]);
   }
-  EXPECT_FALSE(source->next(frame));
+  EXPECT_FALSE(next(*source, frame));
 }
 
 TEST(FunctionSource, EndsWhenTheFunctionSaysSo) {
@@ -117,9 +134,57 @@ TEST(FunctionSource, EndsWhenTheFunctionSaysSo) {
     return ++calls < 3;
   });
   Frame frame;
-  EXPECT_TRUE(source->next(frame));
-  EXPECT_TRUE(source->next(frame));
-  EXPECT_FALSE(source->next(frame));
+  EXPECT_TRUE(next(*source, frame));
+  EXPECT_EQ(frame.header.seq, 5U);
+  EXPECT_TRUE(next(*source, frame));
+  EXPECT_FALSE(next(*source, frame));
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(FunctionSource, ASilentOneIsNotWaitedFor) {
+  struct Shared {
+    std::promise<void> begun, speak, spoken;
+    int calls = 0;
+  };
+  const auto shared = std::make_shared<Shared>();
+  auto source = make_source([shared](Frame&) {
+    if (++shared->calls < 2) return true;
+    shared->begun.set_value();
+    shared->speak.get_future().wait();
+    shared->spoken.set_value();
+    return true;
+  });
+  Frame frame;
+  ASSERT_TRUE(next(*source, frame));
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(source->next(frame, std::chrono::milliseconds(1)), Next::nothing);
+  shared->begun.get_future().wait();
+  source.reset();
+  shared->speak.set_value();
+  shared->spoken.get_future().wait();
+  EXPECT_EQ(shared->calls, 2);  // called once, however often it was asked for
+}
+
+TEST(FunctionSource, ItsExceptionsCostTheirFramesOnly) {
+  int calls = 0;
+  const auto source = make_source([&](Frame& frame) {
+    if (++calls == 1) throw FrameError(frame, "dust");
+    if (calls == 2) throw std::runtime_error("unplugged");
+    return true;
+  });
+  Frame frame;
+  EXPECT_THROW(next(*source, frame), FrameError);
+  try {
+    next(*source, frame);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "unplugged");
+  }
+  EXPECT_TRUE(next(*source, frame));
+}
+
+TEST(SourceKinds, AreListedForUsers) {
+  EXPECT_EQ(source_syntax(), "a folder of clouds, one file or synth:street-sequence[:FRAMES[:SEED]]");
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
+#include <thread>
 
 #include "allocations.h"
 #include "clouds.h"
@@ -215,6 +217,31 @@ TEST(Pipeline, BoxesOfATrackDoNotFlip) {
     }
     before = axes;
   }
+}
+
+TEST(Pipeline, ItsConfigurationMayChangeWhileAFrameIsInWork) {
+  PipelineConfig one, two;
+  one.volumes = {"aabb"};
+  two.volumes = {"sphere", "aabb"};
+  two.cluster.min_size = 40;
+  const std::vector<std::vector<float>> clouds = street(1);
+  const Frame frame = frame_of(clouds[0], 0);
+  std::vector<FrameResult> expected(2);
+  FramePipeline(one).process(frame, expected[0]);
+  FramePipeline(two).process(frame, expected[1]);
+  FramePipeline pipeline(one);
+  std::atomic<bool> done{false};
+  std::thread changing([&] {
+    for (int i = 0; !done; ++i)
+      pipeline.set_config(i % 2 == 0 ? two : one);
+  });
+  for (int i = 0; i < 20; ++i) {
+    FrameResult result;
+    pipeline.process(frame, result);
+    expect_equal(result, expected[result.methods.size() - 1]);
+  }
+  done = true;
+  changing.join();
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -53,8 +54,9 @@ class Gate {
 
 struct Recorder {
   std::mutex mutex;
-  std::vector<std::uint64_t> results, errors;
-  std::vector<std::string> reasons;
+  std::vector<std::uint64_t> results, errors, numbers;
+  std::vector<std::string> reasons, dropped, files;
+  std::set<std::thread::id> threads;
 };
 
 Frame frame(std::uint64_t seq) {
@@ -71,14 +73,23 @@ StreamRunner::Callbacks recording(Recorder& out, Gate* gate = nullptr) {
     result.header = f.header;
     result.ms.total = 1;
   };
-  callbacks.on_result = [&out](const FrameResult& result) {
+  callbacks.on_result = [&out](const Frame& f, const FrameResult&) {
     const std::lock_guard lock(out.mutex);
-    out.results.push_back(result.header.seq);
+    out.threads.insert(std::this_thread::get_id());
+    out.results.push_back(f.header.seq);
+    out.numbers.push_back(f.header.number);
   };
-  callbacks.on_error = [&out](const FrameHeader& header, const std::string& reason) {
+  callbacks.on_lost = [&out](const Frame& f, Loss loss, const std::string& reason) {
     const std::lock_guard lock(out.mutex);
-    out.errors.push_back(header.seq);
-    out.reasons.push_back(reason);
+    out.threads.insert(std::this_thread::get_id());
+    out.numbers.push_back(f.header.number);
+    out.files.push_back(f.file);
+    if (loss != Loss::error) {
+      out.dropped.push_back(reason + ' ' + std::to_string(f.header.seq));
+    } else {
+      out.errors.push_back(f.header.seq);
+      out.reasons.push_back(reason);
+    }
   };
   return callbacks;
 }
@@ -92,6 +103,15 @@ RunnerConfig with(std::size_t queue, QueuePolicy policy) {
 
 void expect_balance(const FrameTotals& f) {
   EXPECT_EQ(f.in, f.processed + f.dropped_queue + f.dropped_age + f.dropped_error);
+}
+
+// Every frame is told of once, in the order of its number, by one thread that is not this one.
+void expect_in_order(const Recorder& out, std::size_t frames) {
+  ASSERT_EQ(out.numbers.size(), frames);
+  for (std::size_t i = 0; i < frames; ++i)
+    EXPECT_EQ(out.numbers[i], i);
+  EXPECT_EQ(out.threads.size(), 1U);
+  EXPECT_EQ(out.threads.count(std::this_thread::get_id()), 0U);
 }
 
 TEST(StreamRunner, DropOldestKeepsTheNewestAndCountsTheRest) {
@@ -110,6 +130,10 @@ TEST(StreamRunner, DropOldestKeepsTheNewestAndCountsTheRest) {
   EXPECT_EQ(totals.processed, 3U);
   EXPECT_EQ(totals.dropped_queue, 8U);
   expect_balance(totals);
+  ASSERT_EQ(out.dropped.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(out.dropped[i], "dropped: queue " + std::to_string(i + 1));
+  expect_in_order(out, 11);
 }
 
 TEST(StreamRunner, DropNewestKeepsWhatWaitsAndSaysSo) {
@@ -127,6 +151,8 @@ TEST(StreamRunner, DropNewestKeepsWhatWaitsAndSaysSo) {
   EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 1, 2}));
   EXPECT_EQ(runner.stats().frames.dropped_queue, 2U);
   expect_balance(runner.stats().frames);
+  EXPECT_EQ(out.dropped, (std::vector<std::string>{"dropped: queue 3", "dropped: queue 4"}));
+  expect_in_order(out, 5);
 }
 
 TEST(StreamRunner, BlockLosesNothingUnderASlowWork) {
@@ -183,6 +209,8 @@ TEST(StreamRunner, FramesOlderThanTheMaximumAgeAreDroppedAndCounted) {
   EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 3}));
   EXPECT_EQ(runner.stats().frames.dropped_age, 2U);
   expect_balance(runner.stats().frames);
+  EXPECT_EQ(out.dropped, (std::vector<std::string>{"dropped: age 1", "dropped: age 2"}));
+  expect_in_order(out, 4);
 }
 
 TEST(StreamRunner, AnExceptionCostsItsFrameOnly) {
@@ -194,9 +222,9 @@ TEST(StreamRunner, AnExceptionCostsItsFrameOnly) {
     result.header = f.header;
   };
   auto record = callbacks.on_result;
-  callbacks.on_result = [record](const FrameResult& result) {
-    if (result.header.seq == 3) throw std::runtime_error("nobody listens");
-    record(result);
+  callbacks.on_result = [record](const Frame& f, const FrameResult& result) {
+    if (f.header.seq == 3) throw std::runtime_error("nobody listens");
+    record(f, result);
   };
   StreamRunner runner(callbacks, with(8, QueuePolicy::block));
   for (std::uint64_t i = 0; i < 5; ++i)
@@ -213,12 +241,13 @@ TEST(StreamRunner, AnExceptionCostsItsFrameOnly) {
 TEST(StreamRunner, AFrameThatItsSourceCouldNotReadIsCountedAndNamed) {
   Recorder out;
   StreamRunner runner(recording(out), with(1, QueuePolicy::block));
-  FrameHeader header;
-  header.seq = 7;
-  runner.report_unreadable(header, "a.pcd: truncated");
+  Frame lost = frame(7);
+  lost.file = "a.pcd";
+  runner.report_unreadable(lost, "truncated");
   runner.stop(End::drain);
   EXPECT_EQ(out.errors, (std::vector<std::uint64_t>{7}));
-  EXPECT_EQ(out.reasons[0], "a.pcd: truncated");
+  EXPECT_EQ(out.reasons[0], "truncated");
+  EXPECT_EQ(out.files[0], "a.pcd");
   EXPECT_EQ(runner.stats().frames.in, 1U);
   expect_balance(runner.stats().frames);
 }
@@ -228,16 +257,14 @@ TEST(StreamRunner, UnreadableFramesComeInTheirOrder) {
   Recorder out;
   std::vector<std::uint64_t> order;
   StreamRunner::Callbacks callbacks = recording(out, &gate);
-  callbacks.on_result = [&](const FrameResult& result) { order.push_back(result.header.seq); };
-  callbacks.on_error = [&](const FrameHeader& header, const std::string&) { order.push_back(header.seq); };
+  callbacks.on_result = [&](const Frame& f, const FrameResult&) { order.push_back(f.header.seq); };
+  callbacks.on_lost = [&](const Frame& f, Loss, const std::string&) { order.push_back(f.header.seq); };
   StreamRunner runner(callbacks, with(5, QueuePolicy::drop_oldest));
   for (std::uint64_t i = 0; i < 6; ++i) {
     if (i % 2 == 0) {
       runner.push(frame(i));
     } else {
-      FrameHeader header;
-      header.seq = i;
-      runner.report_unreadable(header, "bad");
+      runner.report_unreadable(frame(i), "bad");
     }
   }
   gate.open();
@@ -252,8 +279,8 @@ TEST(StreamRunner, ACallbackThatPushesIntoAFullQueueDoesNotWaitForItself) {
   StreamRunner* self = nullptr;
   std::atomic<bool> accepted{true};
   StreamRunner::Callbacks callbacks = recording(out, &gate);
-  callbacks.on_result = [&](const FrameResult& result) {
-    if (result.header.seq == 0) accepted = self->push(frame(9));
+  callbacks.on_result = [&](const Frame& f, const FrameResult&) {
+    if (f.header.seq == 0) accepted = self->push(frame(9));
   };
   StreamRunner runner(callbacks, with(1, QueuePolicy::block));
   self = &runner;
@@ -301,6 +328,94 @@ TEST(StreamRunner, DiscardDropsWhatWaitsAndFinishesWhatIsInWork) {
   EXPECT_EQ(runner.stats().frames.dropped_queue, 4U);
   EXPECT_FALSE(runner.push(frame(9)));
   expect_balance(runner.stats().frames);
+  expect_in_order(out, 5);  // what comes after the end is only counted
+}
+
+TEST(StreamRunner, TellsInItsThreadAlsoWhatComesWhileItStops) {
+  Gate gate;
+  Recorder out;
+  StreamRunner runner(recording(out, &gate), with(2, QueuePolicy::block));
+  runner.push(frame(0));
+  gate.await_arrivals(1);
+  runner.push(frame(1));
+  std::thread stopper([&] { runner.stop(End::drain); });
+  while (runner.push(frame(2))) {  // until it ends: these are processed
+  }
+  runner.report_unreadable(frame(3), "bad");
+  gate.open();
+  stopper.join();
+  EXPECT_EQ(out.errors, (std::vector<std::uint64_t>{3}));
+  EXPECT_EQ(out.dropped.back(), "dropped: queue 2");
+  expect_in_order(out, runner.stats().frames.in);
+}
+
+TEST(StreamRunner, NumbersFramesWhateverTheirSource) {
+  Recorder out;
+  StreamRunner runner(recording(out), with(9, QueuePolicy::block));
+  for (const std::uint64_t seq : {0, 0, 7, 7, 3})
+    runner.push(frame(seq));
+  runner.stop(End::drain);
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{0, 0, 7, 7, 3}));
+  expect_in_order(out, 5);
+}
+
+TEST(StreamRunner, RefusesPointsThatNobodyKeeps) {
+  Recorder out;
+  StreamRunner runner(recording(out), with(9, QueuePolicy::block));
+  const auto xyz = std::make_shared<std::vector<float>>(3);
+  Frame f = frame(0);
+  f.points = PointView::of(xyz->data(), 12, 1);
+  EXPECT_THROW(runner.push(f), std::invalid_argument);
+  EXPECT_EQ(runner.stats().frames.in, 0U);
+  f.owner = xyz;
+  EXPECT_TRUE(runner.push(f));
+}
+
+TEST(StreamRunner, ToldOfAtMostAThousandButCountsAll) {
+  Gate gate;
+  Recorder out;
+  StreamRunner runner(recording(out, &gate), with(1, QueuePolicy::drop_newest));
+  runner.push(frame(0));
+  gate.await_arrivals(1);
+  for (std::uint64_t i = 1; i <= 5000; ++i)
+    runner.push(frame(i));
+  gate.open();
+  runner.stop(End::drain);
+  EXPECT_EQ(out.dropped.size(), 1000U);
+  EXPECT_EQ(out.dropped.back(), "dropped: queue 1001");
+  EXPECT_EQ(runner.stats().frames.dropped_queue, 4999U);
+  expect_balance(runner.stats().frames);
+}
+
+TEST(StreamRunner, CallbacksThatThrowCostNoFrame) {
+  Recorder out;
+  StreamRunner::Callbacks callbacks = recording(out);
+  callbacks.on_lost = [](const Frame&, Loss, const std::string&) { throw std::runtime_error("deaf"); };
+  callbacks.on_silence = [](double) { throw 3; };
+  RunnerConfig config = with(9, QueuePolicy::block);
+  config.watchdog_s = 0.01;
+  StreamRunner runner(callbacks, config);
+  runner.report_unreadable(frame(0), "bad");
+  for (int i = 0; i < 500 && runner.stats().callback_errors < 2; ++i)
+    std::this_thread::sleep_for(milliseconds(10));
+  EXPECT_EQ(runner.stats().callback_errors, 2U);
+  runner.push(frame(1));
+  runner.stop(End::drain);
+  EXPECT_EQ(out.results, (std::vector<std::uint64_t>{1}));
+  expect_balance(runner.stats().frames);
+  EXPECT_EQ(nlohmann::json::parse(stats_json(runner.stats()))["callback_errors"], 2);
+}
+
+TEST(StreamRunner, LatencyCountsFromWhenAFrameWasTaken) {
+  Recorder out;
+  StreamRunner runner(recording(out), with(9, QueuePolicy::block));
+  Frame f = frame(0);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  f.taken = steady_time(std::chrono::nanoseconds(now - std::chrono::hours(1)).count());
+  runner.push(f);
+  runner.stop(End::drain);
+  EXPECT_EQ(runner.stats().ms.latency.count(), 1U);
+  EXPECT_GE(runner.stats().ms.latency.max(), 3'599'000);
 }
 
 TEST(StreamRunner, StopsTwiceFromManyThreadsAndFromItsCallback) {
@@ -309,10 +424,10 @@ TEST(StreamRunner, StopsTwiceFromManyThreadsAndFromItsCallback) {
   std::mutex ready;
   StreamRunner::Callbacks callbacks = recording(out);
   auto record = callbacks.on_result;
-  callbacks.on_result = [&](const FrameResult& result) {
-    record(result);
+  callbacks.on_result = [&](const Frame& f, const FrameResult& result) {
+    record(f, result);
     const std::lock_guard lock(ready);
-    if (result.header.seq == 2) self->stop(End::discard);
+    if (f.header.seq == 2) self->stop(End::discard);
   };
   StreamRunner runner(callbacks, with(100, QueuePolicy::block));
   {

@@ -40,11 +40,15 @@ class Asked final : public PointSource {
   const std::vector<float>& xyz_;
 };
 
-FrameResult result_of(const PipelineConfig& config, const PointView& points) {
+Frame with(const PointView& points) {
   Frame frame;
   frame.points = points;
+  return frame;
+}
+
+FrameResult result_of(const PipelineConfig& config, const PointView& points) {
   FrameResult result;
-  FramePipeline(config).process(frame, result);
+  FramePipeline(config).process(with(points), result);
   return result;
 }
 
@@ -91,7 +95,7 @@ TEST(WholeCloud, PointsOfItAreThoseThatItsVolumesHold) {
       EXPECT_EQ(proof.outside, 0U);
     }
     EXPECT_GT(verify(result.volume(0, 0), cloud).outside, 0U);  // the filter has dropped some
-    const std::vector<std::uint32_t> labels = labels_of(result, cloud);
+    const std::vector<std::uint32_t> labels = labels_of(with(cloud), result);
     EXPECT_EQ(std::count(labels.begin(), labels.end(), 0U),
               static_cast<std::ptrdiff_t>(result.clusters.cluster_size(0)));
   }
@@ -120,7 +124,7 @@ TEST(Regions, DropWhatIsInsideOrOutsideAndCountIt) {
       for (std::size_t c = 0; c < result.clusters.size(); ++c)
         left += result.clusters.cluster_size(c);
       EXPECT_EQ(left, keep ? within : valid - within);
-      const std::vector<std::uint32_t> labels = labels_of(result, cloud);
+      const std::vector<std::uint32_t> labels = labels_of(with(cloud), result);
       for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] == label_none) continue;
         ASSERT_EQ(inside[i] != 0, keep) << i;
@@ -150,14 +154,14 @@ TEST(WholeCloud, ThatIsNotInMemoryCannotBeToldApart) {
 
 TEST(WholeCloud, HeedsTheSizesThatAreAllowed) {
   const std::vector<float> xyz{1, 0, 0, 2, 0, 0, 3, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0, 0};
-  const auto with = [&](std::size_t least, std::size_t most) {
+  const auto sized = [&](std::size_t least, std::size_t most) {
     PipelineConfig config = whole_cloud_config();
     config.cluster.min_size = least;
     config.cluster.max_size = most;
     return result_of(config, frame_of(xyz, 0).points);
   };
-  EXPECT_EQ(with(3, 3).clusters.size(), 1U);
-  const FrameResult small = with(4, 9), large = with(0, 2);
+  EXPECT_EQ(sized(3, 3).clusters.size(), 1U);
+  const FrameResult small = sized(4, 9), large = sized(0, 2);
   EXPECT_EQ(small.clusters.size(), 0U);
   EXPECT_EQ(small.counts.small, 3U);
   EXPECT_EQ(small.counts.nonfinite, 1U);
@@ -178,19 +182,20 @@ TEST(WholeCloud, WithoutAValidPointIsOneEmptyObject) {
 }
 
 TEST(GroundRemark, SaysWhenThereIsNoGroundOrNothingElse) {
-  PipelineConfig config;
-  config.ground.method = GroundMethod::plane;
+  auto config = std::make_shared<PipelineConfig>();
+  config->ground.method = GroundMethod::plane;
   FrameResult result;
+  result.config = config;
   result.points = 100;
   result.counts.range = 20;
-  EXPECT_THAT(ground_remark(config, result), testing::HasSubstr("no ground found (up is z): try --up"));
+  EXPECT_THAT(ground_remark(result), testing::HasSubstr("no ground found (up is z): try --up"));
   result.counts.ground = 80;
-  EXPECT_THAT(ground_remark(config, result), testing::HasSubstr("all points are taken for ground"));
+  EXPECT_THAT(ground_remark(result), testing::HasSubstr("all points are taken for ground"));
   result.counts.ground = 79;
-  EXPECT_EQ(ground_remark(config, result), "");
-  config.ground.method = GroundMethod::none;
+  EXPECT_EQ(ground_remark(result), "");
+  config->ground.method = GroundMethod::none;
   result.counts.ground = 0;
-  EXPECT_EQ(ground_remark(config, result), "");
+  EXPECT_EQ(ground_remark(result), "");
 }
 
 }  // namespace

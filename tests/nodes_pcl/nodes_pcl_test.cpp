@@ -60,7 +60,7 @@ TEST(Grabber, FeedsARunnerByOneLine) {
   std::atomic<int> results{0};
   StreamRunner::Callbacks callbacks;
   callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
-  callbacks.on_result = [&](const FrameResult& result) {
+  callbacks.on_result = [&](const Frame&, const FrameResult& result) {
     EXPECT_GT(result.points, 1000U);
     ++results;
   };
@@ -83,7 +83,7 @@ TEST(Grabber, OfAnotherPointTypeIsRefused) {
   pcl::PCDGrabber<pcl::PointXYZI> grabber(std::string("/nonexistent.pcd"), 1, false);
   StreamRunner::Callbacks callbacks;
   callbacks.process = [](const Frame&, FrameResult&) {};
-  callbacks.on_result = [](const FrameResult&) {};
+  callbacks.on_result = [](const Frame&, const FrameResult&) {};
   StreamRunner runner(callbacks, RunnerConfig());
   EXPECT_THROW(connect<pcl::PointXYZ>(grabber, runner), std::invalid_argument);
 }

@@ -77,7 +77,7 @@ std::unique_ptr<CloudFile> CloudFile::open(const std::filesystem::path& path, st
   InputFile file(path);
   std::optional<PcdHeader> header = binary_header(file, path, bin_fields);
   if (!header || header->cloud.size() <= kChunkPoints) return nullptr;
-  const CoordinateFields fields = coordinate_fields(header->cloud);
+  const CoordinateFields fields = coordinate_fields(header->cloud.fields);
   file.prefetch(header->data_offset, 2 * kAhead);
   BlockSums sums(header->cloud.size());
   return std::unique_ptr<CloudFile>(new CloudFile(

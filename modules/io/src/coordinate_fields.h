@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
+#include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv {
@@ -18,9 +20,10 @@ struct CoordinateFields {
   bool adjacent = false;  ///< They lie side by side in that order, so that a PointView fits.
 };
 
-CoordinateFields coordinate_fields(const RawCloud& cloud);
+CoordinateFields coordinate_fields(const std::vector<PointField>& fields);
 
-/// For readers: throws IoError unless x, y and z exist, each once, in a form that is readable.
-void check_coordinates(const RawCloud& cloud);
+/// Throws `Error` unless x, y and z exist, each once, in a form that is readable: IoError for readers.
+template <typename Error = IoError>
+void check_coordinates(const std::vector<PointField>& fields);
 
 }  // namespace pcl_bv

@@ -179,7 +179,7 @@ PcdHeader read_pcd_header(const InputFile& file) {
   check_version(lines);
   header.encoding = read_encoding(lines);
   read_fields(lines, header.cloud);
-  check_coordinates(header.cloud);
+  check_coordinates(header.cloud.fields);
   read_shape(lines, header.cloud);
   read_viewpoint(lines, header.cloud);
   return header;

@@ -116,7 +116,7 @@ void make_fields(const PlyElement& vertex, RawCloud& cloud) {
     field.offset = cloud.point_step;
     cloud.point_step += field.size;
   }
-  check_coordinates(cloud);
+  check_coordinates(cloud.fields);
   cloud.width = vertex.count;
   if (cloud.width > std::numeric_limits<std::size_t>::max() / cloud.point_step) {
     throw IoError("header: " + std::to_string(cloud.width) + " vertices are more than a file can hold");

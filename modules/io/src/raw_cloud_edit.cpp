@@ -83,7 +83,7 @@ void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<
 
 void update_packed_xyz(RawCloud& cloud) {
   cloud.packed_xyz.clear();
-  const CoordinateFields fields = coordinate_fields(cloud);
+  const CoordinateFields fields = coordinate_fields(cloud.fields);
   if (!fields.readable || fields.adjacent) return;
   const std::size_t bytes = size_of(fields.scalar);
   cloud.packed_xyz.resize(3 * bytes * cloud.size());

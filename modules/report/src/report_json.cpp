@@ -197,6 +197,7 @@ std::string report_json(const Report& report) {
 
 std::string frame_json(const FrameReport& report) {
   Json json{{"schema", 1}, {"seq", report.seq}, {"stamp_ns", report.stamp_ns}, {"frame_id", report.frame_id}};
+  if (!report.file.empty()) json["file"] = report.file;
   if (report.error) {
     json["error"] = *report.error;
     return to_text(json);

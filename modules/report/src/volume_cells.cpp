@@ -44,11 +44,12 @@ void add_mesh(const Mesh& mesh, std::size_t owner, VolumeCells& cells) {
 
 VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters) {
   VolumeCells cells;
-  for (const ClusterEntry& cluster : clusters) {
+  for (std::size_t number = 0; number < clusters.size(); ++number) {
+    const ClusterEntry& cluster = clusters[number];
     for (const VolumeEntry& entry : cluster.volumes) {
       const std::size_t method = method_number(entry.method, cells.methods);
       if (empty(entry.volume)) continue;
-      cells.owners.push_back({cluster.id, method, cluster.points, volume(entry.volume)});
+      cells.owners.push_back({cluster.id, method, cluster.points, volume(entry.volume), number});
       add_mesh(mesh(entry.volume), cells.owners.size() - 1, cells);
     }
   }

@@ -20,6 +20,7 @@ struct CellOwner {
   std::size_t method = 0;  ///< Number in VolumeCells::methods.
   std::size_t points = 0;
   double volume = 0;
+  std::size_t entry = 0;  ///< Number of the cluster in the list.
 };
 
 struct Cell {

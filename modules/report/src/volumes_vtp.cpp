@@ -3,7 +3,6 @@
 
 #include <stdexcept>
 
-#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/report/meshes.h"
 #include "shortest.h"
 #include "volume_cells.h"
@@ -47,7 +46,7 @@ std::string cells_element(const std::string& name, const Cells& cells) {
          data_array("Int64", "offsets", offsets) + "      </" + name + ">\n";
 }
 
-std::string cell_data(const VolumeCells& cells) {
+std::string cell_data(const VolumeCells& cells, const std::vector<std::optional<std::uint32_t>>& tracks) {
   const auto column = [&](const char* type, const char* name, const auto& value_of) {
     return data_array(type, name, [&](std::string& text) {
       // VTK counts cells in this order.
@@ -57,17 +56,20 @@ std::string cell_data(const VolumeCells& cells) {
       }
     });
   };
+  const auto track = [&](auto& owner) {
+    return tracks[owner.entry] ? std::to_string(*tracks[owner.entry]) : "-1";
+  };
   return "      <CellData Scalars=\"cluster\">\n" +
          column("Int64", "cluster", [](auto& owner) { return std::to_string(owner.cluster); }) +
          column("Int64", "method", [](auto& owner) { return std::to_string(owner.method); }) +
          column("Int64", "points", [](auto& owner) { return std::to_string(owner.points); }) +
          column("Float64", "volume", [](auto& owner) { return shortest(owner.volume); }) +
-         "      </CellData>\n";
+         (tracks.empty() ? "" : column("Int64", "track", track)) + "      </CellData>\n";
 }
 
-std::string points_element(const VolumeCells& cells) {
+std::string points_element(const std::vector<Eigen::Vector3d>& vertices) {
   const auto coordinates = [&](std::string& text) {
-    for (const Eigen::Vector3d& vertex : cells.vertices)
+    for (const Eigen::Vector3d& vertex : vertices)
       text += shortest(vertex.x()) + ' ' + shortest(vertex.y()) + ' ' + shortest(vertex.z()) + '\n';
   };
   return "      <Points>\n" +
@@ -101,31 +103,53 @@ std::string escape(const std::string& text) {
   return escaped;
 }
 
-}  // namespace
-
-std::string volumes_vtp(const std::vector<ClusterEntry>& clusters) {
-  const VolumeCells cells = volume_cells(clusters);
+/// The file of one piece.
+std::string polydata(const std::string& fields, const std::string& counts, const std::string& content) {
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
          "  <PolyData>\n" +
-         method_names(cells) + "    <Piece" + attribute("NumberOfPoints", cells.vertices.size()) +
-         attribute("NumberOfVerts", cells.points.size()) + attribute("NumberOfLines", cells.lines.size()) +
-         attribute("NumberOfStrips", 0) + attribute("NumberOfPolys", cells.polygons.size()) + ">\n" +
-         cell_data(cells) + points_element(cells) + cells_element("Verts", cells.points) +
-         cells_element("Lines", cells.lines) + cells_element("Polys", cells.polygons) +
-         "    </Piece>\n  </PolyData>\n</VTKFile>\n";
+         fields + "    <Piece" + counts + ">\n" + content + "    </Piece>\n  </PolyData>\n</VTKFile>\n";
 }
 
-void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-      "  <Collection>\n";
-  for (const PvdEntry& entry : entries) {
-    text += "    <DataSet" + attribute("timestep", shortest(entry.time_seconds)) + attribute("part", 0) +
-            attribute("file", escape(entry.file)) + "/>\n";
+std::string counts(std::size_t points, std::size_t verts, std::size_t lines, std::size_t polys) {
+  return attribute("NumberOfPoints", points) + attribute("NumberOfVerts", verts) +
+         attribute("NumberOfLines", lines) + attribute("NumberOfStrips", 0) +
+         attribute("NumberOfPolys", polys);
+}
+
+}  // namespace
+
+std::string volumes_vtp(const std::vector<ClusterEntry>& clusters,
+                        const std::vector<std::optional<std::uint32_t>>& tracks) {
+  const VolumeCells cells = volume_cells(clusters);
+  return polydata(
+      method_names(cells),
+      counts(cells.vertices.size(), cells.points.size(), cells.lines.size(), cells.polygons.size()),
+      cell_data(cells, tracks) + points_element(cells.vertices) + cells_element("Verts", cells.points) +
+          cells_element("Lines", cells.lines) + cells_element("Polys", cells.polygons));
+}
+
+std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels) {
+  std::vector<Eigen::Vector3d> valid;
+  Cell cell;
+  std::string numbers;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const Coordinates p = load_point(points, i);
+    if (!is_valid(p)) continue;
+    cell.vertices.push_back(static_cast<std::int32_t>(valid.size()));
+    valid.emplace_back(p.x, p.y, p.z);
+    numbers += std::to_string(labels[points.index(i)]) + ' ';
   }
-  write_file_atomically(path, text + "  </Collection>\n</VTKFile>\n");
+  const Cells cells(valid.empty() ? 0 : 1, cell);
+  return polydata("", counts(valid.size(), cells.size(), 0, 0),
+                  "      <PointData Scalars=\"label\">\n" +
+                      data_array("UInt32", "label", [&](std::string& text) { text += numbers; }) +
+                      "      </PointData>\n" + points_element(valid) + cells_element("Verts", cells));
+}
+
+std::string pvd_entry(const PvdEntry& entry) {
+  return "    <DataSet" + attribute("timestep", shortest(entry.time_seconds)) +
+         attribute("part", std::to_string(entry.part)) + attribute("file", escape(entry.file)) + "/>\n";
 }
 
 }  // namespace pcl_bv

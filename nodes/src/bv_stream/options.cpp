@@ -21,27 +21,32 @@ constexpr const char* examples = R"(Examples:
   bv_stream --print-config > robot.yaml; bv_stream --config robot.yaml --source sweeps/
   bv_stream --source synth:street-sequence:100 --volume aabb,dop26 | jq -c .counts
 
-Exit status: 0 done, also after SIGINT or SIGTERM, which let the frames in the queue be done
-first (a second one ends at once, with 130); 1 no readable source or an output not written;
-2 wrong use or a bad configuration.
+Exit status: 0 done, also after SIGINT, SIGTERM or SIGHUP, which let the frames in the queue be
+done first (a second one ends at once, with 130); 1 no readable source or poses, or an output
+not written; 2 wrong use or a bad configuration.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {
-  std::string source, rate, stamps, bin_fields, loop, stats;
+  std::string source, rate, stamps, frame_id, poses, bin_fields, loop, stats, report;
   std::vector<std::string> sinks;
 };
 
-void declare(CommandLine& line, Texts& t) {
-  line.option("--source", t.source, "PATH",
-              "A folder of clouds, one file, or synth:street-sequence[:FRAMES[:SEED]]");
+void declare_frames(CommandLine& line, Texts& t) {
+  line.option("--source", t.source, "SOURCE", "Frames: " + source_syntax());
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
-  line.option("--rate", t.rate, "HZ", "Frames a second, or max (10)");
+  line.option("--rate", t.rate, "HZ", "Frames a second, recorded (by their stamps) or max (10)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
   line.option("--stamps", t.stamps, "RULE",
-              "Times of the frames: by rate, or by the number in the name (rate)");
-  line.option("--sink", t.sinks, "KIND:PLACE",
-              "jsonl:FILE, csv:FILE or vtp:FOLDER; repeatable (jsonl on standard output)");
+              "Times of the frames: by rate, or name: by the number in it\n"
+              "(rate; name with --rate recorded)");
+  line.option("--frame-id", t.frame_id, "NAME", "The coordinate frame of the points");
+  line.option("--poses", t.poses, "FILE", "Where the sensor was: poses of KITTI by frame, or of TUM by time");
+}
+
+void declare_results(CommandLine& line, Texts& t) {
+  line.option("--sink", t.sinks, "SINK", sink_syntax() + ";\nrepeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
+  line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
 }
 
 double number(const char* option, std::string_view text, const char* wanted) {
@@ -55,6 +60,7 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   OutputClaims claims;
   claims.add_input(options.source);
   if (!config.empty()) claims.add_input(config);
+  if (!options.replay.poses.empty()) claims.add_input(options.replay.poses);
   std::error_code unknown;
   try {
     if (std::filesystem::is_directory(options.source, unknown)) {
@@ -64,9 +70,31 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   } catch (const IoError& error) {
     throw IoError(options.source + ": " + error.what());
   }
-  for (const SinkDescription& sink : options.sinks)
-    claims.claim(sink.kind == SinkKind::vtp ? sink.place / "frames.pvd" : sink.place);
+  for (const SinkDescription& sink : options.sinks) {
+    const std::string_view files = sink.kind->files;
+    claims.claim(files.empty() ? sink.place : sink.place / ("frame000000" + std::string(files)));
+    if (files == ".pcd") claims.refuse_input(sink.place);  // its clouds would be read for the source's
+  }
   if (options.stats) claims.claim(*options.stats);
+}
+
+void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options) {
+  ReplayOptions& replay = options.replay;
+  options.rate = t.rate == "max" ? Rate::max : t.rate == "recorded" ? Rate::recorded : Rate::fixed;
+  if (line.given("--rate") && options.rate == Rate::fixed)
+    replay.rate_hz = number("--rate", t.rate, "a rate, recorded or max");
+  if (!(replay.rate_hz >= kLeastRate && replay.rate_hz <= kGreatestRate))
+    throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, recorded or max");
+  if (line.given("--loop")) replay.loops = parse_whole_number("--loop", t.loop, 1);
+  if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
+    throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
+  replay.from_name = line.given("--stamps")
+                         ? t.stamps == "name"
+                         : options.rate == Rate::recorded && source_kind(t.source).has_names;
+  if (line.given("--bin-fields")) replay.bin_fields = parse_bin_fields(t.bin_fields);
+  replay.frame_id = t.frame_id;
+  if (line.given("--poses") && t.poses.empty()) throw UsageError("--poses: no file");
+  replay.poses = t.poses;
 }
 
 StreamOptions to_options(const CommandLine& line, const Texts& t, const std::string& config_file,
@@ -75,22 +103,13 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, const std::str
   options.config = std::move(config);
   if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
   options.source = t.source;
-  options.paced = t.rate != "max";
-  if (line.given("--rate") && options.paced)
-    options.stamps.rate_hz = number("--rate", t.rate, "a rate or max");
-  if (!(options.stamps.rate_hz >= kLeastRate && options.stamps.rate_hz <= kGreatestRate))
-    throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, or max");
-  if (line.given("--loop")) options.loops = parse_whole_number("--loop", t.loop, 1);
-  if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
-    throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
-  options.stamps.from_name = t.stamps == "name";
-  if (line.given("--bin-fields")) options.stamps.bin_fields = parse_bin_fields(t.bin_fields);
-  if (options.stamps.from_name && t.source.rfind("synth:", 0) == 0)
-    throw UsageError("--stamps name: synth: has no names");
-  if (line.given("--sink")) options.sinks.clear();
-  for (const std::string& sink : t.sinks)
+  read_replay(line, t, options);
+  for (const std::string& sink : line.given("--sink") ? t.sinks : std::vector<std::string>{"jsonl:-"})
     options.sinks.push_back(parse_with("--sink", sink, parse_sink));
   if (line.given("--stats")) options.stats = t.stats;
+  if (line.given("--report")) options.report_seconds = number("--report", t.report, "seconds");
+  if (line.given("--report") && !(options.report_seconds >= 0.001 && options.report_seconds <= 1e6))
+    throw UsageError("--report: '" + t.report + "' is not seconds from 0.001 to 1000000");
   claim_outputs(options, config_file);
   return options;
 }
@@ -101,10 +120,11 @@ std::variant<StreamOptions, std::string> parse_stream_options(int argc, const ch
   CommandLine line("bv_stream", "Objects in a stream of point clouds, as volumes that hold every point.",
                    examples);
   Texts texts;
-  declare(line, texts);
+  declare_frames(line, texts);
   StreamConfig defaults;
   defaults.pipeline.threads = 0;
   const SettingOptions settings(line, defaults, true);
+  declare_results(line, texts);
   if (auto text = line.parse(argc, argv)) return *std::move(text);
   StreamConfig config = settings.config();
   if (settings.print_config()) return to_yaml(config);

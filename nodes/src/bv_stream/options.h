@@ -4,7 +4,7 @@
 // The command line of bv_stream, checked whole before any frame is read.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,14 +17,21 @@
 
 namespace pcl_bv {
 
+/// When the next frame is due.
+enum class Rate : std::uint8_t {
+  fixed,     ///< ReplayOptions::rate_hz.
+  recorded,  ///< As the stamps say.
+  max        ///< As soon as there is room for it.
+};
+
 struct StreamOptions {
   std::string source;
   StreamConfig config;
-  ReplayOptions stamps;
-  bool paced = true;  ///< Wait for each frame's time; otherwise as fast as possible.
-  std::size_t loops = 1;
-  std::vector<SinkDescription> sinks{{SinkKind::jsonl, "-"}};
+  ReplayOptions replay;
+  Rate rate = Rate::fixed;
+  std::vector<SinkDescription> sinks;
   std::optional<std::filesystem::path> stats;
+  double report_seconds = 0;  ///< 0: no reports.
 };
 
 /// What the command line asks for: work, or (--help, --version, --print-config) only a text on standard

@@ -25,56 +25,9 @@ namespace pcl_bv {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
 
-// All sinks; one that cannot be written to any more is given up, and the rest goes on.
-class Sinks {
- public:
-  explicit Sinks(const std::vector<SinkDescription>& descriptions) {
-    for (const SinkDescription& description : descriptions)
-      sinks_.push_back(make_sink(description));
-  }
-
-  template <typename Do>
-  void each(Do&& what) {
-    for (std::unique_ptr<FrameSink>& sink : sinks_) {
-      if (sink != nullptr && !attempt([&] { what(*sink); })) {
-        attempt([&] { sink->close(); });  // what is written so far is made whole
-        sink = nullptr;
-      }
-    }
-    alive_ = std::any_of(sinks_.begin(), sinks_.end(), [](const auto& sink) { return sink != nullptr; });
-  }
-
-  // False if nothing more can be written. A reader who goes away is no failure, and needs no word.
-  template <typename Do>
-  bool attempt(Do&& what) {
-    try {
-      what();
-    } catch (const ClosedPipe&) {
-      return false;
-    } catch (const IoError& error) {
-      complain_once(error.what());
-      return false;
-    } catch (const std::exception& error) {
-      complain_once(error.what());  // this frame cannot be written: others may be
-    }
-    return true;
-  }
-
-  bool failed() const { return failed_; }
-  bool alive() const { return alive_; }
-
- private:
-  void complain_once(const char* problem) {
-    if (problem != last_problem_) complain(problem);
-    last_problem_ = problem;
-    failed_ = true;
-  }
-
-  std::vector<std::unique_ptr<FrameSink>> sinks_;
-  std::string last_problem_;  // said once: closing fails as writing did
-  std::atomic<bool> failed_{false}, alive_{true};
-};
+constexpr std::chrono::milliseconds kPatience{50};  // until a signal is heeded
 
 class Progress {
  public:
@@ -91,78 +44,151 @@ class Progress {
   const bool terminal_ = errors_go_to_a_terminal() && isatty(STDOUT_FILENO) == 0;
 };
 
-// Sleeps in short pieces, so that a signal is heeded.
-void wait_until(Clock::time_point time, const std::atomic<bool>& interrupted) {
-  while (!interrupted && Clock::now() < time)
-    std::this_thread::sleep_until(std::min(time, Clock::now() + std::chrono::milliseconds(50)));
-}
+// What the reading thread does until the source ends, a signal comes, or nobody takes results any more.
+class Reader {
+ public:
+  Reader(const StreamOptions& options, StreamRunner& runner, const SinkGroup& sinks,
+         const std::atomic<bool>& interrupted)
+      : options_(options), runner_(runner), sinks_(sinks), interrupted_(interrupted) {}
 
-// As long as a clock can count, at most.
-Clock::duration due_after(std::uint64_t frames, double rate_hz) {
-  const double seconds = std::min(static_cast<double>(frames) / rate_hz, 1e9);
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
-
-void read_frames(const StreamOptions& options, FrameSource& source, StreamRunner& runner, const Sinks& sinks,
-                 const std::atomic<bool>& interrupted) {
-  const auto begin = Clock::now();
-  std::uint64_t n = 0;
-  for (bool more = true; more && !interrupted && sinks.alive(); ++n) {
-    Frame frame;
-    try {
-      more = source.next(frame);
-    } catch (const FrameError& error) {
-      runner.report_unreadable(error.header, error.what());
-      continue;
+  void read(FrameSource& source) {
+    for (bool more = true; more && wanted();) {
+      Frame frame;
+      try {
+        const Next next = source.next(frame, kPatience);
+        more = next != Next::end;
+        if (next == Next::frame) hand_over(std::move(frame));
+      } catch (const FrameError& error) {
+        if (error.frame.header.stamp_ns >= 0) due(error.frame);  // it takes its time, too
+        runner_.report_unreadable(error.frame, error.reason);
+      } catch (const std::exception& error) {
+        runner_.report_unreadable({}, std::string("the source ends: ") + error.what());
+        more = false;
+        failed = true;
+      }
     }
-    if (!more) break;
-    if (options.paced) wait_until(begin + due_after(n, options.stamps.rate_hz), interrupted);
-    if (!interrupted) runner.push(std::move(frame));
   }
+
+  std::uint64_t without_pose = 0;
+  bool failed = false;
+
+ private:
+  // Asked again and again while nothing comes, so it is also when to report.
+  bool wanted() {
+    if (options_.report_seconds > 0 && Seconds(Clock::now() - reported_).count() >= options_.report_seconds) {
+      reported_ = Clock::now();
+      report(runner_.stats());
+    }
+    return !interrupted_ && sinks_.alive();
+  }
+
+  static void report(const RunnerStats& stats) {
+    const FrameTotals& f = stats.frames;
+    const auto count = [](std::uint64_t n, const char* what) { return std::to_string(n) + what; };
+    char latency[80];
+    std::snprintf(latency, sizeof latency, "latency p50 %.1f ms, p99 %.1f ms",
+                  stats.ms.latency.percentile(0.5), stats.ms.latency.percentile(0.99));
+    say(count(f.in, " frames, ") + count(f.processed, " done, dropped ") +
+        count(f.dropped_queue, " queue, ") + count(f.dropped_age, " age, ") +
+        count(f.dropped_error, " error; ") + latency);
+  }
+
+  void hand_over(Frame frame) {
+    if (options_.rate != Rate::max) {
+      frame.taken = due(frame);
+      while (wanted() && Clock::now() < frame.taken)
+        std::this_thread::sleep_until(std::min(frame.taken, Clock::now() + kPatience));
+    }
+    if (!wanted()) return;
+    without_pose += !options_.replay.poses.empty() && !frame.pose;
+    runner_.push(std::move(frame));
+  }
+
+  // A clock cannot count beyond some centuries. Stamps that go back cost no time.
+  Clock::time_point due(const Frame& frame) {
+    double step = 1 / options_.replay.rate_hz;
+    if (options_.rate == Rate::recorded)
+      step = std::max(1e-9 * static_cast<double>(frame.header.stamp_ns - last_stamp_ns_), 0.0);
+    if (paced_++ > 0) seconds_ = std::min(seconds_ + step, 1e9);
+    last_stamp_ns_ = frame.header.stamp_ns;
+    return begin_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds_));
+  }
+
+  const StreamOptions& options_;
+  StreamRunner& runner_;
+  const SinkGroup& sinks_;
+  const std::atomic<bool>& interrupted_;
+  const Clock::time_point begin_ = Clock::now();
+  Clock::time_point reported_ = begin_;
+  std::uint64_t paced_ = 0;
+  std::int64_t last_stamp_ns_ = 0;
+  double seconds_ = 0;
+};
+
+// Errors have had their lines.
+void say_what_is_missing(const FrameTotals& frames, std::uint64_t without_pose) {
+  const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age;
+  const std::string all = " of " + std::to_string(frames.in) + " frames";
+  if (dropped > 0) {
+    say("dropped " + std::to_string(dropped) + all + ": " + std::to_string(frames.dropped_queue) +
+        " queue, " + std::to_string(frames.dropped_age) + " age");
+  }
+  if (without_pose > 0) say(std::to_string(without_pose) + all + " have no pose");
 }
 
-void write_stats(const std::filesystem::path& file, const RunnerStats& stats) {
-  try {
-    make_folder_of(file);
-    write_file_atomically(file, stats_json(stats) + '\n');
-  } catch (const IoError& error) {
-    throw IoError(file.string() + ": " + error.what());
-  }
-}
-
-}  // namespace
-
-int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
-  const std::unique_ptr<FrameSource> source = parse_with("--source", options.source, [&](const auto& name) {
-    return open_source(name, options.stamps, options.loops);
-  });
-  Sinks sinks(options.sinks);
-  FramePipeline pipeline(options.config.pipeline);
-  Progress progress;
+StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, Progress& progress) {
   StreamRunner::Callbacks callbacks;
   callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
-  callbacks.on_result = [&](const FrameResult& result) {
-    sinks.each([&](FrameSink& sink) { sink.write(result); });
-    progress.show(result.header.seq, result.clusters.size(), result.ms.total);
+  callbacks.on_result = [&](const Frame& frame, const FrameResult& result) {
+    sinks.write(frame, result);
+    progress.show(frame.header.seq, result.clusters.size(), result.ms.total);
   };
-  callbacks.on_error = [&](const FrameHeader& header, const std::string& reason) {
-    complain("frame " + std::to_string(header.seq) + ": " + reason);
-    sinks.each([&](FrameSink& sink) { sink.write_error(header, reason); });
+  callbacks.on_lost = [&](const Frame& frame, Loss loss, const std::string& reason) {
+    const std::string file = frame.file.empty() ? "" : frame.file + ": ";
+    if (loss == Loss::error) complain(file + "frame " + std::to_string(frame.header.seq) + ": " + reason);
+    sinks.write_lost(frame, reason);
   };
   callbacks.on_silence = [](double seconds) {
     char line[60];
     std::snprintf(line, sizeof line, "no frame for %.1f s", seconds);
     complain(line);
   };
-  StreamRunner runner(callbacks, options.config.runner);
-  read_frames(options, *source, runner, sinks, interrupted);
+  return callbacks;
+}
+
+}  // namespace
+
+int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
+  const std::unique_ptr<FrameSource> source = parse_with(
+      "--source", options.source, [&](const auto& name) { return open_source(name, options.replay); });
+  SinkGroup sinks(complain);
+  for (const SinkDescription& sink : options.sinks)
+    sinks.add(sink);
+  FramePipeline pipeline(options.config.pipeline);
+  Progress progress;
+  RunnerConfig config = options.config.runner;
+  config.policy = resolved(config.policy, options.rate != Rate::max);
+  StreamRunner runner(callbacks_of(pipeline, sinks, progress), config);
+  Reader reader(options, runner, sinks, interrupted);
+  reader.read(*source);
   runner.stop(StreamRunner::End::drain);
   erase_status_line();
-  sinks.each([](FrameSink& sink) { sink.close(); });
-  const RunnerStats stats = runner.stats();
-  if (options.stats) sinks.attempt([&] { write_stats(*options.stats, stats); });
+  sinks.close();
+  RunnerStats stats = runner.stats();
+  stats.sinks = sinks.times();
+  say_what_is_missing(stats.frames, reader.without_pose);
   const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
-  return sinks.failed() || nothing_read ? 1 : 0;
+  int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
+  try {
+    if (options.stats) {
+      make_folder_of(*options.stats);
+      write_file_atomically(*options.stats, stats_json(stats) + '\n');
+    }
+  } catch (const IoError& error) {
+    complain(options.stats->string() + ": " + error.what());
+    status = 1;
+  }
+  return status;
 }
 
 }  // namespace pcl_bv

@@ -17,7 +17,10 @@ class OutputClaims {
  public:
   void add_input(const std::filesystem::path& file);
 
-  /// Throws UsageError if the file is an input, or claimed already and no device.
+  /// Throws UsageError if the file or folder is an input.
+  void refuse_input(const std::filesystem::path& output) const;
+
+  /// The same, and if the file is claimed already and no device.
   void claim(const std::filesystem::path& output);
 
  private:

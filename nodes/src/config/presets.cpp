@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/nodes/stream_config.h"
 
 namespace pcl_bv {
 
@@ -20,6 +20,11 @@ std::vector<const Method*> PipelineConfig::methods() const {
 ParallelPolicy PipelineConfig::policy() const {
   if (threads == 1) return Serial{};
   return Threads{static_cast<unsigned>(threads)};
+}
+
+QueuePolicy resolved(QueuePolicy policy, bool paced) {
+  if (policy != QueuePolicy::automatic) return policy;
+  return paced ? QueuePolicy::drop_oldest : QueuePolicy::block;
 }
 
 PipelineConfig whole_cloud_config() {

@@ -22,7 +22,8 @@ constexpr Names<GroundMethod, 3> kGroundMethods{
 constexpr Names<SphereGrowth, 3> kGrowths{{{"sequential", SphereGrowth::sequential},
                                            {"stationary", SphereGrowth::stationary},
                                            {"deferred", SphereGrowth::deferred}}};
-constexpr Names<QueuePolicy, 3> kPolicies{{{"drop_oldest", QueuePolicy::drop_oldest},
+constexpr Names<QueuePolicy, 4> kPolicies{{{"auto", QueuePolicy::automatic},
+                                           {"drop_oldest", QueuePolicy::drop_oldest},
                                            {"drop_newest", QueuePolicy::drop_newest},
                                            {"block", QueuePolicy::block}}};
 constexpr Names<bool, 2> kFlags{{{"true", true}, {"false", false}}};

@@ -8,7 +8,7 @@
 
 #include "inputs.h"
 #include "pcl_bv/io/cloud_file.h"
-#include "stages/shifted_points.h"
+#include "shifted_points.h"
 
 namespace pcl_bv {
 

@@ -19,9 +19,8 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
+#include "pcl_bv/nodes/frame_picture.h"
 #include "pcl_bv/report/meshes.h"
-#include "pcl_bv/report/picture.h"
-#include "stages/subset.h"
 
 namespace pcl_bv {
 namespace {
@@ -75,31 +74,9 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
   return Status::failed;
 }
 
-Picture make_picture(const PointView& cloud, const FrameResult& result,
-                     const std::vector<std::uint32_t>& labels, const Options& options, const Report& report) {
-  const bool clusters = options.clusters();
-  const bool ground = !clusters && options.pipeline.ground.method != GroundMethod::none;
-  Picture picture;
-  picture.from = options.view;
-  picture.up = options.pipeline.ground.up;
-  for (const Method* method : result.methods)
-    picture.methods.emplace_back(method->name);
-  picture.points = ground ? subset(cloud, result.ground.rest) : result.kept_points(cloud);
-  if (clusters) picture.labels = labels.data();
-  for (const ClusterEntry& cluster : report.clusters) {
-    std::string label = clusters ? std::to_string(cluster.id) : "";  // at the first volume that is one
-    for (std::uint32_t m = 0; m < cluster.volumes.size(); ++m) {
-      const AnyVolume& volume = cluster.volumes[m].volume;
-      const std::uint32_t colour = clusters ? static_cast<std::uint32_t>(cluster.id) : m;
-      picture.volumes.push_back({volume, colour, empty(volume) ? "" : std::exchange(label, {}), m});
-    }
-  }
-  return picture;
-}
-
 /// The files that were asked for beside the report. The labels are written into the cloud's own records.
-Status write_files(const Job& job, const Options& options, const FrameResult& result, const Report& report,
-                   LoadedCloud& loaded) {
+Status write_files(const Job& job, const Options& options, const Frame& frame, const FrameResult& result,
+                   const Report& report, LoadedCloud& loaded) {
   Status status = Status::done;
   if (job.mesh) {
     status = worse(status, write_file(*job.mesh, [&] {
@@ -109,10 +86,12 @@ Status write_files(const Job& job, const Options& options, const FrameResult& re
   }
   if (!job.labels && !job.image) return status;
   std::vector<std::uint32_t> label;
-  if (job.labels || options.clusters()) label = labels_of(result, loaded.xyz());
+  if (job.labels || options.clusters()) label = labels_of(frame, result);
   if (job.image) {
     status = worse(status, write_file(*job.image, [&] {
-                     write_picture(*job.image, make_picture(loaded.xyz(), result, label, options, report));
+                     Picture picture = picture_of(frame, result, label);
+                     picture.from = options.view;
+                     write_picture(*job.image, picture);
                    }));
   }
   if (job.labels) {
@@ -126,9 +105,9 @@ Status write_files(const Job& job, const Options& options, const FrameResult& re
 }
 
 /// What a user would want to know before believing the results.
-std::vector<std::string> remarks(const Options& options, const FrameResult& result, const PointView& points) {
+std::vector<std::string> remarks(const FrameResult& result, const PointView& points) {
   std::vector<std::string> said;
-  const std::string ground = ground_remark(options.pipeline, result);
+  const std::string ground = ground_remark(result);
   if (!ground.empty()) said.push_back(ground);
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)
@@ -161,7 +140,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   report.counts = result.counts;
   report.clusters = entries_of(result);
   report.origin = loaded.origin();
-  for (const std::string& remark : remarks(options, result, loaded.xyz()))
+  for (const std::string& remark : remarks(result, frame.points))
     complain(job.input + ": " + remark);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
@@ -171,7 +150,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   if (options.timings) report.seconds = {read, (ms.filter + ms.ground + ms.cluster) / 1e3, ms.fit / 1e3};
   const Status checked = check(loaded.xyz(), result, options, report);
   loaded.require_unchanged();
-  return worse(checked, write_files(job, options, result, report, loaded));
+  return worse(checked, write_files(job, options, frame, result, report, loaded));
 }
 
 }  // namespace

@@ -182,6 +182,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   const std::shared_ptr<const Prepared> now = state_->current();
   Watch whole, watch;
   result.header = frame.header;
+  result.config = {now, &now->config};
   result.points = frame.points.count;
   result.counts = Counts();
   result.ms = StageTimes();

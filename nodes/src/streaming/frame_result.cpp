@@ -3,6 +3,8 @@
 
 #include "pcl_bv/nodes/frame_result.h"
 
+#include <algorithm>
+
 #include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/up.h"
@@ -22,8 +24,12 @@ PointView FrameResult::points_of(std::size_t cluster, const PointView& cloud) co
   return subset(cloud, clusters.cluster(cluster), size);
 }
 
-std::vector<std::uint32_t> labels_of(const FrameResult& result, const PointView& cloud) {
-  std::vector<std::uint32_t> label(result.points, label_none);
+std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result) {
+  const PointView& cloud = frame.points;
+  std::size_t size = cloud.first + cloud.count;
+  if (const std::int32_t* numbers = cloud.indices; numbers != nullptr && cloud.count > 0)
+    size = static_cast<std::size_t>(*std::max_element(numbers, numbers + cloud.count)) + 1;
+  std::vector<std::uint32_t> label(size, label_none);
   for (const std::int32_t i : result.ground.ground)
     label[static_cast<std::size_t>(i)] = label_ground;
   for (std::size_t id = 0; id < result.clusters.size(); ++id) {
@@ -39,11 +45,12 @@ std::vector<std::uint32_t> labels_of(const FrameResult& result, const PointView&
   return label;
 }
 
-std::string ground_remark(const PipelineConfig& config, const FrameResult& result) {
+std::string ground_remark(const FrameResult& result) {
+  const GroundConfig& ground = result.config->ground;
   const Counts& counts = result.counts;
   const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
-  if (config.ground.method == GroundMethod::none || looked_at == 0) return {};
-  const std::string tried = " (up is " + up_text(config.ground.up) + ")";
+  if (ground.method == GroundMethod::none || looked_at == 0) return {};
+  const std::string tried = " (up is " + up_text(ground.up) + ")";
   if (counts.ground == 0)
     return "no ground found" + tried + ": try --up, --sensor-height, --ground-slope, or --ground none";
   if (counts.ground == looked_at)

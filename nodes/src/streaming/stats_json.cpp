@@ -27,7 +27,7 @@ Json to_json(const LatencyHistogram& ms) {
 std::string stats_json(const RunnerStats& stats) {
   const FrameTotals& frames = stats.frames;
   const StageLatencies& ms = stats.ms;
-  const Json json{
+  Json json{
       {"frames",
        {{"in", frames.in},
         {"processed", frames.processed},
@@ -41,8 +41,12 @@ std::string stats_json(const RunnerStats& stats) {
         {"cluster", to_json(ms.cluster)},
         {"fit", to_json(ms.fit)},
         {"track", to_json(ms.track)},
-        {"total", to_json(ms.total)}}}};
-  return json.dump();
+        {"total", to_json(ms.total)},
+        {"latency", to_json(ms.latency)}}}};
+  if (stats.callback_errors > 0) json["callback_errors"] = stats.callback_errors;
+  for (const auto& [name, times] : stats.sinks)
+    json["ms"]["sinks"][name] = to_json(times);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may be any bytes
 }
 
 }  // namespace pcl_bv

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -15,11 +14,14 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <variant>
 
 namespace pcl_bv {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostUntold = 1000;
 
 double milliseconds(Clock::duration d) {
   return std::chrono::duration<double, std::milli>(d).count();
@@ -29,25 +31,47 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
+// What an exception said, if there was one.
+template <typename Do>
+std::optional<std::string> problem_of(Do&& what) {
+  try {
+    what();
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "an exception that is no std::exception";
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 struct StreamRunner::State {
   struct Waiting {
     Frame frame;
     Clock::time_point since;
-    std::optional<std::string> unreadable;  // then there is no frame but its header
   };
+  struct Lost {
+    Frame frame;  // without its cloud
+    Loss loss;
+    std::string reason;
+  };
+  using Task = std::variant<std::monostate, Waiting, Lost>;
 
-  bool full() const { return frames_waiting >= config.queue; }
+  bool full() const { return frames.size() >= config.queue; }
   bool in_worker() const { return std::this_thread::get_id() == worker_id; }
 
   State(Callbacks c, const RunnerConfig& r) : callbacks(std::move(c)), config(r) {}
 
   void run();
-  bool take(Waiting& taken);
+  Task take();
   void work_on(const Waiting& waiting);
-  void lost(const FrameHeader& header, const std::string& reason);
+  void tell(const Frame& frame, Loss loss, const std::string& reason);
+  template <typename Do>
+  void guarded(Do&& callback);
   void came();
+  void count(Loss loss);
+  void lose(const Frame& frame, Loss loss, std::string reason);
   void watch(std::unique_lock<std::mutex>& lock);
 
   const Callbacks callbacks;
@@ -55,9 +79,11 @@ struct StreamRunner::State {
 
   mutable std::mutex mutex;
   std::condition_variable arrived, room;
-  std::deque<Waiting> queue;
-  std::size_t frames_waiting = 0;  // of the queue; the others could not be read
-  bool ending = false, discarding = false, silence_told = false;
+  std::deque<Waiting> frames;  // these and what is lost: in the order of their numbers
+  std::deque<Lost> losses;
+  std::uint64_t next_number = 0;
+  std::size_t lost_while_ending = 0;
+  bool ending = false, ended = false, silence_told = false;
   Clock::time_point last_arrival = Clock::now();
   RunnerStats stats;
 
@@ -67,9 +93,17 @@ struct StreamRunner::State {
   std::mutex join_mutex;
 };
 
-// Waits for the next frame, and says so once if it takes too long.
+// Callbacks that no frame depends on.
+template <typename Do>
+void StreamRunner::State::guarded(Do&& callback) {
+  if (!problem_of(callback)) return;
+  const std::lock_guard lock(mutex);
+  ++stats.callback_errors;
+}
+
+// Waits for something to do, and says so once if it takes too long.
 void StreamRunner::State::watch(std::unique_lock<std::mutex>& lock) {
-  const auto something = [this] { return ending || !queue.empty(); };
+  const auto something = [this] { return ending || !frames.empty() || !losses.empty(); };
   if (config.watchdog_s <= 0) return arrived.wait(lock, something);
   const auto patience = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(std::min(config.watchdog_s, 1e6)));
@@ -80,49 +114,54 @@ void StreamRunner::State::watch(std::unique_lock<std::mutex>& lock) {
       silence_told = true;
       const double silent = milliseconds(Clock::now() - last_arrival) / 1000;
       lock.unlock();
-      if (callbacks.on_silence) callbacks.on_silence(silent);
+      if (callbacks.on_silence) guarded([&] { callbacks.on_silence(silent); });
       lock.lock();
     }
   }
 }
 
-// The next frame that is not too old; false at the end.
-bool StreamRunner::State::take(Waiting& taken) {
+// What comes next; nothing at the end.
+StreamRunner::State::Task StreamRunner::State::take() {
   std::unique_lock lock(mutex);
-  for (;;) {
-    watch(lock);
-    if (discarding || queue.empty()) return false;
-    taken = std::move(queue.front());
-    queue.pop_front();
-    room.notify_all();
-    if (taken.unreadable) return true;
-    --frames_waiting;
-    const double age = milliseconds(Clock::now() - taken.since);
+  watch(lock);
+  Task task;
+  if (!losses.empty() &&
+      (frames.empty() || losses.front().frame.header.number < frames.front().frame.header.number)) {
+    task = std::move(losses.front());
+    losses.pop_front();
+  } else if (!frames.empty()) {
+    Waiting waiting = std::move(frames.front());
+    frames.pop_front();
+    const double age = milliseconds(Clock::now() - waiting.since);
     if (config.max_age_ms > 0 && age > config.max_age_ms) {
-      ++stats.frames.dropped_age;
-      continue;
+      count(Loss::age);
+      task = Lost{std::move(waiting.frame), Loss::age, "dropped: age"};
+    } else {
+      stats.ms.wait.add(age);
+      task = std::move(waiting);
     }
-    stats.ms.wait.add(age);
-    return true;
+  } else {
+    ended = true;
   }
+  room.notify_all();
+  return task;
 }
 
-void StreamRunner::State::lost(const FrameHeader& header, const std::string& reason) {
-  {
-    const std::lock_guard lock(mutex);
-    ++stats.frames.dropped_error;
-  }
-  if (callbacks.on_error) callbacks.on_error(header, reason);
+void StreamRunner::State::tell(const Frame& frame, Loss loss, const std::string& reason) {
+  if (callbacks.on_lost) guarded([&] { callbacks.on_lost(frame, loss, reason); });
 }
 
 void StreamRunner::State::work_on(const Waiting& waiting) {
-  try {
+  const auto problem = problem_of([&] {
     callbacks.process(waiting.frame, result);
-    callbacks.on_result(result);
-  } catch (const std::exception& error) {
-    return lost(waiting.frame.header, error.what());
-  } catch (...) {
-    return lost(waiting.frame.header, "an exception that is no std::exception");
+    callbacks.on_result(waiting.frame, result);
+  });
+  if (problem) {
+    {
+      const std::lock_guard lock(mutex);
+      count(Loss::error);
+    }
+    return tell(waiting.frame, Loss::error, *problem);
   }
   const std::lock_guard lock(mutex);
   const StageTimes& ms = result.ms;
@@ -134,6 +173,7 @@ void StreamRunner::State::work_on(const Waiting& waiting) {
   stats.ms.fit.add(ms.fit);
   stats.ms.track.add(ms.track);
   stats.ms.total.add(ms.total);
+  stats.ms.latency.add(milliseconds(Clock::now() - waiting.frame.taken));
 }
 
 void StreamRunner::State::run() {
@@ -141,21 +181,44 @@ void StreamRunner::State::run() {
     const std::lock_guard lock(mutex);
     worker_id = std::this_thread::get_id();
   }
-  Waiting waiting;
-  while (take(waiting)) {
-    if (waiting.unreadable) {
-      lost(waiting.frame.header, *waiting.unreadable);
+  for (;;) {
+    const Task task = take();  // its cloud is not kept until the next one comes
+    if (const auto* waiting = std::get_if<Waiting>(&task)) {
+      work_on(*waiting);
+    } else if (const auto* lost = std::get_if<Lost>(&task)) {
+      tell(lost->frame, lost->loss, lost->reason);
     } else {
-      work_on(waiting);
+      return;
     }
-    waiting = Waiting();  // its cloud is not kept until the next one comes
   }
 }
 
+// All below with the lock.
 void StreamRunner::State::came() {
   ++stats.frames.in;
   last_arrival = Clock::now();
   silence_told = false;
+}
+
+void StreamRunner::State::count(Loss loss) {
+  FrameTotals& totals = stats.frames;
+  ++(loss == Loss::queue ? totals.dropped_queue
+     : loss == Loss::age ? totals.dropped_age
+                         : totals.dropped_error);
+}
+
+// The cloud stays with the caller, who frees it without the lock.
+void StreamRunner::State::lose(const Frame& frame, Loss loss, std::string reason) {
+  count(loss);
+  if (ended || losses.size() >= kMostUntold || (ending && ++lost_while_ending > kMostUntold)) return;
+  Lost lost{{}, loss, std::move(reason)};
+  lost.frame.header = frame.header;
+  lost.frame.file = frame.file;
+  const auto later = [](std::uint64_t number, const Lost& other) {
+    return number < other.frame.header.number;
+  };
+  losses.insert(std::upper_bound(losses.begin(), losses.end(), frame.header.number, later), std::move(lost));
+  arrived.notify_one();
 }
 
 StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config) {
@@ -172,63 +235,53 @@ StreamRunner::~StreamRunner() {
 }
 
 bool StreamRunner::push(Frame frame) {
+  require(frame.points.count == 0 || frame.owner != nullptr,
+          "StreamRunner::push: a frame of points without an owner, which keeps them");
   State& s = *state_;
+  if (frame.taken == Clock::time_point()) frame.taken = Clock::now();
+  State::Waiting oldest;  // freed without the lock
   std::unique_lock lock(s.mutex);
   s.came();
   const bool block = s.config.policy == QueuePolicy::block;
   if (block && !s.in_worker()) s.room.wait(lock, [&s] { return s.ending || !s.full(); });
-  if (s.ending || (s.full() && s.config.policy != QueuePolicy::drop_oldest)) {
-    ++s.stats.frames.dropped_queue;
+  frame.header.number = s.next_number++;
+  const bool drops_itself = block || s.config.policy == QueuePolicy::drop_newest;
+  if (s.ending || (s.full() && drops_itself)) {
+    s.lose(frame, Loss::queue, "dropped: queue");
     return false;
   }
-  Frame dropped;  // freed without the lock
   if (s.full()) {
-    const auto oldest =
-        std::find_if(s.queue.begin(), s.queue.end(), [](const auto& waiting) { return !waiting.unreadable; });
-    dropped = std::move(oldest->frame);
-    s.queue.erase(oldest);
-    --s.frames_waiting;
-    ++s.stats.frames.dropped_queue;
+    oldest = std::move(s.frames.front());
+    s.frames.pop_front();
+    s.lose(oldest.frame, Loss::queue, "dropped: queue");
   }
-  s.queue.push_back({std::move(frame), Clock::now(), std::nullopt});
-  ++s.frames_waiting;
+  s.frames.push_back({std::move(frame), Clock::now()});
   s.arrived.notify_one();
-  lock.unlock();
   return true;
 }
 
-void StreamRunner::report_unreadable(const FrameHeader& header, const std::string& reason) {
-  constexpr std::size_t many = 1000;
+void StreamRunner::report_unreadable(Frame frame, std::string reason) {
   State& s = *state_;
   std::unique_lock lock(s.mutex);
   s.came();
-  if (!s.in_worker()) {
-    s.room.wait(lock, [&s] { return s.ending || s.queue.size() < s.config.queue + many; });
-  }
-  if (s.ending) {
-    lock.unlock();
-    return s.lost(header, reason);
-  }
-  Frame frame;
-  frame.header = header;
-  s.queue.push_back({std::move(frame), Clock::now(), reason});
-  s.arrived.notify_one();
+  if (!s.in_worker()) s.room.wait(lock, [&s] { return s.ending || s.losses.size() < kMostUntold; });
+  frame.header.number = s.next_number++;
+  s.lose(frame, Loss::error, std::move(reason));
 }
 
 void StreamRunner::stop(End end) {
   State& s = *state_;
+  std::deque<State::Waiting> discarded;
   bool from_callback = false;
   {
     const std::lock_guard lock(s.mutex);
     from_callback = s.in_worker();
-    s.ending = true;
     if (end == End::discard) {
-      s.discarding = true;
-      s.stats.frames.dropped_queue += s.frames_waiting;
-      s.stats.frames.dropped_error += s.queue.size() - s.frames_waiting;
-      s.frames_waiting = 0;
-      s.queue.clear();
+      discarded.swap(s.frames);
+      for (const State::Waiting& waiting : discarded)
+        s.lose(waiting.frame, Loss::queue, "dropped: queue");
     }
+    s.ending = true;
   }
   s.arrived.notify_all();
   s.room.notify_all();

@@ -4,8 +4,11 @@
 // One cloud of a stream on its way in.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "pcl_bv/kernels/point_view.h"
@@ -14,17 +17,38 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What names a frame; kept as it came.
 struct FrameHeader {
-  std::uint64_t seq = 0;      ///< Number in the stream.
+  std::uint64_t seq = 0;      ///< Number in the stream, if the source counts: it may repeat or stay 0.
   std::int64_t stamp_ns = 0;  ///< When the sensor took it, nanoseconds of the sensor's clock.
   std::string frame_id;       ///< The coordinate frame of the points.
+  std::uint64_t number = 0;   ///< Given by StreamRunner: 0, 1, 2, ... in the order in which frames came.
 };
 
-/// A cloud of any point type. `owner` keeps alive what `points` looks at.
+/// Where the sensor is: a point p in its frame is at pose * p in the fixed one. Converts from and to
+/// Eigen::Isometry3d, whose alignment depends on a program's -mavx, which a library's types must not.
+using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
+
+/// A cloud of any point type.
 struct Frame {
   FrameHeader header;
   PointView points;
+
+  /// Keeps alive what `points` looks at. May be null only where the frame does not outlive the call, as in
+  /// FramePipeline::process(); StreamRunner::push() refuses points without it.
   std::shared_ptr<const void> owner;
-  double decode_ms = 0;  ///< What reading it cost, if somebody measured it.
+
+  double decode_ms = 0;      ///< What reading it cost, if somebody measured it.
+  std::string file;          ///< Where it comes from; empty if not from a file.
+  std::optional<Pose> pose;  ///< Of the sensor in a fixed frame, if it is known.
+
+  /// From when its latency counts. Replays at a pace: when it was due. A live source whose stamps are the
+  /// system's time: steady_time(stamp_ns). If not set, StreamRunner::push() sets it to when it is called.
+  std::chrono::steady_clock::time_point taken{};
 };
+
+/// A time of the system's clock, nanoseconds since 1970, on the clock that is never set.
+inline std::chrono::steady_clock::time_point steady_time(std::int64_t system_ns) {
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::steady_clock::now() - (since_1970 - std::chrono::nanoseconds(system_ns));
+}
 
 }  // namespace pcl_bv

@@ -28,6 +28,7 @@ struct StageTimes {
 /// Reuse keeps the capacity. Indices are those of the frame's cloud.
 struct FrameResult {
   FrameHeader header;
+  std::shared_ptr<const PipelineConfig> config;  ///< What was asked for.
   std::size_t points = 0;          ///< All points of the cloud, good or bad.
   Counts counts;                   ///< Points that are in no cluster, by reason.
   std::vector<std::int32_t> kept;  ///< What passed the filter, if that dropped points: see kept_points().
@@ -56,11 +57,12 @@ struct FrameResult {
   PointView points_of(std::size_t cluster, const PointView& cloud) const;
 };
 
-/// For each point of the cloud the number of its cluster, label_ground, or label_none.
-std::vector<std::uint32_t> labels_of(const FrameResult& result, const PointView& cloud);
+/// For each point of the frame's cloud (where `points` has an index list: up to the greatest number in it)
+/// the number of its cluster, label_ground, or label_none. `result` must be that of the frame.
+std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result);
 
 /// If ground was asked for and there is none, or nothing else: that, and which settings to try; else nothing.
-std::string ground_remark(const PipelineConfig& config, const FrameResult& result);
+std::string ground_remark(const FrameResult& result);
 
 /// The clusters as they are reported.
 std::vector<ClusterEntry> entries_of(const FrameResult& result);

@@ -4,14 +4,19 @@
 // Where results go.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/nodes/latency.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -21,47 +26,89 @@ class ClosedPipe : public IoError {
   using IoError::IoError;
 };
 
+/// Called by one thread.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
 
-  /// One frame, in order. Throws IoError if it cannot be written, ClosedPipe where SIGPIPE is ignored.
-  virtual void write(const FrameResult& result) = 0;
+  /// One frame, in order. Throws IoError if nothing more can be written, ClosedPipe where SIGPIPE is ignored;
+  /// anything else is of this frame only.
+  virtual void write(const Frame& frame, const FrameResult& result) = 0;
 
   /// A frame that was lost, and why.
-  virtual void write_error(const FrameHeader& header, const std::string& reason) = 0;
+  virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
   /// The end; nothing is written afterwards. Throws IoError if what was written is not all there.
   virtual void close() {}
 };
 
-/// A JSON object a line. Each line is written whole when its frame is done, so that the file can be followed;
-/// "-" is standard output. Throws IoError if it cannot be opened.
-std::unique_ptr<FrameSink> make_jsonl_sink(const std::filesystem::path& file);
+struct SinkDescription;
 
-/// A line per volume: `seq,stamp_ns,track,cluster,points,method,cx,...`. Lost frames leave none. Otherwise as
-/// make_jsonl_sink().
-std::unique_ptr<FrameSink> make_csv_sink(const std::filesystem::path& file);
-
-/// For ParaView: a file of meshes per frame, frame000000.vtp on, and at the end frames.pvd with their times,
-/// which are the stamps less the first one. The folder is made if it is not there.
-std::unique_ptr<FrameSink> make_vtp_sink(const std::filesystem::path& folder);
-
-enum class SinkKind : std::uint8_t { jsonl, csv, vtp };
-
-struct SinkDescription {
-  SinkKind kind = SinkKind::jsonl;
-  std::filesystem::path place;
+/// A row of the table of sinks.
+struct SinkKind {
+  std::string_view name;   ///< What stands before the colon: "vtp".
+  std::string_view place;  ///< What stands after it, as --help says: "FOLDER[,points]".
+  std::string_view files;  ///< How the names of its files end, where the place is their folder; else empty.
+  std::unique_ptr<FrameSink> (*open)(const SinkDescription&);
 };
 
-/// Reads "jsonl:FILE", "csv:FILE" or "vtp:FOLDER"; opens nothing. Throws std::invalid_argument for anything
-/// else.
+/// jsonl, csv, vtp, image, labels.
+const std::vector<SinkKind>& sink_kinds();
+
+/// "jsonl:FILE, csv:FILE, ...": all of them, for help and errors.
+std::string sink_syntax();
+
+struct SinkDescription {
+  const SinkKind* kind = nullptr;
+  std::filesystem::path place;  ///< "-" is standard output.
+  bool points = false;          ///< The frame's points, too.
+};
+
+/// Reads what sink_syntax() says; opens nothing. Throws std::invalid_argument for anything else.
 SinkDescription parse_sink(const std::string& description);
 
-/// One of those above.
+/// Opens it: a file is emptied, a folder made if it is not there. Throws IoError. After each frame files hold
+/// whole lines (jsonl, csv) and frames.pvd (vtp) lists it; files of a frame (vtp, image, labels) are named by
+/// FrameHeader::number.
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
 /// Calls the function with each result.
-std::unique_ptr<FrameSink> make_sink(std::function<void(const FrameResult&)> on_result);
+std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const FrameResult&)> on_result);
+
+/// Many sinks, of which none harms another or the stream: one that throws IoError is given up, what else it
+/// throws costs it a frame. stats() and alive() may be called from any thread.
+class SinkGroup {
+ public:
+  /// `say` is told of each failure in words, once in a row.
+  explicit SinkGroup(std::function<void(const std::string&)> say);
+  ~SinkGroup();
+
+  void add(std::string name, std::unique_ptr<FrameSink> sink);
+
+  /// Opens it; throws as make_sink(), with its name.
+  void add(const SinkDescription& description);
+
+  void write(const Frame& frame, const FrameResult& result);
+  void write_lost(const Frame& frame, const std::string& reason);
+
+  /// Closes all, and says which lack more than one frame, and how many.
+  void close();
+
+  bool failed() const { return failed_; }  ///< Whether anything was not written, but to a closed pipe.
+  bool alive() const { return alive_; }    ///< Whether one still takes frames.
+  std::vector<std::pair<std::string, LatencyHistogram>> times() const;  ///< Of write(), milliseconds.
+
+ private:
+  struct Member;
+  void complain(Member& member, const std::string& problem);
+  template <typename Do>
+  bool attempt(Member& member, const Do& what);
+  template <typename Do>
+  void each(const Do& what);
+
+  std::function<void(const std::string&)> say_;
+  std::vector<std::unique_ptr<Member>> members_;
+  std::atomic<bool> failed_{false}, alive_{true};
+};
 
 }  // namespace pcl_bv

@@ -4,6 +4,7 @@
 // Where frames come from.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,57 +13,87 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "pcl_bv/nodes/frame.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A frame that its source has not been able to read; the next one may be fine. what() names it and says why.
+/// A frame that its source has not been able to read; the next one may be fine. what() names its file and
+/// says why.
 class FrameError : public std::runtime_error {
  public:
-  FrameError(FrameHeader frame_header, const std::string& what)
-      : std::runtime_error(what), header(std::move(frame_header)) {}
-  FrameHeader header;
+  FrameError(Frame lost, const std::string& why)
+      : std::runtime_error(lost.file.empty() ? why : lost.file + ": " + why),
+        frame(std::move(lost)),
+        reason(why) {}
+  Frame frame;  ///< What is known of it: header and file.
+  std::string reason;
+};
+
+enum class Next : std::uint8_t {
+  frame,
+  end,
+  nothing  ///< Nothing has come yet: ask again.
 };
 
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// Replaces `frame` by the next one; false at the end. Throws FrameError for a frame that cannot be read;
-  /// the next call gives the one after it.
-  virtual bool next(Frame& frame) = 0;
+  /// Replaces `frame` by the next one if it comes within `patience`; reading a file that is there may take
+  /// longer. Throws FrameError for a frame that cannot be read; the next call gives the one after it. After
+  /// the end, and after any other exception, it is not called again.
+  virtual Next next(Frame& frame, std::chrono::milliseconds patience) = 0;
 };
 
 inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
 
-/// How files become frames.
+/// How recordings become frames.
 struct ReplayOptions {
-  double rate_hz = 10;  ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
-  /// From the last number in the file's name instead: whole ones are nanoseconds, with a point seconds. A
-  /// name without a number is a FrameError.
-  bool from_name = false;
+  double rate_hz = 10;         ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
+  bool from_name = false;      ///< Stamps by stamp_in_name() instead; without one, a name is a FrameError.
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
+  std::size_t loops = 1;       ///< How often; at least once.
+  std::string frame_id{};      ///< Of all frames; if empty, what the recording says.
+
+  /// A file of the sensor's poses, if not empty. A line has 12 numbers, the upper rows of the frame's matrix
+  /// (KITTI: of the left camera where `Tr:` in a calib.txt beside the file says how to convert), as many
+  /// lines as frames; or `seconds x y z qx qy qz qw` (TUM), where frames are between two lines at most 0.5 s
+  /// apart, interpolated, or have no pose. Lines that begin with # and empty ones are skipped.
+  std::filesystem::path poses{};
 };
 
-/// The clouds of a folder in natural order, or one file, `loops` times over (at least once). Throws IoError
-/// if there is no cloud, std::invalid_argument for a rate out of range.
-std::unique_ptr<FrameSource> open_folder(const std::filesystem::path& path, const ReplayOptions& stamps = {},
-                                         std::size_t loops = 1);
+/// A row of the table of sources.
+struct SourceKind {
+  std::string_view syntax;
+  bool has_names;  ///< Whether its frames have files' names.
+  bool (*takes)(const std::string& name);
+  std::unique_ptr<FrameSource> (*open)(const std::string& name, const ReplayOptions& options);
+};
 
-/// `street-sequence[:FRAMES[:SEED]]`, each frame made when it is asked for. Throws std::invalid_argument for
-/// another name and as open_folder().
-std::unique_ptr<FrameSource> open_synth(std::string_view name, const ReplayOptions& stamps = {},
-                                        std::size_t loops = 1);
+/// The first that takes a name opens it; the last takes any.
+const std::vector<SourceKind>& source_kinds();
+const SourceKind& source_kind(const std::string& name);
 
-/// open_synth() for what begins with "synth:", else open_folder().
-std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& stamps = {},
-                                         std::size_t loops = 1);
+/// All that can be opened, for help.
+std::string source_syntax();
 
-/// What the function gives, until it returns false. It may throw FrameError.
+/// A folder of clouds in natural order, one file, or `synth:street-sequence[:FRAMES[:SEED]]`, whose frames
+/// are made when they are asked for. Throws IoError if there is no cloud or no poses can be read,
+/// std::invalid_argument for a rate out of range, for names none of which has a stamp, and for an unknown
+/// sequence.
+std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
+
+/// What the function gives, until it returns false. It may wait as long as it likes: each call is in a thread of
+/// its own. One that still waits when the source is destroyed is left to, so that what it uses must be there
+/// until it returns. Its exceptions are those of next().
 std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
-/// The stamp in a file's name without its extension, as ReplayOptions says; nanoseconds, -1 without one.
+/// The stamp in a file's name without its extension, nanoseconds; -1 without one. Of its last number: seconds
+/// if it has a decimal point, microseconds from 1e15 to 1e16 (2001 to 2286), nanoseconds from there on.
+/// Smaller ones count frames.
 std::int64_t stamp_in_name(std::string_view stem);
 
 }  // namespace pcl_bv

@@ -17,14 +17,18 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What happens to a frame that finds the queue full.
 enum class QueuePolicy : std::uint8_t {
+  automatic,    ///< "auto": block where frames come as fast as they can be taken, else drop_oldest.
   drop_oldest,  ///< The one that waits longest makes room: what comes out is as fresh as can be.
   drop_newest,  ///< It is dropped itself.
   block         ///< Its sender waits: nothing is lost. For files.
 };
 
+/// What `automatic` means for frames that come at a pace of their own, or do not; others as they are.
+QueuePolicy resolved(QueuePolicy policy, bool paced);
+
 struct RunnerConfig {
   std::size_t queue = 1;  ///< Frames that may wait, at least 1.
-  QueuePolicy policy = QueuePolicy::drop_oldest;
+  QueuePolicy policy = QueuePolicy::automatic;
   double max_age_ms = 0;  ///< Frames that have waited longer are dropped; 0: none are.
   double watchdog_s = 0;  ///< Say so if no frame comes for so long, seconds; 0: never.
 };

@@ -8,6 +8,8 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
@@ -16,51 +18,60 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// Why a frame has no result.
+enum class Loss : std::uint8_t {
+  queue,  ///< For want of room, and what stop() discards.
+  age,    ///< It waited longer than max_age_ms.
+  error   ///< An exception was thrown, or the source could not read it.
+};
+
 /// What became of the frames. in = processed + dropped_* + those still waiting or being processed.
 struct FrameTotals {
-  std::uint64_t in = 0;             ///< Pushed.
-  std::uint64_t processed = 0;      ///< Handed to the callback.
-  std::uint64_t dropped_queue = 0;  ///< For want of room, and those discarded at the end.
-  std::uint64_t dropped_age = 0;    ///< For having waited longer than max_age_ms.
-  std::uint64_t dropped_error = 0;  ///< Because an exception was thrown, or the source could not read them.
+  std::uint64_t in = 0;                                                 ///< Pushed.
+  std::uint64_t processed = 0;                                          ///< Handed to the callback.
+  std::uint64_t dropped_queue = 0, dropped_age = 0, dropped_error = 0;  ///< By Loss.
 };
 
 /// Milliseconds by stage, over all processed frames. `wait` is the time in the queue, also of frames whose
-/// work threw.
+/// work threw; `latency` that from Frame::taken, by default the call of push(), to the return of on_result.
 struct StageLatencies {
-  LatencyHistogram decode, wait, filter, ground, cluster, fit, track, total;
+  LatencyHistogram decode, wait, filter, ground, cluster, fit, track, total, latency;
 };
 
 struct RunnerStats {
   FrameTotals frames;
   StageLatencies ms;
+  std::uint64_t callback_errors = 0;  ///< Exceptions of on_lost and on_silence, which cost no frame.
+  std::vector<std::pair<std::string, LatencyHistogram>> sinks;  ///< Milliseconds of each, from SinkGroup.
 };
 
 /// `{"frames":{"in":..,"processed":..,"dropped":{"queue":..,"age":..,"error":..}},"ms":{"total":{"p50":..,"p95":..,
-/// "p99":..,"max":..},..}}`
+/// "p99":..,"max":..},..,"sinks":{"jsonl:-":{..}}}}`
 std::string stats_json(const RunnerStats& stats);
 
 /// Frames in from any thread, results out in the runner's thread, in order.
 ///
 /// Memory is bounded by the queue. The runner must not be destroyed from a callback, nor while another thread
-/// may still push(). An exception of the process or the result callback drops that frame,
-/// counts it and goes to on_error; the stream goes on.
+/// may still push(). An exception of the process or the result callback drops that frame and is told to
+/// on_lost; the stream goes on.
 class StreamRunner {
  public:
+  /// All are called in the runner's thread, in the order of FrameHeader::number, also while it stops.
   struct Callbacks {
     /// The work; FramePipeline::process() of a pipeline that outlives the runner.
     std::function<void(const Frame&, FrameResult&)> process;
-    /// Each result, in the order of the frames. May stop() the runner.
-    std::function<void(const FrameResult&)> on_result;
-    /// A frame that was lost to an exception, and why. Optional; must not throw.
-    std::function<void(const FrameHeader&, const std::string&)> on_error;
+    /// Each result with its frame. May stop() the runner.
+    std::function<void(const Frame&, const FrameResult&)> on_result;
+    /// A frame that was lost, whose points may be gone, and why in words. Optional. Where a thousand wait to be
+    /// told, and after a thousand that came when the runner was stopped, further ones are only counted.
+    std::function<void(const Frame&, Loss, const std::string&)> on_lost;
     /// No frame has come for config.watchdog_s; seconds since the last one. Called once per silence.
-    /// Optional; must not throw.
+    /// Optional.
     std::function<void(double)> on_silence;
   };
 
-  /// Starts the thread. Throws std::invalid_argument for a queue of 0, a negative or NaN duration, or without
-  /// a `process` and an `on_result`.
+  /// Starts the thread. QueuePolicy::automatic is drop_oldest here. Throws std::invalid_argument for a queue
+  /// of 0, a negative or NaN duration, or without a `process` and an `on_result`.
   StreamRunner(Callbacks callbacks, const RunnerConfig& config);
 
   /// stop(End::discard).
@@ -70,16 +81,17 @@ class StreamRunner {
 
   /// Hands over a frame; false if it is dropped at once, which a stopped runner always does. Waits only with
   /// QueuePolicy::block, until there is room or the runner is stopped; from a callback, which would wait for
-  /// itself, it does not wait either and drops the frame.
+  /// itself, it does not wait either and drops the frame. Throws std::invalid_argument for points without an
+  /// owner, which might be gone when it is their turn.
   bool push(Frame frame);
 
-  /// Counts a frame that its source could not read. Goes to on_error, after the results of the frames before
-  /// it; takes no room in the queue, but waits where a thousand such frames do.
-  void report_unreadable(const FrameHeader& header, const std::string& reason);
+  /// Counts a frame that its source could not read, in its place among the others. Takes no room in the
+  /// queue, but waits where a thousand lost frames do.
+  void report_unreadable(Frame frame, std::string reason);
 
   enum class End {
     drain,   ///< What waits is processed first.
-    discard  ///< What waits is dropped and counted as dropped_queue; the frame in work is finished.
+    discard  ///< What waits is dropped (Loss::queue); the frame in work is finished.
   };
 
   /// Ends the thread and waits for it; from a callback, it ends after the callback. Again: does nothing,

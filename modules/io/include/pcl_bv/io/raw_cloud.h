@@ -50,6 +50,14 @@ struct RawCloud {
   PointView xyz() const;
 };
 
+/// The coordinates of `count` records, `point_step` bytes apart, which a message describes by fields like
+/// those of sensor_msgs/PointCloud2 (FLOAT32 is 'F', 4, FLOAT64 'F', 8); nothing is copied, and the view dies
+/// with the data. x, y and z may stand anywhere in the record and need no alignment, but side by side in this
+/// order, all float32 or all float64, in this machine's byte order; other fields do not matter. Throws
+/// std::invalid_argument for anything else, also where they reach beyond the record.
+PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t point_step,
+                         const std::vector<PointField>& fields);
+
 /// The first field of this name, or null.
 const PointField* find_field(const RawCloud& cloud, std::string_view name);
 

@@ -20,12 +20,13 @@ struct TrackedEntry {
   std::optional<std::uint32_t> track;  ///< None without tracking, and until the track is born.
 };
 
-/// One frame. If `error` is set it was not processed, and only seq, stamp_ns, frame_id and error mean
-/// anything.
+/// One frame. If `error` is set it was not processed, and only seq, stamp_ns, frame_id, file and error
+/// mean anything.
 struct FrameReport {
   std::uint64_t seq = 0;
   std::int64_t stamp_ns = 0;
   std::string frame_id;
+  std::string file;        ///< Where the cloud comes from; left out if empty.
   std::size_t points = 0;  ///< All points, good or bad.
   Counts counts;
   std::vector<TrackedEntry> clusters;

@@ -4,12 +4,15 @@
 // Volumes as meshes for viewers: .ply for CloudCompare and MeshLab, .vtp and .pvd for ParaView.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/report/report.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -31,8 +34,13 @@ std::string volumes_ply(const std::vector<ClusterEntry>& clusters);
 
 /// The same as a VTK PolyData file (XML, ascii), every number with the digits that read back exactly. Each
 /// cell (polygon, line or vertex) has `cluster` (the id), `method` (a number from 0 on, in order of
-/// appearance), `points` and `volume`; the field data `methods` holds the methods' names.
-std::string volumes_vtp(const std::vector<ClusterEntry>& clusters);
+/// appearance), `points` and `volume`, and `track`, -1 for none, if `tracks` says one for each cluster; the
+/// field data `methods` holds the methods' names.
+std::string volumes_vtp(const std::vector<ClusterEntry>& clusters,
+                        const std::vector<std::optional<std::uint32_t>>& tracks = {});
+
+/// The valid points as such a file, in one cell, each with its `label`: labels[number of the point].
+std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels);
 
 /// Writes one of the above as write_file_atomically() does. Throws IoError if that fails.
 void write_volumes(const std::filesystem::path& path, const std::vector<ClusterEntry>& clusters,
@@ -42,11 +50,18 @@ void write_volumes(const std::filesystem::path& path, const std::vector<ClusterE
 struct PvdEntry {
   double time_seconds = 0;
   std::string file;  ///< Of the frame, UTF-8, relative to the folder of the index.
+  int part = 0;      ///< Of what is shown together at this time.
 };
 
-/// Writes the index by which ParaView plays frames as a time series, as write_file_atomically() does. Throws
-/// IoError if that fails; std::invalid_argument for a file name with control characters, which XML cannot
-/// hold; std::domain_error for a time that is not finite.
-void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries);
+/// The index by which ParaView plays frames as a time series is a file of pvd_begin, entries and pvd_end.
+inline constexpr std::string_view pvd_begin =
+    "<?xml version=\"1.0\"?>\n"
+    "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+    "  <Collection>\n";
+inline constexpr std::string_view pvd_end = "  </Collection>\n</VTKFile>\n";
+
+/// Throws std::invalid_argument for a file name with control characters, which XML cannot hold;
+/// std::domain_error for a time that is not finite.
+std::string pvd_entry(const PvdEntry& entry);
 
 }  // namespace pcl_bv

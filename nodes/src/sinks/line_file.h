@@ -4,6 +4,8 @@
 // Text that others may read while it grows.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -12,8 +14,7 @@
 
 namespace pcl_bv {
 
-/// Lines appended to a new file, or "-" for standard output, each by one write where the system takes it
-/// whole.
+/// A new file, or "-" for standard output, that grows by one write() a time where the system takes it whole.
 class LineFile {
  public:
   /// Throws IoError if it cannot be opened.
@@ -22,15 +23,16 @@ class LineFile {
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Adds the line's end. Throws ClosedPipe (where SIGPIPE is ignored) and IoError.
-  void write(std::string line);
+  /// Appends the text in place of the last call's tail, which ended the file until now, and its own tail.
+  /// Throws ClosedPipe (where SIGPIPE is ignored) and IoError.
+  void write(std::string text, std::string_view tail = {});
 
   /// Throws IoError if the system says so late that something was not written.
   void close();
 
  private:
   int descriptor_;
-  std::string name_;
+  off_t tail_ = 0;
 };
 
 }  // namespace pcl_bv

@@ -7,17 +7,18 @@
 
 namespace pcl_bv {
 
-FrameReport to_report(const FrameHeader& header, const std::string& error) {
+FrameReport to_report(const Frame& frame, const std::string& error) {
   FrameReport report;
-  report.seq = header.seq;
-  report.stamp_ns = header.stamp_ns;
-  report.frame_id = header.frame_id;
+  report.seq = frame.header.seq;
+  report.stamp_ns = frame.header.stamp_ns;
+  report.frame_id = frame.header.frame_id;
+  report.file = frame.file;
   report.error = error;
   return report;
 }
 
-FrameReport to_report(const FrameResult& result) {
-  FrameReport report = to_report(result.header, "");
+FrameReport to_report(const Frame& frame, const FrameResult& result) {
+  FrameReport report = to_report(frame, "");
   report.error.reset();
   report.points = result.points;
   report.counts = result.counts;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "stages/shifted_points.h"
+#include "shifted_points.h"
 
 #include <cstring>
 

@@ -10,6 +10,8 @@
 namespace pcl_bv {
 namespace {
 
+constexpr std::int64_t kLeastStamp = 1'000'000'000'000'000;  // whole: smaller ones count frames
+
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -36,7 +38,10 @@ std::int64_t stamp_in_name(std::string_view stem) {
     for (--before; before > 0 && is_digit(stem[before - 1]);)
       --before;
   }
-  if (before + 1 >= begin) return whole(last);
+  if (before + 1 >= begin) {
+    const std::int64_t stamp = whole(last);
+    return stamp < kLeastStamp ? -1 : stamp < 10 * kLeastStamp ? 1000 * stamp : stamp;
+  }
   std::string nanoseconds(last.substr(0, 9));
   nanoseconds.append(9 - nanoseconds.size(), '0');
   const std::int64_t seconds = whole(stem.substr(before, begin - 1 - before));

@@ -17,25 +17,22 @@
 
 namespace pcl_bv {
 
-LineFile::LineFile(const std::filesystem::path& file)
-    : descriptor_(STDOUT_FILENO), name_(file == "-" ? "standard output" : file.string()) {
+LineFile::LineFile(const std::filesystem::path& file) : descriptor_(STDOUT_FILENO) {
   if (file == "-") return;
-  try {
-    make_folder_of(file);
-  } catch (const IoError& error) {
-    throw IoError(name_ + ": " + error.what());
-  }
+  make_folder_of(file);
   descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) throw IoError(name_ + ": " + std::strerror(errno));
+  if (descriptor_ < 0) throw IoError(std::strerror(errno));
 }
 
 LineFile::~LineFile() {
   if (descriptor_ > STDOUT_FILENO) ::close(descriptor_);
 }
 
-void LineFile::write(std::string line) {
-  line += '\n';
-  for (std::string_view rest = line; !rest.empty();) {
+void LineFile::write(std::string text, std::string_view tail) {
+  if (tail_ > 0 && ::lseek(descriptor_, -tail_, SEEK_CUR) < 0) throw IoError(std::strerror(errno));
+  tail_ = static_cast<off_t>(tail.size());
+  text += tail;
+  for (std::string_view rest = text; !rest.empty();) {
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
@@ -43,15 +40,15 @@ void LineFile::write(std::string line) {
       ::poll(&writable, 1, -1);
       continue;
     }
-    if (written < 0 && errno == EPIPE) throw ClosedPipe(name_ + ": " + std::strerror(errno));
-    if (written < 0) throw IoError(name_ + ": " + std::strerror(errno));
+    if (written < 0 && errno == EPIPE) throw ClosedPipe(std::strerror(errno));
+    if (written < 0) throw IoError(std::strerror(errno));
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
 void LineFile::close() {
   if (descriptor_ <= STDOUT_FILENO) return;
-  if (::close(std::exchange(descriptor_, -1)) != 0) throw IoError(name_ + ": " + std::strerror(errno));
+  if (::close(std::exchange(descriptor_, -1)) != 0) throw IoError(std::strerror(errno));
 }
 
 }  // namespace pcl_bv

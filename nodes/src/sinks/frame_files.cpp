@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Files for each frame: pictures, labelled clouds, and meshes with an index.
+
+#include <algorithm>
+#include <cstring>
+
+#include "frame_report.h"
+#include "line_file.h"
+#include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/pcd.h"
+#include "pcl_bv/nodes/frame_picture.h"
+#include "pcl_bv/report/meshes.h"
+#include "sinks.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+
+const SinkDescription& with_folder(const SinkDescription& description) {
+  std::error_code failure;
+  fs::create_directories(description.place, failure);
+  if (!fs::is_directory(description.place)) throw IoError("cannot be made a folder");
+  return description;
+}
+
+// frame000012.vtp
+std::string numbered(const char* stem, const Frame& frame, std::string_view extension) {
+  std::string number = std::to_string(frame.header.number);
+  number.insert(0, 6 - std::min<std::size_t>(number.size(), 6), '0');
+  return stem + number + std::string(extension);
+}
+
+class FilesSink : public FrameSink {
+ public:
+  using Write = void (*)(const fs::path&, const Frame&, const FrameResult&);
+  FilesSink(const SinkDescription& description, Write write_file)
+      : description_(with_folder(description)), write_(write_file) {}
+  void write(const Frame& frame, const FrameResult& result) override {
+    write_(description_.place / numbered("frame", frame, description_.kind->files), frame, result);
+  }
+
+ private:
+  SinkDescription description_;
+  Write write_;
+};
+
+void write_image(const fs::path& file, const Frame& frame, const FrameResult& result) {
+  const std::vector<std::uint32_t> labels = labels_of(frame, result);
+  write_picture(file, picture_of(frame, result, labels));
+}
+
+// x, y and z in their own type, and the label.
+void write_labels(const fs::path& file, const Frame& frame, const FrameResult& result) {
+  const PointView& points = frame.points;
+  const std::vector<std::uint32_t> labels = labels_of(frame, result);
+  const auto size = static_cast<std::uint32_t>(size_of(points.scalar));
+  RawCloud cloud;
+  cloud.fields = {{"x", 'F', size, 1, 0},
+                  {"y", 'F', size, 1, size},
+                  {"z", 'F', size, 1, 2 * size},
+                  {"label", 'U', 4, 1, 3 * size}};
+  cloud.point_step = 3 * size + 4;
+  cloud.width = points.count;
+  cloud.data.resize(cloud.point_step * points.count);
+  for (std::size_t i = 0; i < points.count; ++i) {
+    std::byte* to = cloud.data.data() + i * cloud.point_step;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      std::memcpy(to + axis * size, points.address(i) + axis * points.step(), size);
+    std::memcpy(to + std::size_t{3} * size, &labels[points.index(i)], 4);
+  }
+  write_pcd(file, cloud);
+}
+
+class VtpSink : public FrameSink {
+ public:
+  explicit VtpSink(const SinkDescription& description)
+      : description_(with_folder(description)), index_(description.place / "frames.pvd") {
+    index_.write(std::string(pvd_begin), pvd_end);
+  }
+  void write(const Frame& frame, const FrameResult& result) override {
+    std::vector<ClusterEntry> clusters;
+    for (TrackedEntry& entry : to_report(frame, result).clusters)
+      clusters.push_back(std::move(entry.cluster));
+    std::string entries = add("frame", frame, volumes_vtp(clusters, result.tracks), 0);
+    if (description_.points)
+      entries += add("points", frame, points_vtp(frame.points, labels_of(frame, result)), 1);
+    index_.write(std::move(entries), pvd_end);
+  }
+  void close() override { index_.close(); }
+
+ private:
+  std::string add(const char* stem, const Frame& frame, const std::string& content, int part) {
+    const std::string name = numbered(stem, frame, description_.kind->files);
+    write_file_atomically(description_.place / name, content);
+    if (!first_stamp_ns_) first_stamp_ns_ = frame.header.stamp_ns;
+    return pvd_entry({static_cast<double>(frame.header.stamp_ns - *first_stamp_ns_) / 1e9, name, part});
+  }
+
+  SinkDescription description_;
+  LineFile index_;
+  std::optional<std::int64_t> first_stamp_ns_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> open_vtp(const SinkDescription& description) {
+  return std::make_unique<VtpSink>(description);
+}
+
+std::unique_ptr<FrameSink> open_image(const SinkDescription& description) {
+  return std::make_unique<FilesSink>(description, write_image);
+}
+
+std::unique_ptr<FrameSink> open_labels(const SinkDescription& description) {
+  return std::make_unique<FilesSink>(description, write_labels);
+}
+
+}  // namespace pcl_bv

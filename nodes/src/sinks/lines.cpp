@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Lines that others may read while they grow.
+
+#include "frame_report.h"
+#include "line_file.h"
+#include "pcl_bv/report/csv.h"
+#include "sinks.h"
+
+namespace pcl_bv {
+namespace {
+
+std::string first_columns(const FrameReport& report) {
+  return std::to_string(report.seq) + ',' + std::to_string(report.stamp_ns) + ',';
+}
+
+std::string csv_lines(const FrameReport& report) {
+  // A line of a volume without numbers, whose method is the reason.
+  if (report.error)
+    return first_columns(report) + ",,," + csv_field("error: " + *report.error) + std::string(12, ',') + '\n';
+  std::string lines;
+  for (const auto& [cluster, track] : report.clusters)
+    append_csv(first_columns(report) + (track ? std::to_string(*track) : ""), cluster, lines);
+  return lines;
+}
+
+std::string json_line(const FrameReport& report) {
+  return frame_json(report) + '\n';
+}
+
+class LineSink : public FrameSink {
+ public:
+  LineSink(const SinkDescription& description, std::string heading, std::string (*lines)(const FrameReport&))
+      : heading_(std::move(heading)), lines_(lines), file_(description.place) {}
+  void write(const Frame& frame, const FrameResult& result) override {
+    write(lines_(to_report(frame, result)));
+  }
+  void write_lost(const Frame& frame, const std::string& reason) override {
+    write(lines_(to_report(frame, reason)));
+  }
+  void close() override {
+    write("");
+    file_.close();
+  }
+
+ private:
+  void write(const std::string& lines) {
+    const std::string text = std::exchange(heading_, "") + lines;
+    if (!text.empty()) file_.write(text);
+  }
+
+  std::string heading_;
+  std::string (*lines_)(const FrameReport&);
+  LineFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> open_jsonl(const SinkDescription& description) {
+  return std::make_unique<LineSink>(description, "", json_line);
+}
+
+std::unique_ptr<FrameSink> open_csv(const SinkDescription& description) {
+  return std::make_unique<LineSink>(description, "seq,stamp_ns,track," + std::string(csv_columns) + '\n',
+                                    csv_lines);
+}
+
+}  // namespace pcl_bv

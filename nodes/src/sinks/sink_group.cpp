@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The guard around what others write.
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+#include "pcl_bv/nodes/frame_sink.h"
+
+namespace pcl_bv {
+
+struct SinkGroup::Member {
+  std::string name;
+  std::unique_ptr<FrameSink> sink;  // null once it is given up
+  std::uint64_t lacking = 0;        // frames
+  std::string last_problem;
+  mutable std::mutex mutex;
+  LatencyHistogram ms;
+};
+
+SinkGroup::SinkGroup(std::function<void(const std::string&)> say) : say_(std::move(say)) {}
+SinkGroup::~SinkGroup() = default;
+
+void SinkGroup::add(std::string name, std::unique_ptr<FrameSink> sink) {
+  Member& member = *members_.emplace_back(std::make_unique<Member>());
+  member.name = std::move(name);
+  member.sink = std::move(sink);
+}
+
+void SinkGroup::add(const SinkDescription& description) {
+  const std::string name = std::string(description.kind->name) + ':' + description.place.string();
+  try {
+    add(name, make_sink(description));
+  } catch (const IoError& error) {
+    throw IoError(name + ": " + error.what());
+  }
+}
+
+void SinkGroup::complain(Member& member, const std::string& problem) {
+  failed_ = true;
+  ++member.lacking;
+  if (problem != std::exchange(member.last_problem, problem)) say_(member.name + ": " + problem);
+}
+
+// False where nothing more can be written. A reader who goes away is no failure, and needs no word.
+template <typename Do>
+bool SinkGroup::attempt(Member& member, const Do& what) {
+  try {
+    what(member);
+  } catch (const ClosedPipe&) {
+    return false;
+  } catch (const IoError& error) {
+    complain(member, error.what());
+    return false;
+  } catch (const std::exception& error) {
+    complain(member, error.what());
+  } catch (...) {
+    complain(member, "an exception that is no std::exception");
+  }
+  return true;
+}
+
+template <typename Do>
+void SinkGroup::each(const Do& what) {
+  for (const std::unique_ptr<Member>& member : members_) {
+    if (member->sink == nullptr) {
+      member->lacking += member->lacking > 0;
+    } else if (!attempt(*member, what)) {
+      const std::uint64_t lacking = member->lacking;
+      attempt(*member, [](Member& m) { m.sink->close(); });  // what is written so far is made whole
+      member->lacking = lacking;
+      member->sink = nullptr;
+    }
+  }
+  alive_ = std::any_of(members_.begin(), members_.end(), [](const auto& m) { return m->sink != nullptr; });
+}
+
+void SinkGroup::write(const Frame& frame, const FrameResult& result) {
+  each([&](Member& member) {
+    const auto begin = std::chrono::steady_clock::now();
+    member.sink->write(frame, result);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    const std::lock_guard lock(member.mutex);
+    member.ms.add(took.count());
+  });
+}
+
+void SinkGroup::write_lost(const Frame& frame, const std::string& reason) {
+  each([&](Member& member) { member.sink->write_lost(frame, reason); });
+}
+
+void SinkGroup::close() {
+  for (const std::unique_ptr<Member>& member : members_) {
+    if (member->lacking > 1) say_(member->name + ": lacks " + std::to_string(member->lacking) + " frames");
+    if (member->sink != nullptr) attempt(*member, [](Member& m) { m.sink->close(); });
+    member->sink = nullptr;
+  }
+}
+
+std::vector<std::pair<std::string, LatencyHistogram>> SinkGroup::times() const {
+  std::vector<std::pair<std::string, LatencyHistogram>> all;
+  for (const std::unique_ptr<Member>& member : members_) {
+    const std::lock_guard lock(member->mutex);
+    all.emplace_back(member->name, member->ms);
+  }
+  return all;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The table of sinks.
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "sinks.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::string_view kPoints = ",points";
+
+class FunctionSink : public FrameSink {
+ public:
+  explicit FunctionSink(std::function<void(const Frame&, const FrameResult&)> on_result)
+      : on_result_(std::move(on_result)) {}
+  void write(const Frame& frame, const FrameResult& result) override { on_result_(frame, result); }
+
+ private:
+  std::function<void(const Frame&, const FrameResult&)> on_result_;
+};
+
+}  // namespace
+
+const std::vector<SinkKind>& sink_kinds() {
+  static const std::vector<SinkKind> kinds{{"jsonl", "FILE", "", open_jsonl},
+                                           {"csv", "FILE", "", open_csv},
+                                           {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
+                                           {"image", "FOLDER", ".png", open_image},
+                                           {"labels", "FOLDER", ".pcd", open_labels}};
+  return kinds;
+}
+
+std::string sink_syntax() {
+  std::string all;
+  for (const SinkKind& kind : sink_kinds()) {
+    if (!all.empty()) all += &kind == &sink_kinds().back() ? " or " : ", ";
+    all += std::string(kind.name) + ':' + std::string(kind.place);
+  }
+  return all;
+}
+
+SinkDescription parse_sink(const std::string& description) {
+  const std::size_t colon = std::min(description.find(':'), description.size());
+  for (const SinkKind& kind : sink_kinds()) {
+    if (description.compare(0, colon, kind.name) != 0) continue;
+    std::string place = description.substr(std::min(colon + 1, description.size()));
+    const bool points = kind.place.ends_with("[,points]") && place.ends_with(kPoints);
+    if (points) place.resize(place.size() - kPoints.size());
+    if (!place.empty()) return {&kind, place, points};
+  }
+  throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
+}
+
+std::unique_ptr<FrameSink> make_sink(const SinkDescription& description) {
+  return description.kind->open(description);
+}
+
+std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const FrameResult&)> on_result) {
+  return std::make_unique<FunctionSink>(std::move(on_result));
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Poses as KITTI and TUM write them.
+
+#include "poses.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::int64_t kGreatestGap = 500'000'000;  // nanoseconds
+
+// long double holds today's times in seconds to the nanosecond.
+using Numbers = std::vector<long double>;
+
+// The numbers of a line; none if something else is in it.
+Numbers numbers_of(std::string_view line) {
+  Numbers numbers;
+  for (;;) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\r,"), line.size()));
+    if (line.empty()) return numbers;
+    long double value = 0;
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+    if (error != std::errc() || !std::isfinite(value)) return {};
+    numbers.push_back(value);
+    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+  }
+}
+
+Pose pose_of(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation) {
+  Pose pose = Pose::Identity();
+  pose.linear() = rotation.normalized().toRotationMatrix();
+  pose.translation() = translation;
+  return pose;
+}
+
+// None where the numbers are no rotation, to the digits that files have.
+std::optional<Pose> pose_of_rows(const Numbers& rows) {
+  Eigen::Matrix<double, 3, 4> m;
+  for (std::size_t i = 0; i < 12; ++i)
+    m(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = static_cast<double>(rows[i]);
+  const Eigen::Matrix3d turn = m.leftCols<3>();
+  if (!(turn * turn.transpose()).isIdentity(1e-3) || turn.determinant() < 0) return std::nullopt;
+  return pose_of(Eigen::Quaterniond(turn), m.col(3));
+}
+
+std::optional<Pose> pose_of_tum(const Numbers& n) {
+  const auto number = [&](std::size_t i) { return static_cast<double>(n[i]); };
+  const Eigen::Quaterniond turn(number(7), number(4), number(5), number(6));
+  if (std::abs(turn.squaredNorm() - 1) > 1e-2) return std::nullopt;
+  return pose_of(turn, {number(1), number(2), number(3)});
+}
+
+// What turns the sensor's coordinates into those of the camera whose poses KITTI gives.
+std::optional<Pose> camera_beside(const std::filesystem::path& poses) {
+  std::ifstream calibration(poses.parent_path() / "calib.txt");
+  for (std::string line; std::getline(calibration, line);) {
+    if (!line.starts_with("Tr:")) continue;
+    const Numbers rows = numbers_of(std::string_view(line).substr(3));
+    const std::optional<Pose> pose = rows.size() == 12 ? pose_of_rows(rows) : std::nullopt;
+    if (!pose) throw IoError((poses.parent_path() / "calib.txt").string() + ": Tr is no pose of 12 numbers");
+    return pose;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Poses::Poses(const std::filesystem::path& file, std::size_t frames) {
+  std::ifstream stream(file);
+  std::size_t line_number = 0, columns = 0;
+  const auto fail = [&](const std::string& what) {
+    const std::string place = line_number > 0 ? ": line " + std::to_string(line_number) : "";
+    throw IoError(file.string() + place + ": " + what);
+  };
+  if (!stream || std::filesystem::is_directory(file)) fail("cannot be read");
+  const std::optional<Pose> camera = camera_beside(file);
+  for (std::string line; std::getline(stream, line);) {
+    ++line_number;
+    if (line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const Numbers numbers = numbers_of(line);
+    if (columns == 0) columns = numbers.size();
+    if (numbers.size() != columns || (columns != 8 && columns != 12))
+      fail("not 12 numbers (KITTI), nor 8 (TUM), as in the lines before");
+    by_stamp_ = columns == 8;
+    std::optional<Pose> pose = by_stamp_ ? pose_of_tum(numbers) : pose_of_rows(numbers);
+    if (!pose) fail("not a rotation");
+    if (!by_stamp_ && camera) pose = camera->inverse() * *pose * *camera;
+    if (by_stamp_ && std::abs(numbers[0]) > 9e9L) fail("not a time in seconds");
+    const std::int64_t stamp = by_stamp_ ? std::llround(1e9L * numbers[0]) : 0;
+    if (by_stamp_ && !poses_.empty() && stamp <= poses_.back().first) fail("not later than the line before");
+    poses_.emplace_back(stamp, *pose);
+  }
+  line_number = 0;
+  if (poses_.empty()) fail("no poses");
+  if (!by_stamp_ && poses_.size() != frames)
+    fail(std::to_string(poses_.size()) + " poses of " + std::to_string(frames) + " frames");
+}
+
+std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
+  if (poses_.empty()) return std::nullopt;
+  if (!by_stamp_) return poses_[number].second;
+  const auto after =
+      std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,
+                       [](const auto& pose, std::int64_t stamp) { return pose.first < stamp; });
+  if (after != poses_.end() && after->first == stamp_ns) return after->second;
+  if (after == poses_.begin() || after == poses_.end()) return std::nullopt;
+  const auto before = after - 1;
+  if (after->first - before->first > kGreatestGap) return std::nullopt;
+  const double part =
+      static_cast<double>(stamp_ns - before->first) / static_cast<double>(after->first - before->first);
+  const Eigen::Quaterniond from(before->second.linear()), to(after->second.linear());
+  return pose_of(from.slerp(part, to),
+                 (1 - part) * before->second.translation() + part * after->second.translation());
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/frame_sink.h"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+
+#include "folder.h"
+#include "pcl_bv/report/meshes.h"
+
+namespace pcl_bv {
+namespace {
+
+using testing::HasSubstr;
+
+// Two points of one cluster, one of the ground, one of none.
+struct Found {
+  Found() {
+    xyz = std::make_shared<std::vector<float>>(std::vector<float>{1, 2, 3, 1.5F, 2, 3, 0, 0, 0, 9, 9, 9});
+    frame.points = PointView::of(xyz->data(), 12, 4);
+    frame.owner = xyz;
+    result.clusters.indices = {1, 0};
+    result.clusters.offsets = {0, 2};
+    result.ground.ground = {2};
+    result.tracks = {17};
+    result.methods = {find_method("aabb")};
+    result.volumes = {Aabb({1, 2, 3}, {1.5, 2, 3})};
+    result.results.resize(1);
+  }
+  std::shared_ptr<std::vector<float>> xyz;
+  Frame frame;
+  FrameResult result;
+};
+
+using FrameSinks = Folder;
+
+TEST(LabelsOf, NameClustersGroundAndNone) {
+  const Found found;
+  EXPECT_EQ(labels_of(found.frame, found.result), (std::vector<std::uint32_t>{0, 0, 4294967294, 4294967295}));
+  EXPECT_TRUE(labels_of(Frame(), FrameResult()).empty());
+}
+
+TEST(LabelsOf, AnIndexListMeansTheCloudsPoints) {
+  Found found;
+  const std::vector<std::int32_t> numbers = {5, 1};
+  found.frame.points.indices = numbers.data();
+  found.frame.points.count = 2;
+  found.result.clusters.indices = {5, 1};
+  found.result.ground.ground.clear();
+  const std::uint32_t none = 4294967295;
+  EXPECT_EQ(labels_of(found.frame, found.result), (std::vector<std::uint32_t>{none, 0, none, none, none, 0}));
+}
+
+TEST_F(FrameSinks, NameFilesByTheRunnersNumberWhateverTheSourceCounts) {
+  Found found;
+  const auto sink = make_sink(parse_sink("vtp:" + (path_ / "v").string()));
+  for (const std::uint64_t number : {0, 1, 1234567}) {
+    found.frame.header.number = number;
+    sink->write(found.frame, found.result);
+  }
+  for (const char* name : {"v/frame000000.vtp", "v/frame000001.vtp", "v/frame1234567.vtp"})
+    EXPECT_THAT(read(name), HasSubstr("PolyData")) << name;
+}
+
+TEST_F(FrameSinks, AnIndexIsWholeAfterEachFrame) {
+  Found found;
+  const auto sink = make_sink(parse_sink("vtp:" + path_.string() + ",points"));
+  EXPECT_EQ(read("frames.pvd"), std::string(pvd_begin) + std::string(pvd_end));
+  std::string entries;
+  for (int i = 0; i < 12; ++i) {
+    found.frame.header.number = static_cast<std::uint64_t>(i);
+    found.frame.header.stamp_ns = 1'000'000'000'000 + std::int64_t{500'000'000} * i;
+    sink->write(found.frame, found.result);
+    const std::string name = (i < 10 ? "00000" : "0000") + std::to_string(i) + ".vtp";
+    entries += pvd_entry({0.5 * i, "frame" + name}) + pvd_entry({0.5 * i, "points" + name, 1});
+    EXPECT_EQ(read("frames.pvd"), std::string(pvd_begin) + entries + std::string(pvd_end));
+  }
+  EXPECT_THAT(read("points000003.vtp"), HasSubstr("0 0 4294967294 4294967295"));
+  EXPECT_THAT(read("points000003.vtp"), HasSubstr("NumberOfPoints=\"4\" NumberOfVerts=\"1\""));
+  EXPECT_THAT(read("frame000003.vtp"), HasSubstr("Name=\"track\" format=\"ascii\">\n17 17"));
+}
+
+TEST_F(FrameSinks, LinesAreWholeAfterEachFrameAndSayWhatIsLost) {
+  Found found;
+  const auto csv = make_sink(parse_sink("csv:" + (path_ / "a.csv").string()));
+  const auto jsonl = make_sink(parse_sink("jsonl:" + (path_ / "a.jsonl").string()));
+  found.frame.header.seq = 3;
+  found.frame.file = "sweep \"3\".pcd";
+  csv->write(found.frame, found.result);
+  EXPECT_THAT(read("a.csv"), testing::EndsWith("\n3,0,17,0,2,aabb,1.25,2,3,0.5,0,0,,,,,,0\n"));
+  csv->write_lost(found.frame, "dropped, it seems");
+  EXPECT_THAT(read("a.csv"), testing::EndsWith("\n3,0,,,,\"error: dropped, it seems\",,,,,,,,,,,,\n"));
+  const std::string heading = read("a.csv").substr(0, read("a.csv").find('\n'));
+  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 5 + 12);
+  jsonl->write(found.frame, found.result);
+  EXPECT_THAT(read("a.jsonl"), HasSubstr("\"file\":\"sweep \\\"3\\\".pcd\",\"points\""));
+  jsonl->write_lost(found.frame, "dropped: age");
+  EXPECT_THAT(read("a.jsonl"), testing::EndsWith(".pcd\",\"error\":\"dropped: age\"}\n"));
+}
+
+TEST_F(FrameSinks, LabelsStandBesideTheCoordinatesInTheirOwnType) {
+  Found found;
+  const auto sink = make_sink(parse_sink("labels:" + path_.string()));
+  sink->write(found.frame, found.result);
+  const std::vector<double> doubles(found.xyz->begin(), found.xyz->end());
+  found.frame.points = PointView::of(doubles.data(), 24, 4);
+  found.frame.header.number = 1;
+  sink->write(found.frame, found.result);
+  for (const char* name : {"frame000000.pcd", "frame000001.pcd"}) {
+    const RawCloud cloud = read_pcd(path_ / name);
+    ASSERT_EQ(cloud.size(), 4U);
+    EXPECT_EQ(find_field(cloud, "x")->size, name == std::string("frame000000.pcd") ? 4U : 8U);
+    std::uint32_t label = 0;
+    std::memcpy(&label, cloud.data.data() + 2 * cloud.point_step + find_field(cloud, "label")->offset, 4);
+    EXPECT_EQ(label, 4294967294);
+    EXPECT_EQ(load_point(cloud.xyz(), 1).x, 1.5);
+  }
+}
+
+TEST_F(FrameSinks, PicturesAreFilesOfTheirFrames) {
+  const Found found;
+  make_sink(parse_sink("image:" + path_.string()))->write(found.frame, found.result);
+  EXPECT_THAT(read("frame000000.png"), testing::StartsWith("\x89PNG"));
+}
+
+TEST(ParseSink, NamesAllKindsInItsErrors) {
+  EXPECT_EQ(parse_sink("vtp:a,points").place, "a");
+  EXPECT_TRUE(parse_sink("vtp:a,points").points);
+  EXPECT_EQ(parse_sink("csv:a,points").place, "a,points");
+  EXPECT_EQ(parse_sink("jsonl:a:b").place, "a:b");
+  for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "xml:a", "json:a", ":a"}) {
+    try {
+      parse_sink(bad);
+      FAIL() << bad;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(error.what(),
+                "'" + std::string(bad) +
+                    "' is not jsonl:FILE, csv:FILE, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
+    }
+  }
+}
+
+// Throws what its frame's seq says.
+struct BadSink : FrameSink {
+  void write(const Frame& frame, const FrameResult&) override {
+    ++asked;
+    if (frame.header.seq == 1) throw std::runtime_error("one is bad");
+    if (frame.header.seq == 2) throw 2;
+    if (frame.header.seq == 3) throw IoError("no space");
+    if (frame.header.seq == 4) throw ClosedPipe("nobody reads");
+  }
+  int asked = 0;
+};
+
+TEST(SinkGroup, NoSinkHarmsAnotherOrTheStream) {
+  std::vector<std::string> said;
+  SinkGroup group([&](const std::string& text) { said.push_back(text); });
+  int results = 0;
+  auto bad = std::make_unique<BadSink>();
+  const BadSink& asked = *bad;
+  group.add("bad", std::move(bad));
+  group.add("good", make_sink([&](const Frame&, const FrameResult&) { ++results; }));
+  Frame frame;
+  int asked_before_the_end = 0;
+  for (const std::uint64_t seq : {0, 1, 1, 2, 0, 3, 0, 0}) {
+    frame.header.seq = seq;
+    if (seq == 3) asked_before_the_end = asked.asked;
+    group.write(frame, {});
+  }
+  group.close();
+  EXPECT_EQ(asked_before_the_end, 5);
+  EXPECT_EQ(results, 8);
+  EXPECT_TRUE(group.failed());
+  EXPECT_TRUE(group.alive());
+  EXPECT_EQ(said, (std::vector<std::string>{"bad: one is bad", "bad: an exception that is no std::exception",
+                                            "bad: no space", "bad: lacks 6 frames"}));
+}
+
+TEST(SinkGroup, IsDeadWithItsLastSinkAndQuietAboutAReaderWhoLeft) {
+  SinkGroup group([](const std::string& text) { ADD_FAILURE() << text; });
+  group.add("bad", std::make_unique<BadSink>());
+  EXPECT_TRUE(group.alive());
+  Frame frame;
+  frame.header.seq = 4;
+  group.write(frame, {});
+  EXPECT_FALSE(group.alive());
+  group.write(frame, {});
+  group.write_lost(frame, "dropped: queue");
+  group.close();
+  EXPECT_FALSE(group.failed());
+}
+
+TEST(SinkGroup, MeasuresEachSink) {
+  SinkGroup group([](const std::string&) {});
+  group.add("slow", make_sink([](const Frame&, const FrameResult&) {
+              std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            }));
+  group.add("fast", make_sink([](const Frame&, const FrameResult&) {}));
+  for (int i = 0; i < 3; ++i)
+    group.write({}, {});
+  const auto times = group.times();
+  ASSERT_EQ(times.size(), 2U);
+  EXPECT_EQ(times[0].first, "slow");
+  EXPECT_EQ(times[1].second.count(), 3U);
+  EXPECT_GE(times[0].second.percentile(0.01), 20);
+}
+
+}  // namespace
+}  // namespace pcl_bv
