@@ -46,7 +46,7 @@ void refuse_empty_values(const CLI::App& app) {
     const std::vector<std::string>& values = option->results();
     if (option->get_positional() || std::find(values.begin(), values.end(), "") == values.end()) continue;
     const std::string type = option->get_type_name();
-    const bool is_name = type.starts_with("FILE") || type == "PATH" || type == "KIND:PLACE";
+    const bool is_name = type.starts_with("FILE") || type == "SOURCE" || type == "SINK";
     throw UsageError(option->get_name() + (is_name ? ": the name is empty" : ": the value is empty"));
   }
 }

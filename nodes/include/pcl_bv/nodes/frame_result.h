@@ -28,7 +28,8 @@ struct StageTimes {
 /// Reuse keeps the capacity. Indices are those of the frame's cloud.
 struct FrameResult {
   FrameHeader header;
-  std::shared_ptr<const PipelineConfig> config;  ///< What was asked for.
+  /// What was asked for; never null.
+  std::shared_ptr<const PipelineConfig> config = std::make_shared<PipelineConfig>();
   std::size_t points = 0;          ///< All points of the cloud, good or bad.
   Counts counts;                   ///< Points that are in no cluster, by reason.
   std::vector<std::int32_t> kept;  ///< What passed the filter, if that dropped points: see kept_points().
