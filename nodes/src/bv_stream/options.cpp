@@ -35,7 +35,7 @@ struct Texts {
 };
 
 void declare_frames(CommandLine& line, Texts& t) {
-  line.option("--source", t.source, "SOURCE", "Frames: " + source_syntax());
+  line.option("--source", t.source, "SOURCE", source_syntax());
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
   line.option("--rate", t.rate, "HZ", "Frames a second, recorded (by their stamps) or max (10)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
@@ -68,8 +68,8 @@ void declare(CommandLine& line, Texts& t) {
   line.flag("--track", t.track, "Give objects ids that last from frame to frame");
   line.option("--queue", t.queue, "N", "Frames that may wait (1)");
   line.option("--policy", t.policy, "NAME",
-              "When they do: auto, drop_oldest, drop_newest or block (auto: block with --rate max, else\n"
-              "drop_oldest)");
+              "When they do: auto, drop_oldest, drop_newest or block\n"
+              "(auto: block with --rate max, else drop_oldest)");
   line.option("--threads", t.threads, "N", "Threads of the work, 0 for all processors (0)");
   line.option("--isa", t.isa, "NAME", "Instruction set, of those that --version lists (auto)");
   declare_results(line, t);
