@@ -184,7 +184,7 @@ TEST(FunctionSource, ItsExceptionsCostTheirFramesOnly) {
 }
 
 TEST(SourceKinds, AreListedForUsers) {
-  EXPECT_EQ(source_syntax(), "a folder of clouds, one file or synth:street-sequence[:FRAMES[:SEED]]");
+  EXPECT_EQ(source_syntax(), "A folder of clouds, one file or synth:street-sequence[:FRAMES[:SEED]]");
 }
 
 }  // namespace

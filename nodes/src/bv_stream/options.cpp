@@ -32,7 +32,7 @@ struct Texts {
 };
 
 void declare_frames(CommandLine& line, Texts& t) {
-  line.option("--source", t.source, "SOURCE", "Frames: " + source_syntax());
+  line.option("--source", t.source, "SOURCE", source_syntax());
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
   line.option("--rate", t.rate, "HZ", "Frames a second, recorded (by their stamps) or max (10)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");

@@ -41,7 +41,9 @@ void SinkGroup::add(std::string name, std::unique_ptr<FrameSink> sink) {
 }
 
 void SinkGroup::add(const SinkDescription& description) {
-  const std::string name = std::string(description.kind->name) + ':' + description.place.string();
+  const bool standard = description.place == "-";
+  const std::string name =
+      standard ? "standard output" : std::string(description.kind->name) + ':' + description.place.string();
   try {
     add(name, make_sink(description));
   } catch (const IoError& error) {

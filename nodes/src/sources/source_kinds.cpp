@@ -13,7 +13,7 @@ const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds{
       {"synth:street-sequence[:FRAMES[:SEED]]", false,
        [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
-      {"a folder of clouds, one file", true, [](const std::string&) { return true; }, open_folder}};
+      {"A folder of clouds, one file", true, [](const std::string&) { return true; }, open_folder}};
   return kinds;
 }
 

@@ -97,7 +97,7 @@ void visit_stream(Stream& c, Visit&& visit) {
   visit_pipeline(c.pipeline, visit);
   visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"}, c.runner.queue);
   visit(S{"runner.policy", "auto, drop_oldest, drop_newest, block",
-          "When they do: drop_oldest, drop_newest, block; auto: block with --rate max",
+          "When they do: drop_oldest, drop_newest, block, auto",
           {}, {}, "--policy", "NAME"},
         c.runner.policy);
   visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);

@@ -46,7 +46,7 @@ struct RunnerStats {
 };
 
 /// `{"frames":{"in":..,"processed":..,"dropped":{"queue":..,"age":..,"error":..}},"ms":{"total":{"p50":..,"p95":..,
-/// "p99":..,"max":..},..,"sinks":{"jsonl:-":{..}}}}`
+/// "p99":..,"max":..},..,"sinks":{"vtp:FOLDER":{..}}}}`
 std::string stats_json(const RunnerStats& stats);
 
 /// Frames in from any thread, results out in the runner's thread, in order.
