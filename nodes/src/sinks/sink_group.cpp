@@ -11,17 +11,6 @@
 
 namespace pcl_bv {
 
-namespace {
-
-// What a sink is called before those who may not know that there is one.
-std::string said(const std::string& name) {
-  constexpr std::string_view standard_output = ":-";
-  const bool is_one = name.size() > 2 && name.compare(name.size() - 2, 2, standard_output) == 0;
-  return is_one ? "standard output" : name;
-}
-
-}  // namespace
-
 struct SinkGroup::Member {
   std::string name;
   std::unique_ptr<FrameSink> sink;  // null once it is given up
@@ -47,14 +36,14 @@ void SinkGroup::add(const SinkDescription& description) {
   try {
     add(name, make_sink(description));
   } catch (const IoError& error) {
-    throw IoError(said(name) + ": " + error.what());
+    throw IoError(name + ": " + error.what());
   }
 }
 
 void SinkGroup::complain(Member& member, const std::string& problem) {
   failed_ = true;
   ++member.lacking;
-  if (problem != std::exchange(member.last_problem, problem)) say_(said(member.name) + ": " + problem);
+  if (problem != std::exchange(member.last_problem, problem)) say_(member.name + ": " + problem);
 }
 
 // False where nothing more can be written. A reader who goes away is no failure, and needs no word.
@@ -106,7 +95,7 @@ void SinkGroup::write_lost(const Frame& frame, const std::string& reason) {
 
 void SinkGroup::close() {
   for (const std::unique_ptr<Member>& member : members_) {
-    if (member->lacking > 1) say_(said(member->name) + ": lacks " + std::to_string(member->lacking) + " frames");
+    if (member->lacking > 1) say_(member->name + ": lacks " + std::to_string(member->lacking) + " frames");
     if (member->sink != nullptr) attempt(*member, [](Member& m) { m.sink->close(); });
     member->sink = nullptr;
   }
