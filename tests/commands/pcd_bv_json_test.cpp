@@ -117,7 +117,8 @@ TEST_F(PcdBv, JsonHasTheDocumentedKeysInTheirOrder) {
   const Json report = result.json();
   using testing::ElementsAre;
   EXPECT_THAT(keys(report), ElementsAre("schema", "file", "points", "counts", "clusters", "seconds"));
-  EXPECT_THAT(keys(report["counts"]), ElementsAre("nonfinite", "range", "ground", "small", "large", "inside"));
+  EXPECT_THAT(keys(report["counts"]),
+              ElementsAre("nonfinite", "range", "ground", "small", "large", "inside"));
   EXPECT_THAT(keys(report["seconds"]), ElementsAre("read", "segment", "fit"));
   EXPECT_THAT(keys(report["clusters"][0]), ElementsAre("id", "points", "volumes"));
   const Json& volumes = report["clusters"][0]["volumes"];

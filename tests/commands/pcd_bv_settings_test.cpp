@@ -15,8 +15,9 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST_F(PcdBv, PrintedSettingsGiveTheSameRun) {
-  const std::vector<std::string> options{"--range", "1:30", "--ground",   "zones", "--cluster", "0.4",
-                                         "--min-size", "20", "--volume", "aabb,dop14", "--ground-slope", "12"};
+  const std::vector<std::string> options{"--range",   "1:30",       "--ground",       "zones",
+                                         "--cluster", "0.4",        "--min-size",     "20",
+                                         "--volume",  "aabb,dop14", "--ground-slope", "12"};
   std::vector<std::string> print = options, direct = options;
   print.emplace_back("--print-config");
   const Result printed = run(print);
@@ -32,7 +33,8 @@ TEST_F(PcdBv, PrintedSettingsGiveTheSameRun) {
 
 TEST_F(PcdBv, OptionsWinOverTheFileAndTheFileOverThePreset) {
   const std::string yaml = file("a.yaml", "cluster: {tolerance: 0.3}\nvolumes: [dop6]\n");
-  const std::string out = run({"--preset", "indoor", "--config", yaml, "--volume", "dop26", "--print-config"}).out;
+  const std::string out =
+      run({"--preset", "indoor", "--config", yaml, "--volume", "dop26", "--print-config"}).out;
   EXPECT_THAT(out, HasSubstr("tolerance: 0.3 "));
   EXPECT_THAT(out, HasSubstr("volumes: [dop26]"));
   EXPECT_THAT(out, HasSubstr("method: plane"));
@@ -48,7 +50,8 @@ TEST_F(PcdBv, ClustersGetOneUprightBoxUnlessAskedOtherwise) {
 }
 
 TEST_F(PcdBv, RegionsOfAnEarlierResultAreDroppedOrKept) {
-  const std::string cloud = ascii("two.pcd", {"1 0 0", "1.5 0 0", "1 0.5 0.25", "9 0 0", "9.5 0 0", "9 0.5 0.3"});
+  const std::string cloud =
+      ascii("two.pcd", {"1 0 0", "1.5 0 0", "1 0.5 0.25", "9 0 0", "9.5 0 0", "9 0.5 0.3"});
   const std::string near = ascii("near.pcd", {"1 0 0", "1.5 0 0", "1 0.5 0.25"});
   const std::string found = file("near.json", run({"--volume", "sphere", "--format", "json", near}).out);
   const Json dropped = run({"--drop-inside", found, "--volume", "aabb", "--format", "jsonl", cloud}).json();
@@ -56,9 +59,9 @@ TEST_F(PcdBv, RegionsOfAnEarlierResultAreDroppedOrKept) {
   EXPECT_EQ(dropped["clusters"][0]["volumes"][0]["min"], Json({9.0, 0.0, 0.0}));
   const Json kept = run({"--keep-inside", found, "--volume", "aabb", "--format", "jsonl", cloud}).json();
   EXPECT_EQ(kept["clusters"][0]["volumes"][0]["max"], Json({1.5, 0.5, 0.25}));
-  const Json grown =
-      run({"--drop-inside", found, "--padding", "10", "--format", "jsonl", "--min-size", "1", "--cluster", "1", cloud})
-          .json();
+  const Json grown = run({"--drop-inside", found, "--padding", "10", "--format", "jsonl", "--min-size", "1",
+                          "--cluster", "1", cloud})
+                         .json();
   EXPECT_EQ(grown["counts"]["inside"], 6);
   EXPECT_EQ(run({"--drop-inside", at("none.json"), cloud}).status, 1);
   EXPECT_EQ(run({"--padding", "1", cloud}).status, 2);
@@ -67,8 +70,8 @@ TEST_F(PcdBv, RegionsOfAnEarlierResultAreDroppedOrKept) {
 
 TEST_F(PcdBv, AnOriginIsSubtractedFirstAndNamed) {
   const std::string far = ascii("far.pcd", {"1001 2001 0", "1003 2002 0.5"});
-  const Json moved = run({"--origin", "1000,2000,0", "--volume", "aabb", "--range", "0:5", "--format", "jsonl",
-                          "--labels", at("l.pcd"), far})
+  const Json moved = run({"--origin", "1000,2000,0", "--volume", "aabb", "--range", "0:5", "--format",
+                          "jsonl", "--labels", at("l.pcd"), far})
                          .json();
   EXPECT_EQ(moved["origin"], Json({1000.0, 2000.0, 0.0}));
   EXPECT_EQ(moved["counts"]["range"], 0);
@@ -83,11 +86,12 @@ TEST_F(PcdBv, AnOriginIsSubtractedFirstAndNamed) {
 }
 
 TEST_F(PcdBv, AnOriginKeepsDoublesThatFloatsWouldLose) {
-  const std::string utm = file("utm.pcd", "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\n"
-                                          "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n"
-                                          "5000000.125 400000.25 100\n5000000.25 400000.5 100.5\n");
-  const Json report = run({"--origin", "auto", "--cluster", "1", "--min-size", "1", "--volume", "aabb", "--format",
-                           "jsonl", "--check", utm})
+  const std::string utm = file("utm.pcd",
+                               "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\n"
+                               "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n"
+                               "5000000.125 400000.25 100\n5000000.25 400000.5 100.5\n");
+  const Json report = run({"--origin", "auto", "--cluster", "1", "--min-size", "1", "--volume", "aabb",
+                           "--format", "jsonl", "--check", utm})
                           .json();
   const Json& box = report["clusters"][0]["volumes"][0];
   EXPECT_EQ(box["max"][0].get<double>() - box["min"][0].get<double>(), 0.125);
@@ -109,14 +113,17 @@ TEST_F(PcdBv, AGroundThatIsNotThereIsRemarkedOn) {
 }
 
 TEST_F(PcdBv, BestSaysWhichShapeItIsInTextAndCsv) {
-  const std::string cube = ascii("cube.pcd", {"0 0 0", "1 0 0", "0 1 0", "1 1 0", "0 0 1", "1 0 1", "0 1 1", "1 1 1"});
+  const std::string cube =
+      ascii("cube.pcd", {"0 0 0", "1 0 0", "0 1 0", "1 1 0", "0 0 1", "1 0 1", "0 1 1", "1 1 1"});
   EXPECT_THAT(run({"--volume", "best", cube}).out, HasSubstr("best (aabb)"));
   EXPECT_THAT(run({"--volume", "best", "--format", "csv", cube}).out, HasSubstr(",best (aabb),"));
 }
 
 TEST_F(PcdBv, FilesOfOtherFormatsAreNamedForWhatTheyAre) {
-  const std::pair<const char*, const char*> cases[] = {
-      {"a.obj", "is a mesh"}, {"a.e57", "scanner's own format"}, {"a.bag", "is a recording"}, {"a.csv", "plain text"}};
+  const std::pair<const char*, const char*> cases[] = {{"a.obj", "is a mesh"},
+                                                       {"a.e57", "scanner's own format"},
+                                                       {"a.bag", "is a recording"},
+                                                       {"a.csv", "plain text"}};
   for (const auto& [name, said] : cases) {
     const Result result = run({file(name, "v 1 2 3\n")});
     EXPECT_EQ(result.status, 1) << name;

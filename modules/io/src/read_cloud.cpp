@@ -79,7 +79,8 @@ void refuse_other_formats(const std::filesystem::path& path) {
     std::string_view extensions, what;
   };
   constexpr Kind kinds[] = {
-      {" .obj .stl .off .gltf .glb .dae .3ds ", "is a mesh, no cloud: sample points of it, as with pcl_mesh_sampling"},
+      {" .obj .stl .off .gltf .glb .dae .3ds ",
+       "is a mesh, no cloud: sample points of it, as with pcl_mesh_sampling"},
       {" .e57 .rcp .rcs .fls .zfs ", "is a scanner's own format: convert it to .las, .ply or .pcd"},
       {" .bag .mcap .db3 .pcap ", "is a recording, no cloud: extract its clouds as .pcd files"},
       {" .xyz .txt .csv .asc .pts ", "is plain text: a .pcd header before the lines makes it a cloud"}};

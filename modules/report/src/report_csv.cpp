@@ -41,7 +41,8 @@ std::string csv_field(std::string_view text) {
 void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text) {
   for (const VolumeEntry& entry : cluster.volumes) {
     text += first_columns;
-    text += ',' + std::to_string(cluster.id) + ',' + std::to_string(cluster.points) + ',' + shown_method(entry);
+    text +=
+        ',' + std::to_string(cluster.id) + ',' + std::to_string(cluster.points) + ',' + shown_method(entry);
     append_volume(entry.volume, text);
     text += '\n';
   }

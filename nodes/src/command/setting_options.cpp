@@ -45,7 +45,8 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
   line.option("--range", range_, "MIN:MAX",
               "Drop points nearer or farther than this from the origin (" + to_text(filter.range_min) + ":" +
                   to_text(filter.range_max) + ")");
-  line.option("--drop-inside", dropped_, "FILE.json", "Drop points inside the volumes of this result; repeatable");
+  line.option("--drop-inside", dropped_, "FILE.json",
+              "Drop points inside the volumes of this result; repeatable");
   line.option("--keep-inside", cropped_, "FILE.json", "Drop points outside of all its volumes; repeatable");
   line.option("--padding", padding_, "M", "Grow those volumes by this in every direction (0)");
   const auto declare = [&](const Setting& setting, const auto& value) {

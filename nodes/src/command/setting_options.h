@@ -13,7 +13,8 @@
 namespace pcl_bv {
 
 /// The options by which commands are configured: --preset, --config, --range, --print-config and those of the
-/// settings (nodes/settings.h). Later ones in this order win: the defaults, the preset, the file, the options.
+/// settings (nodes/settings.h). Later ones in this order win: the defaults, the preset, the file, the
+/// options.
 class SettingOptions {
  public:
   /// Declares them; `stream`: those of tracks and queues, too. Keeps the line.

@@ -36,8 +36,8 @@ void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problem
   if (c.cluster.tolerance > 0 && static_cast<float>(c.cluster.tolerance) == 0)
     add("cluster.tolerance", to_text(c.cluster.tolerance) + " is 0 as a float, which points are");
   if (c.cluster.least_size() > c.cluster.max_size) {
-    add("cluster.max_size", to_text(c.cluster.max_size) + " is below cluster.min_size, " +
-                                to_text(c.cluster.least_size()));
+    add("cluster.max_size",
+        to_text(c.cluster.max_size) + " is below cluster.min_size, " + to_text(c.cluster.least_size()));
   }
 }
 

@@ -7,7 +7,8 @@
 
 namespace pcl_bv {
 
-LoadedCloud::LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy, const OriginOption& origin) {
+LoadedCloud::LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy,
+                         const OriginOption& origin) {
   if (!hold && !job.error && !is_synth(job.input)) file_ = CloudFile::open(job.input, job.bin_fields);
   if (!file_) held_ = load_cloud(job, policy);
   if (!origin.asked) return;

@@ -77,10 +77,10 @@ void require_extension(const char* option, const std::string& name,
 }
 
 void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
-  if (line.given("--view") && !line.given("--image"))
-    throw UsageError("--view: only useful with --image");
+  if (line.given("--view") && !line.given("--image")) throw UsageError("--view: only useful with --image");
   const std::vector<const Method*> methods = config.methods();
-  const bool upright = std::any_of(methods.begin(), methods.end(), [](const Method* m) { return m->upright; });
+  const bool upright =
+      std::any_of(methods.begin(), methods.end(), [](const Method* m) { return m->upright; });
   const bool useful = upright || config.ground.method != GroundMethod::none || line.given("--ground") ||
                       line.given("--image");
   if (line.given("--up") && !useful)

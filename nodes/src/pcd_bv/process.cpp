@@ -117,9 +117,11 @@ std::vector<std::string> remarks(const FrameResult& result, const PointView& poi
   // A centimetre, and not only because the cloud is large.
   if (points.scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm()) {
     char text[200];
-    std::snprintf(text, sizeof text,
-                  "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
-                  "--origin auto) or subtract an origin before", farthest, step);
+    std::snprintf(
+        text, sizeof text,
+        "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
+        "--origin auto) or subtract an origin before",
+        farthest, step);
     said.emplace_back(text);
   }
   return said;

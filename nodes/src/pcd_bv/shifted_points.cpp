@@ -38,7 +38,8 @@ std::vector<double> load_all(const PointView& points) {
   std::vector<double> all(3 * points.count);
   for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
     const LoadedPoints part = load_chunk(points, chunk);
-    std::memcpy(all.data() + 3 * chunk * kChunkPoints, part.view().data, part.view().count * 3 * sizeof(double));
+    std::memcpy(all.data() + 3 * chunk * kChunkPoints, part.view().data,
+                part.view().count * 3 * sizeof(double));
   }
   return all;
 }

@@ -39,7 +39,8 @@ bool PointFilter::keeps_all() const {
   return min2_ == 0 && max2_ == std::numeric_limits<double>::infinity() && !boxed_ && !dropped_ && !cropped_;
 }
 
-// Calls take(i, valid, kept) for each point, by its distance and the own vehicle: two values without a branch.
+// Calls take(i, valid, kept) for each point, by its distance and the own vehicle: two values without a
+// branch.
 template <typename T, typename Take>
 void PointFilter::each_distance(const PointView& points, const Take& take) const {
   const double min2 = min2_, max2 = max2_;  // not read again after each store

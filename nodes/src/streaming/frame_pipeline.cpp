@@ -12,7 +12,6 @@
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/up.h"
-#include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
 #include "stages/filtered_points.h"
 #include "stages/ground.h"
@@ -86,8 +85,8 @@ struct FramePipeline::State {
   TrackedVolumes tracks;
 };
 
-// A big cloud that is only filtered goes the same way, to the same bits, whether it is in memory or in a file:
-// it is filtered as it comes past.
+// A big cloud that is only filtered goes the same way, to the same bits, whether it is in memory or in a
+// file: it is filtered as it comes past.
 PointView FramePipeline::State::filter(const Prepared& now, const PointView& cloud, FrameResult& result) {
   result.kept.clear();
   result.filtered.reset();
@@ -118,7 +117,7 @@ void take_all(const ClusterConfig& config, const PointView& points, FrameResult&
   Clusters& all = result.clusters;
   all.indices.clear();
   all.offsets.assign(1, 0);
-  const bool small = valid < config.least_size(), large = valid > config.max_size;
+  const bool small = valid<config.least_size(), large = valid> config.max_size;
   all.small_points = small ? valid : 0;
   all.large_points = large ? valid : 0;
   if (small || large) return;
@@ -130,7 +129,8 @@ void take_all(const ClusterConfig& config, const PointView& points, FrameResult&
 void FramePipeline::State::find_clusters(const Prepared& now, const PointView& points, FrameResult& result) {
   const ClusterConfig& config = now.config.cluster;
   if (config.tolerance > 0) {
-    const ClusterSettings settings{static_cast<float>(config.tolerance), config.least_size(), config.max_size};
+    const ClusterSettings settings{static_cast<float>(config.tolerance), config.least_size(),
+                                   config.max_size};
     clusterer.extract(points, settings, result.clusters, now.execution.parallel);
   } else {
     take_all(config, points, result);

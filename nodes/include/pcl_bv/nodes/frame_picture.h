@@ -13,8 +13,8 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The frame and what was found in it, up as the configuration says: with clusters the points that passed
-/// the filter in the colours of `labels`, as labels_of() gives them, and each cluster's id; else those that are
-/// no ground. Views the frame, the result and the labels.
+/// the filter in the colours of `labels`, as labels_of() gives them, and each cluster's id; else those that
+/// are no ground. Views the frame, the result and the labels.
 Picture picture_of(const Frame& frame, const FrameResult& result, const std::vector<std::uint32_t>& labels);
 
 }  // namespace pcl_bv

@@ -86,9 +86,9 @@ std::string source_syntax();
 /// sequence.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
 
-/// What the function gives, until it returns false. It may wait as long as it likes: each call is in a thread of
-/// its own. One that still waits when the source is destroyed is left to, so that what it uses must be there
-/// until it returns. Its exceptions are those of next().
+/// What the function gives, until it returns false. It may wait as long as it likes: each call is in a thread
+/// of its own. One that still waits when the source is destroyed is left to, so that what it uses must be
+/// there until it returns. Its exceptions are those of next().
 std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
 /// The stamp in a file's name without its extension, nanoseconds; -1 without one. Of its last number: seconds

@@ -23,7 +23,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct RegionConfig {
   std::filesystem::path file;  ///< Of volumes, as read_volumes() reads them, unless they are given:
   bool keep = false;           ///< Drop what is outside of all such regions; otherwise what is inside.
-  double padding = 0;          ///< By which the volumes are grown in every direction, metres (trees/region_mask.h).
+  double padding = 0;  ///< By which the volumes are grown in every direction, metres (trees/region_mask.h).
   std::vector<AnyVolume> volumes{};
 };
 
@@ -75,7 +75,8 @@ struct PipelineConfig {
   FilterConfig filter;
   GroundConfig ground;
   ClusterConfig cluster;
-  /// Methods of fitting/methods.h; if empty, obb-lshape, and aabb, sphere, obb where all points are one object.
+  /// Methods of fitting/methods.h; if empty, obb-lshape, and aabb, sphere, obb where all points are one
+  /// object.
   std::vector<std::string> volumes;
   SphereGrowth growth = SphereGrowth::deferred;  ///< Of spheres that grow.
   TrackConfig track;
@@ -95,9 +96,9 @@ struct PipelineConfig {
 /// For clouds of which nothing is known: no filter, no ground, all points one object, all processors.
 PipelineConfig whole_cloud_config();
 
-/// Filter, ground and clusters to begin with: "road" (a LiDAR on a vehicle, z up: the defaults), "indoor" (the
-/// same on a robot in rooms), or "table" (things on a table before a depth camera that looks down at them, in
-/// its optical frame: z forward, y down). Throws std::invalid_argument for another name.
+/// Filter, ground and clusters to begin with: "road" (a LiDAR on a vehicle, z up: the defaults), "indoor"
+/// (the same on a robot in rooms), or "table" (things on a table before a depth camera that looks down at
+/// them, in its optical frame: z forward, y down). Throws std::invalid_argument for another name.
 void apply_preset(std::string_view name, PipelineConfig& config);
 
 }  // namespace pcl_bv

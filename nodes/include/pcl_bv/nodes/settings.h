@@ -27,11 +27,11 @@ struct NumberRange {
 };
 
 struct Setting {
-  std::string_view key;      ///< With its stage: "filter.range_min".
-  std::string_view unit;     ///< "m", or what may be chosen, or what a special value means.
-  std::string_view about;    ///< For those who choose the value.
-  NumberRange range{};       ///< Of numbers.
-  std::string_view unset{};  ///< What null, or an empty list, means.
+  std::string_view key;                      ///< With its stage: "filter.range_min".
+  std::string_view unit;                     ///< "m", or what may be chosen, or what a special value means.
+  std::string_view about;                    ///< For those who choose the value.
+  NumberRange range{};                       ///< Of numbers.
+  std::string_view unset{};                  ///< What null, or an empty list, means.
   std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M", for those that commands have.
 };
 
@@ -44,40 +44,94 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"filter.range_min", "m", "Drop points nearer to the origin than this"}, c.filter.range_min);
   visit(S{"filter.range_max", "m", "Drop points farther from the origin than this", {0, kNoLimit}},
         c.filter.range_max);
-  visit(S{"filter.own_box_min", "m, [x, y, z]", "Lower corner of the box whose points are dropped", {}, "no box"},
+  visit(S{"filter.own_box_min",
+          "m, [x, y, z]",
+          "Lower corner of the box whose points are dropped",
+          {},
+          "no box"},
         c.filter.own_box_min);
-  visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of the box whose points are dropped", {}, "no box"},
+  visit(S{"filter.own_box_max",
+          "m, [x, y, z]",
+          "Upper corner of the box whose points are dropped",
+          {},
+          "no box"},
         c.filter.own_box_max);
-  visit(S{"filter.regions", "[{file: F.json, keep: false, padding: 0 m}]", "Drop points inside volumes; keep: outside of all"},
+  visit(S{"filter.regions", "[{file: F.json, keep: false, padding: 0 m}]",
+          "Drop points inside volumes; keep: outside of all"},
         c.filter.regions);
-  visit(S{"ground.method", "none, plane, zones", "Take the ground away first: none, plane or zones (outdoors)",
-          {}, {}, "--ground", "KIND"},
+  visit(S{"ground.method",
+          "none, plane, zones",
+          "Take the ground away first: none, plane or zones (outdoors)",
+          {},
+          {},
+          "--ground",
+          "KIND"},
         c.ground.method);
-  visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z", "Against gravity: x, y, z, -x, -y, -z or X,Y,Z",
-          {}, {}, "--up", "AXIS"},
+  visit(S{"ground.up",
+          "x, y, z, -x, -y, -z or a vector X,Y,Z",
+          "Against gravity: x, y, z, -x, -y, -z or X,Y,Z",
+          {},
+          {},
+          "--up",
+          "AXIS"},
         c.ground.up);
-  visit(S{"ground.sensor_height", "m", "Height of the origin above the ground", {}, "learnt",
-          "--sensor-height", "M"},
+  visit(S{"ground.sensor_height",
+          "m",
+          "Height of the origin above the ground",
+          {},
+          "learnt",
+          "--sensor-height",
+          "M"},
         c.ground.sensor_height);
-  visit(S{"ground.distance", "m", "Height up to which points are ground", {0, kFinite, false},
-          "0.2 of a plane, 0.15 of zones", "--ground-distance", "M"},
+  visit(S{"ground.distance",
+          "m",
+          "Height up to which points are ground",
+          {0, kFinite, false},
+          "0.2 of a plane, 0.15 of zones",
+          "--ground-distance",
+          "M"},
         c.ground.distance);
-  visit(S{"ground.max_slope_degrees", "degrees", "Greatest slope of the ground", {0, 89},
-          "15 of a plane, 20 of zones", "--ground-slope", "DEG"},
+  visit(S{"ground.max_slope_degrees",
+          "degrees",
+          "Greatest slope of the ground",
+          {0, 89},
+          "15 of a plane, 20 of zones",
+          "--ground-slope",
+          "DEG"},
         c.ground.max_slope_degrees);
-  visit(S{"cluster.tolerance", "m; 0: all points are one object", "Points nearer than this are one object; 0: a whole cloud",
-          {0, 1e6}, {}, "--cluster", "TOL"},
+  visit(S{"cluster.tolerance",
+          "m; 0: all points are one object",
+          "Points nearer than this are one object; 0: a whole cloud",
+          {0, 1e6},
+          {},
+          "--cluster",
+          "TOL"},
         c.cluster.tolerance);
-  visit(S{"cluster.min_size", "points", "Drop objects of fewer points", {0, kNoLimit},
-          "10; without clusters 0", "--min-size", "N"},
+  visit(S{"cluster.min_size",
+          "points",
+          "Drop objects of fewer points",
+          {0, kNoLimit},
+          "10; without clusters 0",
+          "--min-size",
+          "N"},
         c.cluster.min_size);
   visit(S{"cluster.max_size", "points", "Drop objects of more points", {1, kNoLimit}, {}, "--max-size", "N"},
         c.cluster.max_size);
-  visit(S{"volumes", "methods", "Methods with commas, or all", {},
-          "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"},
+  visit(S{"volumes",
+          "methods",
+          "Methods with commas, or all",
+          {},
+          "obb-lshape; without clusters aabb,sphere,obb",
+          "--volume",
+          "LIST"},
         c.volumes);
-  visit(S{"growth", "sequential, stationary, deferred", "Growth of EPOS spheres: sequential, stationary, deferred",
-          {}, {}, "--growth", "POLICY"},
+  visit(S{"growth",
+          "sequential, stationary, deferred",
+          "Growth of EPOS spheres: sequential, stationary, deferred",
+          {},
+          {},
+          "--growth",
+          "POLICY"},
         c.growth);
   visit(S{"track.enabled", "", "Give objects ids that last from frame to frame", {}, {}, "--track"},
         c.track.enabled);
@@ -95,10 +149,15 @@ template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
   using S = Setting;
   visit_pipeline(c.pipeline, visit);
-  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"}, c.runner.queue);
-  visit(S{"runner.policy", "auto, drop_oldest, drop_newest, block",
+  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"},
+        c.runner.queue);
+  visit(S{"runner.policy",
+          "auto, drop_oldest, drop_newest, block",
           "When they do: drop_oldest, drop_newest, block, auto",
-          {}, {}, "--policy", "NAME"},
+          {},
+          {},
+          "--policy",
+          "NAME"},
         c.runner.policy);
   visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);
   visit(S{"runner.watchdog_s", "s; 0: none", "Say so if no frame comes for so long"}, c.runner.watchdog_s);
@@ -111,7 +170,8 @@ std::string to_text(std::size_t value);
 std::string to_text(const Eigen::Vector3d& direction);
 std::string to_text(const std::string& name);
 std::string to_text(const std::vector<std::string>& names);  ///< Separated by ", ".
-std::string to_text(const std::vector<RegionConfig>& regions);  ///< As the setting's unit shows it, without [].
+std::string to_text(
+    const std::vector<RegionConfig>& regions);  ///< As the setting's unit shows it, without [].
 std::string to_text(GroundMethod method);
 std::string to_text(SphereGrowth growth);
 std::string to_text(QueuePolicy policy);
@@ -126,7 +186,8 @@ void read_text(std::string_view text, double& value);
 void read_text(std::string_view text, std::size_t& value);
 void read_text(std::string_view text, Eigen::Vector3d& direction);
 void read_text(std::string_view text, std::string& name);
-void read_text(std::string_view text, std::vector<std::string>& names);  ///< `all` stands for methods_of_all().
+void read_text(std::string_view text,
+               std::vector<std::string>& names);  ///< `all` stands for methods_of_all().
 void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One of that file's name.
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, SphereGrowth& growth);

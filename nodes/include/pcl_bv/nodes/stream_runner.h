@@ -62,8 +62,8 @@ class StreamRunner {
     std::function<void(const Frame&, FrameResult&)> process;
     /// Each result with its frame. May stop() the runner.
     std::function<void(const Frame&, const FrameResult&)> on_result;
-    /// A frame that was lost, whose points may be gone, and why in words. Optional. Where a thousand wait to be
-    /// told, and after a thousand that came when the runner was stopped, further ones are only counted.
+    /// A frame that was lost, whose points may be gone, and why in words. Optional. Where a thousand wait to
+    /// be told, and after a thousand that came when the runner was stopped, further ones are only counted.
     std::function<void(const Frame&, Loss, const std::string&)> on_lost;
     /// No frame has come for config.watchdog_s; seconds since the last one. Called once per silence.
     /// Optional.

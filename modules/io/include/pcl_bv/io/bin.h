@@ -16,10 +16,10 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// z, intensity, ring, field6, field7 and so on; 0 means 5 for names that end in .pcd.bin (nuScenes), else 4
 /// (KITTI).
 ///
-/// The format cannot say how many there are. With 0, the file is held against what scans are like: points that
-/// follow one another are near one another, so values differ least from those one record on. Where that holds
-/// clearly of another number of floats, or where most values are no coordinates (NaN, beyond 1e7, or smaller
-/// than 1e-20 but not 0), the file is refused, with the number to try.
+/// The format cannot say how many there are. With 0, the file is held against what scans are like: points
+/// that follow one another are near one another, so values differ least from those one record on. Where that
+/// holds clearly of another number of floats, or where most values are no coordinates (NaN, beyond 1e7, or
+/// smaller than 1e-20 but not 0), the file is refused, with the number to try.
 ///
 /// Throws IoError, naming the reason, for that and for a file that is missing, unreadable, empty or of a size
 /// that is no multiple of a record ("truncated"); std::invalid_argument for another number of fields.

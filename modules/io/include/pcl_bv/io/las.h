@@ -11,10 +11,10 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads the points of a .las file, point formats 0 to 10: x, y and z as doubles, X * scale + offset with each
-/// step rounded once, in the file's unit and coordinate system (mostly metres, UTM), then intensity, returns,
-/// classification, point_source_id as they are in the record, and gps_time, red, green and blue where the
-/// format has them. Extra bytes, waveforms and variable length records are left out.
+/// Reads the points of a .las file, point formats 0 to 10: x, y and z as doubles, X * scale + offset with
+/// each step rounded once, in the file's unit and coordinate system (mostly metres, UTM), then intensity,
+/// returns, classification, point_source_id as they are in the record, and gps_time, red, green and blue
+/// where the format has them. Extra bytes, waveforms and variable length records are left out.
 ///
 /// Throws IoError, naming the reason, for a file that is missing, unreadable, empty, truncated, inconsistent,
 /// of another version or format, or compressed (LAZ).
