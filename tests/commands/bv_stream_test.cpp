@@ -450,5 +450,18 @@ TEST_F(BvStream, ReadsRecordedFramesAndTheirStamps) {
   EXPECT_EQ(results(timed.out)[0]["stamp_ns"], 1'317'384'506'500'000'000);
 }
 
+TEST_F(BvStream, SaysOnceThatThereIsNoGround) {
+  std::vector<std::string> wall;
+  for (int i = 0; i < 120; ++i)
+    wall.push_back("3 " + std::to_string(0.1 * (i % 10)) + ' ' + std::to_string(0.1 * (i / 10)));
+  std::filesystem::create_directory(at("walls"));
+  for (const char* name : {"walls/1.pcd", "walls/2.pcd", "walls/3.pcd"})
+    ascii(name, wall);
+  const Result result = stream({"--source", at("walls"), "--rate", "max", "--ground", "plane"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.error_lines(), 1u) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("walls/1.pcd: frame 0: no ground found (up is z): try --up"));
+}
+
 }  // namespace
 }  // namespace pcl_bv::test

@@ -106,7 +106,10 @@ TEST_F(PcdBv, FloatsFarFromTheirOriginAreRemarkedOn) {
 }
 
 TEST_F(PcdBv, AGroundThatIsNotThereIsRemarkedOn) {
-  const std::string wall = ascii("wall.pcd", {"3 0 0", "3 1 0", "3 0 1", "3 1 1", "3 0.5 2", "3 0.2 0.7"});
+  std::vector<std::string> points;
+  for (int i = 0; i < 120; ++i)
+    points.push_back("3 " + std::to_string(0.1 * (i % 10)) + ' ' + std::to_string(0.1 * (i / 10)));
+  const std::string wall = ascii("wall.pcd", points);
   const Result result = run({"--ground", "plane", "--cluster", "3", "--min-size", "1", wall});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("wall.pcd: no ground found (up is z): try --up"));

@@ -31,7 +31,8 @@ TEST(StreamConfig, WithoutKeysIsTheDefault) {
 TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   StreamConfig config;
   config.pipeline.filter = {0.1, 123.456789012345, Eigen::Vector3d(-1, -2, -0.1), Eigen::Vector3d(1.5, 2, 3)};
-  config.pipeline.ground = {GroundMethod::plane, {0.1, -1, 1.0 / 3}, 1.0 / 3, 0.07, 12};
+  config.pipeline.ground = {
+      GroundMethod::plane, {0.1, -1, 1.0 / 3}, Eigen::Vector3d(1, 2, 3.5), 1.0 / 3, 0.07, 12};
   config.pipeline.cluster = {0.3, std::size_t{0}, 5000};
   config.pipeline.growth = SphereGrowth::stationary;
   config.pipeline.filter.regions = {{"robot arm.json", false, 0.1}, {"hall.json", true, 0}};
@@ -48,6 +49,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.pipeline.ground.method, GroundMethod::plane);
   EXPECT_EQ(read.pipeline.ground.up, Eigen::Vector3d(0.1, -1, 1.0 / 3));
   EXPECT_EQ(read.pipeline.ground.sensor_height, 1.0 / 3);
+  EXPECT_EQ(read.pipeline.ground.sensor, Eigen::Vector3d(1, 2, 3.5));
   EXPECT_EQ(read.pipeline.cluster.min_size, 0U);
   EXPECT_EQ(read.pipeline.cluster.max_size, 5000U);
   EXPECT_EQ(read.pipeline.growth, SphereGrowth::stationary);

@@ -156,7 +156,7 @@ TEST(Pipeline, UprightBoxesStandAgainstGravityWhateverItsLength) {
     xyz.insert(xyz.end(), {5 + 0.01F * static_cast<float>(i), 0.3F * static_cast<float>(i % 5),
                            0.02F * static_cast<float>(i % 60)});
   PipelineConfig config;
-  config.ground = {GroundMethod::none, {1e-40, 2e-40, -2e-40}, {}, {}, {}};
+  config.ground = {GroundMethod::none, {1e-40, 2e-40, -2e-40}, {}, {}, {}, {}};
   config.cluster.tolerance = 0;
   config.volumes = {"obb-yaw", "obb-lshape"};
   FramePipeline pipeline(config);

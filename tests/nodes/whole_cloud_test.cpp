@@ -181,20 +181,40 @@ TEST(WholeCloud, WithoutAValidPointIsOneEmptyObject) {
   }
 }
 
+TEST(GroundPlace, ZonesStandAboutTheSensorWhereverItIs) {
+  std::vector<float> xyz = street(1)[0], moved = xyz;
+  for (std::size_t i = 0; i < xyz.size(); ++i)
+    moved[i] += i % 3 == 0 ? 64.0F : 0.0F;  // but for rounding the same street
+  PipelineConfig config = whole_cloud_config();
+  config.ground.method = GroundMethod::zones;
+  const std::size_t ground = result_of(config, frame_of(xyz, 0).points).counts.ground;
+  config.ground.sensor = Eigen::Vector3d(64, 0, 0);
+  const std::size_t found = result_of(config, frame_of(moved, 0).points).counts.ground;
+  config.ground.sensor.reset();
+  const std::size_t without = result_of(config, frame_of(moved, 0).points).counts.ground;
+  EXPECT_LT(std::abs(static_cast<double>(found) - static_cast<double>(ground)),
+            0.001 * static_cast<double>(ground));
+  EXPECT_GT(std::abs(static_cast<double>(without) - static_cast<double>(ground)),
+            0.001 * static_cast<double>(ground));
+}
+
 TEST(GroundRemark, SaysWhenThereIsNoGroundOrNothingElse) {
   auto config = std::make_shared<PipelineConfig>();
   config->ground.method = GroundMethod::plane;
   FrameResult result;
   result.config = config;
-  result.points = 100;
+  result.points = 120;
   result.counts.range = 20;
   EXPECT_THAT(ground_remark(result), testing::HasSubstr("no ground found (up is z): try --up"));
-  result.counts.ground = 80;
+  result.counts.ground = 100;
   EXPECT_THAT(ground_remark(result), testing::HasSubstr("all points are taken for ground"));
-  result.counts.ground = 79;
+  result.counts.ground = 99;
   EXPECT_EQ(ground_remark(result), "");
-  config->ground.method = GroundMethod::none;
   result.counts.ground = 0;
+  result.counts.range = 21;  // of 99 points
+  EXPECT_EQ(ground_remark(result), "");
+  result.counts.range = 20;
+  config->ground.method = GroundMethod::none;
   EXPECT_EQ(ground_remark(result), "");
 }
 

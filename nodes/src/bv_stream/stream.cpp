@@ -136,16 +136,25 @@ void say_what_is_missing(const FrameTotals& frames, std::uint64_t without_pose) 
   if (without_pose > 0) say(std::to_string(without_pose) + all + " have no pose");
 }
 
+std::string named(const Frame& frame, const std::string& what) {
+  const std::string file = frame.file.empty() ? "" : frame.file + ": ";
+  return file + "frame " + std::to_string(frame.header.seq) + ": " + what;
+}
+
 StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, Progress& progress) {
   StreamRunner::Callbacks callbacks;
   callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
-  callbacks.on_result = [&](const Frame& frame, const FrameResult& result) {
+  callbacks.on_result = [&, last_remark = std::string()](const Frame& frame,
+                                                         const FrameResult& result) mutable {
     sinks.write(frame, result);
+    if (!frame.note.empty()) complain(named(frame, frame.note));
+    const std::string remark = ground_remark(result);
+    if (!remark.empty() && remark != last_remark) complain(named(frame, remark));
+    last_remark = remark;
     progress.show(frame.header.seq, result.clusters.size(), result.ms.total);
   };
   callbacks.on_lost = [&](const Frame& frame, Loss loss, const std::string& reason) {
-    const std::string file = frame.file.empty() ? "" : frame.file + ": ";
-    if (loss == Loss::error) complain(file + "frame " + std::to_string(frame.header.seq) + ": " + reason);
+    if (loss == Loss::error) complain(named(frame, reason));
     sinks.write_lost(frame, reason);
   };
   callbacks.on_silence = [](double seconds) {

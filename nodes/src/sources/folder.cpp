@@ -28,6 +28,7 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
       length, std::move(files), options, [fields = options.bin_fields](std::size_t, Frame& frame) {
         const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, Serial{}, fields));
         frame.points = cloud->xyz();
+        frame.note = cloud->note;
         frame.owner = cloud;
       });
 }

@@ -28,7 +28,9 @@ void split_ground(const PointView& points, const GroundConfig& config, GroundZon
   if (config.method == GroundMethod::plane) {
     split_ground(points, settings_of<GroundPlaneSettings>(config), split);
   } else if (config.method == GroundMethod::zones) {
-    zones.split(points, settings_of<GroundZonesSettings>(config), split);
+    auto settings = settings_of<GroundZonesSettings>(config);
+    settings.sensor = config.sensor.value_or(settings.sensor);
+    zones.split(points, settings, split);
   }
 }
 

@@ -49,7 +49,8 @@ std::string ground_remark(const FrameResult& result) {
   const GroundConfig& ground = result.config->ground;
   const Counts& counts = result.counts;
   const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
-  if (ground.method == GroundMethod::none || looked_at == 0) return {};
+  constexpr std::size_t few = 100;  // a handful of points says nothing about settings
+  if (ground.method == GroundMethod::none || looked_at < few) return {};
   const std::string tried = " (up is " + up_text(ground.up) + ")";
   if (counts.ground == 0)
     return "no ground found" + tried + ": try --up, --sensor-height, --ground-slope, or --ground none";

@@ -38,6 +38,7 @@ struct Frame {
 
   double decode_ms = 0;      ///< What reading it cost, if somebody measured it.
   std::string file;          ///< Where it comes from; empty if not from a file.
+  std::string note;          ///< What its source noticed and did not refuse, for people; mostly empty.
   std::optional<Pose> pose;  ///< Of the sensor in a fixed frame, if it is known.
 
   /// From when its latency counts. Replays at a pace: when it was due. A live source whose stamps are the

@@ -62,7 +62,8 @@ struct FrameResult {
 /// the number of its cluster, label_ground, or label_none. `result` must be that of the frame.
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result);
 
-/// If ground was asked for and there is none, or nothing else: that, and which settings to try; else nothing.
+/// If ground was asked for and there is none in a hundred points or more, or nothing else: that, and which
+/// settings to try; else nothing.
 std::string ground_remark(const FrameResult& result);
 
 /// The clusters as they are reported.

@@ -47,7 +47,10 @@ enum class GroundMethod : std::uint8_t {
 struct GroundConfig {
   GroundMethod method = GroundMethod::zones;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; of any length.
-  std::optional<double> sensor_height;  ///< Of the origin above the ground, metres; learnt if not given.
+  /// Where the sensor is in the frame of the points, metres; if not given, in its origin. The centre of zones.
+  std::optional<Eigen::Vector3d> sensor;
+  /// Of the sensor (with a plane: of the origin) above the ground, metres; learnt if not given.
+  std::optional<double> sensor_height;
   /// Points at most this far above the ground belong to it, metres; if not given, what the method's settings
   /// say.
   std::optional<double> distance;

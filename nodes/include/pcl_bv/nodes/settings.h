@@ -75,6 +75,8 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
           "--up",
           "AXIS"},
         c.ground.up);
+  visit(S{"ground.sensor", "m, [x, y, z]", "Where the sensor is: the centre of zones", {}, "the origin"},
+        c.ground.sensor);
   visit(S{"ground.sensor_height",
           "m",
           "Height of the origin above the ground",
