@@ -11,9 +11,11 @@
 #include <limits>
 #include <random>
 
+#include "box/obb_axes.h"
 #include "obbs.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/fit_obb.h"
+#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {
 namespace {
@@ -107,6 +109,26 @@ TEST(Obb, Dito14IsNoGreaterThanTheBoxesOnItsBaseTriangle) {
     EXPECT_LT(fit(cloud, ObbMethod::dito14).surface_area() / 2,
               least_half_area_on_base_triangle(points) * (1 + 1e-5))
         << "seed 10, " << i;
+  }
+}
+
+TEST(FewPoints, AreAllOfNoMoreThanThereAreEndsAndOfMoreTheEnds) {
+  const FloatEnvironment environment;
+  for (const DirectionSet set : {DirectionSet::dop14, DirectionSet::dop26}) {
+    const std::size_t ends = 2 * direction_count(set);
+    for (const std::size_t n : {std::size_t{1}, ends, ends + 1, 2 * ends}) {
+      const auto cloud = gaussian<double>(n, n);
+      const Supports supports = find_supports(cloud.view(), set, SupportDetail::points, {});
+      const LocalFrame frame(supports);
+      const FewPoints few = few_points(cloud.view(), supports, frame);
+      ASSERT_EQ(few.size(), std::min(n, ends));
+      for (std::size_t k = 0; k < n && n <= ends; ++k)
+        EXPECT_EQ(few[k], frame.local(load_point(cloud.view(), k)));
+      for (std::size_t k = 0; k < ends && n > ends; ++k) {
+        const Support& along = supports.along[k / 2];
+        EXPECT_EQ(few[k], frame.local((k % 2 == 0 ? along.low_point : along.high_point).point));
+      }
+    }
   }
 }
 

@@ -117,6 +117,24 @@ TEST(LocalHull, EveryDoublePointIsExactlyInIt) {
   expect_points_inside(test::gaussian<double>(800, 8, 1e-60, 0));
 }
 
+// Four extreme points, and others outside of their tetrahedron that reach no farther along any direction.
+TEST(LocalHull, WhatTheExtremePointsDoNotEncloseIsKept) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    TestCloud<double> cloud = test::gaussian<double>(4, seed, 1, 20);
+    Kdop kdop;
+    fit_kdop(cloud.view(), KdopSet::dop26(), kdop);
+    const Aabb box = kdop.aabb();
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    while (cloud.size() < 600) {
+      const Eigen::Vector3d part(unit(random), unit(random), unit(random));
+      const Eigen::Vector3d p = box.min() + part.cwiseProduct(box.max() - box.min());
+      if (kdop.contains(p)) cloud.xyz.insert(cloud.xyz.end(), p.begin(), p.end());
+    }
+    EXPECT_EQ(verify(fit(cloud.view()), cloud.view()).outside, 0u) << "seed " << seed;
+  }
+}
+
 TEST(LocalHull, MostPointsOfASolidAreDropped) {
   EXPECT_LT(hull_of(test::gaussian<float>(20'000, 1).view()).candidates.size(), 1000u);
   EXPECT_LT(hull_of(test::gaussian<double>(20'000, 1).view()).candidates.size(), 1000u);

@@ -14,6 +14,7 @@
 
 #include "clouds.h"
 #include "pcl_bv/numeric/directions.h"
+#include "sources.h"
 
 namespace pcl_bv {
 namespace {
@@ -106,11 +107,34 @@ TEST(Methods, TheSmallestOfAListSaysWhichItIs) {
   EXPECT_THROW(fit_smallest(cloud.view(), {}, volume), std::invalid_argument);
 }
 
+TEST(Methods, OnTheHullAreThoseThatASharedHullSparesAPass) {
+  const test::TestCloud<float> cloud = test::gaussian<float>(1000, 12);
+  const test::CopyingSource<float> source(cloud);
+  const PointView points = source.view();
+  Supports hull, no_hull;
+  const Execution with = share_supports(points, {find_method("hull"), find_method("capsule")}, {}, hull);
+  const Execution without = share_supports(points, {find_method("dop14"), find_method("dop18")}, {}, no_hull);
+  for (const Method& method : methods()) {
+    const auto passes = [&](const Execution& shared) {
+      const std::size_t before = source.loads;
+      AnyVolume volume;
+      method.fit(points, volume, shared);
+      return source.loads - before;
+    };
+    EXPECT_EQ(passes(with) < passes(without), method.on_hull) << method.name;
+  }
+}
+
 // The least that one chunk of sharing can get wrong is one direction of one set.
 TEST(Methods, WhatIsSharedChangesNoBit) {
-  for (const std::size_t points : {0UL, 1UL, 20UL, 3000UL, 40'000UL}) {
-    test::TestCloud<float> cloud = test::gaussian<float>(points, 11);
-    if (points > 10) cloud.xyz[30] = std::numeric_limits<float>::quiet_NaN();
+  std::vector<test::TestCloud<float>> clouds;
+  for (const std::size_t points : {0, 1, 20, 3000, 40'000})
+    clouds.push_back(test::gaussian<float>(points, 11));
+  // Two ends of a diagonal are farther apart than those of any axis.
+  clouds.push_back({"star", {1, 0, 0, -1, 0, 0,  0,    1,    0,    0,     -1,    0,
+                             0, 0, 1, 0,  0, -1, 0.9F, 0.9F, 0.9F, -0.9F, -0.9F, -0.6F}});
+  for (test::TestCloud<float>& cloud : clouds) {
+    if (cloud.size() > 10) cloud.xyz[30] = std::numeric_limits<float>::quiet_NaN();
     const PointView view = cloud.view();
     for (const Method& method : methods()) {
       AnyVolume alone;
@@ -120,8 +144,8 @@ TEST(Methods, WhatIsSharedChangesNoBit) {
         const Execution shared = share_supports(view, {&method, find_method(other)}, {}, supports);
         AnyVolume together;
         const EstimationResult result = method.fit(view, together, shared);
-        EXPECT_TRUE(together == alone) << method.name << " with " << other << ", " << points;
-        EXPECT_EQ(result.rank, expected.rank) << method.name << " with " << other << ", " << points;
+        EXPECT_TRUE(together == alone) << method.name << " with " << other << ", " << cloud.name;
+        EXPECT_EQ(result.rank, expected.rank) << method.name << " with " << other << ", " << cloud.name;
         EXPECT_EQ(result.used, expected.used);
         EXPECT_EQ(result.dropped, expected.dropped);
         EXPECT_EQ(result.status, expected.status);

@@ -133,8 +133,7 @@ class DistanceParity : public testing::TestWithParam<Isa> {
   void expect_reached(const PointView& block, const DistanceCenter& center, double limit,
                       const float* bounds) {
     std::vector<std::uint32_t> reached(kBlockPoints);
-    reached.resize(
-        list_reaching(GetParam(), block, {center, bounds, limit}, center, -infinity, reached.data()));
+    reached.resize(list_reaching(GetParam(), block, {bounds, limit}, center, -infinity, reached.data()));
     std::sort(reached.begin(), reached.end());
     EXPECT_EQ(std::adjacent_find(reached.begin(), reached.end()), reached.end());
     const std::vector<std::uint32_t> expected = list(Isa::scalar, block, center, limit, FloatFilter::off);
@@ -226,6 +225,19 @@ TEST_P(DistanceParity, EqualsTheReferenceForThePapersGroups) {
               run(Isa::scalar, cloud.view(), middle(view), 0, FloatFilter::off));
     if (n > 20) expect_parity(view.slice(5, n - 9), middle(view));
   }
+}
+
+TEST_P(DistanceParity, EqualsTheReferenceForACentreThatIsNoFloat) {
+  const TestCloud<float> cloud = test::gaussian<float>(100, 6);
+  for (const double far : {3.4028235677973366e38, 1e39, 1e100})
+    expect_parity(cloud.view(), {far, -far, 0, 1});
+  // Floats as near to the centre as its rounding to one loses.
+  TestCloud<float> around{"around 2^20", {}};
+  for (int i = 0; i < 27; ++i)
+    around.xyz.insert(around.xyz.end(), {0x1p20F + 0.125F * float(i % 3), 0x1p20F + 0.125F * float(i / 3 % 3),
+                                         0x1p20F + 0.125F * float(i / 9)});
+  for (const double lost : {0.0, 0x1p-20, 0.06, 0.0625, 0.07})
+    expect_parity(around.view(), {0x1p20 + lost, 0x1p20 + 0.125 - lost, 0x1p20 + 0.25, 1});
 }
 
 TEST_P(DistanceParity, FloatRejectsWhatIsClearlyInside) {

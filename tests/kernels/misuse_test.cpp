@@ -71,7 +71,7 @@ const std::vector<Kernel>& kernels() {
       {"list_reaching", kBlockPoints,
        [](Isa isa, const PointView& points) {
          const std::vector<float> bounds(kBlockBounds, 1.0F);
-         list_reaching(isa, points, {{}, bounds.data(), 0}, {}, 1, room(points).data());
+         list_reaching(isa, points, {bounds.data(), 0}, {}, 1, room(points).data());
        }},
       {"list_distant", std::size_t{1} << 32,
        [](Isa isa, const PointView& points) {
@@ -167,7 +167,7 @@ TEST(Misuse, DistancesOfFloatsHaveNoUnitOfTheirOwnAndBoundsBelongToFloats) {
   EXPECT_NO_THROW(scan_octants(Isa::scalar, doubles.view(), scan));
   const std::vector<float> bounds(kBlockBounds, 1.0F);
   std::uint32_t positions[10];
-  EXPECT_THROW(list_reaching(Isa::scalar, doubles.view(), {{}, bounds.data(), 0}, {}, 0, positions),
+  EXPECT_THROW(list_reaching(Isa::scalar, doubles.view(), {bounds.data(), 0}, {}, 0, positions),
                std::invalid_argument);
   EXPECT_THROW(list_reaching(Isa::scalar, cloud.view(), {}, {}, 0, positions), std::invalid_argument);
 }

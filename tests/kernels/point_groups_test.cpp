@@ -148,6 +148,14 @@ TEST_P(PointGroupsTest, OfNastyCloudsArePaddedByAValidPoint) {
   }
 }
 
+TEST_P(PointGroupsTest, ArePaddedByTheFirstPointIfNoOtherIsValid) {
+  TestCloud<float> cloud = test::gaussian<float>(20, 8);
+  for (std::size_t i = 1; i < cloud.size(); ++i)
+    cloud.xyz[3 * i + i % 3] = std::numeric_limits<float>::quiet_NaN();
+  for (const std::size_t n : {1, 2, 3, 17, 20})
+    expect_copy<float>(cloud.view().slice(0, n));
+}
+
 TEST_P(PointGroupsTest, KeepDenormalsUnderAHostThatFlushesThem) {
   const TestCloud<float> cloud = test::gaussian<float>(70, 7, 1e-41);
   const test::FlushToZero host;

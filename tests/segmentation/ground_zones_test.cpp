@@ -258,6 +258,11 @@ TEST(GroundZones, NameTheCloudsPointsThroughListsAndSlices) {
   for (std::size_t i = 0; i < whole.ground.size(); ++i)
     ASSERT_EQ(sliced.ground[i], whole.ground[i] + 1000);
   EXPECT_LT(sliced.ground.back(), static_cast<std::int32_t>(1000 + ground));
+  PointView listed_of_slice = view(longer).slice(1000, cloud.size());
+  listed_of_slice.indices = all.data();
+  const GroundSplit both = split(listed_of_slice);
+  EXPECT_EQ(both.ground, whole.ground);
+  EXPECT_EQ(both.offset, whole.offset) << "of the plane near the sensor";
 }
 
 TEST(GroundZones, OutliveGreatCoordinates) {

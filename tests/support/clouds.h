@@ -73,6 +73,15 @@ std::vector<TestCloud<T>> nasty_clouds() {
     cloud.xyz[3 * bad + bad % 3] = bad % 2 == 0 ? nan : -inf;
     clouds.push_back(cloud);
   }
+  // In each lane what reaches farthest comes before a NaN, and valid points after it.
+  TestCloud<T> hole = gaussian<T>(1000, 32);
+  hole.name = "a hole amid valid points";
+  for (std::size_t i = 0; i < 540; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      hole.xyz[3 * i + axis] *= 3;
+    if (i >= 500) hole.xyz[3 * i + i % 3] = i % 2 == 0 ? nan : -nan;
+  }
+  clouds.push_back(hole);
   TestCloud<T> organised = gaussian<T>(4000, 31);
   organised.name = "mostly NaN, as a depth camera gives";
   for (std::size_t i = 0; i < organised.size(); ++i) {

@@ -221,11 +221,13 @@ TEST(Sphere, ExtendIgnoresPointsThatAreNotFinite) {
   EXPECT_TRUE(Sphere().extend({0, 0, nan}).empty());
 }
 
-TEST(Sphere, OnePointHasRadiusZero) {
-  const Sphere s = Sphere().extend({0.1, 0.2, 0.3});
-  EXPECT_EQ(s, Sphere({0.1, 0.2, 0.3}, 0));
-  EXPECT_TRUE(s.contains({0.1, 0.2, 0.3}));
-  EXPECT_EQ(Sphere(s).extend({0.1, 0.2, 0.3}), s);
+TEST(Sphere, OnePointHasRadiusZeroHoweverOftenItComes) {
+  for (const Vector3d& p : {Vector3d(0.1, 0.2, 0.3), Vector3d(0, 0, 0), Vector3d(1e-320, -1e300, 0)}) {
+    const Sphere s = Sphere().extend(p);
+    EXPECT_EQ(s, Sphere(p, 0));
+    EXPECT_TRUE(s.contains(p));
+    EXPECT_EQ(Sphere(s).extend(p), s);
+  }
 }
 
 TEST(Sphere, TransformedHoldsTheExactImage) {

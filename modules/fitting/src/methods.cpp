@@ -73,7 +73,7 @@ const std::vector<Method>& methods() {
       {"capsule", {}, "capsule", plain<Capsule, fit_capsule>, DirectionSet::dop26, false, true},
       {"ellipsoid", {}, "ellipsoid", plain<Ellipsoid, fit_ellipsoid>, DirectionSet::dop26, false, true},
       {"hull", {}, "hull", plain<Hull, fit_hull>, DirectionSet::dop26, false, true},
-      {"best", {}, "", best, DirectionSet::dop26},
+      {"best", {}, "", best, DirectionSet::dop26, false, true},
   };
   return table;
 }

@@ -15,7 +15,6 @@
 
 #include <hwy/highway.h>
 
-#include <cmath>
 #include <limits>
 
 #include "load-inl.h"
@@ -78,13 +77,18 @@ HWY_INLINE V_ sum_of_squares(V_ x, V_ y, V_ z) {
     }                                                             \
   } while (false)
 
-// A centre as two floats by coordinate: it rounded, and what that left.
+// A centre as two floats by coordinate: the nearest finite one, and what that left. An infinite head and tail
+// would make a NaN of each distance, which floats reject.
 struct FloatCenter {
   explicit FloatCenter(const DistanceCenter& c)
-      : head{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
+      : head{nearest(c.x), nearest(c.y), nearest(c.z)},
         tail{static_cast<float>(c.x - static_cast<double>(head[0])),
              static_cast<float>(c.y - static_cast<double>(head[1])),
              static_cast<float>(c.z - static_cast<double>(head[2]))} {}
+  static float nearest(double c) {
+    constexpr double most = std::numeric_limits<float>::max();
+    return static_cast<float>(HWY_MAX(-most, HWY_MIN(c, most)));
+  }
   float head[3];
   float tail[3];
 };
@@ -98,21 +102,19 @@ HWY_INLINE V<D> distances_in_float(D d, const FloatCenter& center, V<D> x, V<D> 
 }
 
 // What squared distances in float say about those in double. A coordinate of q is off by 2.1 u of itself
-// (u = 2^-24) and by 3.1 u of what the centre lost in its rounding, l; squares, sums and products add less
-// than 4 u, or 2^-147 where they underflow. So with f in float the distance is at most sqrt(f (1 + 2^-20)) +
-// 4 u l, and its square, since (a + b)^2 <= a^2 (1 + e) + b^2 (1 + 1 / e), no more than f (1 + 2^-19) + 2^22
-// (4 u l)^2. At or below this float, squared_distance() is below `limit`. Negative: there is none.
-HWY_INLINE float float_limit(const DistanceCenter& center, double limit) {
-  const auto lost = [](double c) { return std::abs(c - static_cast<double>(static_cast<float>(c))); };
-  const double rounding = 0x1p-22 * ((lost(center.x) + lost(center.y)) + lost(center.z));
-  const double least = (limit - (rounding * rounding * 0x1p22 + 0x1p-139)) * (1 - 0x1p-18);
+// (u = 2^-24) and by 3.1 u of what the centre lost in its rounding, and by that much at least every float is
+// away from the centre: by 5.2 u of itself. Squares, sums and products add less than 4 u, or 2^-147 where
+// they underflow. So with f in float the square is no more than f (1 + 2^-20) + 2^-140. At or below this
+// float, squared_distance() is below `limit`. Negative: there is none.
+HWY_INLINE float float_limit(double limit) {
+  const double least = (limit - 0x1p-139) * (1 - 0x1p-18);
   constexpr double most = std::numeric_limits<float>::max();
   return least < 0 ? -1.0F : static_cast<float>(HWY_MIN(least, most));
 }
 
 // What float arithmetic goes by: squared_distance() of points at or below `limit` is below the scan's limit.
 struct InFloat {
-  InFloat(const DistanceCenter& c, double scan_limit) : center(c), limit(float_limit(c, scan_limit)) {}
+  InFloat(const DistanceCenter& c, double scan_limit) : center(c), limit(float_limit(scan_limit)) {}
   FloatCenter center;
   float limit;
 };

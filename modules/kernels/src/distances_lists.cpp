@@ -29,7 +29,7 @@ std::size_t reaching(const PointView& block, const KeptBounds& kept, const Dista
   const Tag<float> d;
   const std::size_t lanes = hn::Lanes(d);
   const float* bounds = kept.bounds;
-  const float least = float_limit(kept.center, kept.limit);
+  const float least = float_limit(kept.limit);
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < block.count; begin += kBoundPoints * lanes, bounds += lanes) {
     if (hn::AllFalse(d, hn::Gt(hn::LoadU(d, bounds), hn::Set(d, least)))) continue;

@@ -136,15 +136,12 @@ RegionState state_of_point(const RegionTestsOf<T>& all, const T (&p)[3]) {
   return result;
 }
 
-// Lets the point compete if it matters; its squared distance, or -1.
-double compete(const Coordinates& p, OctantScan& scan) {
+// Lets the point compete if it matters.
+void compete(const Coordinates& p, OctantScan& scan) {
   const double d2 = square(p, scan.center);
-  if (!is_valid(p)) return -1;
-  if (d2 >= scan.limit) {
-    double& best = scan.greatest[octant(p, scan.center)];
-    best = std::max(best, d2);
-  }
-  return d2;
+  if (!(d2 >= scan.limit) || !is_valid(p)) return;
+  double& best = scan.greatest[octant(p, scan.center)];
+  best = std::max(best, d2);
 }
 
 }  // namespace
@@ -226,21 +223,16 @@ std::size_t octant(const Coordinates& p, const DistanceCenter& center) {
 void scan_octants_reference(const PointView& block, OctantScan& scan) {
   scan.greatest.fill(-1);
   for_scalar(block, [&]<typename T>() {
-    for (std::size_t begin = 0; begin < block.count; begin += kBoundPoints) {
-      double greatest = -1;
-      for (std::size_t i = begin; i < std::min(begin + kBoundPoints, block.count); ++i)
-        greatest = std::max(greatest, compete(load_as<T>(block, i), scan));
-      if (scan.bounds != nullptr) scan.bounds[begin / kBoundPoints] = static_cast<float>(greatest);
-    }
+    for (std::size_t i = 0; i < block.count; ++i)
+      compete(load_as<T>(block, i), scan);
   });
 }
 
-std::size_t list_reaching_reference(const PointView& block, const KeptBounds& kept,
+// Bounds only spare work: there are none here.
+std::size_t list_reaching_reference(const PointView& block, const KeptBounds& /*kept*/,
                                     const DistanceCenter& center, double limit, std::uint32_t* positions) {
-  return list_if(block.count, positions, [&](std::size_t i) {
-    const double bound = static_cast<double>(kept.bounds[i / kBoundPoints]) * (1 + 0x1p-22) + 0x1p-148;
-    return bound >= kept.limit && square(load_as<float>(block, i), center) >= limit;
-  });
+  return list_if(block.count, positions,
+                 [&](std::size_t i) { return square(load_as<float>(block, i), center) >= limit; });
 }
 
 std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,

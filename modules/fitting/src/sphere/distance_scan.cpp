@@ -201,7 +201,7 @@ bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
   shell_distance_ = distance - moved / 8;
   const double least = (shell_distance_ - moved) * kRoundDown;
   if (!(least > 0)) return false;
-  KeptBounds kept{first_center_, nullptr, least * least * kRoundDown};
+  KeptBounds kept{nullptr, least * least * kRoundDown};
   const double limit = shell_distance_ * shell_distance_ * kRoundDown;
   std::array<std::uint32_t, kBlockPoints> positions;
   for (std::size_t block = 0; block < blocks_; ++block) {

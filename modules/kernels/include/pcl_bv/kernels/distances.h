@@ -15,8 +15,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A place to measure from, and the unit to measure in. `scale` is a power of two, and 1 for float views:
-/// their squares stay in the range of double by themselves. With it, distances of about 1 come out.
+/// A place to measure from, whose coordinates is_valid() allows, and the unit to measure in. `scale` is a
+/// power of two, and 1 for float views: their squares stay in the range of double by themselves. With it,
+/// distances of about 1 come out.
 struct DistanceCenter {
   double x = 0, y = 0, z = 0;
   double scale = 1;
@@ -59,13 +60,12 @@ void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan);
 
 /// What scan_octants() of a float block left, and how far from its centre points must be to be asked for now.
 struct KeptBounds {
-  DistanceCenter center;
   const float* bounds = nullptr;
   double limit = 0;  ///< Squared; points nearer to that centre are not looked at.
 };
 
 /// Writes positions in the block, in any order, of points with a squared_distance() of at least `limit` to
-/// `center`, among them all valid ones whose squared_distance() to kept.center is at least kept.limit.
+/// `center`, among them all valid ones whose squared_distance() to that scan's is at least kept.limit.
 /// Returns how many; there must be room for kBlockPoints. Looks at few points where few reach. `isa`: the one
 /// that the bounds are of. Throws as scan_octants(), also for a block of doubles and without bounds.
 std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBounds& kept,
