@@ -11,7 +11,7 @@
 #include "command/setting_options.h"
 #include "command/values.h"
 #include "pcl_bv/io/read_cloud.h"
-#include "values.h"
+#include "pcl_bv/nodes/settings.h"
 
 namespace pcl_bv {
 namespace {
@@ -76,6 +76,25 @@ void require_extension(const char* option, const std::string& name,
   throw UsageError(std::string(option) + ": '" + name + "' is no " + list + " file");
 }
 
+OriginOption parse_origin(const std::string& text) {
+  OriginOption origin{true, {}};
+  if (text == "auto") return origin;
+  parse_with("--origin", text, [&](const std::string& numbers) { read_text(numbers, origin.at); });
+  if (origin.at && origin.at->allFinite()) return origin;
+  throw UsageError("--origin: '" + text + "' is not X,Y,Z, all finite, or auto");
+}
+
+template <typename Choice>
+Choice parse_choice(const std::string& option, const std::string& text,
+                    std::initializer_list<std::pair<std::string_view, Choice>> choices) {
+  std::string known;
+  for (const auto& [name, choice] : choices) {
+    if (name == text) return choice;
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  throw UsageError(option + ": '" + text + "' is not one of " + known);
+}
+
 void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
   if (line.given("--view") && !line.given("--image")) throw UsageError("--view: only useful with --image");
   const std::vector<const Method*> methods = config.methods();
@@ -88,7 +107,12 @@ void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
 }
 
 void read_outputs(const CommandLine& line, const Texts& texts, Options& options) {
-  if (line.given("--format")) options.format = parse_format(texts.format);
+  if (line.given("--format"))
+    options.format = parse_choice<OutputFormat>("--format", texts.format,
+                                                {{"text", OutputFormat::text},
+                                                 {"json", OutputFormat::json},
+                                                 {"jsonl", OutputFormat::jsonl},
+                                                 {"csv", OutputFormat::csv}});
   options.output = path_or_none(line, "--output", texts.output);
   options.labels = path_or_none(line, "--labels", texts.labels);
   options.mesh = path_or_none(line, "--mesh", texts.mesh);
@@ -96,7 +120,12 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   require_extension("--labels", texts.labels, {".pcd"});
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
-  if (line.given("--view")) options.view = parse_view(texts.view);
+  if (line.given("--view"))
+    options.view = parse_choice<ViewFrom>("--view", texts.view,
+                                          {{"iso", ViewFrom::iso},
+                                           {"top", ViewFrom::top},
+                                           {"front", ViewFrom::front},
+                                           {"side", ViewFrom::side}});
   options.check = texts.check;
   options.info = texts.info;
   options.timings = texts.timings;

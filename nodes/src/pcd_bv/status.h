@@ -4,12 +4,19 @@
 // How the command ends.
 #pragma once
 
+#include <initializer_list>
+
 namespace pcl_bv {
 
 /// Exit statuses.
 enum class Status { done = 0, failed = 1, misuse = 2, outside = 3 };
 
 /// The one that wins where both apply, in the order misuse, outside, failed, done.
-Status worse(Status a, Status b);
+constexpr Status worse(Status a, Status b) {
+  for (const Status status : {Status::misuse, Status::outside, Status::failed}) {
+    if (a == status || b == status) return status;
+  }
+  return Status::done;
+}
 
 }  // namespace pcl_bv

@@ -38,103 +38,42 @@ struct Setting {
 /// Calls visit(setting, value) for each: `value` is a bool, double, std::size_t, std::optional of one of the
 /// latter two or of a point, Eigen::Vector3d (a direction), std::string (the instruction set), a list of them
 /// (methods) or of regions, or one of the enums, and const if the configuration is.
+// clang-format off: a table
 template <typename Pipeline, typename Visit>
 void visit_pipeline(Pipeline& c, Visit&& visit) {
   using S = Setting;
   visit(S{"filter.range_min", "m", "Drop points nearer to the origin than this"}, c.filter.range_min);
   visit(S{"filter.range_max", "m", "Drop points farther from the origin than this", {0, kNoLimit}},
         c.filter.range_max);
-  visit(S{"filter.own_box_min",
-          "m, [x, y, z]",
-          "Lower corner of the box whose points are dropped",
-          {},
-          "no box"},
+  visit(S{"filter.own_box_min", "m, [x, y, z]", "Lower corner of a box of points to drop", {}, "no box"},
         c.filter.own_box_min);
-  visit(S{"filter.own_box_max",
-          "m, [x, y, z]",
-          "Upper corner of the box whose points are dropped",
-          {},
-          "no box"},
+  visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of a box of points to drop", {}, "no box"},
         c.filter.own_box_max);
   visit(S{"filter.regions", "[{file: F.json, keep: false, padding: 0 m}]",
-          "Drop points inside volumes; keep: outside of all"},
-        c.filter.regions);
-  visit(S{"ground.method",
-          "none, plane, zones",
-          "Take the ground away first: none, plane or zones (outdoors)",
-          {},
-          {},
-          "--ground",
-          "KIND"},
-        c.ground.method);
-  visit(S{"ground.up",
-          "x, y, z, -x, -y, -z or a vector X,Y,Z",
-          "Against gravity: x, y, z, -x, -y, -z or X,Y,Z",
-          {},
-          {},
-          "--up",
-          "AXIS"},
-        c.ground.up);
+          "Drop points inside volumes; keep: outside of all"}, c.filter.regions);
+  visit(S{"ground.method", "none, plane, zones", "Take the ground away first: none, plane or zones (outdoors)",
+          {}, {}, "--ground", "KIND"}, c.ground.method);
+  visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z",
+          "Against gravity: x, y, z, -x, -y, -z or X,Y,Z", {}, {}, "--up", "AXIS"}, c.ground.up);
   visit(S{"ground.sensor", "m, [x, y, z]", "Where the sensor is: the centre of zones", {}, "the origin"},
         c.ground.sensor);
-  visit(S{"ground.sensor_height",
-          "m",
-          "Height of the origin above the ground",
-          {},
-          "learnt",
-          "--sensor-height",
-          "M"},
-        c.ground.sensor_height);
-  visit(S{"ground.distance",
-          "m",
-          "Height up to which points are ground",
-          {0, kFinite, false},
-          "0.2 of a plane, 0.15 of zones",
-          "--ground-distance",
-          "M"},
-        c.ground.distance);
-  visit(S{"ground.max_slope_degrees",
-          "degrees",
-          "Greatest slope of the ground",
-          {0, 89},
-          "15 of a plane, 20 of zones",
-          "--ground-slope",
-          "DEG"},
-        c.ground.max_slope_degrees);
-  visit(S{"cluster.tolerance",
-          "m; 0: all points are one object",
-          "Points nearer than this are one object; 0: a whole cloud",
-          {0, 1e6},
-          {},
-          "--cluster",
-          "TOL"},
+  visit(S{"ground.sensor_height", "m", "Height of the origin above the ground", {}, "learnt",
+          "--sensor-height", "M"}, c.ground.sensor_height);
+  visit(S{"ground.distance", "m", "Height up to which points are ground", {0, kFinite, false},
+          "0.2 of a plane, 0.15 of zones", "--ground-distance", "M"}, c.ground.distance);
+  visit(S{"ground.max_slope_degrees", "degrees", "Greatest slope of the ground", {0, 89},
+          "15 of a plane, 20 of zones", "--ground-slope", "DEG"}, c.ground.max_slope_degrees);
+  visit(S{"cluster.tolerance", "m; 0: all points are one object",
+          "Points nearer than this are one object; 0: a whole cloud", {0, 1e6}, {}, "--cluster", "TOL"},
         c.cluster.tolerance);
-  visit(S{"cluster.min_size",
-          "points",
-          "Drop objects of fewer points",
-          {0, kNoLimit},
-          "10; without clusters 0",
-          "--min-size",
-          "N"},
-        c.cluster.min_size);
+  visit(S{"cluster.min_size", "points", "Drop objects of fewer points", {0, kNoLimit},
+          "10; without clusters 0", "--min-size", "N"}, c.cluster.min_size);
   visit(S{"cluster.max_size", "points", "Drop objects of more points", {1, kNoLimit}, {}, "--max-size", "N"},
         c.cluster.max_size);
-  visit(S{"volumes",
-          "methods",
-          "Methods with commas, or all",
-          {},
-          "obb-lshape; without clusters aabb,sphere,obb",
-          "--volume",
-          "LIST"},
-        c.volumes);
-  visit(S{"growth",
-          "sequential, stationary, deferred",
-          "Growth of EPOS spheres: sequential, stationary, deferred",
-          {},
-          {},
-          "--growth",
-          "POLICY"},
-        c.growth);
+  visit(S{"volumes", "methods", "Methods with commas, or all", {},
+          "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
+  visit(S{"growth", "sequential, stationary, deferred",
+          "Growth of EPOS spheres: sequential, stationary, deferred", {}, {}, "--growth", "POLICY"}, c.growth);
   visit(S{"track.enabled", "", "Give objects ids that last from frame to frame", {}, {}, "--track"},
         c.track.enabled);
   visit(S{"track.gate", "m", "How far an object may be from where it was expected", {0, 100, false}},
@@ -151,19 +90,13 @@ template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
   using S = Setting;
   visit_pipeline(c.pipeline, visit);
-  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"},
-        c.runner.queue);
-  visit(S{"runner.policy",
-          "auto, drop_oldest, drop_newest, block",
-          "When they do: drop_oldest, drop_newest, block, auto",
-          {},
-          {},
-          "--policy",
-          "NAME"},
-        c.runner.policy);
+  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"}, c.runner.queue);
+  visit(S{"runner.policy", "auto, drop_oldest, drop_newest, block",
+          "When they do: drop_oldest, drop_newest, block, auto", {}, {}, "--policy", "NAME"}, c.runner.policy);
   visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);
   visit(S{"runner.watchdog_s", "s; 0: none", "Say so if no frame comes for so long"}, c.runner.watchdog_s);
 }
+// clang-format on
 
 /// A value as a text: the fewest digits that read back exactly; "null" and "unlimited" where there is none.
 std::string to_text(bool value);
