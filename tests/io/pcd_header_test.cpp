@@ -306,6 +306,9 @@ TEST_F(PcdHeader, OfZeroPointsBeforeSomeIsRefusedAndOfTooFewIsSaid) {
   EXPECT_EQ(read(std::string(24 + 11, 'a')).note, "");
   EXPECT_EQ(read(std::string(24 + 36, 'a')).note,
             "the header says 2 points; 36 bytes of 3 more points follow, which are not read");
+  EXPECT_EQ(read(std::string(24, 'a') + std::string(4095, '\0')).note, "");  // as PCL fills up a page
+  EXPECT_NE(read(std::string(24, 'a') + std::string(4095, '\0') + 'a').note, "");
+  EXPECT_NE(read(std::string(24, 'a') + std::string(4096, '\0')).note, "");
 }
 
 }  // namespace

@@ -160,11 +160,20 @@ PcdEncoding read_encoding(const KeywordLines& lines) {
   throw IoError("header: DATA: " + in_quotes(word) + " is not one of ascii, binary, binary_compressed");
 }
 
+// PCL fills its files up to a whole page of memory.
+bool is_filling(const InputFile& file, std::size_t rest) {
+  constexpr std::size_t page = 4096;
+  if (rest >= page) return false;
+  std::vector<char> bytes(rest);
+  file.read(file.size() - rest, bytes.data(), rest);
+  return std::all_of(bytes.begin(), bytes.end(), [](char byte) { return byte == 0; });
+}
+
 // A recorder that stops early leaves the number of points as it was when it began.
-void note_rest(std::size_t rest, RawCloud& cloud) {
+void note_rest(const InputFile& file, std::size_t rest, RawCloud& cloud) {
+  if (rest < cloud.point_step || is_filling(file, rest)) return;
   const std::string bytes =
       std::to_string(rest) + " bytes of " + std::to_string(rest / cloud.point_step) + " more points follow";
-  if (rest < cloud.point_step) return;
   if (cloud.size() == 0) throw IoError("header: 0 points, but " + bytes);
   cloud.note =
       "the header says " + std::to_string(cloud.size()) + " points; " + bytes + ", which are not read";
@@ -189,7 +198,7 @@ void require_records(const InputFile& file, PcdHeader& header) {
   RawCloud& cloud = header.cloud;
   const std::size_t needed = cloud.size() * cloud.point_step;
   const std::size_t available = file.size() - header.data_offset;
-  if (needed <= available) return note_rest(available - needed, cloud);
+  if (needed <= available) return note_rest(file, available - needed, cloud);
   throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
                 std::to_string(cloud.point_step) + " bytes need " + std::to_string(needed) +
                 " bytes, the file has " + std::to_string(available));

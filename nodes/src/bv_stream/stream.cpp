@@ -144,10 +144,11 @@ std::string named(const Frame& frame, const std::string& what) {
 StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, Progress& progress) {
   StreamRunner::Callbacks callbacks;
   callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
-  callbacks.on_result = [&, last_remark = std::string()](const Frame& frame,
-                                                         const FrameResult& result) mutable {
+  callbacks.on_result = [&, last_note = std::string(), last_remark = std::string()](
+                            const Frame& frame, const FrameResult& result) mutable {
     sinks.write(frame, result);
-    if (!frame.note.empty()) complain(named(frame, frame.note));
+    if (!frame.note.empty() && frame.note != last_note) complain(named(frame, frame.note));
+    last_note = frame.note;
     const std::string remark = ground_remark(result);
     if (!remark.empty() && remark != last_remark) complain(named(frame, remark));
     last_remark = remark;
