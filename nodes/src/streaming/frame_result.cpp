@@ -32,14 +32,19 @@ std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& resu
   std::vector<std::uint32_t> label(size, label_none);
   for (const std::int32_t i : result.ground.ground)
     label[static_cast<std::size_t>(i)] = label_ground;
-  for (std::size_t id = 0; id < result.clusters.size(); ++id) {
-    const PointView cluster = result.points_of(id, cloud);
-    for (std::size_t chunk = 0; chunk < chunk_count(cluster.count); ++chunk) {
-      const LoadedPoints loaded = load_chunk(cluster, chunk);
-      const PointView& part = loaded.view();
-      for (std::size_t i = 0; i < part.count; ++i) {
-        if (is_valid(load_point(part, i))) label[part.index(i)] = static_cast<std::uint32_t>(id);
-      }
+  const Clusters& clusters = result.clusters;
+  for (std::size_t id = 0; id < clusters.size(); ++id) {
+    for (std::size_t i = clusters.offsets[id];
+         i < std::min(clusters.offsets[id + 1], clusters.indices.size()); ++i)
+      label[static_cast<std::size_t>(clusters.indices[i])] = static_cast<std::uint32_t>(id);
+  }
+  if (!clusters.indices.empty() || clusters.size() == 0) return label;
+  const PointView all = result.points_of(0, cloud);  // without a list
+  for (std::size_t chunk = 0; chunk < chunk_count(all.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(all, chunk);
+    const PointView& part = loaded.view();
+    for (std::size_t i = 0; i < part.count; ++i) {
+      if (is_valid(load_point(part, i))) label[part.index(i)] = 0;
     }
   }
   return label;
