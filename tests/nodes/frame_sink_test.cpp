@@ -130,7 +130,7 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
   EXPECT_TRUE(parse_sink("vtp:a,points").points);
   EXPECT_EQ(parse_sink("csv:a,points").place, "a,points");
   EXPECT_EQ(parse_sink("jsonl:a:b").place, "a:b");
-  for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "xml:a", "json:a", ":a"}) {
+  for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "vtp:-", "image:-", "xml:a", "json:a", ":a"}) {
     try {
       parse_sink(bad);
       FAIL() << bad;

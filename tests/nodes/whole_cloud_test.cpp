@@ -133,6 +133,39 @@ TEST(Regions, DropWhatIsInsideOrOutsideAndCountIt) {
   }
 }
 
+TEST(WholeCloud, ASliceIsToldApartByTheNumbersOfItsCloud) {
+  const std::vector<float> xyz = street(1)[0];
+  const PointView cloud = frame_of(xyz, 0).points;
+  const PointView slice = cloud.slice(20'000, cloud.count - 20'000);
+  PipelineConfig config = whole_cloud_config();
+  config.cluster.tolerance = 0.5;
+  config.filter.range_min = 1;
+  const FrameResult result = result_of(config, slice);
+  ASSERT_GE(result.clusters.size(), 1U);
+  for (std::size_t c = 0; c < result.clusters.size(); ++c) {
+    const PointView points = result.points_of(c, slice);
+    EXPECT_EQ(verify(result.volume(c, 0), points).outside, 0U);
+    for (std::size_t i = 0; i < points.count; ++i) {
+      const Coordinates p = load_point(points, i), q = load_point(cloud, points.index(i));
+      ASSERT_TRUE(p == q) << points.index(i);
+    }
+  }
+}
+
+TEST(WholeCloud, PointsAtTheEndOfTheFloatsAreTrackedLikeOthers) {
+  std::vector<float> xyz;
+  for (int i = 0; i < 60; ++i)
+    xyz.insert(xyz.end(), {i < 30 ? 3e38F : 5.0F, 0.01F * static_cast<float>(i), 0});
+  PipelineConfig config = whole_cloud_config();
+  config.cluster.tolerance = 0.5;
+  config.track.enabled = true;
+  FramePipeline pipeline(config);
+  FrameResult result;
+  for (std::size_t f = 0; f < 5; ++f)
+    pipeline.process(frame_of(xyz, f), result);
+  EXPECT_EQ(result.tracks.size(), result.clusters.size());
+}
+
 TEST(Regions, AFileThatCannotBeReadIsAnErrorBeforeAnyFrame) {
   PipelineConfig config;
   config.filter.regions = {{"/nonexistent.json"}};

@@ -60,6 +60,8 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   OutputClaims claims;
   claims.add_input(options.source);
   if (!config.empty()) claims.add_input(config);
+  for (const RegionConfig& region : options.config.pipeline.filter.regions)
+    claims.add_input(region.file);
   if (!options.replay.poses.empty()) claims.add_input(options.replay.poses);
   std::error_code unknown;
   try {
@@ -123,7 +125,7 @@ std::variant<StreamOptions, std::string> parse_stream_options(int argc, const ch
   declare_frames(line, texts);
   StreamConfig defaults;
   defaults.pipeline.threads = 0;
-  const SettingOptions settings(line, defaults, true);
+  SettingOptions settings(line, defaults, true);
   declare_results(line, texts);
   if (auto text = line.parse(argc, argv)) return *std::move(text);
   StreamConfig config = settings.config();

@@ -171,10 +171,10 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
 int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   const std::unique_ptr<FrameSource> source = parse_with(
       "--source", options.source, [&](const auto& name) { return open_source(name, options.replay); });
+  FramePipeline pipeline(options.config.pipeline);  // reads its files before outputs are opened
   SinkGroup sinks(complain);
   for (const SinkDescription& sink : options.sinks)
     sinks.add(sink);
-  FramePipeline pipeline(options.config.pipeline);
   Progress progress;
   RunnerConfig config = options.config.runner;
   config.policy = resolved(config.policy, options.rate != Rate::max);

@@ -86,6 +86,9 @@ std::vector<Job> plan_jobs(const Options& options) {
   const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;
   const char* mesh_extension = vtp ? ".vtp" : ".ply";
   OutputClaims claims;
+  if (!options.config_file.empty()) claims.add_input(options.config_file);
+  for (const RegionConfig& region : options.pipeline.filter.regions)
+    claims.add_input(region.file);
   for (const Job& job : jobs) {
     if (!is_synth(job.input)) claims.add_input(job.input);
   }

@@ -152,11 +152,13 @@ std::variant<Options, std::string> parse_options(int argc, const char* const* ar
                    examples);
   Texts texts;
   declare(line, texts);
-  const SettingOptions settings(line, {whole_cloud_config(), {}}, false);
+  SettingOptions settings(line, {whole_cloud_config(), {}}, false);
   if (auto text = line.parse(argc, argv)) return *std::move(text);
   StreamConfig config = settings.config();
   if (settings.print_config()) return to_yaml(config);
-  return to_options(line, texts, std::move(config.pipeline));
+  Options options = to_options(line, texts, std::move(config.pipeline));
+  options.config_file = settings.file();
+  return options;
 }
 
 }  // namespace pcl_bv

@@ -30,6 +30,7 @@ struct Options {
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
   OriginOption origin;
   PipelineConfig pipeline;
+  std::string config_file;  ///< Of --config, empty without it.
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image;
   ViewFrom view = ViewFrom::iso;

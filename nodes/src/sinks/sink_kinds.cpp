@@ -51,7 +51,8 @@ SinkDescription parse_sink(const std::string& description) {
     std::string place = description.substr(std::min(colon + 1, description.size()));
     const bool points = kind.place.ends_with("[,points]") && place.ends_with(kPoints);
     if (points) place.resize(place.size() - kPoints.size());
-    if (!place.empty()) return {&kind, place, points};
+    const bool folder_is_named = kind.files.empty() || place != "-";
+    if (!place.empty() && folder_is_named) return {&kind, place, points};
   }
   throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
 }

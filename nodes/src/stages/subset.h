@@ -11,6 +11,10 @@ namespace pcl_bv {
 
 /// Points of a cloud in memory by their numbers, which are known to be right.
 inline PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
+  // A slice counts from its cloud's first point, but begins elsewhere.
+  const bool moved = cloud.indices == nullptr && cloud.order == PointOrder::records && cloud.data != nullptr;
+  if (moved) cloud.data -= cloud.stride * cloud.first;
+  cloud.first = 0;
   cloud.indices = numbers;
   cloud.count = count;
   return cloud;

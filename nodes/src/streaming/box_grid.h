@@ -32,7 +32,9 @@ class BoxGrid {
   template <typename Visit>
   void visit_near(const Eigen::Vector3d& place, const Visit& visit) const {
     const double x = square(place.x()), y = square(place.y());
-    for (double column = x - 1; column <= x + 1; ++column) {
+    for (const double beside : {-1.0, 0.0, 1.0}) {  // counted: beyond 2^53 a double no longer grows by 1
+      const double column = x + beside;
+      if (beside != 0 && column == x) continue;
       auto cell = std::lower_bound(cells_.begin(), cells_.end(), Cell{column, y - 1, 0});
       for (; cell != cells_.end() && cell->x == column && cell->y <= y + 1; ++cell)
         visit(cell->box);

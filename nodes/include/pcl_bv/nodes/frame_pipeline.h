@@ -31,7 +31,7 @@ class FramePipeline {
   PipelineConfig config() const;
 
   /// Replaces `result`. Frames must come in the order of their stamps where they are tracked. No valid point:
-  /// no clusters, the frame's header, and the counts say why. Throws std::length_error beyond 2^31 - 1
+  /// no clusters (without clustering one of no points), the frame's header, and the counts say why. Throws std::length_error beyond 2^31 - 1
   /// points. Not for several threads at once.
   void process(const Frame& frame, FrameResult& result);
 
