@@ -25,9 +25,9 @@ int main() {
     for (std::size_t i = 0; i < result.clusters.size(); ++i) {
       const Eigen::Vector3d center = pcl_bv::center(result.volume(i, 1));
       std::printf("frame %d: object %d at %.2f %.2f %.2f\n", frame,
-                  result.tracks[i] ? static_cast<int>(*result.tracks[i]) : -1, center.x(), center.y(),
+                  result.tracks[i] ? static_cast<int>(result.tracks[i]->id) : -1, center.x(), center.y(),
                   center.z());
     }
   }
-  return result.clusters.size() == 1 && result.tracks[0] == 0U ? 0 : 1;
+  return result.clusters.size() == 1 && result.tracks[0]->id == 0U ? 0 : 1;
 }

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <sstream>
 
 #include "command.h"
@@ -35,7 +36,9 @@ class BvStream : public PcdBv {
   // In the test's folder: the command runs in the background as $!, `then` is what follows it.
   Result stream_in_shell(const std::string& then, const std::vector<std::string>& arguments,
                          const std::string& before = "") const {
-    const std::string command = "cd '" + at("") + "'; " + before + "\"$@\" & " + then;
+    // Of what is in the background a shell ignores SIGINT.
+    const std::string command =
+        "cd '" + at("") + "'; " + before + "env --default-signal=INT \"$@\" & " + then;
     return stream_under({"/bin/sh", "-c", command, "sh"}, arguments);
   }
 
@@ -248,6 +251,48 @@ TEST_F(BvStream, ASignalIsHeededWhileNothingComes) {
       {"--source", at("sweeps"), "--loop", "9", "--rate", "0.001", "--sink", "jsonl:" + at("seen")});
   EXPECT_EQ(result.status, 0) << result.err;  // the second frame would be due in 17 minutes
   EXPECT_EQ(lines(read_file(at("seen"))).size(), 1U);
+}
+
+TEST_F(BvStream, ASignalThatItsCallerIgnoresIsNotHeeded) {
+  ascii("sweeps/1.pcd", {"1 2 3"});
+  const Result result = stream_under(
+      {"/bin/sh", "-c",
+       "cd '" + at("") +
+           "'; trap '' INT; \"$@\" & while ! [ -s seen ]; do sleep 0.05; done; kill -INT $!; "
+           "sleep 0.3; kill -0 $! || exit 99; kill -TERM $!; wait $!",
+       "sh"},
+      {"--source", at("sweeps"), "--loop", "9", "--rate", "0.001", "--sink", "jsonl:" + at("seen")});
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
+TEST_F(BvStream, OutputsReplaceNothingThatIsRead) {
+  const std::string sweeps = at("sweeps");
+  ascii("sweeps/1.pcd", {"1 2 3", "2 3 4"});
+  for (const char* file : {"run.yaml", "robot.json", "poses.txt"})
+    std::ofstream(at(file)) << (file == std::string("run.yaml") ? "threads: 1\n"
+                                                                : "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  const std::vector<std::string> all{"--source",      sweeps,           "--config", at("run.yaml"),
+                                     "--drop-inside", at("robot.json"), "--poses",  at("poses.txt")};
+  for (const std::string& read : {at("run.yaml"), at("robot.json"), at("poses.txt"), sweeps + "/1.pcd"}) {
+    const std::string before = read_file(read);
+    for (const std::string& output : {"--stats " + read, "--sink csv:" + read, "--sink jsonl:" + read}) {
+      std::vector<std::string> arguments = all;
+      arguments.push_back(output.substr(0, output.find(' ')));
+      arguments.push_back(output.substr(output.find(' ') + 1));
+      const Result result = stream(arguments);
+      EXPECT_EQ(result.status, 2) << output;
+      EXPECT_THAT(result.err, HasSubstr("is an input and would be overwritten"));
+      EXPECT_EQ(read_file(read), before);
+    }
+  }
+}
+
+TEST_F(BvStream, SaysWhichSubfoldersAreNotRead) {
+  ascii("sweeps/1.pcd", {"1 2 3"});
+  std::filesystem::create_directory(at("sweeps/more"));
+  const Result result = stream({"--source", at("sweeps"), "--rate", "max"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "bv_stream: " + at("sweeps") + ": 1 subfolder is not read\n");
 }
 
 TEST_F(BvStream, ASecondSignalEndsItAtOnce) {

@@ -21,6 +21,8 @@ TEST_F(PcdBv, NoOutputEverOverwritesAnInput) {
   fs::create_directory(at("folder"));
   fs::copy(cloud, at("folder/a.pcd"));
   fs::create_symlink(cloud, at("link.pcd"));
+  file("robot.json", "{}");
+  file("run.yaml", "threads: 1\n");
   const std::vector<std::vector<std::string>> cases = {
       {"--output", cloud, cloud},
       {"--labels", cloud, cloud},
@@ -28,6 +30,8 @@ TEST_F(PcdBv, NoOutputEverOverwritesAnInput) {
       {"--labels", at("folder/../good.pcd"), cloud},
       {"--labels", at("link.pcd"), cloud},
       {"--labels", cloud, at("link.pcd")},
+      {"--output", at("robot.json"), "--drop-inside", at("robot.json"), cloud},
+      {"--output", at("run.yaml"), "--config", at("run.yaml"), cloud},
   };
   for (const auto& arguments : cases) {
     SCOPED_TRACE(testing::PrintToString(arguments));

@@ -95,6 +95,16 @@ TEST_F(Bin, OfAnotherNumberOfFloatsIsRefusedWithTheNumberToTry) {
   }
 }
 
+TEST_F(Bin, WithLostBeamsIsJudgedByTheOthers) {
+  for (const std::size_t fields : {4UL, 6UL}) {
+    std::vector<float> values = sweep(3000, fields);
+    for (std::size_t i = 0; i < 3000; i += 3)
+      std::fill_n(&values[fields * i], 3, std::numeric_limits<float>::quiet_NaN());
+    write_text(file("a.bin"), text_of(values));
+    EXPECT_EQ(reason_for(file("a.bin")) == "", fields == 4) << fields;
+  }
+}
+
 TEST_F(Bin, OfFourFloatsIsReadInWhateverOrderItsPointsCome) {
   std::vector<float> values = sweep(4000, 4);
   for (int order = 0; order < 3; ++order) {

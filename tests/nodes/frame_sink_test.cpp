@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "folder.h"
+#include "frames.h"
+#include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/report/meshes.h"
 
 namespace pcl_bv {
@@ -24,7 +26,10 @@ struct Found {
     result.clusters.indices = {1, 0};
     result.clusters.offsets = {0, 2};
     result.ground.ground = {2};
-    result.tracks = {17};
+    PipelineConfig config;
+    config.track.enabled = true;
+    result.config = std::make_shared<PipelineConfig>(config);
+    result.tracks = {TrackEntry{17}};
     result.methods = {find_method("aabb")};
     result.volumes = {Aabb({1, 2, 3}, {1.5, 2, 3})};
     result.results.resize(1);
@@ -51,6 +56,31 @@ TEST(LabelsOf, AnIndexListMeansTheCloudsPoints) {
   found.result.ground.ground.clear();
   const std::uint32_t none = 4294967295;
   EXPECT_EQ(labels_of(found.frame, found.result), (std::vector<std::uint32_t>{none, 0, none, none, none, 0}));
+}
+
+TEST_F(FrameSinks, WriteTheSameOfPointsInMemoryAndOnesThatAreAskedFor) {
+  const std::vector<float> xyz = street(1, 64'000)[0];
+  const AskedFor source(xyz);
+  std::vector<std::string> written;
+  for (const PointView& points : {PointView::of(xyz.data(), 12, xyz.size() / 3), source.view()}) {
+    for (const char* filter : {"", "filtered"}) {
+      PipelineConfig config = whole_cloud_config();
+      config.filter.range_min = *filter == 0 ? 0 : 5;
+      Frame frame;
+      frame.points = points;
+      FrameResult result;
+      FramePipeline(config).process(frame, result);
+      for (const std::string name : {"labels", "vtp"}) {
+        const std::string folder = (path_ / (name + std::to_string(written.size()))).string();
+        make_sink(parse_sink(name + ":" + folder + (name == "vtp" ? ",points" : "")))->write(frame, result);
+        written.push_back(read(folder + (name == "vtp" ? "/points000000.vtp" : "/frame000000.pcd")));
+        EXPECT_GT(written.back().size(), 16 * points.count / 2);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_TRUE(written[i] == written[i + 4]) << i;
+  EXPECT_FALSE(written[0] == written[2]);
 }
 
 TEST_F(FrameSinks, NameFilesByTheRunnersNumberWhateverTheSourceCounts) {

@@ -6,18 +6,20 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
+#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {
 
-inline std::vector<std::vector<float>> street(std::size_t frames) {
+inline std::vector<std::vector<float>> street(std::size_t frames, std::size_t points = 32'000) {
   std::vector<std::vector<float>> all;
   StreetOptions options;
-  options.points = 32'000;
+  options.points = points;
   for (std::size_t i = 0; i < frames; ++i)
     all.push_back(make_street_frame(options, i).cloud.xyz);
   return all;
@@ -29,6 +31,26 @@ inline Frame frame_of(const std::vector<float>& xyz, std::size_t number) {
   frame.points = PointView::of(xyz.data(), 12, xyz.size() / 3);
   return frame;
 }
+
+/// Points that are not there until they are asked for.
+class AskedFor final : public PointSource {
+ public:
+  explicit AskedFor(const std::vector<float>& xyz) : xyz_(xyz) {}
+  PointView view() const { return view_of(*this, xyz_.size() / 3, ScalarType::float32); }
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
+    buffer.resize(12 * count);
+    std::memcpy(buffer.data(), xyz_.data() + 3 * first, 12 * count);
+    PointView view;
+    view.data = buffer.data();
+    view.stride = view.readable = 12;
+    view.count = count;
+    view.first = first;
+    return view;
+  }
+
+ private:
+  const std::vector<float>& xyz_;
+};
 
 inline void expect_equal(const FrameResult& a, const FrameResult& b) {
   EXPECT_EQ(a.clusters.indices, b.clusters.indices);

@@ -175,7 +175,7 @@ TEST(Pipeline, UprightBoxesStandAgainstGravityWhateverItsLength) {
 
 TEST(Pipeline, TracksDoNotDependOnTheVolumesAskedFor) {
   const auto frames = street(4);
-  std::vector<std::vector<std::optional<std::uint32_t>>> expected;
+  std::vector<std::vector<std::optional<TrackEntry>>> expected;
   for (const char* volume : {"aabb", "sphere-exact"}) {
     PipelineConfig config;
     config.volumes = {volume};

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 
 #include "frames.h"
@@ -19,26 +18,6 @@
 
 namespace pcl_bv {
 namespace {
-
-// Points that are not there until they are asked for.
-class Asked final : public PointSource {
- public:
-  explicit Asked(const std::vector<float>& xyz) : xyz_(xyz) {}
-  PointView view() const { return view_of(*this, xyz_.size() / 3, ScalarType::float32); }
-  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
-    buffer.resize(12 * count);
-    std::memcpy(buffer.data(), xyz_.data() + 3 * first, 12 * count);
-    PointView view;
-    view.data = buffer.data();
-    view.stride = view.readable = 12;
-    view.count = count;
-    view.first = first;
-    return view;
-  }
-
- private:
-  const std::vector<float>& xyz_;
-};
 
 Frame with(const PointView& points) {
   Frame frame;
@@ -53,7 +32,7 @@ FrameResult result_of(const PipelineConfig& config, const PointView& points) {
 }
 
 std::vector<float> street_with_bad_points() {
-  std::vector<float> xyz = street(1)[0];
+  std::vector<float> xyz = street(1, 64'000)[0];
   for (std::size_t i = 0; i < xyz.size(); i += 1000)
     xyz[i] = std::numeric_limits<float>::quiet_NaN();
   return xyz;
@@ -61,7 +40,7 @@ std::vector<float> street_with_bad_points() {
 
 TEST(WholeCloud, FromASourceHasTheBitsOfTheSameInMemory) {
   const std::vector<float> xyz = street_with_bad_points();
-  const Asked source(xyz);
+  const AskedFor source(xyz);
   for (const double range_min : {0.0, 3.0}) {
     PipelineConfig config = whole_cloud_config();
     config.filter.range_min = range_min;
@@ -87,6 +66,7 @@ TEST(WholeCloud, PointsOfItAreThoseThatItsVolumesHold) {
     config.filter.range_max = 30;
     const PointView cloud = frame_of(*xyz, 0).points;
     const FrameResult result = result_of(config, cloud);
+    EXPECT_EQ(result.filtered != nullptr, xyz == &street_xyz);
     ASSERT_EQ(result.clusters.size(), 1U);
     const PointView points = result.points_of(0, cloud);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
@@ -134,7 +114,7 @@ TEST(Regions, DropWhatIsInsideOrOutsideAndCountIt) {
 }
 
 TEST(WholeCloud, ASliceIsToldApartByTheNumbersOfItsCloud) {
-  const std::vector<float> xyz = street(1)[0];
+  const std::vector<float> xyz = street(1, 64'000)[0];
   const PointView cloud = frame_of(xyz, 0).points;
   const PointView slice = cloud.slice(20'000, cloud.count - 20'000);
   PipelineConfig config = whole_cloud_config();
@@ -150,6 +130,44 @@ TEST(WholeCloud, ASliceIsToldApartByTheNumbersOfItsCloud) {
       ASSERT_TRUE(p == q) << points.index(i);
     }
   }
+}
+
+TEST(WholeCloud, APartOfItIsFilteredAsItComesPastByTheNumbersOfItsCloud) {
+  const std::vector<float> xyz = street_with_bad_points();
+  const AskedFor source(xyz);
+  for (const PointView& cloud : {PointView::of(xyz.data(), 12, xyz.size() / 3), source.view()}) {
+    const std::size_t first = 20'000;
+    const PointView slice = cloud.slice(first, cloud.count - first - 5000);
+    ASSERT_GT(slice.count, kChunkPoints);
+    PipelineConfig config = whole_cloud_config();
+    config.filter.range_min = 5;
+    const FrameResult result = result_of(config, slice);
+    ASSERT_TRUE(result.filtered);
+    const std::vector<std::uint32_t> labels = labels_of(with(slice), result);
+    ASSERT_EQ(labels.size(), first + slice.count);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      const double x = xyz[3 * i], y = xyz[3 * i + 1], z = xyz[3 * i + 2];
+      ASSERT_EQ(labels[i] == 0, i >= first && x * x + y * y + z * z >= 25) << i;
+    }
+  }
+}
+
+TEST(WholeCloud, ThatIsFilteredAsItComesPastLivesAsLongAsItsResult) {
+  auto xyz = std::make_shared<std::vector<float>>(street(1, 64'000)[0]);
+  Frame frame = with(PointView::of(xyz->data(), 12, xyz->size() / 3));
+  frame.owner = xyz;
+  const std::weak_ptr<const std::vector<float>> alive = xyz;
+  xyz.reset();
+  PipelineConfig config = whole_cloud_config();
+  config.filter.range_min = 5;
+  FrameResult result;
+  FramePipeline(config).process(frame, result);
+  const PointView points = frame.points;
+  frame = Frame();
+  ASSERT_FALSE(alive.expired());
+  EXPECT_EQ(verify(result.volume(0, 0), result.points_of(0, points)).outside, 0U);
+  result = FrameResult();
+  EXPECT_TRUE(alive.expired());
 }
 
 TEST(WholeCloud, PointsAtTheEndOfTheFloatsAreTrackedLikeOthers) {
@@ -175,8 +193,8 @@ TEST(Regions, AFileThatCannotBeReadIsAnErrorBeforeAnyFrame) {
 }
 
 TEST(WholeCloud, ThatIsNotInMemoryCannotBeToldApart) {
-  const std::vector<float> xyz = street(1)[0];
-  const Asked source(xyz);
+  const std::vector<float> xyz = street(1, 64'000)[0];
+  const AskedFor source(xyz);
   PipelineConfig config = whole_cloud_config();
   config.cluster.tolerance = 0.5;
   EXPECT_THROW(result_of(config, source.view()), std::invalid_argument);
@@ -215,7 +233,7 @@ TEST(WholeCloud, WithoutAValidPointIsOneEmptyObject) {
 }
 
 TEST(GroundPlace, ZonesStandAboutTheSensorWhereverItIs) {
-  std::vector<float> xyz = street(1)[0], moved = xyz;
+  std::vector<float> xyz = street(1, 64'000)[0], moved = xyz;
   for (std::size_t i = 0; i < xyz.size(); ++i)
     moved[i] += i % 3 == 0 ? 64.0F : 0.0F;  // but for rounding the same street
   PipelineConfig config = whole_cloud_config();

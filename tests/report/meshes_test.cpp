@@ -146,6 +146,18 @@ TEST_F(Meshes, VtpCountsWhatItHolds) {
   EXPECT_THAT(vtp, HasSubstr("\n-1 0.1 5000000.333333333\n"));  // shortest digits: no rounding, no padding
 }
 
+TEST_F(Meshes, VtpOfTrackedObjectsHasTheirAgeAndVelocity) {
+  std::vector<ClusterEntry> clusters = one_cluster({{"aabb", box, {}}});
+  clusters.push_back(clusters[0]);
+  clusters[1].track = {7, 12, {1.5, -0.25, 0}};
+  const std::string vtp = volumes_vtp(clusters, true);  // boxes have six faces
+  EXPECT_THAT(vtp, HasSubstr("Name=\"track\" format=\"ascii\">\n-1 -1 -1 -1 -1 -1 7 7 7 7 7 7 \n"));
+  EXPECT_THAT(vtp, HasSubstr("Name=\"age\" format=\"ascii\">\n0 0 0 0 0 0 12 12 12 12 12 12 \n"));
+  EXPECT_THAT(vtp, HasSubstr("Name=\"velocity\" NumberOfComponents=\"3\" format=\"ascii\">\n0 0 0 0 0 0 "));
+  EXPECT_EQ(count_of(vtp, "1.5 -0.25 0 "), 6U);
+  EXPECT_EQ(volumes_vtp(clusters).find("velocity"), std::string::npos);
+}
+
 TEST_F(Meshes, VolumesBeyondTheRangeOfDoubleAreAnError) {
   const auto clusters = one_cluster({{"aabb", Aabb({-1e200, -1e200, -1e200}, {1e200, 1e200, 1e200}), {}}});
   EXPECT_THROW(volumes_vtp(clusters), std::domain_error);

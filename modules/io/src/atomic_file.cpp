@@ -44,7 +44,11 @@ void write_all(const FileDescriptor& file, Pieces pieces) {
 
 // Some file systems cannot do that for folders, and say EINVAL.
 void wait_for_the_disk(const FileDescriptor& file) {
-  require(::fsync(file.get()) == 0 || errno == EINVAL);
+  int failed = 0;
+  do
+    failed = ::fsync(file.get());
+  while (failed != 0 && errno == EINTR);
+  require(failed == 0 || errno == EINVAL);
 }
 
 // 64 random bits, and O_EXCL when it is opened: no two writers, on whatever machines, share a temporary file.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "pcd_format.h"
@@ -37,11 +38,15 @@ bool is_no_coordinate(float value) {
   return !(magnitude <= 1e7F) || (magnitude < 1e-20F && magnitude != 0);
 }
 
-// How much values differ from those `distance` on: the median, which a few jumps do not move.
+// How much values differ from those `distance` on: the median, which a few jumps do not move. Lost beams
+// (NaN) say nothing.
 float median_difference(const std::vector<float>& values, std::size_t distance) {
   std::vector<float> differences;
-  for (std::size_t i = 0; i + distance < values.size(); ++i)
-    differences.push_back(std::abs(values[i + distance] - values[i]));
+  for (std::size_t i = 0; i + distance < values.size(); ++i) {
+    const float difference = std::abs(values[i + distance] - values[i]);
+    if (std::isfinite(difference)) differences.push_back(difference);
+  }
+  if (differences.empty()) return std::numeric_limits<float>::infinity();
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
   return *middle;

@@ -201,9 +201,9 @@ std::string frame_json(const FrameReport& report) {
   json["points"] = report.points;
   json["counts"] = counts_json(report.counts);
   json["clusters"] = Json::array();
-  for (const auto& [cluster, track] : report.clusters) {
+  for (const ClusterEntry& cluster : report.clusters) {
     json["clusters"].push_back({{"id", cluster.id},
-                                {"track", track ? Json(*track) : Json()},
+                                {"track", cluster.track ? Json(cluster.track->id) : Json()},
                                 {"points", cluster.points},
                                 {"volumes", volumes_json(cluster)}});
   }

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/report/meshes.h"
 #include "shortest.h"
 #include "volume_cells.h"
@@ -46,34 +47,45 @@ std::string cells_element(const std::string& name, const Cells& cells) {
          data_array("Int64", "offsets", offsets) + "      </" + name + ">\n";
 }
 
-std::string cell_data(const VolumeCells& cells, const std::vector<std::optional<std::uint32_t>>& tracks) {
-  const auto column = [&](const char* type, const char* name, const auto& value_of) {
-    return data_array(type, name, [&](std::string& text) {
+std::string coordinates(const Eigen::Vector3d& p) {
+  return shortest(p.x()) + ' ' + shortest(p.y()) + ' ' + shortest(p.z());
+}
+
+std::string cell_data(const VolumeCells& cells, const std::vector<ClusterEntry>& clusters, bool tracked) {
+  const auto column = [&](const char* type, const char* name, const auto& value_of,
+                          const std::string& more_attributes = "") {
+    const auto append = [&](std::string& text) {
       // VTK counts cells in this order.
       for (const Cells* kind : {&cells.points, &cells.lines, &cells.polygons}) {
         for (const Cell& cell : *kind)
           text += value_of(cells.owners[cell.owner]) + ' ';
       }
-    });
+    };
+    return data_array(type, name, append, more_attributes);
   };
-  const auto track = [&](auto& owner) {
-    return tracks[owner.entry] ? std::to_string(*tracks[owner.entry]) : "-1";
+  const auto track = [&](auto& owner) { return clusters[owner.entry].track.value_or(TrackEntry()); };
+  const auto id = [&](auto& owner) {
+    return clusters[owner.entry].track ? std::to_string(track(owner).id) : "-1";
   };
+  const auto age = [&](auto& owner) { return std::to_string(track(owner).age); };
+  const auto velocity = [&](auto& owner) { return coordinates(track(owner).velocity); };
   return "      <CellData Scalars=\"cluster\">\n" +
          column("Int64", "cluster", [](auto& owner) { return std::to_string(owner.cluster); }) +
          column("Int64", "method", [](auto& owner) { return std::to_string(owner.method); }) +
          column("Int64", "points", [](auto& owner) { return std::to_string(owner.points); }) +
          column("Float64", "volume", [](auto& owner) { return shortest(owner.volume); }) +
-         (tracks.empty() ? "" : column("Int64", "track", track)) + "      </CellData>\n";
+         (tracked ? column("Int64", "track", id) + column("Int64", "age", age) +
+                        column("Float64", "velocity", velocity, attribute("NumberOfComponents", 3))
+                  : "") +
+         "      </CellData>\n";
 }
 
 std::string points_element(const std::vector<Eigen::Vector3d>& vertices) {
-  const auto coordinates = [&](std::string& text) {
+  const auto all = [&](std::string& text) {
     for (const Eigen::Vector3d& vertex : vertices)
-      text += shortest(vertex.x()) + ' ' + shortest(vertex.y()) + ' ' + shortest(vertex.z()) + '\n';
+      text += coordinates(vertex) + '\n';
   };
-  return "      <Points>\n" +
-         data_array("Float64", "Points", coordinates, attribute("NumberOfComponents", 3)) +
+  return "      <Points>\n" + data_array("Float64", "Points", all, attribute("NumberOfComponents", 3)) +
          "      </Points>\n";
 }
 
@@ -119,26 +131,30 @@ std::string counts(std::size_t points, std::size_t verts, std::size_t lines, std
 
 }  // namespace
 
-std::string volumes_vtp(const std::vector<ClusterEntry>& clusters,
-                        const std::vector<std::optional<std::uint32_t>>& tracks) {
+std::string volumes_vtp(const std::vector<ClusterEntry>& clusters, bool tracked) {
   const VolumeCells cells = volume_cells(clusters);
   return polydata(
       method_names(cells),
       counts(cells.vertices.size(), cells.points.size(), cells.lines.size(), cells.polygons.size()),
-      cell_data(cells, tracks) + points_element(cells.vertices) + cells_element("Verts", cells.points) +
-          cells_element("Lines", cells.lines) + cells_element("Polys", cells.polygons));
+      cell_data(cells, clusters, tracked) + points_element(cells.vertices) +
+          cells_element("Verts", cells.points) + cells_element("Lines", cells.lines) +
+          cells_element("Polys", cells.polygons));
 }
 
 std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels) {
   std::vector<Eigen::Vector3d> valid;
   Cell cell;
   std::string numbers;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    if (!is_valid(p)) continue;
-    cell.vertices.push_back(static_cast<std::int32_t>(valid.size()));
-    valid.emplace_back(p.x, p.y, p.z);
-    numbers += std::to_string(labels[points.index(i)]) + ' ';
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(points, chunk);
+    const PointView& part = loaded.view();
+    for (std::size_t i = 0; i < part.count; ++i) {
+      const Coordinates p = load_point(part, i);
+      if (!is_valid(p)) continue;
+      cell.vertices.push_back(static_cast<std::int32_t>(valid.size()));
+      valid.emplace_back(p.x, p.y, p.z);
+      numbers += std::to_string(labels[part.index(i)]) + ' ';
+    }
   }
   const Cells cells(valid.empty() ? 0 : 1, cell);
   return polydata("", counts(valid.size(), cells.size(), 0, 0),

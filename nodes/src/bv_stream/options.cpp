@@ -6,6 +6,7 @@
 #include "options.h"
 
 #include "command/command_line.h"
+#include "command/messages.h"
 #include "command/output_claims.h"
 #include "command/setting_options.h"
 #include "command/values.h"
@@ -22,8 +23,8 @@ constexpr const char* examples = R"(Examples:
   bv_stream --source synth:street-sequence:100 --volume aabb,dop26 | jq -c .counts
 
 Exit status: 0 done, also after SIGINT, SIGTERM or SIGHUP, which let the frames in the queue be
-done first (a second one ends at once, with 130); 1 no readable source or poses, or an output
-not written; 2 wrong use or a bad configuration.
+done first (a second one ends at once, with 128 + its number); 1 no readable source or poses, or an
+output not written; 2 wrong use or a bad configuration.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {
@@ -66,8 +67,10 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   std::error_code unknown;
   try {
     if (std::filesystem::is_directory(options.source, unknown)) {
-      for (const std::filesystem::path& cloud : list_clouds(options.source))
+      std::size_t subfolders = 0;
+      for (const std::filesystem::path& cloud : list_clouds(options.source, &subfolders))
         claims.add_input(cloud);
+      say_what_is_skipped(options.source, subfolders);
     }
   } catch (const IoError& error) {
     throw IoError(options.source + ": " + error.what());

@@ -34,7 +34,7 @@ bool is_ignored(int signal) {
 
 }  // namespace
 
-Interruption::Interruption(std::function<void()> finish) : finish_(std::move(finish)) {
+void Interruption::start() {
   sigemptyset(&awaited_);
   sigaddset(&awaited_, farewell());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -54,6 +54,15 @@ void Interruption::watch() const {
   int signal = 0;
   sigwait(&awaited_, &signal);
   if (signal == farewell()) return;
+  told_ != nullptr ? void(*told_ = true) : begin_to_finish(signal);
+  do {
+    sigwait(&awaited_, &signal);
+    if (signal == farewell() && told_ != nullptr) return;
+  } while (signal == farewell());  // what finishes ends the process
+  end_with(signal);
+}
+
+void Interruption::begin_to_finish(int signal) const {
   const auto finish = [this, signal] {
     try {
       finish_();
@@ -66,11 +75,6 @@ void Interruption::watch() const {
   } catch (const std::system_error&) {
     finish();  // no more threads: then no second signal is heard
   }
-  int second = 0;
-  do
-    sigwait(&awaited_, &second);
-  while (second == farewell());
-  end_with(second);
 }
 
 }  // namespace pcl_bv

@@ -57,6 +57,11 @@ void complain(std::string_view problem) {
   holder != nullptr ? void(holder->kept.emplace_back(problem)) : say(problem);
 }
 
+void say_what_is_skipped(const std::string& folder, std::size_t subfolders) {
+  if (subfolders == 1) complain(folder + ": 1 subfolder is not read");
+  if (subfolders > 1) complain(folder + ": " + std::to_string(subfolders) + " subfolders are not read");
+}
+
 HeldComplaints::HeldComplaints() {
   holder = this;
 }

@@ -20,6 +20,9 @@ void say(std::string_view text);
 /// Says it too, or, where the thread holds its complaints, keeps it.
 void complain(std::string_view problem);
 
+/// Complains of a folder's subfolders, whose clouds are not looked for.
+void say_what_is_skipped(const std::string& folder, std::size_t subfolders);
+
 /// While it lives, what its thread complains of is kept, to be said in its turn. Not to be nested.
 class HeldComplaints {
  public:

@@ -35,11 +35,6 @@ bool is_folder(const std::string& path) {
   return !is_synth(path) && fs::is_directory(path, unknown);
 }
 
-void say_what_is_skipped(const std::string& folder, std::size_t subfolders) {
-  if (subfolders == 1) complain(folder + ": 1 subfolder is not read");
-  if (subfolders > 1) complain(folder + ": " + std::to_string(subfolders) + " subfolders are not read");
-}
-
 std::vector<Job> expand(const std::string& argument) {
   if (!is_folder(argument)) return {{argument, {}, {}, {}, {}, 0}};
   try {

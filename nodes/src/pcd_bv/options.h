@@ -47,8 +47,8 @@ inline bool writes_files(const Options& options) {
   return options.labels || options.mesh || options.image;
 }
 
-/// What the command line asks for: work, or (--help, --version) only a text on standard output. Throws
-/// UsageError.
+/// What the command line asks for: work, or (--help, --version, --print-config) only a text on
+/// standard output. Throws UsageError.
 std::variant<Options, std::string> parse_options(int argc, const char* const* argv);
 
 }  // namespace pcl_bv

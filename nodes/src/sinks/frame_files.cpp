@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "frame_report.h"
 #include "line_file.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/pcd.h"
@@ -65,11 +64,15 @@ void write_labels(const fs::path& file, const Frame& frame, const FrameResult& r
   cloud.point_step = 3 * size + 4;
   cloud.width = points.count;
   cloud.data.resize(cloud.point_step * points.count);
-  for (std::size_t i = 0; i < points.count; ++i) {
-    std::byte* to = cloud.data.data() + i * cloud.point_step;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      std::memcpy(to + axis * size, points.address(i) + axis * points.step(), size);
-    std::memcpy(to + std::size_t{3} * size, &labels[points.index(i)], 4);
+  std::byte* to = cloud.data.data();
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(points, chunk);
+    const PointView& part = loaded.view();
+    for (std::size_t i = 0; i < part.count; ++i, to += cloud.point_step) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        std::memcpy(to + axis * size, part.address(i) + axis * part.step(), size);
+      std::memcpy(to + std::size_t{3} * size, &labels[part.index(i)], 4);
+    }
   }
   write_pcd(file, cloud);
 }
@@ -81,10 +84,8 @@ class VtpSink : public FrameSink {
     index_.write(std::string(pvd_begin), pvd_end);
   }
   void write(const Frame& frame, const FrameResult& result) override {
-    std::vector<ClusterEntry> clusters;
-    for (TrackedEntry& entry : to_report(frame, result).clusters)
-      clusters.push_back(std::move(entry.cluster));
-    std::string entries = add("frame", frame, volumes_vtp(clusters, result.tracks), 0);
+    const bool tracked = result.config->track.enabled;
+    std::string entries = add("frame", frame, volumes_vtp(entries_of(result), tracked), 0);
     if (description_.points)
       entries += add("points", frame, points_vtp(frame.points, labels_of(frame, result)), 1);
     index_.write(std::move(entries), pvd_end);

@@ -3,13 +3,35 @@
 
 // Lines that others may read while they grow.
 
-#include "frame_report.h"
 #include "line_file.h"
 #include "pcl_bv/report/csv.h"
+#include "pcl_bv/report/frame_report.h"
 #include "sinks.h"
 
 namespace pcl_bv {
 namespace {
+
+FrameReport to_report(const Frame& frame, const std::string& error) {
+  FrameReport report;
+  report.seq = frame.header.seq;
+  report.stamp_ns = frame.header.stamp_ns;
+  report.frame_id = frame.header.frame_id;
+  report.file = frame.file;
+  report.error = error;
+  return report;
+}
+
+FrameReport to_report(const Frame& frame, const FrameResult& result) {
+  FrameReport report = to_report(frame, "");
+  report.error.reset();
+  report.points = result.points;
+  report.counts = result.counts;
+  report.clusters = entries_of(result);
+  const StageTimes& ms = result.ms;
+  report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},
+               {"fit", ms.fit},       {"track", ms.track},   {"total", ms.total}};
+  return report;
+}
 
 std::string first_columns(const FrameReport& report) {
   return std::to_string(report.seq) + ',' + std::to_string(report.stamp_ns) + ',';
@@ -20,8 +42,10 @@ std::string csv_lines(const FrameReport& report) {
   if (report.error)
     return first_columns(report) + ",,," + csv_field("error: " + *report.error) + std::string(12, ',') + '\n';
   std::string lines;
-  for (const auto& [cluster, track] : report.clusters)
-    append_csv(first_columns(report) + (track ? std::to_string(*track) : ""), cluster, lines);
+  for (const ClusterEntry& cluster : report.clusters) {
+    const std::string track = cluster.track ? std::to_string(cluster.track->id) : "";
+    append_csv(first_columns(report) + track, cluster, lines);
+  }
   return lines;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <stdexcept>
 
 #include "pcl_bv/nodes/frame_sink.h"
 
@@ -20,13 +21,16 @@ struct SinkGroup::Member {
   LatencyHistogram ms;
 };
 
-SinkGroup::SinkGroup(std::function<void(const std::string&)> say) : say_(std::move(say)) {}
+SinkGroup::SinkGroup(std::function<void(const std::string&)> say) : say_(std::move(say)) {
+  if (!say_) throw std::invalid_argument("SinkGroup: nobody to tell");
+}
 SinkGroup::~SinkGroup() = default;
 
 void SinkGroup::add(std::string name, std::unique_ptr<FrameSink> sink) {
   Member& member = *members_.emplace_back(std::make_unique<Member>());
   member.name = std::move(name);
   member.sink = std::move(sink);
+  alive_ = true;
 }
 
 void SinkGroup::add(const SinkDescription& description) {

@@ -58,10 +58,12 @@ SinkDescription parse_sink(const std::string& description) {
 }
 
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description) {
+  if (description.kind == nullptr) throw std::invalid_argument("make_sink: no kind of sink");
   return description.kind->open(description);
 }
 
 std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const FrameResult&)> on_result) {
+  if (!on_result) throw std::invalid_argument("make_sink: no function");
   return std::make_unique<FunctionSink>(std::move(on_result));
 }
 

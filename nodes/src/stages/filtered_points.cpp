@@ -41,7 +41,7 @@ Counts FilteredPoints::count(const ParallelPolicy& policy) const {
 }
 
 PointView FilteredPoints::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {
-  const LoadedPoints part(points_, first, count);
+  const LoadedPoints part(points_, first - points_.first, count);
   const std::size_t step = 3 * size_of(points_.scalar);
   if (buffer.size() < count * step) buffer.resize(count * step);
   FilterScratch scratch;

@@ -70,7 +70,7 @@ struct FramePipeline::State {
     return prepared;
   }
 
-  PointView filter(const Prepared& now, const PointView& cloud, FrameResult& result);
+  PointView filter(const Prepared& now, const Frame& frame, FrameResult& result);
   PointView remove_ground(const GroundConfig& config, const PointView& points, FrameResult& result);
   void find_clusters(const Prepared& now, const PointView& points, FrameResult& result);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
@@ -87,13 +87,14 @@ struct FramePipeline::State {
 
 // A big cloud that is only filtered goes the same way, to the same bits, whether it is in memory or in a
 // file: it is filtered as it comes past.
-PointView FramePipeline::State::filter(const Prepared& now, const PointView& cloud, FrameResult& result) {
+PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, FrameResult& result) {
+  const PointView& cloud = frame.points;
   result.kept.clear();
   result.filtered.reset();
   if (!now.looks) return cloud;
   const bool listed = now.tells_apart || cloud.indices != nullptr;
   if (!listed && (cloud.source != nullptr || cloud.count > kChunkPoints)) {
-    auto filtered = std::make_shared<FilteredPoints>(cloud, now.filter);
+    auto filtered = std::make_shared<FilteredPoints>(cloud, frame.owner, now.filter);
     result.counts = filtered->count(now.execution.parallel);
     result.filtered = std::move(filtered);
   } else {
@@ -190,7 +191,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
 
   if (now->tells_apart && frame.points.source != nullptr)
     throw std::invalid_argument("a cloud that is not in memory can be filtered, but not be told apart");
-  PointView points = state_->filter(*now, frame.points, result);
+  PointView points = state_->filter(*now, frame, result);
   result.ms.filter = watch.lap();
   points = state_->remove_ground(now->config.ground, points, result);
   result.ms.ground = watch.lap();

@@ -14,7 +14,10 @@ namespace pcl_bv {
 
 PointView FrameResult::kept_points(const PointView& cloud) const {
   if (counts.range + counts.inside == 0) return cloud;
-  return filtered ? view_of(*filtered, points, cloud.scalar) : subset(cloud, kept);
+  if (!filtered) return subset(cloud, kept);
+  PointView view = view_of(*filtered, points, cloud.scalar);
+  view.first = cloud.first;
+  return view;
 }
 
 PointView FrameResult::points_of(std::size_t cluster, const PointView& cloud) const {
@@ -69,6 +72,7 @@ std::vector<ClusterEntry> entries_of(const FrameResult& result) {
   for (std::size_t id = 0; id < entries.size(); ++id) {
     entries[id].id = id;
     entries[id].points = result.clusters.cluster_size(id);
+    if (!result.tracks.empty()) entries[id].track = result.tracks[id];
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
       VolumeEntry& volume = entries[id].volumes.emplace_back();
       volume.method = result.methods[m]->name;

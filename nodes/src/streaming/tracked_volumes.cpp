@@ -46,7 +46,7 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
     boxes_.push_back(box_of(result, i, clusters[i]));
   tracker_.update(result.header.stamp_ns, boxes_, config, assignments_);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    result.tracks.push_back(assignments_[i].id);
+    result.tracks.push_back(assignments_[i].track);
     keep_axes(assignments_[i], i, result);
   }
 }

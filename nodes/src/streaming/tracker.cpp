@@ -64,7 +64,7 @@ void Tracker::join(double seconds, const std::vector<Aabb>& boxes, std::vector<A
     if (track_taken_[pair.track] != 0 || box_taken_[pair.box] != 0) continue;
     track_taken_[pair.track] = box_taken_[pair.box] = 1;
     correct(tracks_[pair.track], boxes[pair.box], seconds);
-    assignments[pair.box] = {pair.track, false, std::nullopt};
+    assignments[pair.box].slot = pair.track;
   }
   for (std::size_t t = 0; t < track_taken_.size(); ++t) {
     Track& track = tracks_[t];
@@ -101,6 +101,7 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   free_.clear();
   for (std::size_t t = tracks_.size(); t-- > 0;) {
     tracks_[t].alive = tracks_[t].alive && tracks_[t].missed < config.death;
+    ++tracks_[t].age;
     if (!tracks_[t].alive) free_.push_back(t);
   }
   for (std::size_t b = 0; b < boxes.size(); ++b) {
@@ -109,13 +110,13 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
       Track& fresh = tracks_[slot] = Track();
       fresh.center = boxes[b].center();
       fresh.size = boxes[b].max() - boxes[b].min();
-      fresh.seen = 1;
+      fresh.seen = fresh.age = 1;
       fresh.alive = true;
-      assignments[b] = {slot, true, std::nullopt};
+      assignments[b] = {slot, true};
     }
     Track& track = tracks_[assignments[b].slot];
     if (!track.id && track.seen >= config.birth) track.id = next_id_++;
-    assignments[b].id = track.id;
+    if (track.id) assignments[b].track = {*track.id, track.age, track.velocity};
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "command/command_line.h"
+#include "command/interruption.h"
 #include "command/run_command.h"
 #include "command/usage_error.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -86,6 +87,7 @@ int run(int argc, char** argv) {
   line.option("OUT", output, "", "The .pcd file or, for a sequence, the folder");
   if (const auto text = line.parse(argc, argv)) return print(*text);
   if (!line.given("OUT")) throw UsageError("no SCENE or no OUT; synth --help lists the options");
+  const Interruption interruption([] {});
   try {
     write_scene(scene, output);
   } catch (const std::invalid_argument& error) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud in, the objects in it as volumes out: the whole way, without I/O and, unless `threads` asks for more, in one thread.
+// A cloud in, the objects in it as volumes out: the whole way, without I/O and, unless `threads` asks for
+// more, in one thread.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// allocates nothing (for aabb, dop*, sphere-*, obb-pca, obb-dito14 and obb-yaw).
 class FramePipeline {
  public:
-  /// Throws std::invalid_argument with the lines of PipelineConfig::validate(), if there are any.
+  /// Throws std::invalid_argument with the lines of PipelineConfig::validate(), if there are any, and IoError
+  /// for a file of regions that cannot be read.
   explicit FramePipeline(PipelineConfig config = {});
   ~FramePipeline();
   FramePipeline(FramePipeline&&) noexcept;
@@ -31,8 +33,9 @@ class FramePipeline {
   PipelineConfig config() const;
 
   /// Replaces `result`. Frames must come in the order of their stamps where they are tracked. No valid point:
-  /// no clusters (without clustering one of no points), the frame's header, and the counts say why. Throws std::length_error beyond 2^31 - 1
-  /// points. Not for several threads at once.
+  /// no clusters (without clustering one of no points), the frame's header, and the counts say why. Throws
+  /// std::length_error beyond 2^31 - 1 points; std::invalid_argument for points of a source, if ground or
+  /// clusters are asked for. Not for several threads at once.
   void process(const Frame& frame, FrameResult& result);
 
  private:

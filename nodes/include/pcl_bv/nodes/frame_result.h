@@ -40,7 +40,7 @@ struct FrameResult {
   std::shared_ptr<const PointSource> filtered;  ///< Instead of `kept`, for big clouds without index lists.
 
   /// For each cluster its track, none until the track is born; empty without tracking.
-  std::vector<std::optional<std::uint32_t>> tracks;
+  std::vector<std::optional<TrackEntry>> tracks;
 
   std::vector<const Method*> methods;  ///< Of the volumes of each cluster, in the order asked for.
   std::vector<AnyVolume> volumes;      ///< Cluster by cluster, in each as `methods` says.

@@ -67,19 +67,20 @@ struct SinkDescription {
 /// Reads what sink_syntax() says; opens nothing. Throws std::invalid_argument for anything else.
 SinkDescription parse_sink(const std::string& description);
 
-/// Opens it: a file is emptied, a folder made if it is not there. Throws IoError. After each frame files hold
-/// whole lines (jsonl, csv) and frames.pvd (vtp) lists it; files of a frame (vtp, image, labels) are named by
+/// Opens it: a file is emptied, a folder made if it is not there. Throws IoError, std::invalid_argument
+/// without a kind. After each frame files hold whole lines (jsonl, csv; where the disk is full, the last one
+/// may be cut) and frames.pvd (vtp) lists it; files of a frame (vtp, image, labels) are named by
 /// FrameHeader::number.
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
-/// Calls the function with each result.
+/// Calls the function with each result. Throws std::invalid_argument without one.
 std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const FrameResult&)> on_result);
 
 /// Many sinks, of which none harms another or the stream: one that throws IoError is given up, what else it
-/// throws costs it a frame. stats() and alive() may be called from any thread.
+/// throws costs it a frame. times() and alive() may be called from any thread.
 class SinkGroup {
  public:
-  /// `say` is told of each failure in words, once in a row.
+  /// `say` is told of each failure in words, once in a row. Throws std::invalid_argument without it.
   explicit SinkGroup(std::function<void(const std::string&)> say);
   ~SinkGroup();
 
@@ -108,7 +109,7 @@ class SinkGroup {
 
   std::function<void(const std::string&)> say_;
   std::vector<std::unique_ptr<Member>> members_;
-  std::atomic<bool> failed_{false}, alive_{true};
+  std::atomic<bool> failed_{false}, alive_{false};
 };
 
 }  // namespace pcl_bv

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/aabb.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -29,8 +30,8 @@ class Tracker {
   /// A box's place in the tracker: stays while the track lives, and is used again afterwards.
   struct Assignment {
     std::size_t slot = 0;
-    bool fresh = false;               ///< The first sighting.
-    std::optional<std::uint32_t> id;  ///< None until the track is born.
+    bool fresh = false;                 ///< The first sighting.
+    std::optional<TrackEntry> track{};  ///< None until the track is born.
   };
 
   Tracker();
@@ -52,7 +53,7 @@ class Tracker {
     Eigen::Vector3d center = Eigen::Vector3d::Zero(), size = Eigen::Vector3d::Zero(),
                     velocity = Eigen::Vector3d::Zero();
     double unseen = 0;  // seconds since the last sighting
-    std::size_t seen = 0, missed = 0;
+    std::size_t seen = 0, missed = 0, age = 0;
     bool alive = false;
     std::optional<std::uint32_t> id;
   };

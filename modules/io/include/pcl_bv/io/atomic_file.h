@@ -15,7 +15,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// the new one.
 ///
 /// A new file has mode 0644 less the umask; one that was there keeps its mode, and if it may not be written
-/// by this process it is left alone. A symbolic link stays, and the file it leads to is replaced. What is not
+/// by this process it is left alone. A symbolic link stays, and the file it leads to is replaced; one
+/// that leads to nothing is replaced itself. What is not
 /// a regular file (a device, a pipe) or lies in /dev or /proc (/dev/stdout, whatever it leads to) is opened
 /// and written directly, without that promise.
 ///

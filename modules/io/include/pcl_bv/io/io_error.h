@@ -9,7 +9,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A file that cannot be read or written. what() is the reason in one line, without the file's name.
+/// A file that cannot be read or written. what() is the reason in one line; the file's name is added
+/// by those who know what the user called it.
 class IoError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -15,11 +15,6 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-struct TrackedEntry {
-  ClusterEntry cluster;
-  std::optional<std::uint32_t> track;  ///< None without tracking, and until the track is born.
-};
-
 /// One frame. If `error` is set it was not processed, and only seq, stamp_ns, frame_id, file and error
 /// mean anything.
 struct FrameReport {
@@ -29,7 +24,7 @@ struct FrameReport {
   std::string file;        ///< Where the cloud comes from; left out if empty.
   std::size_t points = 0;  ///< All points, good or bad.
   Counts counts;
-  std::vector<TrackedEntry> clusters;
+  std::vector<ClusterEntry> clusters;
   std::vector<std::pair<std::string, double>> ms;  ///< Milliseconds by stage, in order.
   std::optional<std::string> error;
 };

@@ -34,10 +34,9 @@ std::string volumes_ply(const std::vector<ClusterEntry>& clusters);
 
 /// The same as a VTK PolyData file (XML, ascii), every number with the digits that read back exactly. Each
 /// cell (polygon, line or vertex) has `cluster` (the id), `method` (a number from 0 on, in order of
-/// appearance), `points` and `volume`, and `track`, -1 for none, if `tracks` says one for each cluster; the
-/// field data `methods` holds the methods' names.
-std::string volumes_vtp(const std::vector<ClusterEntry>& clusters,
-                        const std::vector<std::optional<std::uint32_t>>& tracks = {});
+/// appearance), `points` and `volume`; if they are `tracked`, `track` (-1 for none), `age` and `velocity`,
+/// too; the field data `methods` holds the methods' names.
+std::string volumes_vtp(const std::vector<ClusterEntry>& clusters, bool tracked = false);
 
 /// The valid points as such a file, in one cell, each with its `label`: labels[number of the point].
 std::string points_vtp(const PointView& points, const std::vector<std::uint32_t>& labels);

@@ -5,7 +5,9 @@
 // people.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,10 +26,22 @@ struct VolumeEntry {
   std::string failed{};                ///< If the fit failed and left the volume empty, why; else nothing.
 };
 
+/// An object that is followed from frame to frame.
+struct TrackEntry {
+  std::uint32_t id = 0;  ///< Never given to another object.
+  std::size_t age = 0;   ///< Frames since the first sighting, that one included.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Units of the points a second, in their frame.
+
+  friend bool operator==(const TrackEntry& a, const TrackEntry& b) {
+    return a.id == b.id && a.age == b.age && a.velocity == b.velocity;
+  }
+};
+
 struct ClusterEntry {
   std::size_t id = 0;
   std::size_t points = 0;  ///< Valid points.
   std::vector<VolumeEntry> volumes;
+  std::optional<TrackEntry> track{};  ///< None without tracking, and until the track is born.
 };
 
 /// Wall-clock time of each stage.

@@ -33,7 +33,7 @@ class LiveWindow {
     for (std::size_t i = 0; i < result.volumes.size(); ++i) {
       const std::size_t cluster = i / result.methods.size();
       const bool tracked = cluster < result.tracks.size() && result.tracks[cluster].has_value();
-      colours_.push_back(tracked ? *result.tracks[cluster] : cluster);
+      colours_.push_back(tracked ? result.tracks[cluster]->id : cluster);
     }
     fresh_ = true;
   }
