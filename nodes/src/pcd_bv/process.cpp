@@ -19,7 +19,7 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
-#include "pcl_bv/nodes/frame_picture.h"
+#include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/report/meshes.h"
 
 namespace pcl_bv {

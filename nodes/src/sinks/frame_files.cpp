@@ -9,7 +9,6 @@
 #include "line_file.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/pcd.h"
-#include "pcl_bv/nodes/frame_picture.h"
 #include "pcl_bv/report/meshes.h"
 #include "sinks.h"
 

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The first look at a cloud: which points are kept.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/segmentation/counts.h"
 #include "pcl_bv/trees/region_mask.h"
 
@@ -58,5 +59,40 @@ class PointFilter {
 
 /// Adds up the reasons.
 void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts);
+
+/// The points of a view that is too big for lists; those that the filter drops are not valid (NaN).
+class FilteredPoints final : public PointSource {
+ public:
+  /// Keeps the view, whose points are not of an index list, and their owner.
+  FilteredPoints(const PointView& points, std::shared_ptr<const void> owner,
+                 std::shared_ptr<const PointFilter> filter)
+      : points_(points), owner_(std::move(owner)), filter_(std::move(filter)) {}
+
+  /// What is dropped, by reason: a pass over all points.
+  Counts count(const ParallelPolicy& policy) const;
+
+  /// Points have the numbers that they have in the view.
+  PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
+
+ private:
+  PointView points_;
+  std::shared_ptr<const void> owner_;
+  std::shared_ptr<const PointFilter> filter_;
+};
+
+/// Points of a cloud in memory by their numbers, which are known to be right.
+inline PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
+  // A slice counts from its cloud's first point, but begins elsewhere.
+  const bool moved = cloud.indices == nullptr && cloud.order == PointOrder::records && cloud.data != nullptr;
+  if (moved) cloud.data -= cloud.stride * cloud.first;
+  cloud.first = 0;
+  cloud.indices = numbers;
+  cloud.count = count;
+  return cloud;
+}
+
+inline PointView subset(const PointView& cloud, const std::vector<std::int32_t>& numbers) {
+  return subset(cloud, numbers.data(), numbers.size());
+}
 
 }  // namespace pcl_bv

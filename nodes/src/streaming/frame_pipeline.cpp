@@ -13,9 +13,7 @@
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
-#include "stages/filtered_points.h"
 #include "stages/ground.h"
-#include "stages/subset.h"
 #include "tracked_volumes.h"
 
 namespace pcl_bv {

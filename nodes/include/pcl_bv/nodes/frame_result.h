@@ -14,6 +14,7 @@
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/report/picture.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/ground_plane.h"
@@ -68,5 +69,10 @@ std::string ground_remark(const FrameResult& result);
 
 /// The clusters as they are reported.
 std::vector<ClusterEntry> entries_of(const FrameResult& result);
+
+/// The frame and what was found in it, up as the configuration says: with clusters the points that passed
+/// the filter in the colours of `labels`, as labels_of() gives them, and each cluster's id; else those that
+/// are no ground. Views the frame, the result and the labels.
+Picture picture_of(const Frame& frame, const FrameResult& result, const std::vector<std::uint32_t>& labels);
 
 }  // namespace pcl_bv

@@ -21,7 +21,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Volumes that points are dropped for: a robot's own links, or what to crop to.
 struct RegionConfig {
-  std::filesystem::path file;  ///< Of volumes, as read_volumes() reads them, unless they are given:
+  std::filesystem::path file;  ///< Read by read_volumes(), unless `volumes` has some.
   bool keep = false;           ///< Drop what is outside of all such regions; otherwise what is inside.
   double padding = 0;  ///< By which the volumes are grown in every direction, metres (trees/region_mask.h).
   std::vector<AnyVolume> volumes{};
@@ -47,7 +47,8 @@ enum class GroundMethod : std::uint8_t {
 struct GroundConfig {
   GroundMethod method = GroundMethod::zones;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; of any length.
-  /// Where the sensor is in the frame of the points, metres; if not given, in its origin. The centre of zones.
+  /// Where the sensor is in the frame of the points, metres; if not given, in its origin. The centre of
+  /// zones.
   std::optional<Eigen::Vector3d> sensor;
   /// Of the sensor (with a plane: of the origin) above the ground, metres; learnt if not given.
   std::optional<double> sensor_height;
