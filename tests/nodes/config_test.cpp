@@ -63,6 +63,26 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.runner.max_age_ms, 12.5);
 }
 
+TEST(StreamConfig, FilesOfAnyNameReadBackAsTheyArePrinted) {
+  const std::string names[] = {R"(a "robot" arm.json)", R"(C:\new\x41\)", "it's {a, b}: #1.json",
+                               "two\nlines\t.json",     "\x01 \x1f",      "\u00e4.json"};
+  for (const std::string& name : names) {
+    StreamConfig config;
+    config.pipeline.filter.regions = {{name, true, 0.5}, {"next.json"}};
+    const std::vector<RegionConfig> read = parse_stream_config(to_yaml(config), "").pipeline.filter.regions;
+    ASSERT_EQ(read.size(), 2U) << name;
+    EXPECT_EQ(read[0].file, name);
+    EXPECT_EQ(read[0].padding, 0.5);
+    EXPECT_EQ(read[1].file, "next.json");
+  }
+}
+
+TEST(StreamConfig, RegionsWithoutAFileDoNotReadBack) {
+  StreamConfig config;
+  config.pipeline.filter.regions = {{"", false, 0, {Aabb()}}};
+  EXPECT_THROW(parse_stream_config(to_yaml(config), ""), ConfigError);
+}
+
 TEST(StreamConfig, OtherKeysKeepTheirDefaults) {
   const StreamConfig config = parse_stream_config("filter: {range_min: 2}\nrunner:\n  queue: 4\n", "");
   EXPECT_EQ(config.pipeline.filter.range_min, 2);

@@ -73,15 +73,18 @@ std::vector<std::string_view> parts_of(std::string_view text) {
   return parts;
 }
 
-template <typename T>
-std::string text_or_null(const std::optional<T>& value) {
-  return value ? to_text(*value) : "null";
-}
-
-template <typename T>
-void read_or_null(std::string_view text, std::optional<T>& value) {
-  value.reset();
-  if (text != "null") read_text(text, value.emplace());
+// As YAML quotes names, of any characters.
+std::string in_quotes(const std::string& name) {
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text = "\"";
+  for (const char c : name) {
+    if (static_cast<unsigned char>(c) < ' ') {
+      text.append("\\x").append({digits[c / 16], digits[c % 16]});
+    } else {
+      text.append(c == '"' || c == '\\' ? "\\" : "").append(1, c);
+    }
+  }
+  return text + '"';
 }
 
 }  // namespace
@@ -112,7 +115,7 @@ std::string to_text(const std::vector<RegionConfig>& regions) {
   std::string list;
   for (const RegionConfig& region : regions) {
     list += list.empty() ? "" : ", ";
-    list += "{file: \"" + region.file.string() + "\", keep: " + to_text(region.keep) +
+    list += "{file: " + in_quotes(region.file.string()) + ", keep: " + to_text(region.keep) +
             ", padding: " + to_text(region.padding) + '}';
   }
   return list;
@@ -125,12 +128,6 @@ std::string to_text(SphereGrowth growth) {
 }
 std::string to_text(QueuePolicy policy) {
   return find_name(kPolicies, policy);
-}
-std::string to_text(const std::optional<double>& value) {
-  return text_or_null(value);
-}
-std::string to_text(const std::optional<std::size_t>& value) {
-  return text_or_null(value);
 }
 std::string to_text(const std::optional<Eigen::Vector3d>& point) {
   if (!point) return "null";
@@ -180,12 +177,6 @@ void read_text(std::string_view text, SphereGrowth& growth) {
 }
 void read_text(std::string_view text, QueuePolicy& policy) {
   read_name(kPolicies, text, policy);
-}
-void read_text(std::string_view text, std::optional<double>& value) {
-  read_or_null(text, value);
-}
-void read_text(std::string_view text, std::optional<std::size_t>& value) {
-  read_or_null(text, value);
 }
 void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point) {
   point.reset();

@@ -110,9 +110,11 @@ std::string to_text(
 std::string to_text(GroundMethod method);
 std::string to_text(SphereGrowth growth);
 std::string to_text(QueuePolicy policy);
-std::string to_text(const std::optional<double>& value);
-std::string to_text(const std::optional<std::size_t>& value);
 std::string to_text(const std::optional<Eigen::Vector3d>& point);
+template <typename T>
+std::string to_text(const std::optional<T>& value) {
+  return value ? to_text(*value) : "null";
+}
 
 /// The other way round. Throw std::invalid_argument, "'far' is not a number", for anything else; what a
 /// number may be is left to problem_of().
@@ -127,9 +129,12 @@ void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///<
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, SphereGrowth& growth);
 void read_text(std::string_view text, QueuePolicy& policy);
-void read_text(std::string_view text, std::optional<double>& value);
-void read_text(std::string_view text, std::optional<std::size_t>& value);
 void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point);
+template <typename T>
+void read_text(std::string_view text, std::optional<T>& value) {
+  value.reset();
+  if (text != "null") read_text(text, value.emplace());
+}
 
 /// What is wrong with a value, as "-1 is not at least 0"; nothing if it is allowed.
 std::string problem_of(const Setting& setting, double value);

@@ -57,7 +57,8 @@ StreamConfig read_stream_config(const std::filesystem::path& file, const StreamC
 StreamConfig parse_stream_config(const std::string& text, const std::string& name,
                                  const StreamConfig& defaults = {});
 
-/// The whole configuration as such a file, with its units; reads back as the same values.
+/// The whole configuration as such a file, with its units; reads back as the same values. Regions of volumes
+/// without a file cannot be written: theirs are empty names, which reading refuses.
 std::string to_yaml(const StreamConfig& config);
 
 }  // namespace pcl_bv
