@@ -6,7 +6,7 @@
 #include "command/run_command.h"
 #include "inputs.h"
 #include "options.h"
-#include "process_all.h"
+#include "process.h"
 
 int main(int argc, char** argv) {
   using namespace pcl_bv;

@@ -3,11 +3,12 @@
 
 // All inputs over the cores, all results in order.
 
-#include "process_all.h"
+#include "process.h"
 
 #include <malloc.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <exception>
@@ -23,8 +24,6 @@
 #include "output.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "process.h"
-#include "progress.h"
 
 namespace pcl_bv {
 namespace {
@@ -60,6 +59,39 @@ Result do_job(const Job& job, const Options& options, FramePipeline& pipeline) {
   const std::size_t points = outcome.report.error ? 0 : outcome.report.points;
   return {std::move(text), std::move(complaints.kept), points, outcome.status};
 }
+
+/// A bar on standard error, if it was asked for and that is a terminal.
+class Progress {
+ public:
+  Progress(bool asked, std::size_t files) : visible_(asked && errors_go_to_a_terminal()), files_(files) {
+    show(0, 0);
+  }
+
+  void show(std::size_t files_done, std::size_t points) const {
+    if (!visible_) return;
+    constexpr std::size_t width = 30;
+    std::string bar(files_done * width / files_, '#');
+    bar.resize(width, '-');
+    char text[160];
+    std::snprintf(text, sizeof text, "[%s] %zu/%zu files, %.1f M points, %.1f s", bar.c_str(), files_done,
+                  files_, static_cast<double>(points) / 1e6, seconds());
+    show_status_line(text);
+  }
+
+  void erase() const {
+    if (visible_) erase_status_line();
+  }
+
+  /// Since construction.
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  const bool visible_;
+  const std::size_t files_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
 
 /// Hands out jobs and takes their results, in any order, to write them in the order of the jobs.
 class InOrder {
