@@ -180,6 +180,7 @@ TEST_F(PcdBv, CloudWithoutPointsIsNoError) {
   const Result result = run({"--format", "jsonl", none});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.json()["clusters"][0]["volumes"][0]["empty"], true);
+  EXPECT_EQ(run({"--origin", "auto", "--cluster", "1", none}).status, 0);
 }
 
 TEST_F(PcdBv, InvalidUtf8InANameIsReplacedNotFatal) {

@@ -8,7 +8,6 @@
 
 #include "inputs.h"
 #include "pcl_bv/io/cloud_file.h"
-#include "shifted_points.h"
 
 namespace pcl_bv {
 
@@ -21,7 +20,7 @@ class LoadedCloud {
   /// Fields, size and viewpoint; the points only if it is held.
   const RawCloud& cloud() const { return file_ ? file_->header() : held_; }
 
-  PointView xyz() const;
+  PointView xyz() const { return xyz_; }
 
   /// What was subtracted, if that was asked for.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
@@ -35,12 +34,11 @@ class LoadedCloud {
   RawCloud take() { return std::move(held_); }
 
  private:
-  PointView stored() const { return file_ ? file_->xyz() : held_.xyz(); }
-
   std::unique_ptr<CloudFile> file_;
   RawCloud held_;
+  PointView xyz_;  // of one of these, or of one of those below
   std::optional<Eigen::Vector3d> origin_;
-  std::unique_ptr<ShiftedPoints> shifted_;
+  std::unique_ptr<PointSource> shifted_;
   std::vector<double> near_;  // the shifted points, if they have to be in memory
 };
 
