@@ -22,31 +22,23 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view synth_prefix = "synth:";
 
-}  // namespace
-
-bool is_synth(const std::string& input) {
-  return input.starts_with(synth_prefix);
-}
-
-namespace {
-
 bool is_folder(const std::string& path) {
   std::error_code unknown;
   return !is_synth(path) && fs::is_directory(path, unknown);
 }
 
 std::vector<Job> expand(const std::string& argument) {
-  if (!is_folder(argument)) return {{argument, {}, {}, {}, {}, 0}};
+  if (!is_folder(argument)) return {{argument}};
   try {
     std::vector<Job> jobs;
     std::size_t subfolders = 0;
     for (const fs::path& path : list_clouds(argument, &subfolders))
-      jobs.push_back({path.string(), {}, {}, {}, {}, 0});
+      jobs.push_back({path.string()});
     say_what_is_skipped(argument, subfolders);
     if (!jobs.empty()) return jobs;
-    return {{argument, "no .pcd, .ply, .las or .bin file in this folder", {}, {}, {}, 0}};
+    return {{argument, "no .pcd, .ply, .las or .bin file in this folder"}};
   } catch (const IoError& error) {
-    return {{argument, error.what(), {}, {}, {}, 0}};
+    return {{argument, error.what()}};
   }
 }
 
@@ -58,6 +50,10 @@ std::string stem(const std::string& input) {
 }
 
 }  // namespace
+
+bool is_synth(const std::string& input) {
+  return input.starts_with(synth_prefix);
+}
 
 std::vector<Job> plan_jobs(const Options& options) {
   std::vector<Job> jobs;

@@ -17,9 +17,9 @@ namespace pcl_bv {
 
 /// One cloud to be done.
 struct Job {
-  std::string input;                 ///< A file, or synth:NAME[:POINTS[:SEED]].
-  std::optional<std::string> error;  ///< Why there is nothing to load, for a folder without clouds.
-  std::optional<std::filesystem::path> labels, mesh, image;
+  std::string input;                   ///< A file, or synth:NAME[:POINTS[:SEED]].
+  std::optional<std::string> error{};  ///< Why there is nothing to load, for a folder without clouds.
+  std::optional<std::filesystem::path> labels{}, mesh{}, image{};
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
 };
 
