@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "pcl_bv/kernels/isa.h"
-#include "usage_error.h"
+#include "values.h"
 
 namespace pcl_bv {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <system_error>
 
-#include "usage_error.h"
+#include "values.h"
 
 namespace pcl_bv {
 namespace {

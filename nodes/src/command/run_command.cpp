@@ -10,7 +10,7 @@
 #include "messages.h"
 #include "pcl_bv/io/io_error.h"
 #include "standard_streams.h"
-#include "usage_error.h"
+#include "values.h"
 
 namespace pcl_bv {
 

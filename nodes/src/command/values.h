@@ -11,9 +11,13 @@
 #include <string_view>
 #include <utility>
 
-#include "usage_error.h"
-
 namespace pcl_bv {
+
+/// Wrong use: what() is the line for standard error, and the exit status is 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 std::string quoted(std::string_view text);
 

@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "command/usage_error.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/report/picture.h"
 

@@ -10,7 +10,7 @@
 #include "command/command_line.h"
 #include "command/interruption.h"
 #include "command/run_command.h"
-#include "command/usage_error.h"
+#include "command/values.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
