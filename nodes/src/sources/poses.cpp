@@ -3,7 +3,7 @@
 
 // Poses as KITTI and TUM write them.
 
-#include "poses.h"
+#include "sources.h"
 
 #include <algorithm>
 #include <charconv>

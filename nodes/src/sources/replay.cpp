@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "poses.h"
 #include "sources.h"
 
 namespace pcl_bv {

@@ -1,13 +1,58 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of sources.
+// The table of sources: files of clouds, and made frames.
 
 #include <algorithm>
 
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/list_clouds.h"
+#include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/synth/street.h"
+#include "pcl_bv/synth/synth.h"
 #include "sources.h"
 
 namespace pcl_bv {
+namespace {
+
+constexpr std::string_view kSynth = "synth:";
+
+std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOptions& options) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(name, unknown)) throw IoError(name + ": no such file or folder");
+  std::vector<std::filesystem::path> files{name};
+  if (std::filesystem::is_directory(name, unknown)) files = list_clouds(name);
+  if (files.empty()) throw IoError(name + ": no cloud in this folder");
+  const auto unnamed = [](const auto& file) { return stamp_in_name(file.stem().string()) < 0; };
+  if (options.from_name && std::all_of(files.begin(), files.end(), unnamed))
+    throw std::invalid_argument(
+        files.front().string() +
+        ": no time in its name, nor in others: whole numbers below 1e15 count frames");
+  const std::size_t length = files.size();
+  return make_replay(
+      length, std::move(files), options, [fields = options.bin_fields](std::size_t, Frame& frame) {
+        const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, Serial{}, fields));
+        frame.points = cloud->xyz();
+        frame.note = cloud->note;
+        frame.owner = cloud;
+      });
+}
+
+std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOptions& options) {
+  if (options.from_name) throw std::invalid_argument("'" + name + "' has no names with times");
+  const StreetSequenceSpec spec = parse_street_sequence(name.substr(kSynth.size()));
+  StreetOptions street;
+  street.seed = spec.seed;
+  return make_replay(spec.frames, {}, options, [street](std::size_t place, Frame& frame) {
+    const auto xyz =
+        std::make_shared<std::vector<float>>(std::move(make_street_frame(street, place).cloud.xyz));
+    frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
+    frame.owner = xyz;
+    if (frame.header.frame_id.empty()) frame.header.frame_id = "street";
+  });
+}
+
+}  // namespace
 
 const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds{

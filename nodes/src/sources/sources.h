@@ -1,17 +1,28 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the table of sources names, and what recordings share.
+// What recordings share.
 #pragma once
 
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {
 
-inline constexpr std::string_view kSynth = "synth:";
+/// The file of ReplayOptions::poses.
+class Poses {
+ public:
+  Poses() = default;
 
-std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOptions& options);
-std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOptions& options);
+  /// Throws IoError, naming the file and the line, for what it cannot read, and where frames are numbered and
+  /// there are not as many as `frames`.
+  Poses(const std::filesystem::path& file, std::size_t frames);
+
+  std::optional<Pose> at(std::size_t number, std::int64_t stamp_ns) const;
+
+ private:
+  bool by_stamp_ = false;
+  std::vector<std::pair<std::int64_t, Pose>> poses_;  // stamps rise
+};
 
 /// `length` frames, of these files if there are any, again and again: `load` fills in the cloud of the one at
 /// a place, and its owner, and throws if it cannot.
