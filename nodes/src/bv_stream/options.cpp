@@ -10,6 +10,7 @@
 #include "command/output_claims.h"
 #include "command/setting_options.h"
 #include "command/values.h"
+#include "config/words.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
 
@@ -52,7 +53,7 @@ void declare_results(CommandLine& line, Texts& t) {
 
 double number(const char* option, std::string_view text, const char* wanted) {
   double value = 0;
-  if (read_number(text, value)) return value;
+  if (read_whole_text(text, value)) return value;
   throw UsageError(std::string(option) + ": " + quoted(text) + " is not " + wanted);
 }
 

@@ -5,31 +5,18 @@
 
 #include "values.h"
 
-#include <charconv>
+#include "config/words.h"
 
 namespace pcl_bv {
-namespace {
-
-template <typename T>
-bool read_all(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
-}  // namespace
 
 std::string quoted(std::string_view text) {
   return "'" + std::string(text) + "'";
 }
 
-bool read_number(std::string_view text, double& value) {
-  return read_all(text, value);
-}
-
 std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min,
                                std::size_t max) {
   std::size_t value = 0;
-  if (read_all(text, value) && value >= min && value <= max) return value;
+  if (read_whole_text(text, value) && value >= min && value <= max) return value;
   std::string range = " is not a whole number of at least " + std::to_string(min);
   if (max != std::numeric_limits<std::size_t>::max()) range += " and at most " + std::to_string(max);
   throw UsageError(std::string(option) + ": " + quoted(text) + range);
@@ -38,8 +25,8 @@ std::size_t parse_whole_number(std::string_view option, std::string_view text, s
 std::pair<double, double> parse_range(std::string_view text) {
   double min = 0, max = 0;
   const std::size_t colon = text.find(':');
-  if (colon != std::string_view::npos && read_all(text.substr(0, colon), min) &&
-      read_all(text.substr(colon + 1), max) && min >= 0 && min <= max) {
+  if (colon != std::string_view::npos && read_whole_text(text.substr(0, colon), min) &&
+      read_whole_text(text.substr(colon + 1), max) && min >= 0 && min <= max) {
     return {min, max};
   }
   throw UsageError("--range: " + quoted(text) + " is not MIN:MAX with 0 <= MIN <= MAX");

@@ -21,9 +21,6 @@ class UsageError : public std::runtime_error {
 
 std::string quoted(std::string_view text);
 
-/// Whether the whole text is one number.
-bool read_number(std::string_view text, double& value);
-
 /// What `parse` makes of the text; its std::invalid_argument becomes a UsageError that names the option.
 template <typename Text, typename Parse>
 auto parse_with(std::string_view option, const Text& text, Parse parse) {

@@ -2,20 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <stdexcept>
-#include <utility>
 
+#include "config/words.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/segmentation/up.h"
 
 namespace pcl_bv {
 namespace {
-
-template <typename Choice, std::size_t n>
-using Names = std::array<std::pair<std::string_view, Choice>, n>;
 
 constexpr Names<GroundMethod, 3> kGroundMethods{
     {{"none", GroundMethod::none}, {"plane", GroundMethod::plane}, {"zones", GroundMethod::zones}}};
@@ -33,30 +27,11 @@ constexpr Names<bool, 2> kFlags{{{"true", true}, {"false", false}}};
 }
 
 template <typename Choice, std::size_t n>
-void read_name(const Names<Choice, n>& names, std::string_view text, Choice& value) {
-  std::string known;
-  for (const auto& [name, choice] : names) {
-    if (name == text) {
-      value = choice;
-      return;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  refuse(text, "one of " + known);
-}
-
-template <typename Choice, std::size_t n>
 std::string find_name(const Names<Choice, n>& names, Choice choice) {
   for (const auto& [name, value] : names) {
     if (value == choice) return std::string(name);
   }
   return {};
-}
-
-template <typename T>
-bool read_whole_text(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
 }
 
 // The parts between commas, without the spaces around them.
@@ -135,7 +110,7 @@ std::string to_text(const std::optional<Eigen::Vector3d>& point) {
 }
 
 void read_text(std::string_view text, bool& value) {
-  read_name(kFlags, text, value);
+  value = read_name(kFlags, text);
 }
 void read_text(std::string_view text, double& value) {
   if (!read_whole_text(text, value)) refuse(text, "a number");
@@ -170,13 +145,13 @@ void read_text(std::string_view text, std::vector<RegionConfig>& regions) {
   regions = {{std::filesystem::path(text)}};
 }
 void read_text(std::string_view text, GroundMethod& method) {
-  read_name(kGroundMethods, text, method);
+  method = read_name(kGroundMethods, text);
 }
 void read_text(std::string_view text, SphereGrowth& growth) {
-  read_name(kGrowths, text, growth);
+  growth = read_name(kGrowths, text);
 }
 void read_text(std::string_view text, QueuePolicy& policy) {
-  read_name(kPolicies, text, policy);
+  policy = read_name(kPolicies, text);
 }
 void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point) {
   point.reset();

@@ -10,6 +10,7 @@
 #include "command/command_line.h"
 #include "command/setting_options.h"
 #include "command/values.h"
+#include "config/words.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/nodes/settings.h"
 
@@ -28,6 +29,13 @@ Exit status: 0 done; 1 some input could not be processed or an output not writte
 other inputs are still done); 2 wrong use, or an instruction set that is not usable here;
 3 --check found a point outside. The greater reason wins: 2, 3, 1, 0.
 PCL_BV_ISA in the environment sets the default of --isa.)";
+
+constexpr Names<OutputFormat, 4> kFormats{{{"text", OutputFormat::text},
+                                           {"json", OutputFormat::json},
+                                           {"jsonl", OutputFormat::jsonl},
+                                           {"csv", OutputFormat::csv}}};
+constexpr Names<ViewFrom, 4> kViews{
+    {{"iso", ViewFrom::iso}, {"top", ViewFrom::top}, {"front", ViewFrom::front}, {"side", ViewFrom::side}}};
 
 /// The command line as texts, before the values are looked at.
 struct Texts {
@@ -84,17 +92,6 @@ OriginOption parse_origin(const std::string& text) {
   throw UsageError("--origin: '" + text + "' is not X,Y,Z, all finite, or auto");
 }
 
-template <typename Choice>
-Choice parse_choice(const std::string& option, const std::string& text,
-                    std::initializer_list<std::pair<std::string_view, Choice>> choices) {
-  std::string known;
-  for (const auto& [name, choice] : choices) {
-    if (name == text) return choice;
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  throw UsageError(option + ": '" + text + "' is not one of " + known);
-}
-
 void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
   if (line.given("--view") && !line.given("--image")) throw UsageError("--view: only useful with --image");
   const std::vector<const Method*> methods = config.methods();
@@ -108,11 +105,8 @@ void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
 
 void read_outputs(const CommandLine& line, const Texts& texts, Options& options) {
   if (line.given("--format"))
-    options.format = parse_choice<OutputFormat>("--format", texts.format,
-                                                {{"text", OutputFormat::text},
-                                                 {"json", OutputFormat::json},
-                                                 {"jsonl", OutputFormat::jsonl},
-                                                 {"csv", OutputFormat::csv}});
+    options.format = parse_with("--format", texts.format,
+                                [](const std::string& name) { return read_name(kFormats, name); });
   options.output = path_or_none(line, "--output", texts.output);
   options.labels = path_or_none(line, "--labels", texts.labels);
   options.mesh = path_or_none(line, "--mesh", texts.mesh);
@@ -121,11 +115,8 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
   if (line.given("--view"))
-    options.view = parse_choice<ViewFrom>("--view", texts.view,
-                                          {{"iso", ViewFrom::iso},
-                                           {"top", ViewFrom::top},
-                                           {"front", ViewFrom::front},
-                                           {"side", ViewFrom::side}});
+    options.view =
+        parse_with("--view", texts.view, [](const std::string& name) { return read_name(kViews, name); });
   options.check = texts.check;
   options.info = texts.info;
   options.timings = texts.timings;

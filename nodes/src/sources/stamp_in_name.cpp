@@ -3,8 +3,7 @@
 
 // Times as recorders write them into file names.
 
-#include <charconv>
-
+#include "config/words.h"
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {
@@ -19,8 +18,7 @@ bool is_digit(char c) {
 // -1 if it is none or too great.
 std::int64_t whole(std::string_view digits) {
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return error == std::errc() && end == digits.data() + digits.size() ? value : -1;
+  return read_whole_text(digits, value) ? value : -1;
 }
 
 }  // namespace
