@@ -9,7 +9,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "pcl_bv/nodes/pcl_frame.h"
+#include "pcl_bv/nodes/cluster_pipeline.h"
 #include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {
