@@ -51,9 +51,9 @@ void declare_results(CommandLine& line, Texts& t) {
   line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
 }
 
-double number(const char* option, std::string_view text, const char* wanted) {
+double number(const char* option, std::string_view text, double least, double most, const char* wanted) {
   double value = 0;
-  if (read_whole_text(text, value)) return value;
+  if (read_whole_text(text, value) && value >= least && value <= most) return value;
   throw UsageError(std::string(option) + ": " + quoted(text) + " is not " + wanted);
 }
 
@@ -88,9 +88,8 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
   ReplayOptions& replay = options.replay;
   options.rate = t.rate == "max" ? Rate::max : t.rate == "recorded" ? Rate::recorded : Rate::fixed;
   if (line.given("--rate") && options.rate == Rate::fixed)
-    replay.rate_hz = number("--rate", t.rate, "a rate, recorded or max");
-  if (!(replay.rate_hz >= kLeastRate && replay.rate_hz <= kGreatestRate))
-    throw UsageError("--rate: '" + t.rate + "' is not a rate from 0.001 to 1000000, recorded or max");
+    replay.rate_hz =
+        number("--rate", t.rate, kLeastRate, kGreatestRate, "a rate from 0.001 to 1000000, recorded or max");
   if (line.given("--loop")) replay.loops = parse_whole_number("--loop", t.loop, 1);
   if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
     throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
@@ -99,7 +98,6 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
                          : options.rate == Rate::recorded && source_kind(t.source).has_names;
   if (line.given("--bin-fields")) replay.bin_fields = parse_bin_fields(t.bin_fields);
   replay.frame_id = t.frame_id;
-  if (line.given("--poses") && t.poses.empty()) throw UsageError("--poses: no file");
   replay.poses = t.poses;
 }
 
@@ -113,9 +111,8 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, const std::str
   for (const std::string& sink : line.given("--sink") ? t.sinks : std::vector<std::string>{"jsonl:-"})
     options.sinks.push_back(parse_with("--sink", sink, parse_sink));
   if (line.given("--stats")) options.stats = t.stats;
-  if (line.given("--report")) options.report_seconds = number("--report", t.report, "seconds");
-  if (line.given("--report") && !(options.report_seconds >= 0.001 && options.report_seconds <= 1e6))
-    throw UsageError("--report: '" + t.report + "' is not seconds from 0.001 to 1000000");
+  if (line.given("--report"))
+    options.report_seconds = number("--report", t.report, 0.001, 1e6, "seconds from 0.001 to 1000000");
   claim_outputs(options, config_file);
   return options;
 }

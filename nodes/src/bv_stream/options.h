@@ -35,8 +35,7 @@ struct StreamOptions {
 };
 
 /// What the command line asks for: work, or (--help, --version, --print-config) only a text on standard
-/// output. Throws UsageError, and IoError for a folder that cannot
-/// be listed.
+/// output. Throws UsageError, and IoError for a folder that cannot be listed.
 std::variant<StreamOptions, std::string> parse_stream_options(int argc, const char* const* argv);
 
 }  // namespace pcl_bv

@@ -64,10 +64,10 @@ void declare(CommandLine& line, Texts& texts) {
   line.flag("--progress", texts.progress, "Show how far it is, where standard error is a terminal");
 }
 
-std::optional<std::filesystem::path> path_or_none(const CommandLine& line, const char* option,
-                                                  const std::string& text) {
-  if (!line.given(option)) return std::nullopt;
-  return text;
+// The command line refuses empty names.
+std::optional<std::filesystem::path> path_or_none(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  return name;
 }
 
 /// A file's extension must be one of these; a name without one may be a folder's.
@@ -107,10 +107,10 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   if (line.given("--format"))
     options.format = parse_with("--format", texts.format,
                                 [](const std::string& name) { return read_name(kFormats, name); });
-  options.output = path_or_none(line, "--output", texts.output);
-  options.labels = path_or_none(line, "--labels", texts.labels);
-  options.mesh = path_or_none(line, "--mesh", texts.mesh);
-  options.image = path_or_none(line, "--image", texts.image);
+  options.output = path_or_none(texts.output);
+  options.labels = path_or_none(texts.labels);
+  options.mesh = path_or_none(texts.mesh);
+  options.image = path_or_none(texts.image);
   require_extension("--labels", texts.labels, {".pcd"});
   require_extension("--image", texts.image, {".png", ".svg"});
   require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
