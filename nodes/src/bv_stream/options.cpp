@@ -54,7 +54,7 @@ void declare_results(CommandLine& line, Texts& t) {
 double number(const char* option, std::string_view text, double least, double most, const char* wanted) {
   double value = 0;
   if (read_whole_text(text, value) && value >= least && value <= most) return value;
-  throw UsageError(std::string(option) + ": " + quoted(text) + " is not " + wanted);
+  refuse_value(option, text, std::string("is not ") + wanted);
 }
 
 // Refuses to write over what is read, and two outputs into one file.
@@ -92,7 +92,7 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
         number("--rate", t.rate, kLeastRate, kGreatestRate, "a rate from 0.001 to 1000000, recorded or max");
   if (line.given("--loop")) replay.loops = parse_whole_number("--loop", t.loop, 1);
   if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
-    throw UsageError("--stamps: '" + t.stamps + "' is not rate or name");
+    refuse_value("--stamps", t.stamps, "is not rate or name");
   replay.from_name = line.given("--stamps")
                          ? t.stamps == "name"
                          : options.rate == Rate::recorded && source_kind(t.source).has_names;

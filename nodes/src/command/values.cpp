@@ -9,17 +9,17 @@
 
 namespace pcl_bv {
 
-std::string quoted(std::string_view text) {
-  return "'" + std::string(text) + "'";
+void refuse_value(std::string_view option, std::string_view text, const std::string& what) {
+  throw UsageError(std::string(option) + ": '" + std::string(text) + "' " + what);
 }
 
 std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min,
                                std::size_t max) {
   std::size_t value = 0;
   if (read_whole_text(text, value) && value >= min && value <= max) return value;
-  std::string range = " is not a whole number of at least " + std::to_string(min);
+  std::string range = "is not a whole number of at least " + std::to_string(min);
   if (max != std::numeric_limits<std::size_t>::max()) range += " and at most " + std::to_string(max);
-  throw UsageError(std::string(option) + ": " + quoted(text) + range);
+  refuse_value(option, text, range);
 }
 
 std::pair<double, double> parse_range(std::string_view text) {
@@ -29,7 +29,7 @@ std::pair<double, double> parse_range(std::string_view text) {
       read_whole_text(text.substr(colon + 1), max) && min >= 0 && min <= max) {
     return {min, max};
   }
-  throw UsageError("--range: " + quoted(text) + " is not MIN:MAX with 0 <= MIN <= MAX");
+  refuse_value("--range", text, "is not MIN:MAX with 0 <= MIN <= MAX");
 }
 
 std::size_t parse_bin_fields(std::string_view text) {

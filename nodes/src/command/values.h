@@ -19,7 +19,8 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::string quoted(std::string_view text);
+/// Throws UsageError, "--rate: 'fast' is not a rate": `what` is what follows the text.
+[[noreturn]] void refuse_value(std::string_view option, std::string_view text, const std::string& what);
 
 /// What `parse` makes of the text; its std::invalid_argument becomes a UsageError that names the option.
 template <typename Text, typename Parse>

@@ -68,8 +68,7 @@ std::vector<Job> plan_jobs(const Options& options) {
     if (several || !given.has_filename() || is_folder(given.string()))
       return given / (stem(job.input) + extension);
     if (given.has_extension() || is_device(given)) return given;
-    throw UsageError(std::string(option) + ": " + pcl_bv::quoted(given.string()) + " has no suffix such as " +
-                     extension);
+    refuse_value(option, given.string(), std::string("has no suffix such as ") + extension);
   };
   // A folder gets what its name ends in.
   const bool svg = options.image && lower_case_extension(*options.image) == ".svg";

@@ -81,7 +81,7 @@ void require_extension(const char* option, const std::string& name,
     if (extension == each) return;
     list += (list.empty() ? "" : " or ") + std::string(each);
   }
-  throw UsageError(std::string(option) + ": '" + name + "' is no " + list + " file");
+  refuse_value(option, name, "is no " + list + " file");
 }
 
 OriginOption parse_origin(const std::string& text) {
@@ -89,7 +89,7 @@ OriginOption parse_origin(const std::string& text) {
   if (text == "auto") return origin;
   parse_with("--origin", text, [&](const std::string& numbers) { read_text(numbers, origin.at); });
   if (origin.at && origin.at->allFinite()) return origin;
-  throw UsageError("--origin: '" + text + "' is not X,Y,Z, all finite, or auto");
+  refuse_value("--origin", text, "is not X,Y,Z, all finite, or auto");
 }
 
 void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
