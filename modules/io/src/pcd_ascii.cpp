@@ -8,10 +8,9 @@
 #include <string_view>
 
 #include "element_type.h"
-#include "header_words.h"
-#include "numbers.h"
 #include "pcd_format.h"
 #include "read_text_rows.h"
+#include "text.h"
 
 namespace pcl_bv {
 namespace {

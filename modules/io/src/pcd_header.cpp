@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "coordinate_fields.h"
-#include "header_words.h"
-#include "numbers.h"
 #include "pcd_format.h"
+#include "text.h"
 
 namespace pcl_bv {
 namespace {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "header_words.h"
 #include "ply_format.h"
 #include "read_text_rows.h"
 

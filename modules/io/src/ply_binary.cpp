@@ -8,7 +8,6 @@
 #include <string>
 
 #include "element_type.h"
-#include "header_words.h"
 #include "ply_format.h"
 
 namespace pcl_bv {

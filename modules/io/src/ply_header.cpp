@@ -6,9 +6,8 @@
 #include <optional>
 
 #include "coordinate_fields.h"
-#include "header_words.h"
-#include "numbers.h"
 #include "ply_format.h"
+#include "text.h"
 
 namespace pcl_bv {
 namespace {

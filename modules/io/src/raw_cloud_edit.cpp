@@ -10,7 +10,7 @@
 
 #include "coordinate_fields.h"
 #include "copy_strided.h"
-#include "header_words.h"
+#include "text.h"
 
 namespace pcl_bv {
 namespace {

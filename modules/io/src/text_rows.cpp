@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "element_type.h"
-#include "numbers.h"
+#include "text.h"
 
 namespace pcl_bv {
 namespace {

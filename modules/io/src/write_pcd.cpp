@@ -3,10 +3,9 @@
 
 #include <stdexcept>
 
-#include "header_words.h"
-#include "numbers.h"
 #include "pcd_format.h"
 #include "pcl_bv/io/atomic_file.h"
+#include "text.h"
 
 namespace pcl_bv {
 namespace {

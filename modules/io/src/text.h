@@ -1,16 +1,33 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers from and to text, whatever the locale, with the two things that std::from_chars leaves open: "+1"
-// and numbers beyond the range of the type.
+// Words and numbers of text, whatever the locale. With numbers, two things that std::from_chars leaves open:
+// "+1", and what is beyond the range of the type.
 #pragma once
 
 #include <charconv>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
+
+#include "posix_file.h"
 
 namespace pcl_bv {
+
+/// A header must end within this many bytes; those of real files have some 200 to 400.
+inline constexpr std::size_t max_header_size = 65536;
+
+/// The first max_header_size bytes of a file; fewer only if it ends there. Throws IoError.
+std::string read_start(const InputFile& file);
+
+using Words = std::vector<std::string_view>;
+
+/// The words of a line, between blanks.
+Words split(std::string_view line);
+
+/// Whether the text has no blanks or line ends and is not empty, so that it can be the name of a field.
+bool is_word(std::string_view text);
 
 /// The value of a well-formed decimal number that std::from_chars found out of range: an infinity or a zero,
 /// signed.

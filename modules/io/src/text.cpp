@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// std::from_chars says only "out of range" for 1e39 and for 1e-46 as float: the sign of the decimal exponent
-// tells which of the two it was, since everything between 1e-45 and 1e38 is in range.
-#include "numbers.h"
+#include "text.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+
+#include "short_decimal.h"
 
 namespace pcl_bv {
 namespace {
@@ -25,6 +25,38 @@ std::int64_t parse_exponent(std::string_view text) {
 
 }  // namespace
 
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string result(text.substr(0, longest));
+  for (char& c : result) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return "'" + result + (text.size() > longest ? "...'" : "'");
+}
+
+std::string read_start(const InputFile& file) {
+  std::string start(std::min(file.size(), max_header_size), '\0');
+  file.read(0, start.data(), start.size());
+  return start;
+}
+
+Words split(std::string_view line) {
+  Words words;
+  auto word = std::find_if_not(line.begin(), line.end(), is_blank);
+  while (word != line.end()) {
+    const auto end = std::find_if(word, line.end(), is_blank);
+    words.emplace_back(word, end);
+    word = std::find_if_not(end, line.end(), is_blank);
+  }
+  return words;
+}
+
+bool is_word(std::string_view text) {
+  return !text.empty() && std::none_of(text.begin(), text.end(), ends_value);
+}
+
+// std::from_chars says only "out of range" for 1e39 and for 1e-46 as float: the sign of the decimal exponent
+// tells which of the two it was, since everything between 1e-45 and 1e38 is in range.
 double value_beyond_range(std::string_view number) {
   const bool negative = number.front() == '-';
   if (negative) number.remove_prefix(1);
