@@ -9,7 +9,6 @@
 
 #include "block_sums.h"
 #include "coordinate_fields.h"
-#include "copy_strided.h"
 #include "pcd_format.h"
 #include "pcl_bv/io/read_cloud.h"
 
@@ -57,17 +56,14 @@ void grow(std::vector<std::byte>& buffer, std::size_t bytes) {
 // The coordinates of the records from `offset` on to the front of the buffer, by way of a piece behind them.
 void pack(const InputFile& file, std::size_t offset, std::size_t step, const CoordinateFields& fields,
           std::size_t count, std::vector<std::byte>& buffer) {
-  const std::size_t size = size_of(fields.scalar), packed = 3 * size;
+  const std::size_t packed = 3 * size_of(fields.scalar);
   const std::size_t at_a_time = std::clamp<std::size_t>(kPiece / step, 1, count);
   grow(buffer, count * packed + at_a_time * step);
   std::byte* const piece = buffer.data() + count * packed;
   for (std::size_t done = 0; done < count; done += at_a_time) {
     const std::size_t n = std::min(at_a_time, count - done);
     file.read(offset + done * step, piece, n * step);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      copy_strided({piece, fields.offset[axis], step}, {buffer.data() + done * packed, axis * size, packed},
-                   size, n);
-    }
+    pack_coordinates(fields, piece, n, step, buffer.data() + done * packed);
   }
 }
 
@@ -104,20 +100,15 @@ PointView CloudFile::load(std::size_t first, std::size_t count, std::vector<std:
   const std::size_t step = header().point_step, from = file_->header.data_offset + first * step;
   prefetch(file_->file, from, from + count * step);
   PointView view;
-  view.first = first;
-  view.count = count;
-  view.scalar = fields.scalar;
   if (fields.adjacent && step <= kShortRecord) {
     grow(buffer, count * step);
     file_->file.read(from, buffer.data(), count * step);
-    view.data = buffer.data() + fields.offset[0];
-    view.stride = step;
-    view.readable = step - fields.offset[0];
+    view = view_at(fields, buffer.data(), count, step);
   } else {
     pack(file_->file, from, step, fields, count, buffer);
-    view.data = buffer.data();
-    view.stride = view.readable = 3 * size_of(fields.scalar);
+    view = packed_points(buffer.data(), fields.scalar, count);
   }
+  view.first = first;
   file_->sums.check(first, count, buffer.data(), view.stride);
   return view;
 }

@@ -22,6 +22,14 @@ struct CoordinateFields {
 
 CoordinateFields coordinate_fields(const std::vector<PointField>& fields);
 
+/// The coordinates of these records, where they lie; for fields that are adjacent.
+PointView view_at(const CoordinateFields& fields, const std::byte* records, std::size_t count,
+                  std::size_t point_step);
+
+/// Copies the coordinates of these records to where packed_points() finds them.
+void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
+                      std::size_t point_step, std::byte* xyz);
+
 /// Throws `Error` unless x, y and z exist, each once, in a form that is readable: IoError for readers.
 template <typename Error = IoError>
 void check_coordinates(const std::vector<PointField>& fields);

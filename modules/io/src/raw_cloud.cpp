@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "coordinate_fields.h"
+#include "copy_strided.h"
 #include "pcl_bv/io/io_error.h"
 
 namespace pcl_bv {
@@ -20,17 +21,6 @@ const PointField* find_field(const std::vector<PointField>& fields, std::string_
   const auto found =
       std::find_if(fields.begin(), fields.end(), [&](const PointField& field) { return field.name == name; });
   return found == fields.end() ? nullptr : &*found;
-}
-
-PointView view_at(const CoordinateFields& fields, const std::byte* data, std::size_t count,
-                  std::size_t point_step) {
-  PointView view;
-  view.scalar = fields.scalar;
-  view.data = data + fields.offset[0];
-  view.stride = point_step;
-  view.readable = point_step - fields.offset[0];
-  view.count = count;
-  return view;
 }
 
 }  // namespace
@@ -55,6 +45,24 @@ CoordinateFields coordinate_fields(const std::vector<PointField>& fields) {
   result.adjacent =
       result.offset[1] == result.offset[0] + bytes && result.offset[2] == result.offset[0] + 2 * bytes;
   return result;
+}
+
+PointView view_at(const CoordinateFields& fields, const std::byte* records, std::size_t count,
+                  std::size_t point_step) {
+  PointView view;
+  view.scalar = fields.scalar;
+  view.data = records + fields.offset[0];
+  view.stride = point_step;
+  view.readable = point_step - fields.offset[0];
+  view.count = count;
+  return view;
+}
+
+void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
+                      std::size_t point_step, std::byte* xyz) {
+  const std::size_t bytes = size_of(fields.scalar);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    copy_strided({records, fields.offset[axis], point_step}, {xyz, axis * bytes, 3 * bytes}, bytes, count);
 }
 
 template <typename Error>
@@ -95,12 +103,7 @@ PointView RawCloud::xyz() const {
   const CoordinateFields in = coordinate_fields(fields);
   if (size() == 0 || !in.readable) return {};
   if (in.adjacent) return view_at(in, data.data(), size(), point_step);
-  PointView view;
-  view.scalar = in.scalar;
-  view.data = packed_xyz.data();
-  view.stride = view.readable = 3 * size_of(view.scalar);
-  view.count = packed_xyz.size() / view.stride;
-  return view;
+  return packed_points(packed_xyz.data(), in.scalar, packed_xyz.size() / (3 * size_of(in.scalar)));
 }
 
 }  // namespace pcl_bv

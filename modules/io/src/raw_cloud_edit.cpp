@@ -85,12 +85,8 @@ void update_packed_xyz(RawCloud& cloud) {
   cloud.packed_xyz.clear();
   const CoordinateFields fields = coordinate_fields(cloud.fields);
   if (!fields.readable || fields.adjacent) return;
-  const std::size_t bytes = size_of(fields.scalar);
-  cloud.packed_xyz.resize(3 * bytes * cloud.size());
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    copy_strided({cloud.data.data(), fields.offset[axis], cloud.point_step},
-                 {cloud.packed_xyz.data(), axis * bytes, 3 * bytes}, bytes, cloud.size());
-  }
+  cloud.packed_xyz.resize(3 * size_of(fields.scalar) * cloud.size());
+  pack_coordinates(fields, cloud.data.data(), cloud.size(), cloud.point_step, cloud.packed_xyz.data());
 }
 
 }  // namespace pcl_bv

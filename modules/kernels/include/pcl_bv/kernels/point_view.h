@@ -97,6 +97,18 @@ struct PointView {
   }
 };
 
+/// `count` points, from number `first` of their cloud on, whose coordinates x, y, z lie without gaps.
+inline PointView packed_points(const std::byte* xyz, ScalarType scalar, std::size_t count,
+                               std::size_t first = 0) {
+  PointView view;
+  view.data = xyz;
+  view.stride = view.readable = 3 * size_of(scalar);
+  view.count = count;
+  view.first = first;
+  view.scalar = scalar;
+  return view;
+}
+
 /// Whether both visit the same memory, or points of the same source, in the same order: so they are the same
 /// points, unless what is there has changed.
 inline bool same_places(const PointView& a, const PointView& b) {
