@@ -1,18 +1,48 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "pcl_bv/report/meshes.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "palette.h"
-#include "pcl_bv/report/meshes.h"
+#include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "volume_cells.h"
 
 namespace pcl_bv {
 namespace {
+
+std::size_t method_number(const std::string& method, std::vector<std::string>& methods) {
+  const auto found = std::find(methods.begin(), methods.end(), method);
+  if (found != methods.end()) return static_cast<std::size_t>(found - methods.begin());
+  methods.push_back(method);
+  return methods.size() - 1;
+}
+
+void add_mesh(const Mesh& mesh, std::size_t owner, VolumeCells& cells) {
+  if (cells.vertices.size() + mesh.vertices.size() > std::numeric_limits<std::int32_t>::max()) {
+    throw std::length_error("more than 2147483647 vertices: too many for a mesh");
+  }
+  const auto first = static_cast<std::int32_t>(cells.vertices.size());
+  cells.vertices.insert(cells.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  cells.vertex_owners.resize(cells.vertices.size(), owner);
+  for (const std::vector<std::int32_t>& face : mesh.faces) {
+    Cell cell{face, owner};
+    for (std::int32_t& vertex : cell.vertices)
+      vertex += first;
+    auto& kind = face.size() > 2 ? cells.polygons : face.size() == 2 ? cells.lines : cells.points;
+    kind.push_back(std::move(cell));
+  }
+  if (!mesh.faces.empty()) return;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    cells.points.push_back({{first + static_cast<std::int32_t>(i)}, owner});
+}
 
 static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
 
@@ -70,6 +100,20 @@ void append_face(const Cell& face, bool count_is_a_byte, const CellOwner& owner,
 
 }  // namespace
 
+VolumeCells volume_cells(const std::vector<ClusterEntry>& clusters) {
+  VolumeCells cells;
+  for (std::size_t number = 0; number < clusters.size(); ++number) {
+    const ClusterEntry& cluster = clusters[number];
+    for (const VolumeEntry& entry : cluster.volumes) {
+      const std::size_t method = method_number(entry.method, cells.methods);
+      if (empty(entry.volume)) continue;
+      cells.owners.push_back({cluster.id, method, cluster.points, volume(entry.volume), number});
+      add_mesh(mesh(entry.volume), cells.owners.size() - 1, cells);
+    }
+  }
+  return cells;
+}
+
 std::string volumes_ply(const std::vector<ClusterEntry>& clusters) {
   return cells_ply(volume_cells(clusters), clusters.size() > 1);
 }
@@ -89,6 +133,18 @@ std::string cells_ply(const VolumeCells& cells, bool colour_by_cluster) {
       append(vertex, bytes);
   }
   return bytes;
+}
+
+std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".ply") return MeshFormat::ply;
+  if (extension == ".vtp") return MeshFormat::vtp;
+  return std::nullopt;
+}
+
+void write_volumes(const std::filesystem::path& path, const std::vector<ClusterEntry>& clusters,
+                   MeshFormat format) {
+  write_file_atomically(path, format == MeshFormat::ply ? volumes_ply(clusters) : volumes_vtp(clusters));
 }
 
 }  // namespace pcl_bv
