@@ -35,8 +35,9 @@ std::size_t values_per_point(const RawCloud& cloud) {
 class PointRow {
  public:
   explicit PointRow(const RawCloud& cloud) : cloud_(cloud) {
-    for (const PointField& field : cloud.fields)
-      append_run(runs_, field);
+    for (const PointField& field : cloud.fields) {
+      if (runs_.empty() || !extend_run(runs_.back(), field)) runs_.push_back(field);
+    }
   }
 
   void operator()(TextRows& rows, std::byte* to) const {

@@ -15,16 +15,10 @@ namespace {
 class VertexRow {
  public:
   explicit VertexRow(const PlyElement& vertex) : vertex_(vertex) {
-    std::vector<PointField> runs;
     for (const PlyProperty& property : vertex.properties) {
-      if (!property.is_list) {
-        append_run(runs, property.value);
-        continue;
-      }
-      end_runs(runs);
-      steps_.push_back(property);
+      const bool follows = !property.is_list && !steps_.empty() && !steps_.back().is_list;
+      if (!follows || !extend_run(steps_.back().value, property.value)) steps_.push_back(property);
     }
-    end_runs(runs);
   }
 
   void operator()(TextRows& rows, std::byte* to) const {
@@ -43,12 +37,6 @@ class VertexRow {
   }
 
  private:
-  void end_runs(std::vector<PointField>& runs) {
-    for (const PointField& run : runs)
-      steps_.push_back({run, {}, false});
-    runs.clear();
-  }
-
   static void skip_list(TextRows& rows, const PlyProperty& list) {
     std::uint64_t n = 0;  // little-endian, and not negative: a smaller element fills its low bytes
     PointField count = list.count;

@@ -57,14 +57,11 @@ std::string_view TextRows::value() const {
   return {at_, static_cast<std::size_t>(stop - at_)};
 }
 
-void append_run(std::vector<PointField>& runs, const PointField& field) {
-  const bool joins = !runs.empty() && runs.back().type == field.type && runs.back().size == field.size &&
-                     runs.back().count <= std::numeric_limits<std::uint32_t>::max() - field.count;
-  if (joins) {
-    runs.back().count += field.count;
-  } else {
-    runs.push_back(field);
-  }
+bool extend_run(PointField& run, const PointField& next) {
+  const bool fits = run.count <= std::numeric_limits<std::uint32_t>::max() - next.count;
+  if (run.type != next.type || run.size != next.size || !fits) return false;
+  run.count += next.count;
+  return true;
 }
 
 }  // namespace pcl_bv

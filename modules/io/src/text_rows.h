@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
 #include "short_decimal.h"
@@ -48,8 +47,8 @@ class TextRows {
   const char* end_;
 };
 
-/// Appends a field to those that rows are read by; it becomes one with the last of them if both are of one
-/// type.
-void append_run(std::vector<PointField>& runs, const PointField& field);
+/// Makes the next field a part of this one, so that both are read at once. False, and nothing is done, if
+/// they are not of one type.
+bool extend_run(PointField& run, const PointField& next);
 
 }  // namespace pcl_bv
