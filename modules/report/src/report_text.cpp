@@ -69,13 +69,11 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
   if (const auto* sphere = std::get_if<Sphere>(&entry.volume)) {
     row[6] = "r ";
     row[6] += length(sphere->radius(), decimals);
-  } else if (const auto* oriented = std::get_if<Obb>(&entry.volume)) {
-    for (int k = 0; k < 3; ++k)  // along its own axes
-      row[6 + k] = length(2 * oriented->half_extents()[k], decimals);
   } else {
+    const auto* oriented = std::get_if<Obb>(&entry.volume);
     const Aabb box = aabb(entry.volume);
-    for (int k = 0; k < 3; ++k)
-      row[6 + k] = length(box.max()[k] - box.min()[k], decimals);
+    for (int k = 0; k < 3; ++k)  // of a turned box along its own axes
+      row[6 + k] = length(oriented ? 2 * oriented->half_extents()[k] : box.max()[k] - box.min()[k], decimals);
   }
   row[9] = four_digits(volume(entry.volume));
   return row;

@@ -19,10 +19,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// Sizes in the header are held against the size of the file before anything is allocated. What comes after
 /// the vertices is not looked at, except that an ascii file without further elements must end there. Numbers
-/// in ascii are read as read_pcd() does, threads used as there.
-///
-/// Throws IoError, naming the reason, for a file that is missing, unreadable, empty, truncated, inconsistent
-/// or of an unsupported type.
+/// in ascii are read as read_pcd() does, threads used and errors thrown as there.
 RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv
