@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "block_sums.h"
-#include "coordinate_fields.h"
+#include "fields.h"
 #include "pcd_format.h"
 #include "pcl_bv/io/read_cloud.h"
 

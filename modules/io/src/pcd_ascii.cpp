@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "element_type.h"
+#include "fields.h"
 #include "pcd_format.h"
 #include "read_text_rows.h"
 #include "text.h"

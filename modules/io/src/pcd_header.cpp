@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "coordinate_fields.h"
+#include "fields.h"
 #include "pcd_format.h"
 #include "text.h"
 

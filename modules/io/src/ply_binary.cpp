@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "element_type.h"
+#include "fields.h"
 #include "ply_format.h"
 
 namespace pcl_bv {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "coordinate_fields.h"
+#include "fields.h"
 #include "ply_format.h"
 #include "text.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "coordinate_fields.h"
 #include "copy_strided.h"
+#include "fields.h"
 #include "pcl_bv/io/io_error.h"
 
 namespace pcl_bv {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "coordinate_fields.h"
 #include "copy_strided.h"
+#include "fields.h"
 #include "text.h"
 
 namespace pcl_bv {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "element_type.h"
+#include "fields.h"
 #include "text.h"
 
 namespace pcl_bv {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -48,9 +47,7 @@ static_assert(std::endian::native == std::endian::little, "values are written as
 
 template <typename T>
 void append(T value, std::string& bytes) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof value);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 /// The count of a face's corners is a byte, as everywhere, unless a flat hull has more of them.
