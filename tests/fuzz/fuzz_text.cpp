@@ -11,7 +11,7 @@
 
 #include "memory_file.h"
 #include "pcl_bv/io/io_error.h"
-#include "read_text_rows.h"
+#include "text_rows.h"
 
 namespace {
 

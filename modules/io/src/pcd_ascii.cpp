@@ -8,8 +8,8 @@
 
 #include "fields.h"
 #include "pcd_format.h"
-#include "read_text_rows.h"
 #include "text.h"
+#include "text_rows.h"
 
 namespace pcl_bv {
 namespace {

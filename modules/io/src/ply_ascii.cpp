@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ply_format.h"
-#include "read_text_rows.h"
+#include "text_rows.h"
 
 namespace pcl_bv {
 namespace {

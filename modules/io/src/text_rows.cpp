@@ -3,11 +3,15 @@
 
 #include "text_rows.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <type_traits>
+#include <vector>
 
 #include "fields.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 #include "text.h"
 
 namespace pcl_bv {
@@ -30,6 +34,165 @@ const char* read_number(const char* at, const char* end, T& value) {
   const char* after = parse_number(at, end, value);
   return after && ends_value(*after) ? after : nullptr;
 }
+
+// What a piece is read beyond its end at first, since its last line ends there: a part of this of its size.
+constexpr std::size_t overhang_part = 512;
+
+// Offset behind the first line end at or after `from`, or npos.
+std::size_t behind_line_end(std::string_view text, std::size_t from) {
+  const std::size_t newline = text.find('\n', from);
+  return newline == std::string_view::npos ? newline : newline + 1;
+}
+
+// A text cut at line ends into pieces that fit a core's cache, each of which can be fetched by itself. A line
+// belongs to the piece in which it begins, wherever it ends.
+class TextPieces {
+ public:
+  explicit TextPieces(const TextBody& body)
+      : body_(body), count_((body.file.size() - body.begin + body.piece_bytes - 1) / body.piece_bytes) {}
+
+  std::size_t count() const { return count_; }
+
+  // The lines of a piece, in a buffer that can be used again, with the padding that TextRows needs. Empty if
+  // none begins there. Throws IoError.
+  std::string_view fetch(std::size_t piece, ByteBuffer& buffer) const {
+    // The byte before the piece tells whether a line begins with it.
+    const std::size_t before = piece > 0 ? 1 : 0;
+    const std::size_t begin = piece_begin(piece) - before;
+    const std::size_t inside = piece_begin(piece + 1) - begin;  // the last byte may end the last line
+    std::size_t have = 0, first = 0, last = std::string_view::npos;
+    for (std::size_t overhang = body_.piece_bytes / overhang_part + 1;; overhang *= 2) {
+      const std::size_t want = std::min(inside + overhang, body_.file.size() - begin);
+      fill(buffer, begin + have, want - have, have);
+      const std::string_view text(reinterpret_cast<const char*>(buffer.data()), want);
+      if (have == 0) first = before == 0 ? 0 : behind_line_end(text, 0);
+      if (first >= inside && piece + 1 < count_) return {};
+      last = behind_line_end(text, std::max(have, inside - 1));
+      have = want;
+      if (last != std::string_view::npos || begin + have == body_.file.size()) break;
+    }
+    last = std::min(last, have);
+    first = std::min(first, last);
+    char* text = reinterpret_cast<char*>(buffer.data());
+    std::memset(text + last, '\n', text_padding);
+    return {text + first, last - first};
+  }
+
+ private:
+  std::size_t piece_begin(std::size_t piece) const {
+    return std::min(body_.begin + piece * body_.piece_bytes, body_.file.size());
+  }
+
+  // Appends `bytes` bytes of the file, from `from` on, to the `have` bytes that the buffer has.
+  void fill(ByteBuffer& buffer, std::size_t from, std::size_t bytes, std::size_t have) const {
+    if (buffer.size() < have + bytes + text_padding) buffer.resize(have + bytes + text_padding);
+    body_.file.read(from, buffer.data() + have, bytes);
+    char* text = reinterpret_cast<char*>(buffer.data());
+    if (body_.returns_end_rows) std::replace(text + have, text + have + bytes, '\r', '\n');
+  }
+
+  TextBody body_;
+  std::size_t count_;
+};
+
+std::size_t count_rows_one_by_one(std::string_view text) {
+  std::size_t rows = 0;
+  bool in_row = false;
+  for (const char c : text) {
+    rows += !in_row && !ends_value(c);
+    in_row = c != '\n' && (in_row || !ends_value(c));
+  }
+  return rows;
+}
+
+// Lines that begin with a value are rows, empty ones are none. Bytes are summed in bytes, many at once.
+std::size_t count_rows(std::string_view text) {
+  constexpr std::size_t block = 240;
+  std::size_t rows = !text.empty() && !ends_value(text[0]), others = !text.empty() && is_blank(text[0]);
+  for (std::size_t begin = 1; begin < text.size(); begin += block) {
+    const std::size_t n = std::min(block, text.size() - begin);
+    const auto* before = reinterpret_cast<const std::uint8_t*>(text.data()) + begin - 1;
+    const std::uint8_t* at = before + 1;
+    std::uint8_t rows_here = 0, others_here = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint8_t begins = before[i] == '\n';
+      const std::uint8_t is_end = at[i] == '\n';
+      const std::uint8_t is_space = at[i] == ' ';
+      const std::uint8_t is_control = static_cast<std::uint8_t>(at[i] - '\t') <= '\r' - '\t';
+      rows_here += begins & ((is_space | is_control) ^ 1);
+      others_here += begins & (is_space | is_control) & (is_end ^ 1);
+    }
+    rows += rows_here;
+    others += others_here;
+  }
+  return others == 0 ? rows : count_rows_one_by_one(text);
+}
+
+// Which rows a piece of text holds is known only when those before it have been counted. Several threads
+// count first, at a tenth of the cost of reading numbers, and then read every piece to its place: none ever
+// waits for another, as it would if pieces were handed over in order.
+class RowReader {
+ public:
+  RowReader(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row, std::byte* records)
+      : pieces_(body), wanted_(wanted), read_row_(read_row), records_(records) {}
+
+  RowsRead run_serial() const {
+    ByteBuffer text;
+    std::size_t rows = 0;
+    for (std::size_t piece = 0; piece < pieces_.count() && rows <= wanted_.count; ++piece)
+      rows = read_piece(piece, rows, wanted_.count, text);
+    return {std::min(rows, wanted_.count), rows > wanted_.count};
+  }
+
+  RowsRead run_parallel(const ParallelPolicy& policy) const {
+    std::vector<std::size_t> end(pieces_.count());  // rows up to the end of a piece
+    over_pieces(policy, [&](std::size_t piece, ByteBuffer& text) {
+      end[piece] = count_rows(pieces_.fetch(piece, text));
+    });
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    over_pieces(policy, [&](std::size_t piece, ByteBuffer& text) {
+      const std::size_t first = piece == 0 ? 0 : end[piece - 1];
+      if (first >= wanted_.count) return;
+      const std::size_t stop = std::min(end[piece], wanted_.count);
+      const std::size_t found = read_piece(piece, first, stop, text);
+      if (found != std::min(end[piece], stop + 1)) throw IoError(kChangedWhileRead);
+    });
+    return {std::min(end.back(), wanted_.count), end.back() > wanted_.count};
+  }
+
+ private:
+  // Neighbours share a buffer. The error of the lowest group is that of its first bad row.
+  template <typename Body>
+  void over_pieces(const ParallelPolicy& policy, const Body& body) const {
+    constexpr std::size_t group = 4;
+    for_each_chunk(policy, (pieces_.count() + group - 1) / group, [&](std::size_t chunk) {
+      ByteBuffer text;
+      const std::size_t stop = std::min((chunk + 1) * group, pieces_.count());
+      for (std::size_t piece = chunk * group; piece < stop; ++piece)
+        body(piece, text);
+    });
+  }
+
+  // Reads the rows of a piece as number `row` to `stop` - 1, and returns the number behind the last one; one
+  // more if the piece has more.
+  std::size_t read_piece(std::size_t piece, std::size_t row, std::size_t stop, ByteBuffer& buffer) const {
+    TextRows text(pieces_.fetch(piece, buffer));
+    try {
+      for (; text.find_row(); ++row) {
+        if (row == stop) return row + 1;
+        read_row_(text, records_ + row * wanted_.record_bytes);
+      }
+    } catch (const RowError& error) {
+      throw IoError(error.before + std::to_string(wanted_.first_number + row) + error.after);
+    }
+    return row;
+  }
+
+  const TextPieces pieces_;
+  const RowsWanted wanted_;
+  const ReadRow& read_row_;
+  std::byte* const records_;
+};
 
 }  // namespace
 
@@ -62,6 +225,35 @@ bool extend_run(PointField& run, const PointField& next) {
   if (run.type != next.type || run.size != next.size || !fits) return false;
   run.count += next.count;
   return true;
+}
+
+RowsRead read_text_rows(const TextBody& body, const RowsWanted& wanted, const ReadRow& read_row,
+                        std::byte* records, const ParallelPolicy& policy) {
+  if (wanted.count == 0) {  // whatever a record would take
+    TextBody rest = body;
+    return {0, skip_text_rows(rest, 1) > 0};
+  }
+  const RowReader reader(body, wanted, read_row, records);
+  const bool alone = thread_count(policy) == 1 || body.file.size() - body.begin <= body.piece_bytes;
+  return alone ? reader.run_serial() : reader.run_parallel(policy);
+}
+
+std::size_t skip_text_rows(TextBody& body, std::size_t count) {
+  std::vector<char> window(65536);
+  std::size_t skipped = 0;
+  bool in_row = false;
+  while (skipped < count && body.begin < body.file.size()) {
+    const std::size_t bytes = std::min(window.size(), body.file.size() - body.begin);
+    body.file.read(body.begin, window.data(), bytes);
+    std::size_t at = 0;
+    for (; at < bytes && skipped < count; ++at) {
+      const bool ends = window[at] == '\n' || (body.returns_end_rows && window[at] == '\r');
+      skipped += ends && in_row;
+      in_row = !ends && (in_row || !is_blank(window[at]));
+    }
+    body.begin += at;
+  }
+  return skipped + (skipped < count && in_row);
 }
 
 }  // namespace pcl_bv
