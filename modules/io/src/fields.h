@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the fields of a record mean: C++ types of their elements, and coordinates.
+// Fields of records: what they mean, and copies between records and arrays.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "pcl_bv/io/io_error.h"
@@ -33,6 +34,23 @@ auto with_element_type(const PointField& field, const Function& function) {
   }
 }
 
+/// Where the elements of a strided copy lie: the first one `offset` bytes after `base`, each `stride` bytes
+/// after the one before it. `base` may be null if there are none.
+template <typename Byte>
+struct Strided {
+  Byte* base;
+  std::size_t offset;
+  std::size_t stride;
+};
+using StridedSource = Strided<const std::byte>;
+using StridedTarget = Strided<std::byte>;
+
+/// Copies `count` elements of `bytes` bytes each. The two must not overlap.
+void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::size_t count);
+
+/// The first field of this name, or null.
+const PointField* find_field(const std::vector<PointField>& fields, std::string_view name);
+
 /// Offsets of x, y, z in the record.
 struct CoordinateFields {
   std::array<std::size_t, 3> offset{};
@@ -51,7 +69,8 @@ PointView view_at(const CoordinateFields& fields, const std::byte* records, std:
 void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                       std::size_t point_step, std::byte* xyz);
 
-/// Throws `Error` unless x, y and z exist, each once, in a form that is readable: IoError for readers.
+/// Throws `Error` unless x, y and z exist, each once, in a form that is readable: IoError for readers, or
+/// std::invalid_argument.
 template <typename Error = IoError>
 void check_coordinates(const std::vector<PointField>& fields);
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "copy_strided.h"
+#include "fields.h"
 #include "pcd_format.h"
 
 namespace pcl_bv {

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "copy_strided.h"
 #include "fields.h"
 #include "text.h"
 
