@@ -40,12 +40,7 @@ class AskedFor final : public PointSource {
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override {
     buffer.resize(12 * count);
     std::memcpy(buffer.data(), xyz_.data() + 3 * first, 12 * count);
-    PointView view;
-    view.data = buffer.data();
-    view.stride = view.readable = 12;
-    view.count = count;
-    view.first = first;
-    return view;
+    return packed_points(buffer.data(), ScalarType::float32, count, first);
   }
 
  private:

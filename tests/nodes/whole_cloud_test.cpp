@@ -256,7 +256,7 @@ TEST(GroundRemark, SaysWhenThereIsNoGroundOrNothingElse) {
   result.config = config;
   result.points = 120;
   result.counts.range = 20;
-  EXPECT_THAT(ground_remark(result), testing::HasSubstr("no ground found (up is z): try --up"));
+  EXPECT_THAT(ground_remark(result), testing::HasSubstr("no ground found (up is z): try ground.up"));
   result.counts.ground = 100;
   EXPECT_THAT(ground_remark(result), testing::HasSubstr("all points are taken for ground"));
   result.counts.ground = 99;

@@ -4,8 +4,7 @@
 #include "pcl_bv/report/csv.h"
 
 #include "csv_shape.h"
-#include "shortest.h"
-#include "shown_method.h"
+#include "written.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/report/frame_report.h"
 #include "pcl_bv/report/report.h"
-#include "shortest.h"
+#include "written.h"
 
 namespace pcl_bv {
 namespace {

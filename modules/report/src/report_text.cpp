@@ -7,8 +7,7 @@
 #include <cstdio>
 
 #include "pcl_bv/report/report.h"
-#include "shortest.h"
-#include "shown_method.h"
+#include "written.h"
 
 namespace pcl_bv {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/report/meshes.h"
-#include "shortest.h"
 #include "volume_cells.h"
+#include "written.h"
 
 namespace pcl_bv {
 namespace {

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "command/messages.h"
+#include "command/setting_options.h"
 #include "command/values.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
@@ -149,7 +150,7 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
     sinks.write(frame, result);
     if (!frame.note.empty() && frame.note != last_note) complain(named(frame, frame.note));
     last_note = frame.note;
-    const std::string remark = ground_remark(result);
+    const std::string remark = with_options(ground_remark(result));
     if (!remark.empty() && remark != last_remark) complain(named(frame, remark));
     last_remark = remark;
     progress.show(frame.header.seq, result.clusters.size(), result.ms.total);

@@ -36,6 +36,15 @@ void keep_first_mentions(std::vector<std::string>& methods) {
 
 }  // namespace
 
+std::string with_options(std::string text) {
+  const PipelineConfig any;
+  visit_pipeline(any, [&](const Setting& setting, const auto&) {
+    const std::size_t at = setting.option.empty() ? std::string::npos : text.find(setting.key);
+    if (at != std::string::npos) text.replace(at, setting.key.size(), setting.option);
+  });
+  return text;
+}
+
 SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream)
     : line_(line), defaults_(defaults), stream_(stream) {
   line.option("--preset", preset_, "NAME", "Settings to begin with: road, indoor or table");

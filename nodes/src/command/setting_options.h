@@ -12,6 +12,9 @@
 
 namespace pcl_bv {
 
+/// A text with the options of settings in place of their keys.
+std::string with_options(std::string text);
+
 /// The options by which commands are configured: --preset, --config, --range, --print-config and those of the
 /// settings (nodes/settings.h). Later ones in this order win: the defaults, the preset, the file, the
 /// options.

@@ -27,13 +27,7 @@ class ShiftedPoints final : public PointSource {
       const double shifted[3] = {p.x - origin_.x(), p.y - origin_.y(), p.z - origin_.z()};
       std::memcpy(buffer.data() + i * step, shifted, step);
     }
-    PointView view;
-    view.data = buffer.data();
-    view.stride = view.readable = step;
-    view.count = count;
-    view.first = first;
-    view.scalar = ScalarType::float64;
-    return view;
+    return packed_points(buffer.data(), ScalarType::float64, count, first);
   }
 
  private:

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "command/messages.h"
+#include "command/setting_options.h"
 #include "loaded_cloud.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -107,7 +108,7 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
 /// What a user would want to know before believing the results.
 std::vector<std::string> remarks(const FrameResult& result, const PointView& points) {
   std::vector<std::string> said;
-  const std::string ground = ground_remark(result);
+  const std::string ground = with_options(ground_remark(result));
   if (!ground.empty()) said.push_back(ground);
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)

@@ -162,13 +162,7 @@ PointView FilteredPoints::load(std::size_t first, std::size_t count, std::vector
   } else {
     copy_kept<float>(part.view(), scratch.verdicts, buffer.data());
   }
-  PointView view;
-  view.data = buffer.data();
-  view.stride = view.readable = step;
-  view.count = count;
-  view.first = first;
-  view.scalar = points_.scalar;
-  return view;
+  return packed_points(buffer.data(), points_.scalar, count, first);
 }
 
 }  // namespace pcl_bv

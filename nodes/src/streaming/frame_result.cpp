@@ -61,9 +61,10 @@ std::string ground_remark(const FrameResult& result) {
   if (ground.method == GroundMethod::none || looked_at < few) return {};
   const std::string tried = " (up is " + up_text(ground.up) + ")";
   if (counts.ground == 0)
-    return "no ground found" + tried + ": try --up, --sensor-height, --ground-slope, or --ground none";
+    return "no ground found" + tried +
+           ": try ground.up, ground.sensor_height, ground.max_slope_degrees, or ground.method none";
   if (counts.ground == looked_at)
-    return "all points are taken for ground" + tried + ": try --up, --ground-distance, or --ground none";
+    return "all points are taken for ground" + tried + ": try ground.up, ground.distance, or ground.method none";
   return {};
 }
 

@@ -64,7 +64,7 @@ struct FrameResult {
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result);
 
 /// If ground was asked for and there is none in a hundred points or more, or nothing else: that, and which
-/// settings to try; else nothing.
+/// settings (by their keys) to try; else nothing.
 std::string ground_remark(const FrameResult& result);
 
 /// The clusters as they are reported.

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "pcl_bv/report/report.h"
+
 namespace pcl_bv {
 
 /// The fewest digits that read back as exactly this double; never -0. Throws std::domain_error if it is not
@@ -17,6 +19,12 @@ inline std::string shortest(double value) {
   if (value == 0) return "0";
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+/// The method; of `best` also the shape that it has chosen: "best (obb)".
+inline std::string shown_method(const VolumeEntry& entry) {
+  if (entry.method != "best" || empty(entry.volume)) return entry.method;
+  return entry.method + " (" + std::string(shape_name(entry.volume)) + ')';
 }
 
 }  // namespace pcl_bv
