@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -77,7 +78,7 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
   check_types(cloud);
   const std::size_t available = file.size() - header.data_offset;
   // A value takes a digit and a separator, which only the last one of the file may lack.
-  const std::size_t values = values_per_point(cloud);
+  const std::size_t values = std::max<std::size_t>(values_per_point(cloud), 1);
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " + std::to_string(values) +
                   " values do not fit in the " + std::to_string(available) + " bytes after the header");

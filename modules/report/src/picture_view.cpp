@@ -55,6 +55,7 @@ std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
 Interval central(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
                  std::size_t extreme) {
   std::vector<Interval> parts;
+  parts.reserve(points.size());
   for (const Eigen::Vector3d& p : points)
     parts.push_back({p.dot(axis), p.dot(axis)});
   return span(parts, parts.size() / extreme);

@@ -106,7 +106,7 @@ Vector3d sample_ground(const PointView& points, const UpFrame& frame, std::uint3
 
   const Vector3d vertical = cross3(frame.u, frame.v);
   const Spread u = spread_of(scratch.sample, frame.u), v = spread_of(scratch.sample, frame.v);
-  const Vector3d origin =
+  Vector3d origin =
       (u.middle * frame.u + v.middle * frame.v) + spread_of(scratch.sample, vertical).middle * vertical;
   std::array<Cell, cells> grid{};
   for (Vector3d& p : scratch.sample) {

@@ -32,6 +32,7 @@ std::vector<AnyVolume> grown_volumes(const std::vector<Region>& regions) {
 
 RegionTests tests_of(const std::vector<AnyVolume>& volumes) {
   std::vector<ConvexRegion> regions;
+  regions.reserve(volumes.size());
   for (const AnyVolume& volume : volumes)
     regions.push_back(convex_region(volume));
   return RegionTests(regions);

@@ -44,6 +44,7 @@ void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problem
 template <typename Problems>
 std::vector<std::string> lines(const Problems& problems) {
   std::vector<std::string> texts;
+  texts.reserve(problems.size());
   for (const ConfigProblem& problem : problems)
     texts.push_back(problem.key + ": " + problem.what);
   return texts;

@@ -58,9 +58,9 @@ void write_labels(const fs::path& file, const Frame& frame, const FrameResult& r
   RawCloud cloud;
   cloud.fields = {{"x", 'F', size, 1, 0},
                   {"y", 'F', size, 1, size},
-                  {"z", 'F', size, 1, 2 * size},
-                  {"label", 'U', 4, 1, 3 * size}};
-  cloud.point_step = 3 * size + 4;
+                  {"z", 'F', size, 1, std::size_t{2} * size},
+                  {"label", 'U', 4, 1, std::size_t{3} * size}};
+  cloud.point_step = std::size_t{3} * size + 4;
   cloud.width = points.count;
   cloud.data.resize(cloud.point_step * points.count);
   std::byte* to = cloud.data.data();

@@ -64,7 +64,7 @@ std::optional<Pose> camera_beside(const std::filesystem::path& poses) {
   for (std::string line; std::getline(calibration, line);) {
     if (!line.starts_with("Tr:")) continue;
     const Numbers rows = numbers_of(std::string_view(line).substr(3));
-    const std::optional<Pose> pose = rows.size() == 12 ? pose_of_rows(rows) : std::nullopt;
+    std::optional<Pose> pose = rows.size() == 12 ? pose_of_rows(rows) : std::nullopt;
     if (!pose) throw IoError((poses.parent_path() / "calib.txt").string() + ": Tr is no pose of 12 numbers");
     return pose;
   }

@@ -13,7 +13,7 @@
 namespace pcl_bv {
 namespace {
 
-std::unique_ptr<const RegionMask> mask_of(const std::vector<RegionConfig>& regions, bool keep) {
+std::optional<RegionMask> mask_of(const std::vector<RegionConfig>& regions, bool keep) {
   std::vector<Region> grown;
   bool any = false;
   for (const RegionConfig& region : regions) {
@@ -22,7 +22,8 @@ std::unique_ptr<const RegionMask> mask_of(const std::vector<RegionConfig>& regio
     for (const AnyVolume& volume : region.volumes.empty() ? read_volumes(region.file) : region.volumes)
       grown.push_back({volume, region.padding});
   }
-  return any ? std::make_unique<const RegionMask>(grown) : nullptr;
+  if (!any) return std::nullopt;
+  return RegionMask(grown);
 }
 
 template <typename T>

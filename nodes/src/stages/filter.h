@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -53,7 +54,7 @@ class PointFilter {
   double min2_, max2_;
   bool boxed_;
   Eigen::Vector3d low_, high_;  // of the own vehicle
-  std::unique_ptr<const RegionMask> dropped_, cropped_;
+  std::optional<RegionMask> dropped_, cropped_;
   UsableIsa isa_;
 };
 
