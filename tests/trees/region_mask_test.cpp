@@ -5,6 +5,7 @@
 
 #include "pcl_bv/trees/region_mask.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

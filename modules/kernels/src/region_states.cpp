@@ -37,20 +37,19 @@ HWY_INLINE V<D> along(D d, const T (&n)[3], V<D> x, V<D> y, V<D> z) {
                  hn::Mul(hn::Set(d, n[2]), z));
 }
 
-// Lanes of which a region is asked, and what it says of them; what it says of others means nothing.
-template <class D>
-struct Verdict {
-  hn::Mask<D> inside, outside;
-};
-
+// Those that judge say which lanes are inside and which outside; of lanes that are not asked that means
+// nothing. Two masks, since vectors of SVE cannot be members.
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE Verdict<D> judge_squares(D d, const RegionTest<T>& test, V<D> squares) {
-  return {hn::Le(squares, hn::Set(d, test.square_inner)), hn::Gt(squares, hn::Set(d, test.square_outer))};
+HWY_INLINE void judge_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
+                              hn::Mask<D>& outside) {
+  inside = hn::Le(squares, hn::Set(d, test.square_inner));
+  outside = hn::Gt(squares, hn::Set(d, test.square_outer));
 }
 
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE Verdict<D> judge_ball(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z) {
-  return judge_squares(d, test, hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
+HWY_INLINE void judge_ball(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
+                           hn::Mask<D>& outside) {
+  judge_squares(d, test, hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)), inside, outside);
 }
 
 template <class D, typename T = hn::TFromD<D>>
@@ -61,7 +60,8 @@ HWY_INLINE V<D> square_beyond(D d, const SlabTest<T>& slab, V<D> reach) {
 }
 
 template <bool slabs_only, class D, typename T = hn::TFromD<D>>
-HWY_INLINE Verdict<D> judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z) {
+HWY_INLINE void judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
+                           hn::Mask<D>& outside) {
   const auto& [a, b, c] = test.slabs;
   const auto along_a = hn::Abs(along(d, a.axis, x, y, z));
   const auto along_b = hn::Abs(along(d, b.axis, x, y, z));
@@ -69,33 +69,35 @@ HWY_INLINE Verdict<D> judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y,
   const auto excess =
       hn::Max(hn::Max(hn::Sub(along_a, hn::Set(d, a.slab)), hn::Sub(along_b, hn::Set(d, b.slab))),
               hn::Sub(along_c, hn::Set(d, c.slab)));
-  Verdict<D> verdict = {hn::Le(excess, hn::Set(d, -test.error)), hn::Gt(excess, hn::Set(d, test.error))};
+  inside = hn::Le(excess, hn::Set(d, -test.error));
+  outside = hn::Gt(excess, hn::Set(d, test.error));
   if constexpr (!slabs_only) {
     const auto squares = hn::Add(hn::Add(square_beyond(d, a, along_a), square_beyond(d, b, along_b)),
                                  square_beyond(d, c, along_c));
-    const Verdict<D> round = judge_squares(d, test, squares);
-    verdict = {hn::And(verdict.inside, round.inside), hn::Or(verdict.outside, round.outside)};
+    hn::Mask<D> round_inside, round_outside;
+    judge_squares(d, test, squares, round_inside, round_outside);
+    inside = hn::And(inside, round_inside);
+    outside = hn::Or(outside, round_outside);
   }
-  return verdict;
 }
 
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE Verdict<D> judge_planes(D d, const RegionTest<T>& test, hn::Mask<D> asked, V<D> x, V<D> y,
-                                   V<D> z) {
+HWY_INLINE void judge_planes(D d, const RegionTest<T>& test, hn::Mask<D> asked, V<D> x, V<D> y, V<D> z,
+                             hn::Mask<D>& inside, hn::Mask<D>& outside) {
   constexpr std::size_t kBetweenLooks = 4;
   const auto doubt = hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, test.slope));
-  Verdict<D> verdict = {asked, hn::AndNot(asked, asked)};
+  inside = asked;
+  outside = hn::AndNot(asked, asked);
   for (std::size_t k = 0; k < test.planes.size();) {
     const std::size_t end = HWY_MIN(k + kBetweenLooks, test.planes.size());
     for (; k < end; ++k) {
       const PlaneTest<T>& plane = test.planes[k];
       const auto reach = along(d, plane.normal, x, y, z);
-      verdict.inside = hn::And(verdict.inside, hn::Le(hn::Add(reach, doubt), hn::Set(d, plane.inner)));
-      verdict.outside = hn::Or(verdict.outside, hn::Gt(hn::Sub(reach, doubt), hn::Set(d, plane.outer)));
+      inside = hn::And(inside, hn::Le(hn::Add(reach, doubt), hn::Set(d, plane.inner)));
+      outside = hn::Or(outside, hn::Gt(hn::Sub(reach, doubt), hn::Set(d, plane.outer)));
     }
-    if (hn::AllFalse(d, hn::AndNot(verdict.outside, asked))) break;
+    if (hn::AllFalse(d, hn::AndNot(outside, asked))) break;
   }
-  return verdict;
 }
 
 // Adds what one region says of the `near` lanes. Those that are inside of another one are asked, too: a
@@ -123,12 +125,18 @@ HWY_INLINE void test_region(D d, const RegionTest<T>& test, hn::Mask<D> near, V<
   x = hn::Sub(x, hn::Set(d, test.tail[0]));
   y = hn::Sub(y, hn::Set(d, test.tail[1]));
   z = hn::Sub(z, hn::Set(d, test.tail[2]));
-  const Verdict<D> verdict = test.shape == RegionShape::ball    ? judge_ball(d, test, x, y, z)
-                             : test.shape == RegionShape::slabs ? judge_body<true>(d, test, x, y, z)
-                             : test.shape == RegionShape::body  ? judge_body<false>(d, test, x, y, z)
-                                                                : judge_planes(d, test, asked, x, y, z);
-  inside = hn::Or(inside, hn::And(asked, verdict.inside));
-  unclear = hn::Or(unclear, hn::AndNot(hn::Or(verdict.inside, verdict.outside), asked));
+  hn::Mask<D> in, out;
+  if (test.shape == RegionShape::ball) {
+    judge_ball(d, test, x, y, z, in, out);
+  } else if (test.shape == RegionShape::slabs) {
+    judge_body<true>(d, test, x, y, z, in, out);
+  } else if (test.shape == RegionShape::body) {
+    judge_body<false>(d, test, x, y, z, in, out);
+  } else {
+    judge_planes(d, test, asked, x, y, z, in, out);
+  }
+  inside = hn::Or(inside, hn::And(asked, in));
+  unclear = hn::Or(unclear, hn::AndNot(hn::Or(in, out), asked));
 }
 
 template <Layout layout, class D>
