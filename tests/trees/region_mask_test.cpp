@@ -272,5 +272,20 @@ TEST(RegionMask, AllocatesNothingInASecondPass) {
   EXPECT_EQ(allocations(), before);
 }
 
+TEST(RegionMask, ACapsuleOfEqualEndsIsABall) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform(-2, 2);
+  std::vector<float> xyz(30'000);
+  for (float& coordinate : xyz)
+    coordinate = uniform(random);
+  const PointView points = PointView::of(xyz.data(), 12, xyz.size() / 3);
+  const Eigen::Vector3d center(0.25, -0.5, 0.125);
+  std::vector<std::uint8_t> capsule, ball;
+  RegionMask({{Capsule(center, center, 0.75), 0.5}}).mark(points, capsule);
+  RegionMask({{Sphere(center, 0.75), 0.5}}).mark(points, ball);
+  EXPECT_GT(std::count(ball.begin(), ball.end(), 1), 500);
+  EXPECT_EQ(capsule, ball);
+}
+
 }  // namespace
 }  // namespace pcl_bv
