@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <latch>
 #include <set>
 #include <string>
@@ -92,6 +93,40 @@ TEST(ForEachChunk, ServesManyCallersAtATime) {
   for (std::thread& caller : callers)
     caller.join();
   EXPECT_EQ(calls, 8 * 200 * 5);
+}
+
+TEST(AwakeThreads, DoCallsThatFollowOneAnother) {
+  for (const ParallelPolicy& policy : policies()) {
+    const AwakeThreads awake(policy);
+    const AwakeThreads twice(policy);
+    for (std::size_t call = 0; call < 200; ++call) {
+      std::vector<std::size_t> squares(5);
+      for_each_chunk(policy, squares.size(), [&](std::size_t i) {
+        const AwakeThreads inside(policy);
+        squares[i] = i * call;
+      });
+      EXPECT_EQ(squares, (std::vector<std::size_t>{0, call, 2 * call, 3 * call, 4 * call}));
+    }
+  }
+}
+
+TEST(AwakeThreads, WorkForWhoeverCallsAndSleepAfterwards) {
+  std::atomic<std::size_t> calls{0};
+  const auto work = [&] {
+    for (int i = 0; i < 50; ++i) {
+      const AwakeThreads awake(Threads{4});
+      for_each_chunk(Threads{3}, 6, [&](std::size_t) { ++calls; });
+      if (i % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));  // longer than they stay awake
+    }
+  };
+  {
+    std::vector<std::jthread> callers;
+    for (int i = 0; i < 4; ++i)
+      callers.emplace_back(work);
+  }
+  EXPECT_EQ(calls, 4U * 50 * 6);
+  for_each_chunk(Threads{4}, 6, [&](std::size_t) { ++calls; });
+  EXPECT_EQ(calls, 4U * 50 * 6 + 6);
 }
 
 TEST(ReduceChunks, SameOrderForAnyThreadCount) {

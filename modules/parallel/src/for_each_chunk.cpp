@@ -119,3 +119,19 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 }
 
 }  // namespace pcl_bv::internal
+
+namespace pcl_bv {
+
+AwakeThreads::AwakeThreads(const ParallelPolicy& policy) {
+  const unsigned threads = std::holds_alternative<Threads>(policy) ? thread_count(policy) : 1;
+  if (threads == 1 || internal::ParallelRegion::inside()) return;
+  internal::WorkerPool& pool = internal::WorkerPool::instance();
+  pool.stay_awake(threads - 1);
+  pool_ = &pool;
+}
+
+AwakeThreads::~AwakeThreads() {
+  if (pool_ != nullptr) internal::WorkerPool::let_sleep(static_cast<internal::WorkerPool*>(pool_));
+}
+
+}  // namespace pcl_bv

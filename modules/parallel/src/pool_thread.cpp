@@ -4,6 +4,7 @@
 #include "pool_thread.h"
 
 #include <omp.h>
+#include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -18,6 +19,12 @@ bool main_thread_processors(cpu_set_t& set) {
   return ::sched_getaffinity(::getpid(), sizeof set, &set) == 0;
 }
 
+bool processors_without(int avoided, cpu_set_t& set) {
+  if (!main_thread_processors(set)) return false;
+  if (avoided >= 0 && CPU_COUNT(&set) > 1) CPU_CLR(static_cast<unsigned>(avoided), &set);
+  return CPU_COUNT(&set) > 0;
+}
+
 }  // namespace
 
 unsigned process_processors() {
@@ -25,9 +32,20 @@ unsigned process_processors() {
   return static_cast<unsigned>(main_thread_processors(set) ? CPU_COUNT(&set) : omp_get_num_procs());
 }
 
-void schedule_as_process() {
+int own_processor() {
+  return ::sched_getcpu();
+}
+
+void avoid_processor(int avoided, std::vector<std::thread>& threads) {
   cpu_set_t set;
-  if (main_thread_processors(set)) ::sched_setaffinity(0, sizeof set, &set);
+  if (!processors_without(avoided, set)) return;
+  for (std::thread& thread : threads)
+    ::pthread_setaffinity_np(thread.native_handle(), sizeof set, &set);
+}
+
+void schedule_as_process(int avoided) {
+  cpu_set_t set;
+  if (processors_without(avoided, set)) ::sched_setaffinity(0, sizeof set, &set);
   const int policy = ::sched_getscheduler(::getpid()) & ~SCHED_RESET_ON_FORK;
   const bool ordinary = policy == SCHED_BATCH || policy == SCHED_IDLE;
   const sched_param none{};

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <csignal>
+#include <thread>
+#include <vector>
 
 namespace pcl_bv::internal {
 
@@ -14,9 +16,16 @@ namespace pcl_bv::internal {
 /// thread that pins itself; what other threads do to themselves does not.
 unsigned process_processors();
 
-/// Gives the calling thread the processors, the policy and the nice value of the main thread; the ordinary
-/// policy where the main thread is real-time. What the system refuses stays as it is.
-void schedule_as_process();
+/// The processor that the calling thread runs on; negative if the system does not say.
+int own_processor();
+
+/// Keeps threads from a processor where the main thread may use others; a negative one is none.
+void avoid_processor(int avoided, std::vector<std::thread>& threads);
+
+/// Gives the calling thread the processors but the avoided one, as above, the policy and the nice value of
+/// the main thread; the ordinary policy where the main thread is real-time. What the system refuses stays as
+/// it is.
+void schedule_as_process(int avoided);
 
 /// While it lives threads are started with all signals blocked, so that handlers run on the host's threads.
 /// But a fault is always handled by the thread that commits it: were its signal blocked, the process would

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <memory>
@@ -23,6 +24,24 @@ namespace {
 std::atomic<WorkerPool*> current{nullptr};
 
 thread_local bool inside_region = false;
+
+// How long to wait without sleeping: longer than what a frame's stages do between two parallel calls.
+constexpr std::chrono::milliseconds kPatience{2};
+
+// Waits without sleeping until it is true; says whether it is.
+template <typename Condition>
+bool spin_until(const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  for (unsigned i = 1; !condition(); ++i) {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    asm volatile("yield");
+#endif
+    if (i % 256 == 0 && std::chrono::steady_clock::now() > end) return false;
+  }
+  return true;
+}
 
 // A child has none of the pool's threads, one of them may have held the lock, and its condition variables
 // count them as waiting. So the child leaves that pool untouched and makes its own when it wants one.
@@ -80,38 +99,84 @@ void WorkerPool::start(unsigned threads) {
   }
 }
 
+// Systems that gather threads on few processors, to save power or to pack virtual machines, wake a helper on
+// its caller's own: there it waits for that one to stop, milliseconds, while others are idle.
+void WorkerPool::avoid(int processor) {
+  if (std::exchange(avoided_, processor) != processor) avoid_processor(processor, threads_);
+}
+
 WorkerPool::Task* WorkerPool::wanting() {
   const auto found =
       std::find_if(tasks_.begin(), tasks_.end(), [](const Task* task) { return task->wanted > 0; });
   return found == tasks_.end() ? nullptr : *found;
 }
 
+// Waits without sleeping for the next task; false if it takes too long, or nobody wants that any more. A
+// thread that sleeps takes 25 us to wake, as long as a stage of a frame may be.
+bool WorkerPool::look_out(std::unique_lock<std::mutex>& lock) {
+  const std::uint64_t seen = offers_;
+  ++looking_out_;
+  lock.unlock();
+  spin_until([&] { return offers_ != seen || awake_ == 0; });
+  lock.lock();
+  --looking_out_;
+  return offers_ != seen;
+}
+
 void WorkerPool::serve() {
-  schedule_as_process();
   const ParallelRegion region;
   std::unique_lock lock(mutex_);
+  schedule_as_process(avoided_);
   for (;;) {
-    Task* task = nullptr;
-    work_.wait(lock, [&] { return ended_ || (task = wanting()) != nullptr; });
+    Task* task = wanting();
+    while (task == nullptr && !ended_ && awake_ > 0 && looking_out_ < lookouts_ && look_out(lock))
+      task = wanting();
+    if (task == nullptr) {
+      const std::uint64_t wakes = wakes_;
+      work_.wait(lock, [&] { return ended_ || wakes_ != wakes || (task = wanting()) != nullptr; });
+    }
     if (ended_) return;
+    if (task == nullptr) continue;
     --task->wanted;
     ++task->active;
     lock.unlock();
     task->work();
     if (current != this) return;  // a child forked by work(), in which there is nobody to report to
     lock.lock();
-    if (--task->active == 0) done_.notify_all();
+    if (--task->active == 0) done_.notify_all();  // the task may be gone at once
   }
+}
+
+void WorkerPool::stay_awake(unsigned helpers) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!ended_ && threads_.size() < helpers) start(helpers);
+    if (tasks_.empty()) avoid(own_processor());
+    lookouts_ = std::max(lookouts_, helpers);
+    ++awake_;
+    ++wakes_;
+  }
+  work_.notify_all();
+}
+
+void WorkerPool::let_sleep(WorkerPool* pool) {
+  if (current != pool) return;
+  const std::lock_guard lock(pool->mutex_);
+  if (--pool->awake_ == 0) pool->lookouts_ = 0;
 }
 
 void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   Task task{work, helpers, 0};
+  unsigned sleeping = 0;
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
+    if (tasks_.empty()) avoid(own_processor());
     tasks_.push_back(&task);
+    ++offers_;
+    sleeping = helpers - std::min(helpers, looking_out_);
   }
-  for (unsigned i = 0; i < helpers; ++i)
+  for (unsigned i = 0; i < sleeping; ++i)
     work_.notify_one();
   {
     const ParallelRegion region;
@@ -121,7 +186,15 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
     throw std::logic_error("a child forked inside a parallel call cannot finish that call");
   std::unique_lock lock(mutex_);
   tasks_.erase(std::find(tasks_.begin(), tasks_.end(), &task));
-  done_.wait(lock, [&] { return task.active == 0; });
+  if (awake_ > 0 && task.active > 0) {
+    lock.unlock();
+    spin_until([&] { return task.active == 0; });
+    lock.lock();
+  }
+  const auto done = [&] { return task.active == 0; };
+  if (done_.wait_for(lock, kPatience, done)) return;
+  avoid(-1);  // now this processor is free, and the others may not be
+  done_.wait(lock, done);
 }
 
 }  // namespace pcl_bv::internal

@@ -6,7 +6,9 @@
 // core.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -36,25 +38,38 @@ class WorkerPool {
   /// forked and that returns from it: what the other threads had begun is lost there.
   void run(unsigned helpers, const std::function<void()>& work);
 
+  /// From now on up to so many threads look for work without sleeping, until let_sleep() was called as often.
+  void stay_awake(unsigned helpers);
+
+  /// Of the pool that is the process's, and not of its parent's.
+  static void let_sleep(WorkerPool* pool);
+
   /// Joins the threads; calls do without from then on.
   void end();
 
  private:
   struct Task {
     const std::function<void()>& work;
-    unsigned wanted;  // helpers that may still join
-    unsigned active;  // that have joined and not left
+    unsigned wanted;               // helpers that may still join
+    std::atomic<unsigned> active;  // that have joined and not left; changed with the lock
   };
 
   void start(unsigned threads);
+  void avoid(int processor);
   Task* wanting();
   void serve();
+  bool look_out(std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
   std::condition_variable work_, done_;
   std::vector<Task*> tasks_;
   std::vector<std::thread> threads_;
   bool ended_ = false;
+  int avoided_ = -1;                         // the processor that the threads keep from; with the lock
+  unsigned looking_out_ = 0, lookouts_ = 0;  // threads that do, and may; with the lock
+  std::uint64_t wakes_ = 0;                  // calls of stay_awake(); with the lock
+  std::atomic<unsigned> awake_{0};           // those not yet ended
+  std::atomic<std::uint64_t> offers_{0};     // calls of run()
 };
 
 }  // namespace pcl_bv::internal
