@@ -118,7 +118,7 @@ void supports_of_chunk(const PointView& chunk, const ReachedSupports& reached, C
   constexpr std::size_t ends = 2 * direction_count(set);
   // 104 KiB for floats, 208 for doubles, whatever the vectors.
   HWY_ALIGN T values[kChunkPoints / kPackets * ends];
-  const LaneReach<T> reach(values, ends);
+  const LaneReach<T> reach(values, ends, packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
   out.dropped = reach_of_blocks<layout, set>(chunk, c, reach);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     spread.greatest[axis] = HWY_MAX(greatest_reach(reach, 2 * axis, chunk.count),

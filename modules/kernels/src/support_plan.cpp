@@ -16,68 +16,6 @@
 #include "preconditions.h"
 
 namespace pcl_bv {
-namespace {
-
-// RoundedFilter along a direction, in registers.
-template <typename T>
-struct FilterOf {
-  FilterOf(const Direction& direction, const RoundedFilter& filter)
-      : a(static_cast<T>(direction[0])),
-        b(static_cast<T>(direction[1])),
-        c(static_cast<T>(direction[2])),
-        x(static_cast<T>(filter.center.x)),
-        y(static_cast<T>(filter.center.y)),
-        z(static_cast<T>(filter.center.z)),
-        threshold(static_cast<T>(filter.threshold)) {}
-
-  bool rejects(const T (&p)[3]) const {
-    return (a * (p[0] - x) + b * (p[1] - y)) + c * (p[2] - z) < threshold;  // an overflown sum may be NaN
-  }
-
-  T a, b, c, x, y, z, threshold;
-};
-
-// Nearly no point passes, so the loop over the others is what counts. `address` gives where a point's x is,
-// `gap` the bytes from there to y and on to z.
-template <typename T, typename Address>
-void find_passing(const PointView& points, const Address& address, std::size_t gap, std::size_t first,
-                  std::size_t step, std::size_t last, const FilterOf<T>& filter, const Direction& direction,
-                  SupportPoint& best) {
-  const auto load = [&](std::size_t i, T(&p)[3]) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      std::memcpy(&p[axis], address(i) + axis * gap, sizeof(T));
-  };
-  T p[3];
-  for (std::size_t i = first; i < last; i += step) {
-    // A loop of its own: the calls below would keep the filter out of registers.
-    for (load(i, p); filter.rejects(p); load(i, p)) {
-      i += step;
-      if (i >= last) return;
-    }
-    const Coordinates point{p[0], p[1], p[2]};
-    if (is_valid(point)) keep_farther(direction, {true, point, points.index(i)}, best);
-  }
-}
-
-template <typename T>
-void find_support_of(const PointView& points, std::size_t first, std::size_t step, std::size_t last,
-                     const SupportDirections& set, std::size_t end, const RoundedFilter& rounded,
-                     SupportPoint& best) {
-  const Direction direction = set.end_direction(end);
-  const FilterOf<T> filter(set.scaled_end_direction(end), rounded);
-  if (points.order == PointOrder::records && points.indices == nullptr) {
-    const auto address = [data = points.data, stride = points.stride](std::size_t i) {
-      return data + stride * i;
-    };
-    find_passing(points, address, sizeof(T), first, step, last, filter, direction, best);
-  } else {
-    const auto address = [&](std::size_t i) { return points.address(i); };
-    find_passing(points, address, points.step(), first, step, last, filter, direction, best);
-  }
-}
-
-}  // namespace
-
 bool central_point(const PointView& points, Coordinates& center) {
   for (std::size_t i = 0; i < points.count; ++i) {
     center = load_point(points, (points.count / 2 + i) % points.count);
@@ -134,12 +72,60 @@ SupportPoint first_valid_point(const PointView& points) {
   return first;
 }
 
-void find_support(const PointView& points, std::size_t first, std::size_t step, std::size_t last,
-                  const SupportDirections& set, std::size_t end, const RoundedFilter& filter,
-                  SupportPoint& best) {
-  const auto find = points.scalar == ScalarType::float32 ? find_support_of<float> : find_support_of<double>;
-  find(points, first, step, last, set, end, filter, best);
+template <typename T>
+SupportLook<T>::SupportLook(const PointView& points, const SupportDirections& set, std::size_t end,
+                            const RoundedFilter& filter)
+    : points_(points), direction_(set.end_direction(end)), threshold_(static_cast<T>(filter.threshold)) {
+  const Direction scaled = set.scaled_end_direction(end);
+  const Coordinates& center = filter.center;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    scaled_[axis] = static_cast<T>(scaled[axis]);
+  center_ = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
 }
+
+// Nearly no point passes, so the loop over the others is what counts. `address` gives where a point's x is,
+// `gap` the bytes from there to y and on to z.
+template <typename T>
+template <typename Address>
+void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
+                                  std::size_t step, std::size_t last, SupportPoint& best) const {
+  const auto [a, b, c] = scaled_;
+  const auto [x, y, z] = center_;
+  const T threshold = threshold_;
+  T p[3];
+  const auto rejects = [&](std::size_t i) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      std::memcpy(&p[axis], address(i) + axis * gap, sizeof(T));
+    return (a * (p[0] - x) + b * (p[1] - y)) + c * (p[2] - z) < threshold;  // an overflown sum may be NaN
+  };
+  for (std::size_t i = first; i < last; i += step) {
+    // A loop of its own: the calls below would keep the filter out of registers.
+    while (rejects(i)) {
+      i += step;
+      if (i >= last) return;
+    }
+    const Coordinates point{p[0], p[1], p[2]};
+    if (is_valid(point)) keep_farther(direction_, {true, point, points_.index(i)}, best);
+  }
+}
+
+template <typename T>
+void SupportLook<T>::operator()(std::size_t first, std::size_t step, std::size_t last,
+                                SupportPoint& best) const {
+  if (first >= last) return;
+  if (points_.order == PointOrder::records && points_.indices == nullptr) {
+    const auto address = [data = points_.data, stride = points_.stride](std::size_t i) {
+      return data + stride * i;
+    };
+    find_passing(address, sizeof(T), first, step, last, best);
+  } else {
+    const auto address = [&](std::size_t i) { return points_.address(i); };
+    find_passing(address, points_.step(), first, step, last, best);
+  }
+}
+
+template class SupportLook<float>;
+template class SupportLook<double>;
 
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                     const ReachedSupports& reached, ChunkSupports& out) {

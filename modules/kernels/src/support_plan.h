@@ -76,11 +76,26 @@ struct RoundedFilter {
 /// The valid point with the smallest index: what competes for an end at which all are equal.
 SupportPoint first_valid_point(const PointView& points);
 
-/// Lets `best` compete with those valid points first, first + step, ... below `last` that pass the filter
-/// along the scaled direction of an end.
-void find_support(const PointView& points, std::size_t first, std::size_t step, std::size_t last,
-                  const SupportDirections& set, std::size_t end, const RoundedFilter& filter,
-                  SupportPoint& best);
+/// An exact look at points of one end. T is the scalar of the points. Keeps the points.
+template <typename T>
+class SupportLook {
+ public:
+  SupportLook(const PointView& points, const SupportDirections& set, std::size_t end,
+              const RoundedFilter& filter);
+
+  /// Lets `best` compete with those valid points first, first + step, ... below `last` that pass the filter.
+  void operator()(std::size_t first, std::size_t step, std::size_t last, SupportPoint& best) const;
+
+ private:
+  template <typename Address>
+  void find_passing(const Address& address, std::size_t gap, std::size_t first, std::size_t step,
+                    std::size_t last, SupportPoint& best) const;
+
+  const PointView& points_;
+  Direction direction_;
+  T threshold_;
+  std::array<T, 3> scaled_, center_;
+};
 
 /// The kernels behind chunk_supports(): for the directions of the cube and for others.
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
