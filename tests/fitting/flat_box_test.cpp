@@ -78,18 +78,18 @@ TEST(FlatBox, NoAngleGivesLessAreaThanTheCalipers) {
     const FlatBox box = least_rectangle(points.data(), to_convex_chain(points.data(), points.size()));
     EXPECT_NEAR(box.side.norm(), 1, 1e-15);
     const double of_side = area_along(cloud, std::atan2(box.side.y(), box.side.x()));
-    EXPECT_NEAR(box.area, of_side, 1e-12);
+    EXPECT_NEAR(box.area(), of_side, 1e-12);
     for (int i = 0; i < 360; ++i)
-      EXPECT_GE(area_along(cloud, i * 0.25 * 3.14159265358979 / 180), box.area - 1e-12);
+      EXPECT_GE(area_along(cloud, i * 0.25 * 3.14159265358979 / 180), box.area() - 1e-12);
   }
 }
 
 TEST(FlatBox, OfALineIsAlongIt) {
   Points line{{1, 2}, {3, 6}, {-2, -4}, {0, 0}};
   const FlatBox box = least_rectangle(line.data(), to_convex_chain(line.data(), line.size()));
-  EXPECT_EQ(box.area, 0);
+  EXPECT_EQ(box.area(), 0);
   EXPECT_NEAR(std::abs(box.side.dot(Eigen::Vector2d(1, 2).normalized())), 1, 1e-15);
-  EXPECT_NEAR(box.diagonal, std::sqrt(125.0), 1e-14);
+  EXPECT_NEAR(box.diagonal(), std::sqrt(125.0), 1e-14);
 }
 
 }  // namespace

@@ -45,15 +45,20 @@ void for_each_view(const std::vector<PointView>& views, const Execution& executi
   for (; small < views.size() && views[nth(small)].count >= kManyPoints; ++small)
     fit(nth(small), {execution.parallel, execution.isa});
   if (small == views.size()) return;
-  // The first of the small ones tells what the others will take; that decides about threads, nothing else.
+  // One of middle size tells what the others will take; that decides about threads, nothing else. The largest
+  // would tell better, but while it is fitted nobody else works.
   const Execution serial{Serial{}, execution.isa};
-  const double first = seconds([&] { fit(nth(small), serial); });
+  const std::size_t probe = thread_count(execution.parallel) == 1 ? small : small + (views.size() - small) / 2;
+  const double took = seconds([&] { fit(nth(probe), serial); });
   const auto weight = [&](std::size_t n) { return static_cast<double>(views[nth(n)].count + 1); };
-  double points = 0;
-  for (std::size_t n = small + 1; n < views.size(); ++n)
+  double points = -weight(probe);
+  for (std::size_t n = small; n < views.size(); ++n)
     points += weight(n);
-  const ParallelPolicy policy = worthwhile(execution.parallel, first / weight(small) * points);
-  for_each_chunk(policy, views.size() - small - 1, [&](std::size_t n) { fit(nth(small + 1 + n), serial); });
+  const ParallelPolicy policy = worthwhile(execution.parallel, took / weight(probe) * points);
+  for_each_chunk(policy, views.size() - small - 1, [&](std::size_t i) {
+    const std::size_t n = small + i;
+    fit(nth(n < probe ? n : n + 1), serial);
+  });
 }
 
 }  // namespace pcl_bv

@@ -28,7 +28,7 @@ enum class Work {
   rank,
   verify,
   hull_plane,
-  box_turns  ///< Some ten turns of a box about each vertex of a hull: a sort and the calipers.
+  look  ///< At a hull's vertex, for its silhouette and the calipers.
 };
 
 /// Nanoseconds of one thread for a point, of supports for each direction, of hulls for a plane or vertex.
@@ -46,7 +46,7 @@ constexpr double nanoseconds(Work work, Isa isa) {
                             {3, 3, 3, 3},
                             {50, 50, 50, 50},
                             {5e3, 5e3, 5e3, 5e3},
-                            {1e3, 1e3, 1e3, 1e3}};
+                            {15, 15, 15, 15}};
   const Cost& cost = costs[static_cast<std::size_t>(work)];
   return isa == Isa::scalar   ? cost.scalar
          : isa == Isa::avx512 ? cost.avx512

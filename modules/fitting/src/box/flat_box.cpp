@@ -75,26 +75,29 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
 FlatBox least_rectangle(const Eigen::Vector2d* corners, std::size_t count) {
   FlatBox best;
   if (count < 2) return best;
-  best.area = kInfinity;
+  double least = kInfinity;
   std::size_t right = 1, top = 1, left = 1;
   const auto next = [count](std::size_t i) { return i + 1 < count ? i + 1 : 0; };
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d edge = corners[next(i)] - corners[i];
     const double length = std::sqrt(dot(edge, edge));
     const Eigen::Vector2d u = edge / length, v(-u.y(), u.x());
-    // Each pointer moves on as long as that gets it farther; a whole turn at most.
+    // Each pointer moves on as long as that gets it farther; a whole turn at most. What is along the edge
+    // itself does not wait for the root.
     const auto advance = [&](std::size_t& at, const Eigen::Vector2d& direction) {
       for (std::size_t steps = 0; steps < count; ++steps) {
         if (!(dot(corners[next(at)] - corners[at], direction) > 0)) break;
         at = next(at);
       }
     };
-    advance(right, u);
-    advance(top, v);
+    advance(right, edge);
+    advance(top, {-edge.y(), edge.x()});
     if (i == 0) left = top;
-    advance(left, -u);
+    advance(left, -edge);
     const double width = dot(corners[right] - corners[left], u), height = dot(corners[top] - corners[i], v);
-    if (width * height < best.area) best = {u, width * height, std::sqrt(width * width + height * height)};
+    if (!(width * height < least)) continue;
+    least = width * height;
+    best = {u, width, height};
   }
   return best;
 }

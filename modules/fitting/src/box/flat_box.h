@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 
 namespace pcl_bv {
@@ -15,8 +16,10 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count);
 
 struct FlatBox {
   Eigen::Vector2d side = Eigen::Vector2d::UnitX();  ///< Unit vector along a side.
-  double area = 0;
-  double diagonal = 0;
+  double width = 0, height = 0;                     ///< Along it, and across.
+
+  double area() const { return width * height; }
+  double diagonal() const { return std::sqrt(width * width + height * height); }
 };
 
 /// The rectangle of least area around a convex polygon of 1 corner or more, as to_convex_chain() leaves it:

@@ -24,6 +24,9 @@ Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Sup
 /// Eigenvectors of the covariance, that of the greatest eigenvalue first.
 Eigen::Matrix3d principal_axes(const CloudSummary& summary);
 
+/// Axes of which the first is `e`, a unit vector.
+Eigen::Matrix3d axes_from(const Eigen::Vector3d& e);
+
 /// A few points in local coordinates.
 using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 

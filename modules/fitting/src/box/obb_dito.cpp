@@ -93,15 +93,15 @@ const Eigen::Vector3d& farthest_from_line(const FewPoints& few, const Eigen::Vec
                            [&](const auto& a, const auto& b) { return squared(a) < squared(b); });
 }
 
-Eigen::Matrix3d along_line(const Eigen::Vector3d& e) {
+}  // namespace
+
+Eigen::Matrix3d axes_from(const Eigen::Vector3d& e) {
   Eigen::Index least = 0;
   e.cwiseAbs().minCoeff(&least);
   Eigen::Matrix3d axes;
   axes << e, Eigen::Vector3d::Unit(least), Eigen::Vector3d::Zero();
   return orthonormal_axes(axes);
 }
-
-}  // namespace
 
 FewPoints few_points(const PointView& points, const Supports& supports, const LocalFrame& frame) {
   FewPoints few;
@@ -126,7 +126,7 @@ Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const 
   const Eigen::Vector3d e = (p1 - p0).normalized();
   const Eigen::Vector3d p2 = farthest_from_line(few, p0, e);
   const Eigen::Vector3d normal = (p1 - p0).cross(p2 - p0);
-  if (normal.squaredNorm() < kThin * kThin) return along_line(e);
+  if (normal.squaredNorm() < kThin * kThin) return axes_from(e);
   best.compete(p0, p1, p2);
   const auto below = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return normal.dot(a - p0) < normal.dot(b - p0);

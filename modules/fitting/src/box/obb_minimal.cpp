@@ -4,22 +4,22 @@
 // The smallest box: there are exact algorithms, cubic in the hull's vertices. What comes within a few
 // ten-thousandths of them is to start from many frames and to turn each about one of its axes after the other
 // as far as the volume sinks: then the box around the outline along that axis is a matter of calipers
-// (Barequet, Har-Peled 2001; Chang et al. 2011).
+// (Barequet, Har-Peled 2001; Chang et al. 2011). Frames that fall behind are given up, half of them at a time
+// (Karnin, Koren, Somekh 2013).
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <random>
 #include <vector>
 
 #include "box/flat_box.h"
 #include "box/obb_axes.h"
+#include "box/silhouette.h"
 #include "hull/local_hull.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "scattered.h"
 #include "schedule.h"
 
 namespace pcl_bv {
@@ -27,15 +27,20 @@ namespace {
 
 using Vertices = std::vector<Eigen::Vector3d>;
 
+// A frame on its way to a smaller box.
 struct Frame {
   Eigen::Matrix3d axes;
-  double volume;
+  Eigen::Vector3d size;  // along them
+  int axis = 0;          // about which it is turned next
+  int in_vain = 0;       // turns since the last that made the box smaller
+
+  double volume() const { return size.prod(); }
+  bool done() const { return in_vain == 3; }
 };
 
-Eigen::Vector3d extents(const Eigen::Vector3d* points, std::size_t count, const Eigen::Matrix3d& axes) {
+Eigen::Vector3d extents(const Vertices& vertices, const Eigen::Matrix3d& axes) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity), high = -low;
-  for (std::size_t n = 0; n < count; ++n) {
-    const Eigen::Vector3d& p = points[n];
+  for (const Eigen::Vector3d& p : vertices) {
     for (int i = 0; i < 3; ++i) {
       const double along = dot3(axes.col(i), p);
       low[i] = std::min(low[i], along);
@@ -45,28 +50,25 @@ Eigen::Vector3d extents(const Eigen::Vector3d* points, std::size_t count, const 
   return high - low;
 }
 
-// Turns the frame about its axes in turn until none of the three makes the box smaller.
-Frame turned(Eigen::Matrix3d axes, const Vertices& vertices) {
-  constexpr int kMaxTurns = 100;
+// Turns the frame about its axes, so many times or until none of the three makes the box smaller.
+void turn(Frame& frame, int times, const Silhouette& shape, Silhouette::View& view) {
   constexpr double kSmaller = 1 - 1e-9;  // less is not worth another round
-  std::vector<Eigen::Vector2d> flat(vertices.size());
-  Eigen::Vector3d size = extents(vertices.data(), vertices.size(), axes);
-  for (int turn = 0, in_vain = 0; turn < kMaxTurns && in_vain < 3; ++turn) {
-    const int a = turn % 3, b = (a + 1) % 3, c = (a + 2) % 3;
-    const Eigen::Vector3d u = axes.col(b), v = axes.col(c);
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-      flat[i] = {u.dot(vertices[i]), v.dot(vertices[i])};
-    const FlatBox box = least_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size()));
-    if (!(box.area < size[b] * size[c] * kSmaller)) {
-      ++in_vain;
+  for (; times > 0 && !frame.done(); --times) {
+    const int b = (frame.axis + 1) % 3, c = (frame.axis + 2) % 3;
+    frame.axis = b;
+    const Eigen::Vector3d u = frame.axes.col(b), v = frame.axes.col(c);
+    const std::vector<Eigen::Vector2d>& corners = shape.look(u, v, view);
+    const FlatBox box = least_rectangle(corners.data(), corners.size());
+    if (!(box.area() < frame.size[b] * frame.size[c] * kSmaller)) {
+      ++frame.in_vain;
       continue;
     }
-    axes.col(b) = box.side.x() * u + box.side.y() * v;
-    axes.col(c) = box.side.x() * v - box.side.y() * u;
-    size = extents(vertices.data(), vertices.size(), axes);
-    in_vain = 1;  // about this axis it cannot get better
+    frame.axes.col(b) = box.side.x() * u + box.side.y() * v;
+    frame.axes.col(c) = box.side.x() * v - box.side.y() * u;
+    frame.size[b] = box.width;
+    frame.size[c] = box.height;
+    frame.in_vain = 1;  // about this axis it cannot get better
   }
-  return {axes, size.prod()};
 }
 
 // From the unit quaternions of seeded integers: the same on every machine.
@@ -85,48 +87,32 @@ std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
   return frames;
 }
 
-// The best frames of an edge and the normal of a triangle, of all triangles of the few points.
-void add_triangle_frames(const FewPoints& few, std::vector<Eigen::Matrix3d>& frames) {
-  constexpr std::size_t kBest = 5;
-  std::array<Frame, kBest> best;
-  best.fill({Eigen::Matrix3d::Identity(), kInfinity});
-  const auto compete = [&](const Eigen::Vector3d& edge, const Eigen::Vector3d& normal) {
-    Frame frame{};
-    frame.axes << edge, normal, edge.cross(normal);
-    frame.volume = extents(few.data(), few.size(), frame.axes).prod();
-    if (!(frame.volume < best.back().volume)) return;
-    best.back() = frame;
-    for (std::size_t i = kBest - 1; i > 0 && best[i].volume < best[i - 1].volume; --i)
-      std::swap(best[i], best[i - 1]);
-  };
-  for (std::size_t i = 0; i < few.size(); ++i) {
-    for (std::size_t j = i + 1; j < few.size(); ++j) {
-      for (std::size_t k = j + 1; k < few.size(); ++k) {
-        const Eigen::Vector3d normal = (few[j] - few[i]).cross(few[k] - few[i]);
-        if (normal.squaredNorm() < 1e-20) continue;
-        const Eigen::Vector3d n = normal.normalized();
-        compete((few[j] - few[i]).normalized(), n);
-        compete((few[k] - few[j]).normalized(), n);
-        compete((few[i] - few[k]).normalized(), n);
-      }
-    }
+// Normals of the greatest facets.
+void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
+  constexpr std::size_t kFacets = 20;
+  constexpr double kNoNormal = 1e-20;  // squared: of what is rounding alone
+  std::vector<Eigen::Vector3d> normals;
+  for (const Triangle& t : hull.triangles) {
+    const auto at = [&](std::size_t k) { return hull.vertices[static_cast<std::size_t>(t[k])].local; };
+    normals.push_back((at(1) - at(0)).cross(at(2) - at(0)));
   }
-  for (const Frame& frame : best)
-    if (frame.volume < kInfinity) frames.push_back(orthonormal_axes(frame.axes));
+  std::stable_sort(normals.begin(), normals.end(),
+                   [](const auto& a, const auto& b) { return a.squaredNorm() > b.squaredNorm(); });
+  for (std::size_t i = 0; i < std::min(kFacets, normals.size()); ++i)
+    if (normals[i].squaredNorm() > kNoNormal) frames.push_back(axes_from(normals[i].normalized()));
 }
 
 // The first of the starts: what the box must not be greater than.
 constexpr std::size_t kSureStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
-                                          const LocalFrame& frame) {
+                                          const LocalFrame& frame, const LocalHull& hull) {
   Supports supports = summary.supports;
   supports.set = DirectionSet::dop14;  // whose directions come first
-  const FewPoints few = few_points(points, supports, frame);
-  static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(40);
-  std::vector<Eigen::Matrix3d> frames{dito_axes(few, supports, frame), principal_axes(summary),
-                                      Eigen::Matrix3d::Identity()};
-  add_triangle_frames(few, frames);
+  static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(60);
+  std::vector<Eigen::Matrix3d> frames{dito_axes(few_points(points, supports, frame), supports, frame),
+                                      principal_axes(summary), Eigen::Matrix3d::Identity()};
+  add_facets(hull, frames);
   frames.insert(frames.end(), scattered.begin(), scattered.end());
   return frames;
 }
@@ -142,40 +128,43 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
   return orthonormal_axes(axes);
 }
 
-// Each start turned as far as it gets, best first.
-std::vector<Frame> searched(const std::vector<Eigen::Matrix3d>& starts, const Vertices& vertices,
-                            const Execution& execution) {
-  std::vector<Frame> found(starts.size());
-  const ParallelPolicy policy = worthwhile(execution, Work::box_turns, starts.size() * vertices.size());
-  for_each_chunk(policy, starts.size(), [&](std::size_t i) {
+void turn_all(std::vector<Frame>& frames, int times, const Silhouette& shape, const Execution& execution) {
+  constexpr std::size_t kFramesPerChunk = 4;
+  const std::size_t chunks = (frames.size() + kFramesPerChunk - 1) / kFramesPerChunk;
+  const std::size_t looks = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
+  for_each_chunk(worthwhile(execution, Work::look, looks), chunks, [&](std::size_t chunk) {
     const FloatEnvironment environment;
-    found[i] = turned(starts[i], vertices);
+    Silhouette::View view;
+    const std::size_t end = std::min(frames.size(), (chunk + 1) * kFramesPerChunk);
+    for (std::size_t i = chunk * kFramesPerChunk; i < end; ++i)
+      turn(frames[i], times, shape, view);
   });
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Frame& a, const Frame& b) { return a.volume < b.volume; });
-  return found;
 }
 
-std::vector<Eigen::Vector3d> axes_of(const std::vector<Eigen::Matrix3d>& frames) {
-  std::vector<Eigen::Vector3d> axes;
-  for (const Eigen::Matrix3d& frame : frames)
-    axes.insert(axes.end(), {frame.col(0), frame.col(1), frame.col(2)});
-  return axes;
-}
-
-// Many vertices are searched in two rounds: all starts on those that are farthest along scattered directions,
-// what nearly all of the shape is made of, the best of them on all.
-Eigen::Matrix3d solid_axes(const Vertices& vertices, std::vector<Eigen::Matrix3d> starts,
+Eigen::Matrix3d solid_axes(const LocalHull& hull, const std::vector<Eigen::Matrix3d>& starts,
                            const Execution& execution) {
-  constexpr std::size_t kManyVertices = 300, kFinalists = 6;
-  if (vertices.size() > kManyVertices) {
-    static const std::vector<Eigen::Vector3d> directions = axes_of(scattered_frames(60));
-    const std::vector<Frame> found = searched(starts, farthest_along(directions, vertices), execution);
-    starts.resize(kSureStarts);
-    for (std::size_t i = 0; i < kFinalists; ++i)
-      starts.push_back(found[i].axes);
+  constexpr std::size_t kBeginners = 40, kFinalists = 8;
+  constexpr int kTurns = 3, kLastTurns = 90;
+  const Silhouette shape(hull.local_vertices(), hull.triangles);
+  std::vector<Frame> frames;
+  for (const Eigen::Matrix3d& axes : starts)
+    frames.push_back({axes, extents(shape.vertices(), axes)});
+  const std::vector<Frame> sure(frames.begin(), frames.begin() + kSureStarts);
+  const auto smaller = [](const Frame& a, const Frame& b) { return a.volume() < b.volume(); };
+  const auto keep = [&](std::size_t count) {
+    std::stable_sort(frames.begin(), frames.end(), smaller);
+    frames.resize(std::min(count, frames.size()));
+  };
+  keep(kBeginners);
+  while (frames.size() > kFinalists) {
+    turn_all(frames, kTurns, shape, execution);
+    keep(std::max(kFinalists, frames.size() / 2));
   }
-  return orthonormal_axes(searched(starts, vertices, execution).front().axes);
+  turn_all(frames, kLastTurns, shape, execution);
+  Frame best = *std::min_element(frames.begin(), frames.end(), smaller);
+  best.size = extents(shape.vertices(), best.axes);  // without the rounding of rims
+  const Frame& surest = *std::min_element(sure.begin(), sure.end(), smaller);
+  return orthonormal_axes(smaller(surest, best) ? surest.axes : best.axes);
 }
 
 }  // namespace
@@ -187,7 +176,7 @@ Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summar
   const LocalHull& hull = *shared;
   if (hull.rank < 2) return orthonormal_axes(hull.axes);
   if (hull.rank == 2) return flat_axes(hull);
-  return solid_axes(hull.local_vertices(), start_frames(points, summary, frame), execution);
+  return solid_axes(hull, start_frames(points, summary, frame, hull), execution);
 }
 
 }  // namespace pcl_bv

@@ -140,7 +140,7 @@ Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, c
   const Outline outline = outline_from_above(points, supports, frame, ground, execution);
   const FlatBox rectangle = least_rectangle(outline.data(), outline.size());
   if (outline.size() < 3) return ground.axes_along(rectangle.side);
-  const Closeness closeness(outline, rectangle.diagonal);
+  const Closeness closeness(outline, rectangle.diagonal());
   const Sample coarse(points, supports, frame, ground, outline[0], kCoarsePoints);
   std::array<Turn, kCoarseSteps> turns;
   for (std::size_t k = 0; k < kCoarseSteps; ++k) {

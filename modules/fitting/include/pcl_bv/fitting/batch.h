@@ -17,8 +17,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// Views large enough to be worth several threads come first, one after another, each with the whole policy;
 /// the others are handed out by size, largest first, each with Serial, and all to the calling thread if
-/// together they are not worth a second one, as the time of the first of them tells. Exceptions come back as
-/// for_each_chunk() says, but one of a large view or of that first one ends the call.
+/// together they are not worth a second one, as the time of one of middle size tells. Exceptions come back as
+/// for_each_chunk() says, but one of a large view or of that one ends the call.
 void for_each_view(const std::vector<PointView>& views, const Execution& execution,
                    const std::function<void(std::size_t, const Execution&)>& fit);
 

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "box/silhouette.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "box/flat_box.h"
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv {
+namespace {
+
+// An edge as one of its two facets has it.
+struct Side {
+  std::int32_t low, high;
+  bool falls;  // from the higher number to the lower
+  std::int32_t facet;
+
+  auto key() const { return std::tie(low, high, falls); }
+};
+
+std::vector<Side> sides_of(const std::vector<Triangle>& triangles) {
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
+      sides.push_back({std::min(from, to), std::max(from, to), to < from, static_cast<std::int32_t>(t)});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key() < b.key(); });
+  return sides;
+}
+
+// Whether b is right of the line from a to c by more than rounding, of a hull with an extent of 1 to 2. The
+// calipers stop at corners that are not: facets and edges along the view make several corners in a line, or
+// in one place.
+bool sticks_out(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  constexpr double kRounding = 1e-13;
+  const Eigen::Vector2d along = c - a, to = b - a;
+  const double cross = to.x() * along.y() - to.y() * along.x();
+  return cross > 0 && cross * cross > kRounding * kRounding * along.squaredNorm();
+}
+
+}  // namespace
+
+Silhouette::Silhouette(std::vector<Eigen::Vector3d> vertices, const std::vector<Triangle>& triangles)
+    : vertices_(std::move(vertices)) {
+  const auto at = [&](std::int32_t i) { return vertices_[static_cast<std::size_t>(i)]; };
+  for (std::vector<double>& coordinate : normals_)
+    coordinate.reserve(triangles.size());
+  for (const Triangle& t : triangles) {
+    const Eigen::Vector3d normal = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
+    for (std::size_t k = 0; k < 3; ++k)
+      normals_[k].push_back(normal[static_cast<Eigen::Index>(k)]);
+  }
+  const std::vector<Side> sides = sides_of(triangles);
+  edges_.reserve(sides.size() / 2);
+  for (std::size_t i = 0; i < sides.size(); i += 2)
+    edges_.push_back({sides[i].low, sides[i].high, sides[i].facet, sides[i + 1].facet});
+}
+
+void Silhouette::find_rim(const Eigen::Vector3d& towards, View& view) const {
+  const double x = towards.x(), y = towards.y(), z = towards.z();
+  const double *nx = normals_[0].data(), *ny = normals_[1].data(), *nz = normals_[2].data();
+  view.facing.resize(normals_[0].size());
+  double* const facing = view.facing.data();
+  for (std::size_t t = 0; t < view.facing.size(); ++t)
+    facing[t] = (nx[t] * x + ny[t] * y) + nz[t] * z;
+  view.rim.resize(edges_.size());
+  std::size_t count = 0;
+  for (const Edge& edge : edges_) {  // without branches, which could not be foretold
+    const bool left = facing[edge.left] > 0, right = facing[edge.right] > 0;
+    const std::int32_t turned = (edge.from ^ edge.to) & (static_cast<std::int32_t>(left) - 1);
+    view.rim[count] = {edge.from ^ turned, edge.to ^ turned};
+    count += left != right;
+  }
+  view.rim.resize(count);
+  view.next.resize(vertices_.size());
+  for (const auto& [from, to] : view.rim)
+    view.next[static_cast<std::size_t>(from)] = to;
+}
+
+bool Silhouette::follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, View& view) const {
+  std::vector<Eigen::Vector2d>& corners = view.corners;
+  corners.clear();
+  if (view.rim.empty()) return false;
+  const auto drop_flat_before = [&](const Eigen::Vector2d& next) {
+    while (corners.size() >= 2 && !sticks_out(corners[corners.size() - 2], corners.back(), next))
+      corners.pop_back();
+  };
+  const std::int32_t first = view.rim.front().from;
+  std::int32_t at = first;
+  std::size_t steps = 0;
+  do {
+    const Eigen::Vector3d& p = vertices_[static_cast<std::size_t>(at)];
+    const Eigen::Vector2d corner(dot3(u, p), dot3(v, p));
+    drop_flat_before(corner);
+    corners.push_back(corner);
+    at = view.next[static_cast<std::size_t>(at)];
+  } while (++steps < view.rim.size() && at != first);
+  drop_flat_before(corners.front());
+  return at == first && steps == view.rim.size() && corners.size() > 2;
+}
+
+const std::vector<Eigen::Vector2d>& Silhouette::look(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                                                     View& view) const {
+  find_rim(u.cross(v), view);
+  if (follow_rim(u, v, view)) return view.corners;
+  // Facets so thin that rounding turns them over make more rims than one.
+  view.corners.clear();
+  for (const Eigen::Vector3d& p : vertices_)
+    view.corners.emplace_back(dot3(u, p), dot3(v, p));
+  view.corners.resize(to_convex_chain(view.corners.data(), view.corners.size()));
+  return view.corners;
+}
+
+}  // namespace pcl_bv
