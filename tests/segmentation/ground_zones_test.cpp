@@ -297,6 +297,33 @@ TEST(GroundZones, RefuseSettingsOutOfRange) {
   refuses([](auto& s) { s.up.setZero(); });
 }
 
+TEST(GroundZones, AreTheSameFromAnyNumberOfThreads) {
+  Cloud<float> cloud = ground_of(hill);
+  add_boxes(cloud, hill);
+  for (std::size_t i = 0; i < cloud.size(); i += 700)
+    cloud[i][0] = std::numeric_limits<float>::quiet_NaN();
+  const PointView all = view(cloud);
+  ASSERT_GT(all.count, 25'000U);  // in parts
+  GroundZonesSettings tilted;
+  tilted.up = {0.1, -0.2, 1};
+  tilted.sensor = {0.5, 0.25, 0};
+  for (const PointView& points : {all, all.slice(1000, all.count - 3000), all.slice(5, 20'000)}) {
+    for (const GroundZonesSettings& settings : {GroundZonesSettings(), tilted}) {
+      const GroundSplit alone = split(points, settings);
+      ASSERT_TRUE(alone.found);
+      GroundZones zones;
+      for (const unsigned threads : {2U, 3U, 7U}) {
+        GroundSplit together;
+        zones.split(points, settings, together, Threads{threads});
+        EXPECT_EQ(together.ground, alone.ground) << threads;
+        EXPECT_EQ(together.rest, alone.rest) << threads;
+        EXPECT_EQ(together.normal, alone.normal);
+        EXPECT_EQ(together.offset, alone.offset);
+      }
+    }
+  }
+}
+
 TEST(GroundZones, OfAUsedObjectAreThoseOfAFreshOneAndTakeNoMemory) {
   std::vector<Cloud<float>> clouds{ground_of(hill), ground_of(level), ground_of(wavy)};
   clouds[1].resize(5000);

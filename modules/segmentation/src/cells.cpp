@@ -5,39 +5,50 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
+
+#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {
 namespace {
 
-// Which block and which of its cells each point is in; blocks are numbered as they are met.
 template <typename T, typename Key>
-void place_points(const std::vector<Point<T>>& points, const CellGrid& grid, BlockKeys<Key>& keys) {
-  const std::size_t n = points.size();
-  keys.block_of_point.resize(n);
-  keys.bit_of_point.resize(n);
-  keys.occupied.clear();
-  keys.order.clear();
-  keys.index.reset(n);
-  Key last = 0;  // Of no block that holds points: all of those have a spare block below them.
-  std::uint32_t block = 0;
-  std::uint64_t occupied = 0;  // By points of this block in a row: in a register, faster than in memory.
-  for (std::size_t i = 0; i < n; ++i) {
+void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockKeys<Key>& keys,
+               CellPart<Key>& part) {
+  const FloatEnvironment environment;
+  part.runs.clear();
+  Key last = 0;                // Of no block that holds points: all of those have a spare block below them.
+  std::uint64_t occupied = 0;  // In a register, faster than in memory.
+  for (std::size_t i = part.begin; i < part.end; ++i) {
     const CellPlace<Key> place = grid.template place<Key>(points[i]);
+    keys.bit_of_point[i] = place.bit;
     if (place.block != last) {
-      if (i > 0) keys.occupied[block] |= occupied;
+      if (!part.runs.empty()) part.runs.back().occupied = occupied;
       occupied = 0;
       last = place.block;
-      block = keys.index.number(last);
-      if (block == keys.occupied.size()) {
-        keys.occupied.push_back(0);
-        keys.order.push_back({last, block});
-      }
+      part.runs.push_back({last, 0, static_cast<std::uint32_t>(i), 0});
     }
-    keys.block_of_point[i] = block;
-    keys.bit_of_point[i] = place.bit;
     occupied |= std::uint64_t{1} << place.bit;
   }
-  keys.occupied[block] |= occupied;
+  if (!part.runs.empty()) part.runs.back().occupied = occupied;
+}
+
+// Blocks are numbered as they are met.
+template <typename Key>
+void number_blocks(std::size_t points, BlockKeys<Key>& keys) {
+  keys.occupied.clear();
+  keys.order.clear();
+  keys.index.reset(points);
+  for (CellPart<Key>& part : keys.parts) {
+    for (BlockRun<Key>& run : part.runs) {
+      run.block = keys.index.number(run.key);
+      if (run.block == keys.occupied.size()) {
+        keys.occupied.push_back(0);
+        keys.order.push_back({run.key, run.block});
+      }
+      keys.occupied[run.block] |= run.occupied;
+    }
+  }
 }
 
 // Puts the blocks in the order of their keys and numbers their cells. Returns how many cells there are.
@@ -57,6 +68,21 @@ std::uint32_t sort_blocks(const CellGrid& grid, Cells<T>& cells, BlockKeys<Key>&
     cell += count_bits(keys.occupied[number]);
   }
   return cell;
+}
+
+// The cell of each point, and how many of the part are in each.
+template <typename T, typename Key>
+void count_cells(const BlockKeys<Key>& keys, std::uint32_t count, Cells<T>& cells, CellPart<Key>& part) {
+  part.next.assign(count, 0);
+  for (std::size_t r = 0; r < part.runs.size(); ++r) {
+    const Block& block = cells.blocks[keys.rank[part.runs[r].block]];
+    const std::size_t end = r + 1 < part.runs.size() ? part.runs[r + 1].begin : part.end;
+    for (std::size_t i = part.runs[r].begin; i < end; ++i) {
+      const std::uint32_t cell = block.cell(keys.bit_of_point[i]);
+      cells.node[i] = cell;
+      ++part.next[cell];
+    }
+  }
 }
 
 }  // namespace
@@ -82,34 +108,38 @@ void CellGrid::add_axis(std::size_t axis, double min, double max) {
 }
 
 template <typename T, typename Key>
-void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, Cells<T>& cells,
-                BlockKeys<Key>& keys) {
-  place_points(points, grid, keys);
+void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, const ParallelPolicy& policy,
+                Cells<T>& cells, BlockKeys<Key>& keys) {
+  keys.bit_of_point.resize(points.size());
+  keys.parts.cut(points.size(), policy);
+  keys.parts.for_each(policy, [&](CellPart<Key>& part) { find_runs(points, grid, keys, part); });
+  number_blocks(points.size(), keys);
   const std::uint32_t count = sort_blocks(grid, cells, keys);
 
-  const std::size_t n = points.size();
-  cells.points.resize(n);
-  cells.node.resize(n);
-  // Cell c is counted at c + 2, so that c + 1 is where its next point goes.
-  cells.begin.assign(count + 2, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t cell = cells.blocks[keys.rank[keys.block_of_point[i]]].cell(keys.bit_of_point[i]);
-    cells.node[i] = cell;
-    ++cells.begin[cell + 2];
+  cells.points.resize(points.size());
+  cells.node.resize(points.size());
+  keys.parts.for_each(policy, [&](CellPart<Key>& part) { count_cells(keys, count, cells, part); });
+  cells.begin.resize(count + 1);
+  std::uint32_t end = 0;
+  for (std::uint32_t c = 0; c < count; ++c) {
+    cells.begin[c] = end;
+    for (CellPart<Key>& part : keys.parts)
+      end += std::exchange(part.next[c], end);
   }
-  for (std::uint32_t c = 0; c < count; ++c)
-    cells.begin[c + 2] += cells.begin[c + 1];
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t place = cells.begin[cells.node[i] + 1]++;
-    cells.points[place] = points[i];
-    if (cells.by_point) cells.node[i] = place;
-  }
-  cells.begin.pop_back();
+  cells.begin[count] = end;
+  keys.parts.for_each(policy, [&](CellPart<Key>& part) {
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      const std::uint32_t place = part.next[cells.node[i]]++;
+      cells.points[place] = points[i];
+      if (cells.by_point) cells.node[i] = place;
+    }
+  });
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): the arguments are types
-#define PCL_BV_CELLS(T, Key) \
-  template void make_cells(const std::vector<Point<T>>&, const CellGrid&, Cells<T>&, BlockKeys<Key>&);
+#define PCL_BV_CELLS(T, Key)                                                                                \
+  template void make_cells(const std::vector<Point<T>>&, const CellGrid&, const ParallelPolicy&, Cells<T>&, \
+                           BlockKeys<Key>&);
 // NOLINTEND(bugprone-macro-parentheses)
 PCL_BV_CELLS(float, std::uint64_t)
 PCL_BV_CELLS(float, WideKey)

@@ -9,6 +9,8 @@
 #include "any_link.h"
 #include "block_index.h"
 #include "cell_grid.h"
+#include "pcl_bv/parallel/parts.h"
+#include "pcl_bv/parallel/policy.h"
 #include "radix_sort.h"
 
 namespace pcl_bv {
@@ -47,20 +49,38 @@ struct Cells {
   }
 };
 
+/// Points in a row, all in one block: a sensor mostly stays in the block of the point before.
+template <typename Key>
+struct BlockRun {
+  Key key;
+  std::uint64_t occupied;  ///< Cells of these points.
+  std::uint32_t begin;     ///< The first of them.
+  std::uint32_t block;     ///< The block's number in BlockKeys::index.
+};
+
+/// Points that one thread takes.
+template <typename Key>
+struct CellPart {
+  std::size_t begin, end;
+  std::vector<BlockRun<Key>> runs;
+  std::vector<std::uint32_t> next;  ///< By cell, where the next one goes.
+};
+
 /// Keys of one width, and the room to sort them.
 template <typename Key>
 struct BlockKeys {
   std::vector<Key> keys;  ///< Of each block, ascending.
+  Parts<CellPart<Key>> parts;
   std::vector<KeyedPoint<Key>> order, spare;
   BlockIndex<Key> index;
-  std::vector<std::uint32_t> block_of_point, rank;
+  std::vector<std::uint32_t> rank;  ///< By number in `index`, as is the next one.
+  std::vector<std::uint64_t> occupied;
   std::vector<std::uint8_t> bit_of_point;
-  std::vector<std::uint64_t> occupied;  ///< By number in `index`.
 };
 
 /// Sorts the points into the cells of `grid`; within a cell they keep their order. Reads cells.by_point.
 template <typename T, typename Key>
-void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, Cells<T>& cells,
-                BlockKeys<Key>& keys);
+void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, const ParallelPolicy& policy,
+                Cells<T>& cells, BlockKeys<Key>& keys);
 
 }  // namespace pcl_bv

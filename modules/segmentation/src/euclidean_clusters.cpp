@@ -73,7 +73,7 @@ template <typename T, typename Key>
 void find_components(PointScratch<T>& scratch, const CellGrid& grid, T r2, const ParallelPolicy& policy,
                      BlockKeys<Key>& keys, UnionFind& sets) {
   scratch.cells.by_point = !cells_are_solid(grid, r2);
-  make_cells(scratch.valid.points, grid, scratch.cells, keys);
+  make_cells(scratch.valid.points, grid, policy, scratch.cells, keys);
   join_cells(grid, r2, policy, keys.keys, scratch.cells, sets, scratch.join);
 }
 
@@ -132,7 +132,7 @@ struct EuclideanClusterer::Scratch {
                Clusters& clusters) {
     auto& scratch = std::get<PointScratch<T>>(points);
     const std::vector<Point<T>>& valid = scratch.valid.points;
-    gather(view, scratch.valid);
+    gather(view, policy, scratch.valid);
     if (valid.empty()) return;
 
     const double r = settings.tolerance;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "ground_checks.h"
+#include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {
 namespace {
@@ -34,31 +35,62 @@ bool is_valid(const double (&p)[3]) {
   return pcl_bv::is_valid(Coordinates{p[0], p[1], p[2]});
 }
 
+// Puts the valid points of a part from its beginning on.
+template <typename T>
+void gather_part(const PointView& points, ValidPoints<T>& valid, GatherPart<T>& part) {
+  const FloatEnvironment environment;
+  constexpr T largest = std::numeric_limits<T>::max();
+  const PointView view = points;  // of this loop only: not read again after each store
+  part.box = {{largest, largest, largest}, {-largest, -largest, -largest}};
+  std::size_t to = part.begin;
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    T p[3];
+    load_point(view, i, p);
+    valid.points[to] = {p[0], p[1], p[2]};
+    valid.numbers[to] = static_cast<std::int32_t>(view.index(i));
+    if (!is_valid(p)) continue;
+    part.box.extend(valid.points[to]);
+    ++to;
+  }
+  part.kept = to - part.begin;
+}
+
+// Moves what lies in `from` to the end of what is there.
+template <typename T>
+void append(const GatherPart<T>& from, std::size_t to, ValidPoints<T>& valid) {
+  const auto move_down = [&](auto& all) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(from.begin);
+    std::copy_n(first, from.kept, all.begin() + static_cast<std::ptrdiff_t>(to));
+  };
+  if (to == from.begin) return;
+  move_down(valid.points);
+  move_down(valid.numbers);
+}
+
 }  // namespace
 
 template <typename T>
-void gather(const PointView& view, ValidPoints<T>& valid) {
+void gather(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>& valid) {
   check_numbers(view);
   const PointView sorted = ascending(view, valid.sorted_list);
   valid.points.resize(sorted.count);
   valid.numbers.resize(sorted.count);
-  constexpr T largest = std::numeric_limits<T>::max();
-  valid.box = {{largest, largest, largest}, {-largest, -largest, -largest}};
+  valid.parts.cut(sorted.count, policy);
+  valid.parts.for_each(policy, [&](GatherPart<T>& part) { gather_part(sorted, valid, part); });
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < sorted.count; ++i) {
-    T p[3];
-    load_point(sorted, i, p);
-    valid.points[kept] = {p[0], p[1], p[2]};
-    valid.numbers[kept] = static_cast<std::int32_t>(sorted.index(i));
-    if (!is_valid(p)) continue;
-    valid.box.extend(valid.points[kept]);
-    ++kept;
+  valid.box = valid.parts.front().box;
+  for (const GatherPart<T>& part : valid.parts) {
+    if (part.kept == 0) continue;
+    append(part, kept, valid);
+    kept += part.kept;
+    valid.box.extend(part.box.min);
+    valid.box.extend(part.box.max);
   }
   valid.points.resize(kept);
   valid.numbers.resize(kept);
 }
 
-template void gather(const PointView&, ValidPoints<float>&);
-template void gather(const PointView&, ValidPoints<double>&);
+template void gather(const PointView&, const ParallelPolicy&, ValidPoints<float>&);
+template void gather(const PointView&, const ParallelPolicy&, ValidPoints<double>&);
 
 }  // namespace pcl_bv

@@ -11,16 +11,11 @@
 #include <vector>
 
 #include "ground_checks.h"
-#include "patch_fit.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "plane_search.h"
-#include "up_frame.h"
-#include "zones.h"
+#include "zone_points.h"
 
 namespace pcl_bv {
 namespace {
-
-using Eigen::Vector3d;
 
 // The plane around the sensor is sought within 12.5 m, where the ground is seen best and bends least; if
 // there is none, within 25 m, then everywhere.
@@ -46,36 +41,6 @@ void check(const GroundZonesSettings& settings) {
   }
 }
 
-// The cloud as seen by the zones.
-struct Frame : UpFrame {
-  Vector3d sensor;
-
-  explicit Frame(const GroundZonesSettings& settings) : UpFrame(settings.up), sensor(settings.sensor) {}
-
-  GroundPoint point(const Coordinates& p) const {
-    const double relative[3] = {p.x - sensor.x(), p.y - sensor.y(), p.z - sensor.z()};
-    if (along_axis) {  // The sums below would take 2 % of the time of a sweep to add zeros.
-      return {in_float(relative[(nearest + 1) % 3]), in_float(relative[(nearest + 2) % 3]),
-              in_float(up[nearest] * relative[nearest])};
-    }
-    return {in_float(dot3(relative, u)), in_float(dot3(relative, v)), in_float(dot3(relative, up))};
-  }
-
-  // Doubles may be greater than any float.
-  static float in_float(double value) {
-    constexpr double largest = std::numeric_limits<float>::max();
-    return static_cast<float>(std::clamp(value, -largest, largest));
-  }
-
-  Slope slope(const Plane& plane) const {
-    const double vertical = dot3(plane.normal, up);
-    return {-height_above(plane, sensor) / vertical, -dot3(plane.normal, u) / vertical,
-            -dot3(plane.normal, v) / vertical};
-  }
-
-  Plane level(double height) const { return {up, dot3(up, sensor) - height}; }
-};
-
 // The gap between neighbours, which the ground may climb.
 double gate_of(std::size_t ring) {
   if (ring == 0) return inner_gate;
@@ -83,55 +48,34 @@ double gate_of(std::size_t ring) {
   return std::min(max_gate, inner_gate + gate_growth * 0.5 * (rings[ring].outer - inner));
 }
 
-std::size_t inner_neighbour(std::size_t ring, unsigned sector) {
-  return first_patch[ring - 1] + sector * rings[ring - 1].sectors / rings[ring].sectors;
-}
+// From patch to patch outwards there are trees, one for each patch of the innermost ring.
+constexpr std::size_t tree_count = rings[0].sectors;
+
+struct PatchLink {
+  std::uint16_t ring, inner, tree;
+};
+
+constexpr std::array<PatchLink, patch_count> links = [] {
+  std::array<PatchLink, patch_count> all{};
+  for (std::uint16_t ring = 0; ring < rings.size(); ++ring) {
+    for (unsigned sector = 0; sector < rings[ring].sectors; ++sector) {
+      const std::size_t i = first_patch[ring] + sector;
+      const std::size_t inner =
+          ring == 0 ? i : first_patch[ring - 1] + sector * rings[ring - 1].sectors / rings[ring].sectors;
+      all[i] = {ring, static_cast<std::uint16_t>(inner),
+                ring == 0 ? static_cast<std::uint16_t>(i) : all[inner].tree};
+    }
+  }
+  return all;
+}();
 
 }  // namespace
 
-struct GroundZones::Scratch {
-  std::vector<GroundPoint> points, sorted;  // Valid ones in the order of the view; patch by patch.
-  std::vector<std::int32_t> numbers, sorted_numbers;
-  std::vector<ZonePlace> place;       // Of each of `points`.
-  std::vector<float> above;           // Their patch's plane, metres.
-  std::vector<std::uint8_t> upright;  // By cell, whether something stands there.
-  std::array<std::uint32_t, patch_count + 1> begin;
+struct GroundZones::Scratch : ZonePoints {
+  std::vector<float> over;           // Of each point above its patch's plane, metres.
+  std::vector<std::uint8_t> stands;  // Of each point, whether it is so high.
   std::array<Slope, patch_count> planes;
-
-  void read(const PointView& view, const Frame& frame) {
-    points.resize(view.count);
-    numbers.resize(view.count);
-    place.resize(view.count);
-    begin.fill(0);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < view.count; ++i) {
-      const Coordinates p = load_point(view, i);
-      if (!is_valid(p)) continue;
-      points[kept] = frame.point(p);
-      numbers[kept] = static_cast<std::int32_t>(view.index(i));
-      place[kept] = place_of(points[kept].u, points[kept].v);
-      ++begin[place[kept].patch + 1];
-      ++kept;
-    }
-    points.resize(kept);
-    numbers.resize(kept);
-    place.resize(kept);
-  }
-
-  void sort() {
-    std::array<std::uint32_t, patch_count> next;
-    for (std::size_t i = 0; i < patch_count; ++i) {
-      begin[i + 1] += begin[i];
-      next[i] = begin[i];
-    }
-    sorted.resize(points.size());
-    sorted_numbers.resize(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::uint32_t to = next[place[i].patch]++;
-      sorted[to] = points[i];
-      sorted_numbers[to] = numbers[i];
-    }
-  }
+  std::array<std::vector<double>, tree_count> heights;  // Room for the fits of each tree.
 
   std::optional<Plane> central_plane(const PointView& view, const GroundZonesSettings& settings,
                                      GroundScratch& sample) const {
@@ -142,7 +86,7 @@ struct GroundZones::Scratch {
     search.seed = settings.seed;
     search.iterations = plane_tries;
     PointView near = view;
-    near.indices = sorted_numbers.data();
+    near.indices = sorted.number.data();
     if (view.order == PointOrder::records && !view.indices) near.data = view.data - view.stride * view.first;
     for (const std::size_t ring_count : central_rings) {
       near.count = begin[first_patch[ring_count]];
@@ -153,8 +97,7 @@ struct GroundZones::Scratch {
 
   // What the inner neighbour's plane says, but less tilted against the central one: tilts go on, but their
   // errors must not grow with the distance.
-  Slope expect(std::size_t ring, unsigned sector, const Slope& central) const {
-    const std::size_t inner = inner_neighbour(ring, sector);
+  Slope expect(std::size_t inner, const Slope& central) const {
     const Slope& plane = planes[inner];
     const PatchCenter& center = patch_centers[inner];
     Slope expected{0, plane.slope_u + tilt_loss * (central.slope_u - plane.slope_u),
@@ -163,33 +106,58 @@ struct GroundZones::Scratch {
     return expected;
   }
 
-  void fit(const Slope& central, double max_slope) {
-    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
-      for (unsigned sector = 0; sector < rings[ring].sectors; ++sector) {
-        const std::size_t i = first_patch[ring] + sector;
-        const Patch seen{sorted.data() + begin[i], begin[i + 1] - begin[i], patch_centers[i].u,
-                         patch_centers[i].v};
-        const Slope expected = ring == 0 ? central : expect(ring, sector, central);
-        planes[i] = fit_patch(seen, expected, gate_of(ring), max_slope).value_or(expected);
+  void fit(const Slope& central, double max_slope, const ParallelPolicy& policy) {
+    for_each_chunk(policy, tree_count, [&](std::size_t tree) {
+      const FloatEnvironment environment;
+      std::vector<double>& above = heights[tree];
+      for (std::size_t i = tree; i < patch_count; ++i) {
+        const auto [ring, inner, of] = links[i];
+        if (of != tree) continue;
+        const Slope expected = ring == 0 ? central : expect(inner, central);
+        planes[i] = fit_patch(patch(i), expected, gate_of(ring), max_slope, above).value_or(expected);
       }
-    }
+    });
   }
 
-  void find_upright() {
-    above.resize(points.size());
-    upright.assign(cell_rings * cell_sectors, 0);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double height = points[i].height - planes[place[i].patch].height(points[i].u, points[i].v);
-      above[i] = static_cast<float>(height);
-      upright[place[i].cell] |= height > upright_from && height < upright_to;
+  void find_heights(ZonePart& part) {
+    const FloatEnvironment environment;
+    part.for_each_run([&](std::uint16_t patch, std::uint32_t from, std::uint32_t count) {
+      const Slope plane = planes[patch];
+      const float *u = points.u.data() + from, *v = points.v.data() + from;
+      const float* height = points.height.data() + from;
+      float* out = over.data() + from;
+      std::uint8_t* high = stands.data() + from;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double clearance = height[i] - plane.height(u[i], v[i]);
+        out[i] = static_cast<float>(clearance);
+        high[i] = clearance > upright_from && clearance < upright_to;
+      }
+    });
+    part.upright.assign(cell_rings * cell_sectors, 0);
+    for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
+      if (stands[i] != 0) part.upright[cell[i]] = 1;
+  }
+
+  // What stands in a cell is what any part says.
+  void find_upright(const ParallelPolicy& policy) {
+    over.resize(points.u.size());
+    stands.resize(over.size());
+    parts.for_each(policy, [&](ZonePart& part) { find_heights(part); });
+    std::vector<std::uint8_t>& all = parts.front().upright;
+    for (const ZonePart& part : parts) {
+      for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] |= part.upright[i];
     }
   }
 
   void classify(const std::optional<Plane>& central, double distance, GroundSplit& split) const {
     const std::array<float, 2> limit{static_cast<float>(distance), static_cast<float>(foot_share * distance)};
-    write_split(central, points.size(), split, [&](const auto& put) {
-      for (std::size_t i = 0; i < points.size(); ++i)
-        put(numbers[i], central && above[i] <= limit[upright[place[i].cell]]);
+    const std::vector<std::uint8_t>& upright = parts.front().upright;
+    write_split(central, begin.back(), split, [&](const auto& put) {
+      for (const ZonePart& part : parts) {
+        for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
+          put(points.number[i], central && over[i] <= limit[upright[cell[i]]]);
+      }
     });
   }
 };
@@ -199,19 +167,20 @@ GroundZones::~GroundZones() = default;
 GroundZones::GroundZones(GroundZones&&) noexcept = default;
 GroundZones& GroundZones::operator=(GroundZones&&) noexcept = default;
 
-void GroundZones::split(const PointView& points, const GroundZonesSettings& settings, GroundSplit& split) {
+void GroundZones::split(const PointView& points, const GroundZonesSettings& settings, GroundSplit& split,
+                        const ParallelPolicy& policy) {
   const FloatEnvironment environment;
   check(settings);
   check_numbers(points);
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
-  const Frame frame(settings);
-  scratch_->read(points, frame);
-  scratch_->sort();
+  const ZoneFrame frame(settings.up, settings.sensor);
+  scratch_->read(points, frame, policy);
   std::optional<Plane> central = scratch_->central_plane(points, settings, split.scratch);
   if (!central && settings.sensor_height) central = frame.level(*settings.sensor_height);
   if (central) {
-    scratch_->fit(frame.slope(*central), std::tan(settings.max_slope_degrees * std::numbers::pi / 180));
-    scratch_->find_upright();
+    scratch_->fit(frame.slope(*central), std::tan(settings.max_slope_degrees * std::numbers::pi / 180),
+                  policy);
+    scratch_->find_upright(policy);
   }
   scratch_->classify(central, settings.distance, split);
 }

@@ -234,7 +234,7 @@ void make_room(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::s
 }
 
 // Fewer are not worth the start of a thread.
-constexpr std::size_t blocks_per_chunk = 2048;
+constexpr std::size_t blocks_per_chunk = 256;
 
 }  // namespace
 

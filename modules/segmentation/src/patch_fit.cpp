@@ -31,8 +31,14 @@ constexpr double plane_reach = 0.15;
 constexpr double tilt_weight = 2;
 constexpr double tilt_weight_per_point = 0.3;
 
-double above(const Slope& plane, const GroundPoint& p) {
-  return p.height - plane.height(p.u, p.v);
+// Points that are looked at together: first their heights, of which compilers make vectors.
+constexpr std::size_t kBatch = 256;
+
+void find_heights(const Slope& plane, const Patch& patch, std::size_t begin, std::size_t count,
+                  double* above) {
+  const float *u = patch.u + begin, *v = patch.v + begin, *height = patch.height + begin;
+  for (std::size_t i = 0; i < count; ++i)
+    above[i] = height[i] - plane.height(u[i], v[i]);
 }
 
 // Points by height above the expected plane less gate.
@@ -52,14 +58,23 @@ struct Histogram {
   }
 };
 
-Histogram histogram(const Patch& patch, const Slope& expected, double gate) {
+Histogram histogram(const std::vector<double>& above, double gate) {
   Histogram heights;
   heights.bins = std::min(max_bins, static_cast<std::size_t>(std::ceil(2 * gate / bin_height)));
-  for (std::size_t i = 0; i < patch.count; ++i) {
-    const double bin = (above(expected, patch.points[i]) + gate) / bin_height;
-    if (bin >= 0 && bin < static_cast<double>(heights.bins + bins_above))
-      ++heights.count[static_cast<std::size_t>(bin)];
+  const auto end = static_cast<double>(heights.bins + bins_above);
+  std::array<std::array<std::uint32_t, max_bins + bins_above + 1>, 2> counts{};  // neighbours share a bin
+  std::array<std::int32_t, kBatch> bins;
+  for (std::size_t begin = 0; begin < above.size(); begin += kBatch) {
+    const std::size_t count = std::min(kBatch, above.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double bin = (above[begin + i] + gate) / bin_height;
+      bins[i] = static_cast<std::int32_t>(bin >= 0 && bin < end ? bin : max_bins + bins_above);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      ++counts[i % 2][static_cast<std::size_t>(bins[i])];
   }
+  for (std::size_t i = 0; i < heights.count.size(); ++i)
+    heights.count[i] = counts[0][i] + counts[1][i];
   return heights;
 }
 
@@ -79,17 +94,40 @@ struct Reach {
   double below, above, tilt_weight;
 };
 
+// A plane, and the heights of a patch's points above it.
+struct Expected : Slope {
+  std::vector<double>& above;
+
+  void become(const Slope& plane, const Patch& patch) {
+    Slope::operator=(plane);
+    above.resize(patch.count);
+    find_heights(plane, patch, 0, patch.count, above.data());
+  }
+};
+
 // Least squares of the points within reach of `guess`, as a change of `expected`.
-std::optional<Slope> fit(const Patch& patch, const Slope& expected, const Slope& guess, const Reach& reach) {
+std::optional<Slope> fit(const Patch& patch, const Expected& expected, const Slope& guess,
+                         const Reach& reach) {
   double n = 0, u1 = 0, v1 = 0, uu = 0, uv = 0, vv = 0, h1 = 0, uh = 0, vh = 0;
-  for (std::size_t i = 0; i < patch.count; ++i) {
-    const GroundPoint& p = patch.points[i];
-    const double residual = above(guess, p);
-    if (!(residual >= -reach.below && residual <= reach.above)) continue;
-    const double u = p.u - patch.center_u, v = p.v - patch.center_v, h = above(expected, p);
-    n += 1, u1 += u, v1 += v, h1 += h;
-    uu += u * u, uv += u * v, vv += v * v;
-    uh += u * h, vh += v * h;
+  std::array<double, kBatch> residual;
+  std::array<std::uint32_t, kBatch> near;
+  for (std::size_t begin = 0; begin < patch.count; begin += kBatch) {
+    const std::size_t count = std::min(kBatch, patch.count - begin);
+    find_heights(guess, patch, begin, count, residual.data());
+    std::size_t near_count = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      near[near_count] = static_cast<std::uint32_t>(i);
+      near_count += (residual[i] >= -reach.below) & (residual[i] <= reach.above);
+    }
+    n += static_cast<double>(near_count);
+    for (std::size_t k = 0; k < near_count; ++k) {
+      const std::size_t i = near[k];
+      const double u = patch.u[begin + i] - patch.center_u, v = patch.v[begin + i] - patch.center_v;
+      const double h = expected.above[begin + i];
+      u1 += u, v1 += v, h1 += h;
+      uu += u * u, uv += u * v, vv += v * v;
+      uh += u * h, vh += v * h;
+    }
   }
   if (n < min_points) return {};
   const double mean_u = u1 / n, mean_v = v1 / n, mean_h = h1 / n;
@@ -108,12 +146,14 @@ std::optional<Slope> fit(const Patch& patch, const Slope& expected, const Slope&
 
 // The plane of the ground where it starts to climb or sink, so that the patch's points lie in no layer: that
 // of all points within the gate, if most of them lie in it.
-std::optional<Slope> fit_ramp(const Patch& patch, const Slope& expected, double gate) {
+std::optional<Slope> fit_ramp(const Patch& patch, Expected& expected, double gate) {
   const std::optional<Slope> all = fit(patch, expected, expected, {gate, gate, 0});
   if (!all) return {};
-  const std::optional<Slope> ramp = fit(patch, *all, *all, {layer_reach, layer_reach, 0});
+  expected.become(*all, patch);
+  const std::optional<Slope> ramp = fit(patch, expected, *all, {layer_reach, layer_reach, 0});
   if (!ramp) return {};
-  const Histogram heights = histogram(patch, *ramp, gate);
+  expected.become(*ramp, patch);
+  const Histogram heights = histogram(expected.above, gate);
   std::uint32_t near = 0;
   for (std::size_t i = 0; i < heights.bins; ++i)
     near += heights.count[i];
@@ -122,8 +162,8 @@ std::optional<Slope> fit_ramp(const Patch& patch, const Slope& expected, double 
   return ramp;
 }
 
-std::optional<Slope> fit_layer(const Patch& patch, const Slope& expected, double gate) {
-  const std::optional<double> layer = lowest_layer(histogram(patch, expected, gate), gate);
+std::optional<Slope> fit_layer(const Patch& patch, const Expected& expected, double gate) {
+  const std::optional<double> layer = lowest_layer(histogram(expected.above, gate), gate);
   if (!layer) return {};
   const Slope level{expected.offset + *layer, expected.slope_u, expected.slope_v};
   const std::optional<Slope> plane =
@@ -134,10 +174,13 @@ std::optional<Slope> fit_layer(const Patch& patch, const Slope& expected, double
 
 }  // namespace
 
-std::optional<Slope> fit_patch(const Patch& patch, const Slope& expected, double gate, double max_slope) {
+std::optional<Slope> fit_patch(const Patch& patch, const Slope& expected, double gate, double max_slope,
+                               std::vector<double>& above) {
   if (patch.count < min_points) return {};
-  std::optional<Slope> plane = fit_layer(patch, expected, gate);
-  if (!plane) plane = fit_ramp(patch, expected, gate);
+  Expected measured{expected, above};
+  measured.become(expected, patch);
+  std::optional<Slope> plane = fit_layer(patch, measured, gate);
+  if (!plane) plane = fit_ramp(patch, measured, gate);
   if (!plane) return {};
   const double step =
       plane->height(patch.center_u, patch.center_v) - expected.height(patch.center_u, patch.center_v);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace pcl_bv {
 
@@ -21,15 +22,16 @@ struct Slope {
   double height(double u, double v) const { return (offset + u * slope_u) + v * slope_v; }
 };
 
-/// Points of a patch in a row.
+/// Points of a patch, a coordinate in a row.
 struct Patch {
-  const GroundPoint* points;
+  const float *u, *v, *height;
   std::size_t count;
   double center_u, center_v;
 };
 
 /// The plane of the lowest layer of points within `gate` metres of `expected`; none if it has too few points
-/// or is steeper than `max_slope` (a tangent).
-std::optional<Slope> fit_patch(const Patch& patch, const Slope& expected, double gate, double max_slope);
+/// or is steeper than `max_slope` (a tangent). `above` is room that calls share.
+std::optional<Slope> fit_patch(const Patch& patch, const Slope& expected, double gate, double max_slope,
+                               std::vector<double>& above);
 
 }  // namespace pcl_bv

@@ -36,10 +36,19 @@ void draw(const PointView& points, std::uint32_t seed, std::vector<Vector3d>& sa
   while (std::gcd(step, n) != 1)
     ++step;
   std::size_t i = seed % n;
-  for (std::size_t visited = 0; visited < n && sample.size() < sample_size; ++visited) {
-    const Coordinates p = load_point(points, i);
-    if (is_valid(p)) sample.push_back({p.x, p.y, p.z});
-    i = i + step < n ? i + step : i + step - n;
+  // All over the cloud: asked for some time before, they come while others are looked at.
+  std::array<std::size_t, 64> batch;
+  for (std::size_t visited = 0; visited < n && sample.size() < sample_size; visited += batch.size()) {
+    const std::size_t count = std::min({batch.size(), n - visited, sample_size - sample.size()});
+    for (std::size_t k = 0; k < count; ++k) {
+      batch[k] = i;
+      __builtin_prefetch(points.address(i));
+      i = i + step < n ? i + step : i + step - n;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const Coordinates p = load_point(points, batch[k]);
+      if (is_valid(p)) sample.push_back({p.x, p.y, p.z});
+    }
   }
 }
 

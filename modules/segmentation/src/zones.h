@@ -44,14 +44,22 @@ inline constexpr std::array<std::uint16_t, rings.size() + 1> first_patch = [] {
 
 inline constexpr std::size_t patch_count = first_patch.back();
 
-/// Rings by half metres from the centre.
-inline constexpr std::array<std::uint8_t, 160> ring_of_half_metre = [] {
-  std::array<std::uint8_t, 160> ring{};
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    while (static_cast<float>(i) >= 2 * rings[ring[i]].outer)
-      ++ring[i];
+/// The patches at so many half metres from the centre.
+struct RingPlace {
+  float sectors;
+  std::uint16_t first, last;
+};
+
+inline constexpr std::array<RingPlace, 161> ring_places = [] {
+  std::array<RingPlace, 161> places{};
+  std::size_t ring = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    while (ring + 1 < rings.size() && static_cast<float>(i) >= 2 * rings[ring].outer)
+      ++ring;
+    places[i] = {static_cast<float>(rings[ring].sectors), first_patch[ring],
+                 static_cast<std::uint16_t>(first_patch[ring + 1] - 1)};
   }
-  return ring;
+  return places;
 }();
 
 struct PatchCenter {
@@ -92,24 +100,29 @@ struct ZonePlace {
   std::uint16_t cell;
 };
 
-/// Where a point is. The angle is no libm's, which differ: it is right to 0.004 rad, and the same everywhere.
-inline ZonePlace place_of(float u, float v) {
-  const float radius = std::sqrt(u * u + v * v);
-  const auto half_metres = static_cast<std::uint32_t>(std::min(2 * radius, 160.F));
-  const std::size_t ring =
-      half_metres < ring_of_half_metre.size() ? ring_of_half_metre[half_metres] : rings.size() - 1;
+/// From the centre to a point; 160 from 80 m on.
+inline std::int32_t half_metres_of(float u, float v) {
+  return static_cast<std::int32_t>(std::min(2 * std::sqrt(u * u + v * v), 160.F));
+}
 
+/// Its angle in turns, 0 to 1. It is no libm's, which differ: it is right to 0.004 rad, and the same
+/// everywhere.
+inline float turn_of(float u, float v) {
   const float along = std::abs(u), across = std::abs(v);
   const float longer = std::max(along, across);
-  const float t = longer > 0 ? std::min(along, across) / longer : 0;
+  const float t = std::min(along, across) / (longer > 0 ? longer : 1);
   float turn = t * (0.125F + 0.04345F * (1 - t));  // atan(t) in turns
   turn = across > along ? 0.25F - turn : turn;
   turn = u < 0 ? 0.5F - turn : turn;
-  turn = v < 0 ? 1 - turn : turn;
-  const auto sector = static_cast<std::uint32_t>(turn * static_cast<float>(rings[ring].sectors));
-  const auto cell_sector = static_cast<std::uint32_t>(turn * static_cast<float>(cell_sectors)) % cell_sectors;
-  return {static_cast<std::uint16_t>(first_patch[ring] + std::min(sector, rings[ring].sectors - 1)),
-          static_cast<std::uint16_t>(half_metres * cell_sectors + cell_sector)};
+  return v < 0 ? 1 - turn : turn;
+}
+
+inline ZonePlace place_of(std::int32_t half_metres, float turn) {
+  const RingPlace& ring = ring_places[static_cast<std::size_t>(half_metres)];
+  const auto patch = ring.first + static_cast<std::int32_t>(turn * ring.sectors);
+  const auto sector = static_cast<std::int32_t>(turn * static_cast<float>(cell_sectors)) % cell_sectors;
+  return {static_cast<std::uint16_t>(std::min<std::int32_t>(patch, ring.last)),
+          static_cast<std::uint16_t>(static_cast<std::size_t>(half_metres) * cell_sectors + sector)};
 }
 
 }  // namespace pcl_bv

@@ -62,7 +62,7 @@ class EuclideanClusterer {
   ///
   /// Throws std::invalid_argument if the tolerance is not finite and > 0 or min_size > max_size,
   /// std::length_error if a point number exceeds 2^31 - 1. Threads never change the result, and none are used
-  /// for fewer than 2048 blocks of 64 cells. Memory is kept for the next call, which needs no more for a
+  /// for fewer than 16 384 points or 512 blocks of 64 cells. Memory is kept for the next call, which needs no more for a
   /// cloud like this one: about 50 bytes a point and 150 a block.
   void extract(const PointView& points, const ClusterSettings& settings, Clusters& clusters,
                const ParallelPolicy& policy = Serial{});

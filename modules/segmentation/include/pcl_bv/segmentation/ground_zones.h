@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -52,10 +53,11 @@ class GroundZones {
   /// neither list. Not found, and all valid points `rest`: there is no such plane, as in split_ground(), and
   /// no sensor height is given either (with it, level ground at that height is where the search begins).
   ///
-  /// Same points and settings give the same bits. Throws std::invalid_argument for a setting outside its
-  /// range, std::length_error if a point number exceeds 2^31 - 1. O(n); memory is kept for the next call,
-  /// about 40 bytes a point, and a cloud like the last one needs no more.
-  void split(const PointView& points, const GroundZonesSettings& settings, GroundSplit& split);
+  /// Same points and settings give the same bits, on however many threads. Throws std::invalid_argument for a
+  /// setting outside its range, std::length_error if a point number exceeds 2^31 - 1. O(n); memory is kept for
+  /// the next call, about 40 bytes a point, and a cloud like the last one needs no more.
+  void split(const PointView& points, const GroundZonesSettings& settings, GroundSplit& split,
+             const ParallelPolicy& policy = Serial{});
 
  private:
   struct Scratch;
