@@ -359,6 +359,27 @@ TEST(StreamRunner, NumbersFramesWhateverTheirSource) {
   expect_in_order(out, 5);
 }
 
+TEST(StreamRunner, IsIdleWhenNothingWaitsOrIsInWork) {
+  Recorder out;
+  Gate gate;
+  StreamRunner runner(recording(out, &gate), {2, QueuePolicy::block, 0, 0});
+  const auto in = [](int ms) { return std::chrono::steady_clock::now() + milliseconds(ms); };
+  EXPECT_TRUE(runner.wait_idle(in(60'000)));
+  runner.push(frame(0));
+  runner.push(frame(1));
+  gate.await_arrivals(1);
+  EXPECT_FALSE(runner.wait_idle(in(20)));
+  gate.let_pass(1);
+  gate.await_arrivals(2);
+  EXPECT_FALSE(runner.wait_idle(in(20)));
+  std::thread opener([&] { gate.open(); });
+  EXPECT_TRUE(runner.wait_idle(in(60'000)));
+  EXPECT_EQ(out.results.size(), 2U);
+  opener.join();
+  runner.stop(End::drain);
+  EXPECT_TRUE(runner.wait_idle(in(60'000)));
+}
+
 TEST(StreamRunner, RefusesPointsThatNobodyKeeps) {
   Recorder out;
   StreamRunner runner(recording(out), with(9, QueuePolicy::block));

@@ -102,17 +102,29 @@ class Reader {
     }
     if (!wanted()) return;
     without_pose += !options_.replay.poses.empty() && !frame.pose;
+    const Clock::time_point next = frame.taken + in_time(step_ - 2e-3 * frame.decode_ms);
     runner_.push(std::move(frame));
+    if (options_.rate != Rate::max) leave_the_worker_alone(next);
+  }
+
+  // Reading the next file takes a core and caches from the frame in work, as no live sensor does.
+  void leave_the_worker_alone(Clock::time_point until) {
+    while (wanted() && Clock::now() < until && !runner_.wait_idle(std::min(until, Clock::now() + kPatience)))
+      ;
   }
 
   // A clock cannot count beyond some centuries. Stamps that go back cost no time.
   Clock::time_point due(const Frame& frame) {
-    double step = 1 / options_.replay.rate_hz;
+    step_ = 1 / options_.replay.rate_hz;
     if (options_.rate == Rate::recorded)
-      step = std::max(1e-9 * static_cast<double>(frame.header.stamp_ns - last_stamp_ns_), 0.0);
-    if (paced_++ > 0) seconds_ = std::min(seconds_ + step, 1e9);
+      step_ = std::max(1e-9 * static_cast<double>(frame.header.stamp_ns - last_stamp_ns_), 0.0);
+    if (paced_++ > 0) seconds_ = std::min(seconds_ + step_, 1e9);
     last_stamp_ns_ = frame.header.stamp_ns;
-    return begin_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds_));
+    return begin_ + in_time(seconds_);
+  }
+
+  static Clock::duration in_time(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
   }
 
   const StreamOptions& options_;
@@ -123,7 +135,7 @@ class Reader {
   Clock::time_point reported_ = begin_;
   std::uint64_t paced_ = 0;
   std::int64_t last_stamp_ns_ = 0;
-  double seconds_ = 0;
+  double seconds_ = 0, step_ = 0;
 };
 
 // Errors have had their lines.

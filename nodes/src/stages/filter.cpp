@@ -3,10 +3,12 @@
 
 #include "stages/filter.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
 
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/report/read_volumes.h"
 
@@ -35,6 +37,12 @@ void copy_kept(const PointView& points, const std::vector<Verdict>& verdicts, st
     load_point(points, i, p);
     std::memcpy(to, verdicts[i] == Verdict::kept ? p : dropped, sizeof p);
   }
+}
+
+void add(const Counts& part, Counts& all) {
+  all.nonfinite += part.nonfinite;
+  all.range += part.range;
+  all.inside += part.inside;
 }
 
 }  // namespace
@@ -108,32 +116,47 @@ void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts) {
   counts.inside += of[static_cast<std::size_t>(Verdict::inside)];
 }
 
-void PointFilter::select(const PointView& points, std::vector<std::int32_t>& kept, FilterScratch& scratch,
-                         Counts& counts) const {
-  if (points.count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw std::length_error("more than 2147483647 points: too many to select from");
-  kept.resize(points.count);
+void PointFilter::select(const PointView& points, std::int32_t* kept, FilterPart& part) const {
+  const FloatEnvironment environment;
   std::size_t n = 0;
-  std::int32_t* const to = kept.data();
   const auto take = [&](std::size_t i, bool keep) {
-    to[n] = static_cast<std::int32_t>(points.index(i));
+    kept[n] = static_cast<std::int32_t>(points.index(i));
     n += keep;
   };
+  part.counts = {};
   if (dropped_ || cropped_) {
-    judge(points, scratch);
-    count_verdicts(scratch.verdicts, counts);
+    judge(points, part.scratch);
+    count_verdicts(part.scratch.verdicts, part.counts);
     for (std::size_t i = 0; i < points.count; ++i)
-      take(i, scratch.verdicts[i] == Verdict::kept);
+      take(i, part.scratch.verdicts[i] == Verdict::kept);
   } else {
     std::size_t invalid = 0;
     each_distance(points, [&](std::size_t i, bool valid, bool keep) {
       invalid += !valid;
       take(i, keep);
     });
-    counts.nonfinite += invalid;
-    counts.range += points.count - invalid - n;
+    part.counts.nonfinite = invalid;
+    part.counts.range = points.count - invalid - n;
   }
-  kept.resize(n);
+  part.kept = n;
+}
+
+void PointFilter::select(const PointView& points, const ParallelPolicy& policy,
+                         std::vector<std::int32_t>& kept, Parts<FilterPart>& parts, Counts& counts) const {
+  if (points.count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw std::length_error("more than 2147483647 points: too many to select from");
+  kept.resize(points.count);
+  parts.cut(points.count, policy);
+  parts.for_each(policy, [&](FilterPart& part) {
+    select(points.slice(part.begin, part.end - part.begin), kept.data() + part.begin, part);
+  });
+  std::int32_t* to = kept.data();
+  for (const FilterPart& part : parts) {
+    const std::int32_t* const from = kept.data() + part.begin;
+    to = to == from ? to + part.kept : std::copy_n(from, part.kept, to);
+    add(part.counts, counts);
+  }
+  kept.resize(static_cast<std::size_t>(to - kept.data()));
 }
 
 Counts FilteredPoints::count(const ParallelPolicy& policy) const {
@@ -145,11 +168,7 @@ Counts FilteredPoints::count(const ParallelPolicy& policy) const {
     return counts;
   };
   return reduce_chunks(policy, chunk_count(points_.count), Counts{}, count_chunk,
-                       [](Counts& all, const Counts& part) {
-                         all.nonfinite += part.nonfinite;
-                         all.range += part.range;
-                         all.inside += part.inside;
-                       });
+                       [](Counts& all, const Counts& part) { add(part, all); });
 }
 
 PointView FilteredPoints::load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const {

@@ -11,6 +11,7 @@
 
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/segmentation/counts.h"
 #include "pcl_bv/trees/region_mask.h"
@@ -24,6 +25,14 @@ enum class Verdict : std::uint8_t { kept, nonfinite, range, inside };
 struct FilterScratch {
   std::vector<Verdict> verdicts;
   std::vector<std::uint8_t> inside;
+};
+
+/// Points that one thread takes.
+struct FilterPart {
+  std::size_t begin, end;  ///< In the view.
+  std::size_t kept;
+  Counts counts;
+  FilterScratch scratch;
 };
 
 /// A configured filter. Const calls may run side by side.
@@ -41,14 +50,15 @@ class PointFilter {
 
   /// Replaces `kept` with the numbers of the points of the view that are kept, in its order; counts the
   /// others. Throws std::length_error beyond 2^31 - 1 points.
-  void select(const PointView& points, std::vector<std::int32_t>& kept, FilterScratch& scratch,
-              Counts& counts) const;
+  void select(const PointView& points, const ParallelPolicy& policy, std::vector<std::int32_t>& kept,
+              Parts<FilterPart>& parts, Counts& counts) const;
 
  private:
   template <typename T, typename Take>
   void each_distance(const PointView& points, const Take& take) const;
   template <typename Take>
   void each_distance(const PointView& points, const Take& take) const;
+  void select(const PointView& points, std::int32_t* kept, FilterPart& part) const;
   void drop(const PointView& points, const RegionMask& mask, bool inside, FilterScratch& scratch) const;
 
   double min2_, max2_;

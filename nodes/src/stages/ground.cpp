@@ -20,8 +20,8 @@ Settings settings_of(const GroundConfig& config) {
 
 }  // namespace
 
-void split_ground(const PointView& points, const GroundConfig& config, GroundZones& zones,
-                  GroundSplit& split) {
+void split_ground(const PointView& points, const GroundConfig& config, const ParallelPolicy& policy,
+                  GroundZones& zones, GroundSplit& split) {
   split.found = false;
   split.ground.clear();
   split.rest.clear();
@@ -30,7 +30,7 @@ void split_ground(const PointView& points, const GroundConfig& config, GroundZon
   } else if (config.method == GroundMethod::zones) {
     auto settings = settings_of<GroundZonesSettings>(config);
     settings.sensor = config.sensor.value_or(settings.sensor);
-    zones.split(points, settings, split);
+    zones.split(points, settings, split, policy);
   }
 }
 

@@ -10,7 +10,7 @@
 namespace pcl_bv {
 
 /// Replaces `split`; without a method nothing is ground and nothing is listed. Reuses what `zones` holds.
-void split_ground(const PointView& points, const GroundConfig& config, GroundZones& zones,
-                  GroundSplit& split);
+void split_ground(const PointView& points, const GroundConfig& config, const ParallelPolicy& policy,
+                  GroundZones& zones, GroundSplit& split);
 
 }  // namespace pcl_bv

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 #include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
@@ -69,14 +70,14 @@ struct FramePipeline::State {
   }
 
   PointView filter(const Prepared& now, const Frame& frame, FrameResult& result);
-  PointView remove_ground(const GroundConfig& config, const PointView& points, FrameResult& result);
+  PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
   void find_clusters(const Prepared& now, const PointView& points, FrameResult& result);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
 
   mutable std::mutex mutex;
   std::shared_ptr<const Prepared> prepared;
 
-  FilterScratch scratch;
+  Parts<FilterPart> parts;
   GroundZones zones;
   EuclideanClusterer clusterer;
   std::vector<PointView> views;
@@ -96,14 +97,15 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
     result.counts = filtered->count(now.execution.parallel);
     result.filtered = std::move(filtered);
   } else {
-    now.filter->select(cloud, result.kept, scratch, result.counts);
+    now.filter->select(cloud, now.execution.parallel, result.kept, parts, result.counts);
   }
   return result.kept_points(cloud);
 }
 
-PointView FramePipeline::State::remove_ground(const GroundConfig& config, const PointView& points,
+PointView FramePipeline::State::remove_ground(const Prepared& now, const PointView& points,
                                               FrameResult& result) {
-  split_ground(points, config, zones, result.ground);
+  const GroundConfig& config = now.config.ground;
+  split_ground(points, config, now.execution.parallel, zones, result.ground);
   if (config.method == GroundMethod::none) return points;
   result.counts.ground = result.ground.ground.size();
   return subset(points, result.ground.rest);
@@ -179,6 +181,7 @@ PipelineConfig FramePipeline::config() const {
 
 void FramePipeline::process(const Frame& frame, FrameResult& result) {
   const std::shared_ptr<const Prepared> now = state_->current();
+  const AwakeThreads awake(now->execution.parallel);
   Watch whole, watch;
   result.header = frame.header;
   result.config = {now, &now->config};
@@ -191,7 +194,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
     throw std::invalid_argument("a cloud that is not in memory can be filtered, but not be told apart");
   PointView points = state_->filter(*now, frame, result);
   result.ms.filter = watch.lap();
-  points = state_->remove_ground(now->config.ground, points, result);
+  points = state_->remove_ground(*now, points, result);
   result.ms.ground = watch.lap();
   state_->find_clusters(*now, points, result);
   result.ms.cluster = watch.lap();

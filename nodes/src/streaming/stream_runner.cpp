@@ -78,12 +78,12 @@ struct StreamRunner::State {
   const RunnerConfig config;
 
   mutable std::mutex mutex;
-  std::condition_variable arrived, room;
+  mutable std::condition_variable arrived, room;
   std::deque<Waiting> frames;  // these and what is lost: in the order of their numbers
   std::deque<Lost> losses;
   std::uint64_t next_number = 0;
   std::size_t lost_while_ending = 0;
-  bool ending = false, ended = false, silence_told = false;
+  bool ending = false, ended = false, working = false, silence_told = false;
   Clock::time_point last_arrival = Clock::now();
   RunnerStats stats;
 
@@ -123,6 +123,8 @@ void StreamRunner::State::watch(std::unique_lock<std::mutex>& lock) {
 // What comes next; nothing at the end.
 StreamRunner::State::Task StreamRunner::State::take() {
   std::unique_lock lock(mutex);
+  working = false;
+  room.notify_all();
   watch(lock);
   Task task;
   if (!losses.empty() &&
@@ -143,6 +145,7 @@ StreamRunner::State::Task StreamRunner::State::take() {
   } else {
     ended = true;
   }
+  working = !ended;
   room.notify_all();
   return task;
 }
@@ -267,6 +270,12 @@ void StreamRunner::report_unreadable(Frame frame, std::string reason) {
   if (!s.in_worker()) s.room.wait(lock, [&s] { return s.ending || s.losses.size() < kMostUntold; });
   frame.header.number = s.next_number++;
   s.lose(frame, Loss::error, std::move(reason));
+}
+
+bool StreamRunner::wait_idle(Clock::time_point until) const {
+  const State& s = *state_;
+  std::unique_lock lock(s.mutex);
+  return s.room.wait_until(lock, until, [&s] { return s.frames.empty() && !s.working; });
 }
 
 void StreamRunner::stop(End end) {

@@ -4,6 +4,7 @@
 // A pipeline behind a bounded queue, in a thread of its own.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -88,6 +89,9 @@ class StreamRunner {
   /// Counts a frame that its source could not read, in its place among the others. Takes no room in the
   /// queue, but waits where a thousand lost frames do.
   void report_unreadable(Frame frame, std::string reason);
+
+  /// Waits until no frame waits or is in work, but not beyond `until`; says whether that is so.
+  bool wait_idle(std::chrono::steady_clock::time_point until) const;
 
   enum class End {
     drain,   ///< What waits is processed first.
