@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The whole way from a cloud in memory to volumes, frame by frame, and PCL's own way beside it. The sequences
-// are synth:street-sequence and, where PCL_BV_DATA names a folder with lidar_sequence in it, its sweeps.
+// are synth:street-sequence, the same street seen by 128 beams and, where PCL_BV_DATA names a folder with
+// lidar_sequence in it, its sweeps. Back to back, and `paced`: a frame every 100 ms, as a robot gets them.
 // Counters: milliseconds of a frame at the 50th and 99th percentile and at most, the first five apart
 // (`first_max`), and of each stage at the median.
 
@@ -17,26 +18,48 @@
 #include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <memory>
+#include <thread>
 
 #include "pcl_bv/nodes/cluster_pipeline.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/nodes/stream_runner.h"
+#include "pcl_bv/synth/street.h"
 #include "program.h"
 
 namespace pcl_bv::bench {
 namespace {
 
 constexpr std::size_t kWarmUp = 5;
-constexpr int kFrames = 132;
+constexpr int kFrames = 159;
+constexpr std::chrono::milliseconds kPeriod{100};
+
+const std::string kBeams128 = "128 beams";
+
+Frame frame_of_128_beams(std::size_t number) {
+  StreetOptions options;
+  options.points = 250'000;
+  options.beams = 128;
+  const auto xyz = std::make_shared<std::vector<float>>(make_street_frame(options, number).cloud.xyz);
+  Frame frame;
+  frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
+  frame.owner = xyz;
+  return frame;
+}
 
 const std::vector<Frame>& frames_of(const std::string& source) {
   static std::string loaded;
   static std::vector<Frame> frames;
   if (loaded == source) return frames;
   frames.clear();
-  const std::unique_ptr<FrameSource> stream = open_source(source);
-  for (Frame frame; stream->next(frame, std::chrono::seconds(1)) == Next::frame;)
-    frames.push_back(frame);
+  if (source == kBeams128) {
+    for (std::size_t i = 0; i < (tiny() ? 1U : 40U); ++i)
+      frames.push_back(frame_of_128_beams(i));
+  } else {
+    const std::unique_ptr<FrameSource> stream = open_source(source);
+    for (Frame frame; stream->next(frame, std::chrono::seconds(1)) == Next::frame;)
+      frames.push_back(frame);
+  }
   loaded = source;
   return frames;
 }
@@ -52,7 +75,7 @@ void show(benchmark::State& state, const std::string& name, const LatencyHistogr
   state.counters[name + "_p99"] = ms.percentile(0.99);
 }
 
-void pipeline(benchmark::State& state, const std::string& source, std::size_t threads) {
+void pipeline(benchmark::State& state, const std::string& source, std::size_t threads, bool paced) {
   const std::vector<Frame>& frames = frames_of(source);
   PipelineConfig config;
   config.volumes = {"aabb", "sphere", "obb-yaw", "dop26"};
@@ -62,7 +85,9 @@ void pipeline(benchmark::State& state, const std::string& source, std::size_t th
   FrameResult result;
   LatencyHistogram first, total, filter, ground, cluster, fit, track;
   std::size_t n = 0, clusters = 0, points = 0;
+  auto due = std::chrono::steady_clock::now();
   for (auto _ : state) {
+    if (paced && !tiny()) std::this_thread::sleep_until(due += kPeriod);
     Frame frame = frames[n % frames.size()];
     frame.header.stamp_ns = static_cast<std::int64_t>(n) * 100'000'000;
     const double ms = milliseconds([&] { pipeline.process(frame, result); });
@@ -166,11 +191,13 @@ void add_sequence(const std::string& name, const std::string& source) {
         ->Unit(benchmark::kMillisecond);
   };
   for (const std::size_t threads : {1, 2}) {
-    add_way(std::to_string(threads) + "-thread", kFrames,
-            [=](benchmark::State& state) { pipeline(state, source, threads); });
+    for (const bool paced : {false, true}) {
+      add_way((paced ? "paced-" : "") + std::to_string(threads) + "-thread", kFrames,
+              [=](benchmark::State& state) { pipeline(state, source, threads, paced); });
+    }
   }
 #ifdef PCL_BV_BENCH_SEGMENTATION
-  add_way("pcl", 3, [=](benchmark::State& state) { pcl_way(state, source); });
+  if (source != kBeams128) add_way("pcl", 3, [=](benchmark::State& state) { pcl_way(state, source); });
 #endif
 }
 
@@ -180,6 +207,7 @@ void add_sequence(const std::string& name, const std::string& source) {
 int main(int argc, char** argv) {
   using namespace pcl_bv::bench;
   add_sequence("street", tiny() ? "synth:street-sequence:2" : "synth:street-sequence");
+  add_sequence("street-128", kBeams128);
   const char* data = std::getenv("PCL_BV_DATA");
   if (data != nullptr && !tiny()) add_sequence("sweeps", std::string(data) + "/lidar_sequence");
   return run_program(argc, argv);

@@ -107,13 +107,14 @@ std::string_view name_of(StreetObjectKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::size_t street_rays(std::size_t points) {
-  return std::max<std::size_t>(1, (points + street_beams / 2) / street_beams) * street_beams;
+std::size_t street_rays(std::size_t points, std::size_t beams) {
+  return std::max<std::size_t>(1, (points + beams / 2) / beams) * beams;
 }
 
 StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame) {
-  const std::size_t rays = street_rays(options.points);
-  const std::size_t columns = rays / street_beams;
+  const std::size_t rays = street_rays(options.points, options.beams);
+  const std::size_t columns = rays / options.beams;
+  const double step = static_cast<double>(street_beams) / static_cast<double>(options.beams);
   const std::vector<PlacedObject> objects = place_objects(options.seed, frame);
   const auto candidates = candidates_by_column(objects, columns);
 
@@ -121,9 +122,9 @@ StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame) {
   result.cloud.xyz.resize(3 * rays);
   result.cloud.object.resize(rays);
   result.cloud.ground.resize(rays);
-  result.cloud.height = street_beams;
+  result.cloud.height = options.beams;
   for (std::size_t i = 0; i < rays; ++i) {
-    const auto [x, y, z] = street_beam(i / columns, i % columns, columns);
+    const auto [x, y, z] = street_beam(step * static_cast<double>(i / columns), i % columns, columns);
     const Ray ray{{x, y, z}, SplitMix64({options.seed, frame, i}).next()};
     Hit hit;
     for (const Candidate& candidate : candidates[i % columns]) {
@@ -140,9 +141,8 @@ StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame) {
   return result;
 }
 
-std::array<double, 3> street_beam(std::size_t beam, std::size_t column, std::size_t columns) {
-  const auto b = static_cast<double>(beam);
-  const double degrees = beam < 32 ? 2 - b / 3 : -8.83 - (b - 32) * (24.8 - 8.83) / 31;
+std::array<double, 3> street_beam(double beam, std::size_t column, std::size_t columns) {
+  const double degrees = beam < 32 ? 2 - beam / 3 : -8.83 - (beam - 32) * (24.8 - 8.83) / 31;
   const double elevation = degrees * std::numbers::pi / 180;
   const double azimuth = azimuth_of(static_cast<double>(column), columns);
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),

@@ -51,7 +51,7 @@ inline bool is_false_return(const SynthCloud& cloud, std::size_t i) {
 
 inline Vector beam_of(const SynthCloud& cloud, std::size_t i) {
   const std::size_t columns = cloud.size() / cloud.height;
-  return street_beam(i / columns, i % columns, columns);
+  return street_beam(static_cast<double>(i / columns), i % columns, columns);
 }
 
 /// A point or direction in the axes of an object, a point relative to the center of its box.

@@ -17,7 +17,7 @@ constexpr double degree = std::numbers::pi / 180;
 
 TEST(StreetBeam, ElevationsFallFromTwoToMinusTwentyFourPointEightDegrees) {
   double previous = 90;
-  for (std::size_t beam = 0; beam < street_beams; ++beam) {
+  for (double beam = 0; beam < street_beams; beam += 0.5) {
     const double elevation = std::asin(street_beam(beam, 5, 2000)[2]) / degree;
     EXPECT_LT(elevation, previous);
     previous = elevation;
@@ -36,6 +36,22 @@ TEST(StreetBeam, ColumnsTurnClockwiseFromBackwardOverForward) {
   for (std::size_t column = 0; column < 2000; ++column) {
     const Vector d = street_beam(20, column, 2000);
     ASSERT_NEAR(dot(d, d), 1, 1e-14);
+  }
+}
+
+TEST(Street, OfTwiceAsManyBeamsHasThoseOfTheStreetAndOnesBetweenThem) {
+  StreetOptions options;
+  options.points = 250'000;
+  options.beams = 128;
+  const SynthCloud cloud = make_street_frame(options, 3).cloud;
+  ASSERT_EQ(cloud.height, 128U);
+  const std::size_t columns = cloud.xyz.size() / 3 / 128;
+  EXPECT_EQ(columns, 1953U);
+  for (std::size_t i = 0; i < cloud.xyz.size() / 3; ++i) {
+    const Vector p{cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]};
+    const Vector ray = street_beam(0.5 * static_cast<double>(i / columns), i % columns, columns);
+    const double length = std::sqrt(dot(p, p));
+    ASSERT_NEAR(dot(p, ray), length, 1e-6 * length) << i;
   }
 }
 

@@ -36,6 +36,7 @@ struct StreetOptions {
   /// Rays of a sweep, rounded by street_rays(); the default is 64 beams x 2000 azimuths.
   std::size_t points = 128'000;
   std::uint64_t seed = 1;
+  std::size_t beams = street_beams;  ///< At least 1; twice as many lie half-way between those of 64 as well.
 };
 
 enum class StreetObjectKind : std::uint8_t { car, pedestrian, pole, house, wall, hedge, tree };
@@ -59,7 +60,7 @@ struct StreetObject {
 
 /// A sweep and the truth about it.
 ///
-/// The cloud has street_beams rows, top beam first, of one point per azimuth; column 0 looks backward and the
+/// The cloud has a row for each beam, top one first, of one point per azimuth; column 0 looks backward and the
 /// columns turn clockwise seen from above, so that the middle column looks forward. Rays without a return
 /// (sky, out of range, 1.5 % at random, a third of those on car windows) are points at (0, 0, 0). One ground
 /// return in 700 is a false one, below the ground, as mirrors and puddles give: object 0, ground 0. Curb
@@ -69,17 +70,17 @@ struct StreetFrame {
   std::vector<StreetObject> objects;  ///< Those nearer than street_max_range, by ascending id.
 };
 
-/// The number of points of a sweep asked for with `points`: the nearest multiple of 64, at least 64
+/// The number of points of a sweep asked for with `points`: the nearest multiple of the beams, at least that
 /// (half-way: up).
-std::size_t street_rays(std::size_t points);
+std::size_t street_rays(std::size_t points, std::size_t beams = street_beams);
 
 /// The sweep at time frame * street_frame_seconds. Frames are independent of one another; same arguments,
 /// same bits (same machine and libm). Throws nothing but std::bad_alloc. O(points), 25 ms for 128 000 rays.
 StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame);
 
 /// Unit direction of a ray. Elevations as an HDL-64E: +2 to -8.33 degrees in steps of 1/3 for beams 0 to 31,
-/// then -8.83 to -24.8 degrees in equal steps.
-std::array<double, 3> street_beam(std::size_t beam, std::size_t column, std::size_t columns);
+/// then -8.83 to -24.8 degrees in equal steps; other numbers lie between these.
+std::array<double, 3> street_beam(double beam, std::size_t column, std::size_t columns);
 
 /// Height z of the ground below or above (x, y), in the sensor's frame, the same in every frame.
 double street_ground_height(double x, double y);
