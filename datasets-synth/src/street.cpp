@@ -124,7 +124,8 @@ StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame) {
   result.cloud.ground.resize(rays);
   result.cloud.height = options.beams;
   for (std::size_t i = 0; i < rays; ++i) {
-    const auto [x, y, z] = street_beam(step * static_cast<double>(i / columns), i % columns, columns);
+    const std::size_t row = i / columns;
+    const auto [x, y, z] = street_beam(step * static_cast<double>(row), i % columns, columns);
     const Ray ray{{x, y, z}, SplitMix64({options.seed, frame, i}).next()};
     Hit hit;
     for (const Candidate& candidate : candidates[i % columns]) {

@@ -147,6 +147,7 @@ Eigen::Matrix3d solid_axes(const LocalHull& hull, const std::vector<Eigen::Matri
   constexpr int kTurns = 3, kLastTurns = 90;
   const Silhouette shape(hull.local_vertices(), hull.triangles);
   std::vector<Frame> frames;
+  frames.reserve(starts.size());
   for (const Eigen::Matrix3d& axes : starts)
     frames.push_back({axes, extents(shape.vertices(), axes)});
   const std::vector<Frame> sure(frames.begin(), frames.begin() + kSureStarts);
