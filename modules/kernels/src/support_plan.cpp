@@ -89,8 +89,8 @@ template <typename T>
 template <typename Address>
 void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
                                   std::size_t step, std::size_t last, SupportPoint& best) const {
-  const auto [a, b, c] = scaled_;
-  const auto [x, y, z] = center_;
+  const T a = scaled_[0], b = scaled_[1], c = scaled_[2];
+  const T x = center_[0], y = center_[1], z = center_[2];
   const T threshold = threshold_;
   T p[3];
   const auto rejects = [&](std::size_t i) {

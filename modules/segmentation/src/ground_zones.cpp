@@ -57,12 +57,12 @@ struct PatchLink {
 
 constexpr std::array<PatchLink, patch_count> links = [] {
   std::array<PatchLink, patch_count> all{};
-  for (std::uint16_t ring = 0; ring < rings.size(); ++ring) {
+  for (std::size_t ring = 0; ring < rings.size(); ++ring) {
     for (unsigned sector = 0; sector < rings[ring].sectors; ++sector) {
       const std::size_t i = first_patch[ring] + sector;
       const std::size_t inner =
           ring == 0 ? i : first_patch[ring - 1] + sector * rings[ring - 1].sectors / rings[ring].sectors;
-      all[i] = {ring, static_cast<std::uint16_t>(inner),
+      all[i] = {static_cast<std::uint16_t>(ring), static_cast<std::uint16_t>(inner),
                 ring == 0 ? static_cast<std::uint16_t>(i) : all[inner].tree};
     }
   }
