@@ -91,6 +91,21 @@ TEST(PoolThread, IsBoundToTheProcessorsOfTheMainThread) {
   }));
 }
 
+// Their own ones may be taken by others for long.
+TEST(PoolThread, MayUseItsCallersProcessorOnceThatOnlyWaits) {
+  const int all = processors(attributes());
+  if (all < 2) GTEST_SKIP() << "this process may use one processor";
+  const std::thread::id caller = std::this_thread::get_id();
+  test::meet(2, [&] {
+    if (std::this_thread::get_id() == caller) return;
+    EXPECT_EQ(processors(attributes()), all - 1);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (processors(attributes()) < all && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(processors(attributes()), all);
+  });
+}
+
 TEST(PoolThread, AllMeansTheProcessorsOfTheProcessAndForOpenMpOfTheCaller) {
   const unsigned all = static_cast<unsigned>(processors(attributes()));
   std::thread([&] {
