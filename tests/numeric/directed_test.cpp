@@ -110,6 +110,37 @@ TEST(Expansion, RoundsSumsOfProductsOutwardToTheNextDouble) {
   }
 }
 
+TEST(Expansion, RoundsSumsThatAreNextToADouble) {
+  for (int exponent = -54; exponent > -1000; exponent -= 7) {
+    const double tiny = std::ldexp(1.0, exponent);
+    SCOPED_TRACE(testing::Message() << "2^" << exponent);
+    for (const double large : {0.0, 1e200}) {
+      const Expansion above = Expansion().add(large).add(1).add(tiny).add(-large);
+      EXPECT_EQ(above.up(), next_up(1));
+      EXPECT_EQ(above.down(), 1);
+      const Expansion below = Expansion().add(large).add(-tiny).add(1).add(-large);
+      EXPECT_EQ(below.up(), 1);
+      EXPECT_EQ(below.down(), next_down(1));
+      EXPECT_EQ(Expansion(above).add(-1).sign(), 1);
+      EXPECT_EQ(Expansion(below).add(-1).sign(), -1);
+    }
+    EXPECT_EQ(Expansion().add(tiny).add(1).add(-tiny).up(), 1);
+  }
+}
+
+TEST(Expansion, HoldsAnyNumberOfTermsOfWhichFewAreLeft) {
+  Numbers number;
+  Expansion sum;
+  Rational exact = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double x = number(-100, 100);
+    sum.add(x).add(0.25).add(-x);
+    exact += Rational(0.25);
+    ASSERT_EQ(sum.up(), test::least_double_above(exact)) << "seed " << kSeed << ", case " << i;
+    ASSERT_EQ(sum.down(), test::greatest_double_below(exact));
+  }
+}
+
 TEST(Expansion, IsUncertainAndAStepWiderWhereAProductMayBeLost) {
   Expansion sum;
   sum.add(1).add_product(0x1.8p-537, 0x1.8p-537);

@@ -103,6 +103,15 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
   require_own_supports(points, execution);
   if (stand_for_all(execution)) return known_summary(*execution.supports);
   CloudSummary summary;
+  if (execution.supports != nullptr) {
+    struct Nothing {};
+    summary.supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
+    const Moments moments = pass<Nothing>(
+        points, execution, kMaxDirections * points.count, [](const PointView&) { return Nothing(); },
+        [](const Nothing&) {});
+    finish(moments, summary);
+    return summary;
+  }
   summary.supports = no_bounds(points);
   // Moments cost about as much as a 26-DOP, the box next to nothing.
   const Moments moments = pass<AxisExtents>(

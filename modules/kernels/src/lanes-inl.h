@@ -14,6 +14,8 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+#include <cstdint>
 #include <optional>
 
 #include "load-inl.h"
@@ -73,10 +75,9 @@ void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_
     if (HWY_LIKELY(hn::AllFalse(d, candidates))) continue;
     const std::size_t count = HWY_MIN(reach.block_points, points.count - begin);
     const std::size_t whole = begin + count / n * n;
-    HWY_ALIGN std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, candidates, bits);
-    for (std::size_t lane = 0; lane < n; ++lane) {
-      if ((bits[lane / 8] >> (lane % 8) & 1) == 0) continue;
+    std::uint64_t bits = bits_of_mask(d, candidates);
+    for (; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       const std::size_t point = point_of_lane<layout>(lane, n);
       look(begin + point, n, whole);
       if (whole == begin + count) continue;
@@ -103,9 +104,13 @@ void search_ends(const PointView& part, const SupportDirections& set, const Lane
       keep_farther(set.end_direction(end), first_valid_point(part), best);
     } else {
       const SupportLook<T> look(part, set, end, {spread.center, what.threshold});
-      search_lanes<layout>(
-          part, reach, end, what.threshold,
-          [&](std::size_t first, std::size_t step, std::size_t last) { look(first, step, last, best); });
+      if (what.threshold <= 0) {  // which every lane reaches
+        look(0, 1, part.count, best);
+      } else {
+        search_lanes<layout>(
+            part, reach, end, what.threshold,
+            [&](std::size_t first, std::size_t step, std::size_t last) { look(first, step, last, best); });
+      }
     }
     if (later != nullptr && best.found)
       (*later)[end] = HWY_MAX((*later)[end], surely_reached(set, end, best.point));

@@ -241,13 +241,23 @@ std::size_t append_marked(D d, const bool* marked, const PointView& points, std:
   return count;
 }
 
+/// Lanes of a mask, as bits from the lowest on.
+template <class D>
+HWY_INLINE std::uint64_t bits_of_mask(D d, hn::Mask<D> mask) {
+  HWY_ALIGN std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < sizeof bytes; ++i)
+    bits |= std::uint64_t{bytes[i]} << 8 * i;
+  return bits;
+}
+
 /// Lanes of a mask, as booleans.
 template <class D>
 HWY_INLINE void store_mask(D d, hn::Mask<D> mask, bool* marked) {
-  HWY_ALIGN std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, mask, bits);
+  const std::uint64_t bits = bits_of_mask(d, mask);
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
-    marked[lane] = (bits[lane / 8] >> (lane % 8) & 1) != 0;
+    marked[lane] = (bits >> lane & 1) != 0;
 }
 
 /// Part of a block relative to its centre: the packet from `first` on. Behind a block's end it holds, if

@@ -5,7 +5,9 @@
 
 #include "support_plan.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 
@@ -16,9 +18,32 @@
 #include "preconditions.h"
 
 namespace pcl_bv {
+// Of eight points the one nearest to their mean. At an end where the centre is the farthest point, zero is
+// what every lane reaches, and all points have to be looked at: 0.4 us for 300.
 bool central_point(const PointView& points, Coordinates& center) {
+  constexpr std::size_t samples = 8;
+  std::array<Coordinates, samples> sample;
+  Coordinates sum{};
+  std::size_t valid = 0;
+  for (std::size_t k = 0; k < samples && k < points.count; ++k) {
+    const Coordinates p = load_point(points, (2 * k + 1) * points.count / (2 * samples));
+    if (!is_valid(p)) continue;
+    sample[valid++] = p;
+    sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+  }
+  double least = kInfinity;
+  const double share = 1 / static_cast<double>(valid);
+  for (std::size_t k = 0; k < valid; ++k) {
+    const Coordinates& p = sample[k];
+    const double distance =
+        std::abs(p.x - share * sum.x) + std::abs(p.y - share * sum.y) + std::abs(p.z - share * sum.z);
+    if (distance >= least) continue;
+    least = distance;
+    center = p;
+  }
+  if (valid > 0) return true;
   for (std::size_t i = 0; i < points.count; ++i) {
-    center = load_point(points, (points.count / 2 + i) % points.count);
+    center = load_point(points, i);
     if (is_valid(center)) return true;
   }
   return false;
@@ -72,6 +97,17 @@ SupportPoint first_valid_point(const PointView& points) {
   return first;
 }
 
+namespace {
+
+template <typename T>
+T loaded(const std::byte* from) {
+  T value;
+  std::memcpy(&value, from, sizeof(T));
+  return value;
+}
+
+}  // namespace
+
 template <typename T>
 SupportLook<T>::SupportLook(const PointView& points, const SupportDirections& set, std::size_t end,
                             const RoundedFilter& filter)
@@ -83,8 +119,8 @@ SupportLook<T>::SupportLook(const PointView& points, const SupportDirections& se
   center_ = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
 }
 
-// Nearly no point passes, so the loop over the others is what counts. `address` gives where a point's x is,
-// `gap` the bytes from there to y and on to z.
+// Of each 64 points first which pass, as bits: a branch for each point costs more than its arithmetic.
+// `address` gives where a point's x is, `gap` the bytes from there to y and on to z.
 template <typename T>
 template <typename Address>
 void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
@@ -92,21 +128,25 @@ void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::
   const T a = scaled_[0], b = scaled_[1], c = scaled_[2];
   const T x = center_[0], y = center_[1], z = center_[2];
   const T threshold = threshold_;
-  T p[3];
-  const auto rejects = [&](std::size_t i) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      std::memcpy(&p[axis], address(i) + axis * gap, sizeof(T));
-    return (a * (p[0] - x) + b * (p[1] - y)) + c * (p[2] - z) < threshold;  // an overflown sum may be NaN
+  const auto passes = [&](std::size_t i) {
+    const std::byte* p = address(i);
+    const T sum = (a * (loaded<T>(p) - x) + b * (loaded<T>(p + gap) - y)) + c * (loaded<T>(p + 2 * gap) - z);
+    return !(sum < threshold);  // an overflown sum may be NaN
   };
-  for (std::size_t i = first; i < last; i += step) {
-    // A loop of its own: the calls below would keep the filter out of registers.
-    while (rejects(i)) {
-      i += step;
-      if (i >= last) return;
-    }
-    const Coordinates point{p[0], p[1], p[2]};
-    if (is_valid(point)) keep_farther(direction_, {true, point, points_.index(i)}, best);
+  for (std::size_t begin = first; begin < last; begin += 64 * step) {
+    std::uint64_t passing = 0;
+    std::size_t i = begin;
+    for (int bit = 0; bit < 64 && i < last; ++bit, i += step)
+      passing |= static_cast<std::uint64_t>(passes(i)) << bit;
+    for (; passing != 0; passing &= passing - 1)
+      compete(begin + static_cast<std::size_t>(std::countr_zero(passing)) * step, best);
   }
+}
+
+template <typename T>
+void SupportLook<T>::compete(std::size_t i, SupportPoint& best) const {
+  const Coordinates point = load_point(points_, i);
+  if (is_valid(point)) keep_farther(direction_, {true, point, points_.index(i)}, best);
 }
 
 template <typename T>

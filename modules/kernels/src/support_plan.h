@@ -90,6 +90,7 @@ class SupportLook {
   template <typename Address>
   void find_passing(const Address& address, std::size_t gap, std::size_t first, std::size_t step,
                     std::size_t last, SupportPoint& best) const;
+  void compete(std::size_t i, SupportPoint& best) const;
 
   const PointView& points_;
   Direction direction_;

@@ -13,20 +13,63 @@
 namespace pcl_bv {
 namespace {
 
-// Below this the error of a product may fall under the smallest denormal, 2^-1074.
 constexpr double kLossyProduct = 0x1p-960;
+
+// Terms that do not overlap, of growing magnitude.
+class Parts {
+ public:
+  Parts(const double* terms, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      add(terms[i]);
+  }
+
+  void add(double x) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const auto [sum, error] = two_sum(x, parts_[i]);
+      if (error != 0) parts_[kept++] = error;
+      x = sum;
+    }
+    if (x != 0) parts_[kept++] = x;
+    size_ = kept;
+  }
+
+  std::size_t size() const { return size_; }
+  double operator[](std::size_t i) const { return parts_[i]; }
+
+  double value() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size_; ++i)
+      sum += parts_[i];
+    return sum;
+  }
+
+  int sign() const {
+    if (size_ == 0) return 0;
+    return parts_[size_ - 1] > 0 ? 1 : -1;
+  }
+
+ private:
+  std::array<double, 33> parts_;  // the terms and the one that up() adds
+  std::size_t size_ = 0;
+};
+
+// Smallest double not below head + low.
+double sum_up(double head, double low) {
+  const auto [sum, error] = two_sum(head, low);
+  return error > 0 ? next_up(sum) : sum;
+}
 
 }  // namespace
 
 Expansion& Expansion::add(double x) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const auto [sum, error] = two_sum(x, parts_[i]);
-    if (error != 0) parts_[kept++] = error;
-    x = sum;
-  }
-  if (x != 0) parts_[kept++] = x;
-  size_ = kept;
+  if (x == 0) return *this;
+  if (size_ == capacity) compact();
+  terms_[size_++] = x;
+  const auto [sum, error] = two_sum(head_, x);
+  head_ = sum;
+  low_ += error;
+  magnitude_ += std::abs(x);
   return *this;
 }
 
@@ -38,40 +81,54 @@ Expansion& Expansion::add_product(double a, double b) {
   return exact ? *this : add(std::fma(a, b, -p));
 }
 
+// Sums of differences have more terms, of which few are left.
+void Expansion::compact() {
+  const Parts parts(terms_.data(), size_);
+  size_ = 0;
+  head_ = low_ = magnitude_ = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    add(parts[i]);
+}
+
+// 32 errors of 2^-53 of the magnitude at most were added up with 32 errors of 2^-53 of themselves: 2^-96. NaN
+// where that is not so, as numbers are too large or too small.
+double Expansion::missing() const {
+  return !lossy_ && magnitude_ > 0x1p-900 && magnitude_ < 0x1p1000 ? 0x1p-95 * magnitude_ : kNan;
+}
+
 double Expansion::value() const {
-  double sum = 0;
-  for (std::size_t i = 0; i < size_; ++i)
-    sum += parts_[i];
-  return sum;
+  return Parts(terms_.data(), size_).value();
 }
 
 int Expansion::sign() const {
-  if (size_ == 0) return 0;
-  return parts_[size_ - 1] > 0 ? 1 : -1;
+  if (std::abs(head_) > std::abs(low_) + missing()) return head_ > 0 ? 1 : -1;
+  return Parts(terms_.data(), size_).sign();
 }
 
 double Expansion::up() const {
-  if (size_ <= 1 && !lossy_) return value();
-  double result = value();
+  const double least = sum_up(head_, low_ - missing());
+  if (least == sum_up(head_, low_ + missing())) return least;
+  Parts parts(terms_.data(), size_);
+  double result = parts.value();
+  if (parts.size() <= 1 && !lossy_) return result;
   if (!std::isfinite(result)) return kInfinity;
   // value() is one of the two doubles beside the sum, or the sum itself.
-  if (Expansion(*this).add(-result).sign() > 0) result = next_up(result);
+  parts.add(-result);
+  if (parts.sign() > 0) result = next_up(result);
   return lossy_ ? next_up(result + kSmallestNormal) : result;
 }
 
 double Expansion::down() const {
-  return -negated().up();
+  Expansion negated(*this);
+  for (std::size_t i = 0; i < size_; ++i)
+    negated.terms_[i] = -terms_[i];
+  negated.head_ = -head_;
+  negated.low_ = -low_;
+  return -negated.up();
 }
 
 double Expansion::magnitude_up() const {
   return std::max(up(), -down());
-}
-
-Expansion Expansion::negated() const {
-  Expansion result(*this);
-  for (std::size_t i = 0; i < size_; ++i)
-    result.parts_[i] = -parts_[i];
-  return result;
 }
 
 }  // namespace pcl_bv

@@ -9,10 +9,11 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A sum of doubles and of products of doubles held without error, as a non-overlapping expansion of growing
-/// magnitude (Shewchuk 1997). At most 32 terms (a product is two). The one loss: a product below 2^-960 may
-/// lose some 2^-1074; up() and down() then step a smallest normal further, and `certain()` is false. Expects
-/// the IEEE default environment: hold a FloatEnvironment.
+/// A sum of doubles and of products of doubles without error. At most 32 terms (a product is two). Twice the
+/// precision of a double answers nearly always; where it cannot, the terms become a non-overlapping expansion
+/// (Shewchuk 1997). The one loss: a product below 2^-960 may lose some 2^-1074; up() and down() then step a
+/// smallest normal further, and `certain()` is false. Expects the IEEE default environment: hold a
+/// FloatEnvironment.
 class Expansion {
  public:
   Expansion& add(double x);
@@ -37,11 +38,15 @@ class Expansion {
   bool certain() const { return !lossy_; }
 
  private:
-  Expansion negated() const;
+  double missing() const;
+  void compact();
 
-  static constexpr std::size_t capacity = 33;  // 32 terms and the one that up() adds
-  std::array<double, capacity> parts_;
+  static constexpr std::size_t capacity = 32;
+  std::array<double, capacity> terms_;  // none is zero
   std::size_t size_ = 0;
+  // The sum is head_ + low_, but for missing() at most.
+  double head_ = 0, low_ = 0;
+  double magnitude_ = 0;  // of all terms
   bool lossy_ = false;
 };
 
