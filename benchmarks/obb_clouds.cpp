@@ -92,8 +92,8 @@ PointView ObbCloud::view() const {
 
 const std::vector<std::string>& obb_cloud_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{"gauss:300",    "car:300",    "L:3000",      "gauss:3000", "car:10000",
-                                 "gauss:100000", "box:100000", "ball:100000", "sphere:3000"};
+    std::vector<std::string> all{"gauss:300", "gauss:1000",   "car:300",    "L:3000",      "gauss:3000",
+                                 "car:10000", "gauss:100000", "box:100000", "ball:100000", "sphere:3000"};
     for (const std::string mesh : {"stanford-bunny", "armadillo"}) {
       if (find_mesh(mesh) != nullptr) all.push_back(mesh);
     }

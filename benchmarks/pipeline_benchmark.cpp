@@ -75,10 +75,11 @@ void show(benchmark::State& state, const std::string& name, const LatencyHistogr
   state.counters[name + "_p99"] = ms.percentile(0.99);
 }
 
-void pipeline(benchmark::State& state, const std::string& source, std::size_t threads, bool paced) {
+void pipeline(benchmark::State& state, const std::string& source, std::size_t threads, bool paced,
+              const std::vector<std::string>& volumes = {"aabb", "sphere", "obb-yaw", "dop26"}) {
   const std::vector<Frame>& frames = frames_of(source);
   PipelineConfig config;
-  config.volumes = {"aabb", "sphere", "obb-yaw", "dop26"};
+  config.volumes = volumes;
   config.track.enabled = true;
   config.threads = threads;
   FramePipeline pipeline(config);
@@ -196,6 +197,8 @@ void add_sequence(const std::string& name, const std::string& source) {
               [=](benchmark::State& state) { pipeline(state, source, threads, paced); });
     }
   }
+  add_way("obb-min-1-thread", 20,
+          [=](benchmark::State& state) { pipeline(state, source, 1, false, {"obb-min"}); });
 #ifdef PCL_BV_BENCH_SEGMENTATION
   if (source != kBeams128) add_way("pcl", 3, [=](benchmark::State& state) { pcl_way(state, source); });
 #endif
