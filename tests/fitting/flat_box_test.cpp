@@ -92,5 +92,13 @@ TEST(FlatBox, OfALineIsAlongIt) {
   EXPECT_NEAR(box.diagonal(), std::sqrt(125.0), 1e-14);
 }
 
+TEST(FlatBox, OfOnePointHasNoSize) {
+  const Eigen::Vector2d point(3, -4);
+  const FlatBox box = least_rectangle(&point, 1);
+  EXPECT_EQ(box.side, Eigen::Vector2d::UnitX());
+  EXPECT_EQ(box.width, 0);
+  EXPECT_EQ(box.height, 0);
+}
+
 }  // namespace
 }  // namespace pcl_bv

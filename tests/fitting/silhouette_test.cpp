@@ -114,6 +114,18 @@ TEST(Silhouette, IsTheOutlineOfAllVertices) {
   }
 }
 
+TEST(Silhouette, OfACubeFromACornerIsMadeOfSixEdges) {
+  Points cube;
+  for (int i = 0; i < 8; ++i)
+    cube.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+  const Solid shape = solid(cube);
+  const Silhouette silhouette(shape.vertices, shape.triangles);
+  Silhouette::View view;
+  const Eigen::Vector3d u = Eigen::Vector3d(1, -1, 0).normalized(), v = Eigen::Vector3d(1, 1, -2).normalized();
+  EXPECT_EQ(silhouette.look(u, v, view).size(), 6U);
+  EXPECT_EQ(view.rim.size(), 6U);
+}
+
 TEST(Silhouette, OfAHullWhoseNormalsVanishIsThatOfItsVertices) {
   Solid shape = solids()[5];
   for (Eigen::Vector3d& p : shape.vertices)

@@ -39,15 +39,18 @@ int processors(const Attributes& thread) {
   return CPU_COUNT(&thread.processors);
 }
 
-/// Those of the helpers of a call by this thread.
+/// Those of the helpers of a call by this thread, before it only waits.
 std::vector<Attributes> helpers() {
+  std::latch asked(4);
   std::mutex mutex;
   std::vector<Attributes> all;
   const std::thread::id caller = std::this_thread::get_id();
-  test::meet(4, [&] {
-    if (std::this_thread::get_id() == caller) return;
-    const std::lock_guard lock(mutex);
-    all.push_back(attributes());
+  for_each_chunk(Threads{4}, 4, [&](std::size_t) {
+    if (std::this_thread::get_id() != caller) {
+      const std::lock_guard lock(mutex);
+      all.push_back(attributes());
+    }
+    asked.arrive_and_wait();
   });
   EXPECT_EQ(all.size(), 3U);
   return all;
@@ -96,9 +99,12 @@ TEST(PoolThread, MayUseItsCallersProcessorOnceThatOnlyWaits) {
   const int all = processors(attributes());
   if (all < 2) GTEST_SKIP() << "this process may use one processor";
   const std::thread::id caller = std::this_thread::get_id();
-  test::meet(2, [&] {
+  std::latch asked(2);
+  for_each_chunk(Threads{2}, 2, [&](std::size_t) {
+    const int before = processors(attributes());
+    asked.arrive_and_wait();
     if (std::this_thread::get_id() == caller) return;
-    EXPECT_EQ(processors(attributes()), all - 1);
+    EXPECT_EQ(before, all - 1);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (processors(attributes()) < all && std::chrono::steady_clock::now() < end)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

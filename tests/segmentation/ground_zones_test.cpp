@@ -76,6 +76,17 @@ TEST(GroundZones, FollowTheGround) {
   }
 }
 
+// The first points of a patch are all at one side of it.
+TEST(GroundZones, FollowTheGroundWithThousandsOfPointsAPatch) {
+  Cloud<float> cloud;
+  for (int i = 0; i < 400; ++i)
+    for (int k = 0; k < 400; ++k) {
+      const double x = 5 + 0.04 * i, y = 0.04 * k - 8;
+      cloud.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(hill(x, y))});
+    }
+  expect_split(split(view(cloud)), cloud.size(), cloud.size());
+}
+
 TEST(GroundZones, ClimbARampThatBeginsWithinAPatch) {
   const GroundSplit result = split(view(ground_of(ramp)));
   EXPECT_GE(result.ground.size(), 39'400U);  // of 40'500; 36'641 without a look for ramps

@@ -90,10 +90,10 @@ void Expansion::compact() {
     add(parts[i]);
 }
 
-// 32 errors of 2^-53 of the magnitude at most were added up with 32 errors of 2^-53 of themselves: 2^-96. NaN
-// where that is not so, as numbers are too large or too small.
+// 32 errors of 2^-53 of the magnitude at most were added up with 32 errors of 2^-53 of themselves: 2^-96. What
+// a product below 2^-960 lost is less than that, unless the magnitude is small too: then NaN.
 double Expansion::missing() const {
-  return !lossy_ && magnitude_ > 0x1p-900 && magnitude_ < 0x1p1000 ? 0x1p-95 * magnitude_ : kNan;
+  return magnitude_ > 0x1p-900 ? 0x1p-95 * magnitude_ : kNan;
 }
 
 double Expansion::value() const {
