@@ -150,5 +150,28 @@ TEST(Expansion, IsUncertainAndAStepWiderWhereAProductMayBeLost) {
   EXPECT_TRUE(Expansion().add_product(1, 0x1p-1074).certain()) << "times 1 nothing is lost";
 }
 
+TEST(Expansion, IsNoStepWiderWhereWhatAProductLostCannotMatter) {
+  const Expansion sum = Expansion().add(1).add(0x1p-60).add_product(0x1.8p-537, 0x1.8p-537);
+  EXPECT_FALSE(sum.certain());
+  EXPECT_EQ(sum.up(), next_up(1));
+  EXPECT_EQ(sum.down(), 1);
+}
+
+// Each of the small terms is less than half a step from the largest double, their sum is more.
+TEST(Expansion, BoundsSumsBeyondTheLargestDoubleFromTheRightSide) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  Expansion above, below;
+  above.add(largest);
+  below.add(-largest);
+  for (int i = 0; i < 3; ++i) {
+    above.add(0x1p969);
+    below.add(-0x1p969);
+  }
+  EXPECT_EQ(above.up(), std::numeric_limits<double>::infinity());
+  EXPECT_GE(below.up(), -largest);
+  EXPECT_LE(above.down(), largest);
+  EXPECT_EQ(below.down(), -std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 }  // namespace pcl_bv

@@ -91,9 +91,10 @@ void Expansion::compact() {
 }
 
 // 32 errors of 2^-53 of the magnitude at most were added up with 32 errors of 2^-53 of themselves: 2^-96. What
-// a product below 2^-960 lost is less than that, unless the magnitude is small too: then NaN.
+// a product below 2^-960 lost is less than that, unless the magnitude is small too. NaN there, and near the
+// largest double, where sums become infinite on the wrong side.
 double Expansion::missing() const {
-  return magnitude_ > 0x1p-900 ? 0x1p-95 * magnitude_ : kNan;
+  return magnitude_ > 0x1p-900 && magnitude_ < 0x1p1000 ? 0x1p-95 * magnitude_ : kNan;
 }
 
 double Expansion::value() const {

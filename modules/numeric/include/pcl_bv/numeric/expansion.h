@@ -11,9 +11,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A sum of doubles and of products of doubles without error. At most 32 terms (a product is two). Twice the
 /// precision of a double answers nearly always; where it cannot, the terms become a non-overlapping expansion
-/// (Shewchuk 1997). The one loss: a product below 2^-960 may lose some 2^-1074; up() and down() then step a
-/// smallest normal further, and `certain()` is false. Expects the IEEE default environment: hold a
-/// FloatEnvironment.
+/// (Shewchuk 1997). The one loss: a product below 2^-960 may lose some 2^-1074; then `certain()` is false, and
+/// up() and down() step a smallest normal further where so little can matter. Expects the IEEE default
+/// environment: hold a FloatEnvironment.
 class Expansion {
  public:
   Expansion& add(double x);
