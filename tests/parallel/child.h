@@ -37,14 +37,22 @@ testing::AssertionResult passes_in_child(Body&& body) {
   ::_exit(testing::Test::HasFailure() ? 1 : 0);
 }
 
-/// Returns when `threads` of our own have been in a body at the same time; body(0) is not special.
-template <typename Body>
-void meet(unsigned threads, Body&& body) {
+/// Returns when `threads` of our own have been in a body at the same time; body(0) is not special. Each does
+/// `first` before any of them can leave.
+template <typename First, typename Body>
+void meet(unsigned threads, First&& first, Body&& body) {
   std::latch all(threads);
   for_each_chunk(Threads{threads}, threads, [&](std::size_t) {
+    first();
     all.arrive_and_wait();
     body();
   });
+}
+
+template <typename Body>
+void meet(unsigned threads, Body&& body) {
+  meet(
+      threads, [] {}, body);
 }
 
 }  // namespace pcl_bv::test

@@ -41,17 +41,15 @@ int processors(const Attributes& thread) {
 
 /// Those of the helpers of a call by this thread, before it only waits.
 std::vector<Attributes> helpers() {
-  std::latch asked(4);
   std::mutex mutex;
   std::vector<Attributes> all;
   const std::thread::id caller = std::this_thread::get_id();
-  for_each_chunk(Threads{4}, 4, [&](std::size_t) {
-    if (std::this_thread::get_id() != caller) {
-      const std::lock_guard lock(mutex);
-      all.push_back(attributes());
-    }
-    asked.arrive_and_wait();
-  });
+  const auto ask = [&] {
+    if (std::this_thread::get_id() == caller) return;
+    const std::lock_guard lock(mutex);
+    all.push_back(attributes());
+  };
+  test::meet(4, ask, [] {});
   EXPECT_EQ(all.size(), 3U);
   return all;
 }
@@ -99,12 +97,13 @@ TEST(PoolThread, MayUseItsCallersProcessorOnceThatOnlyWaits) {
   const int all = processors(attributes());
   if (all < 2) GTEST_SKIP() << "this process may use one processor";
   const std::thread::id caller = std::this_thread::get_id();
-  std::latch asked(2);
-  for_each_chunk(Threads{2}, 2, [&](std::size_t) {
-    const int before = processors(attributes());
-    asked.arrive_and_wait();
+  const auto others_only = [&] {
+    if (std::this_thread::get_id() != caller) {
+      EXPECT_EQ(processors(attributes()), all - 1);
+    }
+  };
+  test::meet(2, others_only, [&] {
     if (std::this_thread::get_id() == caller) return;
-    EXPECT_EQ(before, all - 1);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (processors(attributes()) < all && std::chrono::steady_clock::now() < end)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
