@@ -166,6 +166,18 @@ TEST(GroundZones, DoNotTakeAWallsFootForGround) {
   expect_split(split(view(cloud)), ground, cloud.size());
 }
 
+// Nothing of the road is seen for 28 m, in which it climbs by 3 m: the sectors beside know it.
+TEST(GroundZones, GoOnWhereALorryHidesTheRoad) {
+  Cloud<float> cloud = ground_of(hill);
+  std::erase_if(cloud, [](const auto& p) { return p[0] > 12 && p[0] < 40 && std::abs(p[1]) < 0.2F * p[0]; });
+  const std::size_t ground = cloud.size();
+  for (float y = -2.4F; y < 2.4F; y += 0.05F) {
+    for (float z = -1.3F; z < 2; z += 0.05F)
+      cloud.push_back({12, y, z});
+  }
+  expect_split(split(view(cloud)), ground, cloud.size());
+}
+
 TEST(GroundZones, AreNoneWithoutPoints) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const Cloud<float>& cloud :

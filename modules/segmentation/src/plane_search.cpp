@@ -21,13 +21,13 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-constexpr std::size_t sample_size = 8192;  // of a 64-beam sweep one in 15, still 8 for each cell of area
 constexpr std::size_t cells_per_side = 32;
 constexpr std::size_t points_per_cell = 4;
 
 // Up to sample_size valid points, in an order that has no beat with the rows of a sensor: steps of the golden
 // section around the cloud visit each point once and cover it evenly at any moment.
-void draw(const PointView& points, std::uint32_t seed, std::vector<Vector3d>& sample) {
+void draw(const PointView& points, std::uint32_t seed, std::size_t sample_size,
+          std::vector<Vector3d>& sample) {
   sample.clear();
   sample.reserve(sample_size);
   const std::size_t n = points.count;
@@ -99,18 +99,18 @@ void add(const Vector3d& p, const Vector3d& upward, Cell& cell, GroundScratch& s
   ++cell.count;
 }
 
-// Fills `scratch`: `sample` with up to 8192 points spread evenly over the point numbers, `support` with at
-// most 4096 of them spread evenly over the area seen from above, `lowest` with the lowest one of each of at
-// most 1024 cells of that area. They are relative to the point returned, which is in the midst of the cloud,
-// so that nothing is lost of UTM coordinates. No valid point: all empty.
+// Fills `scratch`: `sample` with up to `sample_size` points spread evenly over the point numbers, `support`
+// with at most 4096 of them spread evenly over the area seen from above, `lowest` with the lowest one of each
+// of at most 1024 cells of that area. They are relative to the point returned, which is in the midst of the
+// cloud, so that nothing is lost of UTM coordinates. No valid point: all empty.
 Vector3d sample_ground(const PointView& points, const UpFrame& frame, std::uint32_t seed,
-                       GroundScratch& scratch) {
+                       std::size_t sample_size, GroundScratch& scratch) {
   constexpr std::size_t cells = cells_per_side * cells_per_side;
   scratch.support.clear();
   scratch.support.reserve(cells * points_per_cell);
   scratch.lowest.clear();
   scratch.lowest.reserve(cells);
-  draw(points, seed, scratch.sample);
+  draw(points, seed, sample_size, scratch.sample);
   if (scratch.sample.empty()) return Vector3d::Zero();
 
   const Vector3d vertical = cross3(frame.u, frame.v);
@@ -244,9 +244,10 @@ std::optional<Plane> search(const GroundScratch& points, const Limits& limits,
 }  // namespace
 
 std::optional<Plane> find_ground_plane(const PointView& points, const Vector3d& sensor,
-                                       const GroundPlaneSettings& settings, GroundScratch& scratch) {
+                                       const GroundPlaneSettings& settings, GroundScratch& scratch,
+                                       std::size_t sample_size) {
   const UpFrame frame(settings.up);
-  const Vector3d origin = sample_ground(points, frame, settings.seed, scratch);
+  const Vector3d origin = sample_ground(points, frame, settings.seed, sample_size, scratch);
   const Limits limits{frame.up, std::cos(settings.max_slope_degrees * std::numbers::pi / 180),
                       sensor - origin, settings.sensor_height};
   std::optional<Plane> best = search(scratch, limits, settings);

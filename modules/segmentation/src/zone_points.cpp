@@ -19,6 +19,13 @@ namespace {
 
 constexpr std::size_t kBatch = 512;
 
+// A cell whose lowest point is so far below all around it has a reflection in it, metres.
+constexpr float pit_depth = 0.25F;
+
+// Something stands in a cell if it holds points so far above its lowest one, metres: a curb does not, and
+// neither does what is over a road.
+constexpr float stands_from = 0.3F, stands_to = 2;
+
 // Doubles may be greater than any float.
 float in_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
@@ -84,18 +91,6 @@ std::size_t load_turned(const PointView& view, std::size_t begin, std::size_t en
   });
 }
 
-struct Polar {
-  std::array<std::int32_t, kBatch> half_metres;
-  std::array<float, kBatch> turn;
-};
-
-void find_polar(const Place& points, std::size_t count, Polar& polar) {
-  for (std::size_t i = 0; i < count; ++i) {
-    polar.half_metres[i] = half_metres_of(points.u[i], points.v[i]);
-    polar.turn[i] = turn_of(points.u[i], points.v[i]);
-  }
-}
-
 }  // namespace
 
 GroundPoint ZoneFrame::point(const Coordinates& p) const {
@@ -117,70 +112,102 @@ Plane ZoneFrame::level(double height) const {
   return {up, dot3(up, sensor) - height};
 }
 
-void ZoneColumns::resize(std::size_t count) {
-  u.resize(count);
-  v.resize(count);
-  height.resize(count);
-  number.resize(count);
-}
-
-void ZoneColumns::copy(const ZoneColumns& from, std::size_t begin, std::size_t count, std::size_t to) {
-  std::copy_n(from.u.data() + begin, count, u.data() + to);
-  std::copy_n(from.v.data() + begin, count, v.data() + to);
-  std::copy_n(from.height.data() + begin, count, height.data() + to);
-  std::copy_n(from.number.data() + begin, count, number.data() + to);
-}
-
-void ZonePoints::place_points(const PointView& view, const ZoneFrame& frame, ZonePart& part) {
+void ZonePoints::read_part(const PointView& view, const ZoneFrame& frame, ZonePart& part) {
   const FloatEnvironment environment;
   const bool is_float = view.scalar == ScalarType::float32;
   const bool upright = is_float && frame.along_axis && frame.sensor.isZero(0);
   const auto load_batch = upright ? load_upright : is_float ? load_turned<float> : load_turned<double>;
-  part.runs.clear();
-  Polar polar;
   std::size_t to = part.begin;
-  std::size_t last = patch_count;  // that of no point
   for (std::size_t i = part.begin; i < part.end; i += kBatch) {
-    const Place batch{points.u.data() + to, points.v.data() + to, points.height.data() + to,
-                      points.number.data() + to};
+    const Place batch{u_.data() + to, v_.data() + to, height.data() + to, number.data() + to};
     const std::size_t count = load_batch(view, i, std::min(i + kBatch, part.end), frame, batch);
-    find_polar(batch, count, polar);
-    for (std::size_t k = 0; k < count; ++k, ++to) {
-      const ZonePlace at = place_of(polar.half_metres[k], polar.turn[k]);
-      cell[to] = at.cell;
-      if (at.patch == last) continue;
-      last = at.patch;
-      part.runs.push_back({at.patch, static_cast<std::uint32_t>(to)});
+    float* const ranges = range.data() + to;
+    std::uint16_t* const cells = cell.data() + to;
+    for (std::size_t k = 0; k < count; ++k) {
+      ranges[k] = range_of(batch.u[k], batch.v[k]);
+      cells[k] = static_cast<std::uint16_t>(cell_of(ranges[k], turn_of(batch.u[k], batch.v[k])));
     }
+    to += count;
   }
-  part.runs.push_back({0, static_cast<std::uint32_t>(to)});
   part.kept = to - part.begin;
-  part.next.fill(0);
-  part.for_each_run(
-      [&](std::uint16_t patch, std::uint32_t, std::uint32_t count) { part.next[patch] += count; });
-}
-
-void ZonePoints::sort(ZonePart& part) {
-  part.for_each_run([&](std::uint16_t patch, std::uint32_t from, std::uint32_t count) {
-    sorted.copy(points, from, count, part.next[patch]);
-    part.next[patch] += count;
-  });
 }
 
 void ZonePoints::read(const PointView& view, const ZoneFrame& frame, const ParallelPolicy& policy) {
-  points.resize(view.count);
+  u_.resize(view.count);
+  v_.resize(view.count);
+  height.resize(view.count);
+  range.resize(view.count);
   cell.resize(view.count);
+  number.resize(view.count);
   parts.cut(view.count, policy);
-  parts.for_each(policy, [&](ZonePart& part) { place_points(view, frame, part); });
-  std::uint32_t end = 0;
-  for (std::size_t i = 0; i < patch_count; ++i) {
-    begin[i] = end;
-    for (ZonePart& part : parts)
-      end += std::exchange(part.next[i], end);
+  parts.for_each(policy, [&](ZonePart& part) { read_part(view, frame, part); });
+}
+
+void ZonePoints::list_near(std::size_t rings, std::vector<std::int32_t>& numbers) const {
+  numbers.resize(number.size());
+  std::size_t count = 0;
+  for (const ZonePart& part : parts) {
+    for (std::size_t i = part.begin; i < part.begin + part.kept; ++i) {
+      numbers[count] = number[i];
+      count += cell[i] < rings * sector_count;
+    }
   }
-  begin[patch_count] = end;
-  sorted.resize(end);
-  parts.for_each(policy, [&](ZonePart& part) { sort(part); });
+  numbers.resize(count);
+}
+
+void ZonePoints::find_lows(const Slope& plane, ZonePart& part) {
+  const FloatEnvironment environment;
+  const auto offset = static_cast<float>(plane.offset), slope_u = static_cast<float>(plane.slope_u),
+             slope_v = static_cast<float>(plane.slope_v);
+  std::vector<float>& low = part.cells.low;
+  low.assign(cell_count, no_low);
+  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
+    height[i] -= offset + (u_[i] * slope_u + v_[i] * slope_v);
+  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
+    low[cell[i]] = std::min(low[cell[i]], height[i]);
+}
+
+void ZonePoints::fill_pits() {
+  float* const low = parts.front().cells.low.data();
+  RingRow before, here, after;
+  before.fill(no_low);
+  here.copy(low);
+  for (std::size_t ring = 0; ring + 1 < ring_count; ++ring) {
+    after.copy(low + (ring + 1) * sector_count);
+    float* const own = low + ring * sector_count;
+    for (std::size_t s = 0; s < sector_count; ++s) {
+      const float left = std::min(before[s], std::min(here[s], after[s]));
+      const float right = std::min(before[s + 2], std::min(here[s + 2], after[s + 2]));
+      const float around = std::min(std::min(left, right), std::min(before[s + 1], after[s + 1]));
+      own[s] = here[s + 1] < around - pit_depth && around < no_low ? around : here[s + 1];
+    }
+    before = here;
+    here = after;
+  }
+}
+
+void ZonePoints::find_standing(const std::vector<float>& low, ZonePart& part) const {
+  std::vector<std::uint8_t>& stands = part.cells.stands;
+  stands.assign(cell_count, 0);
+  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i) {
+    const float over = height[i] - low[cell[i]];
+    stands[cell[i]] |= static_cast<std::uint8_t>((over > stands_from) & (over < stands_to));
+  }
+}
+
+void ZonePoints::place(const Slope& plane, const ParallelPolicy& policy) {
+  parts.for_each(policy, [&](ZonePart& part) { find_lows(plane, part); });
+  CellFacts& all = parts.front().cells;
+  for (const ZonePart& part : parts) {
+    for (std::size_t i = 0; i < cell_count; ++i)
+      all.low[i] = std::min(all.low[i], part.cells.low[i]);
+  }
+  fill_pits();
+  parts.for_each(policy, [&](ZonePart& part) { find_standing(all.low, part); });
+  for (const ZonePart& part : parts) {
+    for (std::size_t i = 0; i < cell_count; ++i)
+      all.stands[i] |= part.cells.stands[i];
+  }
 }
 
 }  // namespace pcl_bv

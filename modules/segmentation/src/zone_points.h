@@ -4,19 +4,27 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "patch_fit.h"
 #include "pcl_bv/kernels/point_view.h"
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/parallel/policy.h"
 #include "plane_search.h"
+#include "polar_cells.h"
 #include "up_frame.h"
-#include "zones.h"
 
 namespace pcl_bv {
+
+/// A place beside the sensor, and its height above it.
+struct GroundPoint {
+  float u, v, height;
+};
+
+/// height = offset + u * slope_u + v * slope_v
+struct Slope {
+  double offset, slope_u, slope_v;
+};
 
 /// The cloud as seen by the zones.
 struct ZoneFrame : UpFrame {
@@ -30,58 +38,48 @@ struct ZoneFrame : UpFrame {
   Plane level(double height) const;
 };
 
-/// Points, a coordinate in a row.
-struct ZoneColumns {
-  std::vector<float> u, v, height;
-  std::vector<std::int32_t> number;  ///< In the cloud.
-
-  void resize(std::size_t count);
-  void copy(const ZoneColumns& from, std::size_t begin, std::size_t count, std::size_t to);
+/// What the cells of some points hold.
+struct CellFacts {
+  std::vector<float> low;            ///< Height of the lowest point over the plane, metres; no_low: none.
+  std::vector<std::uint8_t> stands;  ///< Whether something stands there: points above the lowest one.
 };
 
-/// Points in a row, all in one patch: a beam mostly stays in the patch of the point before.
-struct ZoneRun {
-  std::uint16_t patch;
-  std::uint32_t begin;
-};
+inline constexpr float no_low = 1e30F;
 
 /// Points of a view that one thread takes.
 struct ZonePart {
-  std::size_t begin, end;                       ///< In the view.
-  std::size_t kept;                             ///< Valid ones, which lie from `begin` on.
-  std::vector<ZoneRun> runs;                    ///< And one more at the end.
-  std::array<std::uint32_t, patch_count> next;  ///< By patch, where the next one goes.
-  std::vector<std::uint8_t> upright;            ///< By cell, whether something of it stands there.
-
-  /// work(patch, begin, count) for each run.
-  template <typename Work>
-  void for_each_run(const Work& work) const {
-    for (std::size_t r = 0; r + 1 < runs.size(); ++r)
-      work(runs[r].patch, runs[r].begin, runs[r + 1].begin - runs[r].begin);
-  }
+  std::size_t begin, end;  ///< In the view.
+  std::size_t kept;        ///< Valid ones, which lie from `begin` on.
+  CellFacts cells;
 };
 
-/// The valid points of a view, in its order and patch by patch. The parts change no order.
-struct ZonePoints {
+/// The valid points of a view, part by part in its order.
+class ZonePoints {
+ public:
   Parts<ZonePart> parts;
-  ZoneColumns points;               ///< Part by part, as are cells.
-  std::vector<std::uint16_t> cell;  ///< ZonePlace::cell.
+  std::vector<std::int32_t> number;  ///< In the cloud.
+  std::vector<std::uint16_t> cell;
+  std::vector<float> range;   ///< Metres from the centre.
+  std::vector<float> height;  ///< Metres above the plane that place() was told.
 
-  ZoneColumns sorted;                                ///< Patch by patch, in each in the order of the view.
-  std::array<std::uint32_t, patch_count + 1> begin;  ///< Of each patch, there.
-
-  /// Replaces all. O(n).
+  /// Replaces all points. O(n).
   void read(const PointView& view, const ZoneFrame& frame, const ParallelPolicy& policy);
 
-  Patch patch(std::size_t i) const {
-    const std::uint32_t from = begin[i];
-    return {sorted.u.data() + from, sorted.v.data() + from, sorted.height.data() + from,
-            begin[i + 1] - from,    patch_centers[i].u,     patch_centers[i].v};
-  }
+  /// Numbers of the points in the first `rings` rings.
+  void list_near(std::size_t rings, std::vector<std::int32_t>& numbers) const;
+
+  /// Heights become those over `plane`; what all cells hold is then in that of the first part.
+  void place(const Slope& plane, const ParallelPolicy& policy);
+
+  const CellFacts& cells() const { return parts.front().cells; }
 
  private:
-  void place_points(const PointView& view, const ZoneFrame& frame, ZonePart& part);
-  void sort(ZonePart& part);
+  void read_part(const PointView& view, const ZoneFrame& frame, ZonePart& part);
+  void find_lows(const Slope& plane, ZonePart& part);
+  void fill_pits();
+  void find_standing(const std::vector<float>& low, ZonePart& part) const;
+
+  std::vector<float> u_, v_;
 };
 
 }  // namespace pcl_bv

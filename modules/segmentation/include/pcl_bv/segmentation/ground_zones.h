@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Ground removal by many planes, for outdoor scenes: roads climb, sink and have curbs, so that one plane
+// Ground removal for outdoor scenes: roads climb, sink and have curbs, verges are rough, so that one plane
 // (ground_plane.h) holds only near the sensor.
 #pragma once
 
@@ -20,28 +20,31 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct GroundZonesSettings {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< Against gravity; any length above 0.
   Eigen::Vector3d sensor =
-      Eigen::Vector3d::Zero();  ///< Where the zones are centred, in the cloud's frame, metres.
+      Eigen::Vector3d::Zero();  ///< Where the rings are centred, in the cloud's frame, metres.
   /// Height of `sensor` above the ground, along up, metres; >= 0. Learnt from the cloud if not given; if
   /// given, a guess good to ground_height_tolerance.
   std::optional<double> sensor_height;
-  double distance = 0.15;  ///< Points at most this far above their zone's plane are ground, metres; > 0.
-  double max_slope_degrees = 20;  ///< Greatest angle between a zone's plane and the horizontal, 0 to 89.
+  double distance = 0.15;  ///< Points at most this far above the ground's surface are ground, metres; > 0.
+  double max_slope_degrees = 20;  ///< Greatest angle between the ground and the horizontal, 0 to 89.
   std::uint32_t seed = 1;         ///< Of the search for the first plane.
 };
 
 /// Splits clouds of a sensor that stands or drives on the ground into ground and rest.
 ///
-/// The ground is cut into 504 patches: rings around the sensor, each in sectors. The plane around the sensor
-/// comes first, found like that of split_ground() among the points within 12.5 m; then, from the innermost
-/// ring outwards, each patch looks near its inner neighbour's plane for the lowest height at which points are
-/// many and fits a plane to these; a patch that shows too little ground takes over its neighbour's plane. So
-/// the ground may rise and fall with the distance, reflections below it do not draw it down, and roofs and
-/// bonnets do not pass for it.
+/// Space around the sensor is cut into cells: rings of half a metre, each in 256 sectors. The plane around the
+/// sensor comes first, found like that of split_ground() among the points within 12.5 m. Then all sectors
+/// walk outwards ring by ring: a cell's lowest point is ground if it lies near the height that its sector
+/// expects there, the nearer the more lately ground was seen; a sector that has lost sight of the ground hears
+/// from those beside it. Between two places of a sector where the ground is seen it is the line that connects them.
+/// The surface found is lowered to the highest one that is nowhere steeper than allowed. So the ground may
+/// rise and fall, reflections below it do not draw it down, and roofs and bonnets do not pass for it.
 ///
-/// Ground is every point at most `distance` above the plane of its patch, however deep it lies below, as with
-/// split_ground(): reflections from puddles must not become objects.
+/// Ground is every point at most `distance` above that surface, however deep it lies below, as with
+/// split_ground(): reflections from puddles must not become objects. In cells where something stands, with
+/// points 0.3 to 2 m above the lowest one, it is a fifth of `distance`: feet of walls and cars are no ground.
 ///
-/// Source: region-wise plane fitting in concentric zones (Patchwork: Lim, Oh and Myung 2021).
+/// Source: the slope of what is above the lowest points tells ground from objects in Vosselman 2000, there by
+/// all pairs of points, here by distances that grow from cell to cell (Borgefors 1986).
 class GroundZones {
  public:
   GroundZones();

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "ground_surface.h"
+
+#include <algorithm>
+
+#include "pcl_bv/numeric/float_environment.h"
+#include "slope_limit.h"
+
+namespace pcl_bv {
+namespace {
+
+// A cell's lowest point is ground up to so far above and below the height expected, metres, and so much
+// farther for each metre since ground was last seen: curbs and clods pass, bonnets and seats of benches do
+// not.
+constexpr float above = 0.12F, above_growth = 0.02F, above_most = 0.3F;
+constexpr float below = 0.2F, below_growth = 0.05F, below_most = 1;
+
+// Where something stands the lowest point may be its own.
+constexpr float foot_above = 0.03F, foot_growth = 0.02F;
+
+// What a rise says of the slope counts over so many metres, and a slope fades by so much in each: tilts go
+// on, but their errors must not grow with the distance.
+constexpr float slope_memory = 3, slope_loss = 0.02F;
+
+constexpr float first_age = 2;      // metres; the plane around the sensor is a guess for the innermost cells
+constexpr float never = 1000;       // metres since ground was seen
+constexpr float roughness = 0.02F;  // metres from the lowest point up to the middle of bare ground's points
+
+}  // namespace
+
+// Where a neighbour has seen the ground more lately, it knows better.
+void GroundSurface::Front::share(float width) {
+  for (RingRow* row : {&height, &slope, &anchor, &age})
+    row->close();
+  const Front old = *this;
+  for (std::size_t s = 1; s <= sector_count; ++s) {
+    const float own = old.age[s], left = old.age[s - 1] + width, right = old.age[s + 1] + width;
+    const float fresher_left = std::max(own - left, 0.F), fresher_right = std::max(own - right, 0.F);
+    const float sum = fresher_left + fresher_right + 1e-9F;
+    const float a = fresher_left / sum, b = fresher_right / sum;
+    const auto mixed = [&](const RingRow& row) {
+      return row[s] + (a * (row[s - 1] - row[s]) + b * (row[s + 1] - row[s]));
+    };
+    height[s] = mixed(old.height);
+    slope[s] = mixed(old.slope);
+    anchor[s] = mixed(old.anchor);
+    age[s] = std::min(own, std::min(left, right));
+  }
+}
+
+void GroundSurface::walk_out(const CellFacts& cells) {
+  Front front;
+  front.height.fill(0), front.slope.fill(0), front.anchor.fill(0), front.age.fill(first_age);
+  for (std::size_t ring = 0; ring < rings_; ++ring) {
+    const std::size_t first = ring * sector_count;
+    for (std::size_t s = 0; s < sector_count; ++s) {
+      const float low = cells.low[first + s];
+      const bool stands = cells.stands[first + s] != 0;
+      float& height = front.height[s + 1];
+      float& age = front.age[s + 1];
+      float& slope = front.slope[s + 1];
+      height += slope * ring_width;
+      age += ring_width;
+      slope -= slope_loss * ring_width * slope;
+      const float up =
+          stands ? foot_above + foot_growth * age : std::min(above_most, above + above_growth * age);
+      const float down = std::min(below_most, below + below_growth * age);
+      const float rise = low - height;
+      const bool seen = rise <= up && rise >= -down;
+      slope = seen ? slope + rise / (age + slope_memory) : slope;
+      height = seen ? low : height;
+      front.anchor[s + 1] = seen ? low : front.anchor[s + 1];
+      age = seen ? 0 : age;
+      seen_[first + s] = seen;
+    }
+    front.share(width_of(ring));
+    std::copy_n(front.height.data() + 1, sector_count, height_.data() + first);
+    std::copy_n(front.anchor.data() + 1, sector_count, anchor_.data() + first);
+    std::copy_n(front.age.data() + 1, sector_count, age_.data() + first);
+  }
+}
+
+// Between two places where the ground is seen it is the line that connects them.
+void GroundSurface::walk_in() {
+  Front front;
+  front.slope.fill(0), front.height.fill(0), front.anchor.fill(0), front.age.fill(never);
+  for (std::size_t ring = rings_; ring-- > 0;) {
+    const std::size_t first = ring * sector_count;
+    for (std::size_t s = 0; s < sector_count; ++s) {
+      const std::size_t i = first + s;
+      float& age = front.age[s + 1];
+      age += ring_width;
+      const float known = height_[i];
+      const float share = age < never ? age_[i] / (age + age_[i]) : 0;
+      const float between = anchor_[i] + share * (front.height[s + 1] - anchor_[i]);
+      height_[i] = seen_[i] != 0 || age >= never ? known : between;
+      front.height[s + 1] = seen_[i] != 0 ? known : front.height[s + 1];
+      age = seen_[i] != 0 ? 0 : age;
+    }
+    front.share(width_of(ring));
+  }
+}
+
+void GroundSurface::connect() {
+  lines_.resize(cell_count);
+  for (std::size_t ring = 0; ring < rings_; ++ring) {
+    const std::size_t inner = ring > 0 ? ring - 1 : 0, outer = std::min(ring + 1, rings_ - 1);
+    const bool open = ring == 0 || ring == ring_count - 1;
+    const float over =
+        open ? 0 : 1 / (ring_width * static_cast<float>(std::max<std::size_t>(outer - inner, 1)));
+    for (std::size_t s = 0; s < sector_count; ++s) {
+      const float slope = (height_[outer * sector_count + s] - height_[inner * sector_count + s]) * over;
+      const float height = height_[ring * sector_count + s];
+      lines_[ring * sector_count + s] = {height + roughness - slope * middle_of(ring), slope};
+    }
+  }
+}
+
+void GroundSurface::find(const CellFacts& cells, const Slope& plane, float max_slope) {
+  const FloatEnvironment environment;
+  std::size_t last = cell_count;
+  while (last > 0 && cells.low[last - 1] == no_low)
+    --last;
+  rings_ = (last + sector_count - 1) / sector_count;
+  height_.resize(cell_count), anchor_.resize(cell_count), age_.resize(cell_count), seen_.resize(cell_count);
+  walk_out(cells);
+  walk_in();
+  limit_slopes(height_.data(), rings_, plane, max_slope);
+  connect();
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The cells that the ground is seen in: rings of half a metre about the sensor, each in 256 sectors. So fine
+// that a wall's foot and what stands on it share a cell, so coarse that a beam or two above the foot meets
+// it, too.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+namespace pcl_bv {
+
+inline constexpr std::size_t sector_count = 256;  ///< The first begins at the u axis.
+inline constexpr std::size_t ring_count = 201;  ///< The last has no end: all that is 100 m away and farther.
+inline constexpr std::size_t cell_count = ring_count * sector_count;  ///< Ring by ring.
+inline constexpr float ring_width = 0.5F;                             ///< Metres.
+
+/// From the centre to a point, metres.
+inline float range_of(float u, float v) {
+  return std::sqrt(u * u + v * v);
+}
+
+/// Its angle in turns, 0 to 1. It is no libm's, which differ: it is right to 0.004 rad, and the same
+/// everywhere.
+inline float turn_of(float u, float v) {
+  const float along = std::abs(u), across = std::abs(v);
+  const float longer = std::max(along, across);
+  const float t = std::min(along, across) / (longer > 0 ? longer : 1);
+  float turn = t * (0.125F + 0.04345F * (1 - t));  // atan(t) in turns
+  turn = across > along ? 0.25F - turn : turn;
+  turn = u < 0 ? 0.5F - turn : turn;
+  return v < 0 ? 1 - turn : turn;
+}
+
+/// Both as above. A turn of 1 is one of 0.
+inline std::int32_t cell_of(float range, float turn) {
+  const auto ring = static_cast<std::int32_t>(std::min(range / ring_width, float{ring_count - 1}));
+  const auto sector = static_cast<std::int32_t>(turn * float{sector_count});
+  return ring * std::int32_t{sector_count} + (sector & std::int32_t{sector_count - 1});
+}
+
+/// The range of a ring's middle.
+constexpr float middle_of(std::size_t ring) {
+  return ring_width * (static_cast<float>(ring) + 0.5F);
+}
+
+/// The width of a sector there.
+constexpr float width_of(std::size_t ring) {
+  return middle_of(ring) * static_cast<float>(2 * std::numbers::pi / sector_count);
+}
+
+struct Direction {
+  double u, v;
+};
+
+/// Unit vector to a sector's middle. Taylor's series, to 1e-8: no libm's, which differ.
+inline constexpr std::array<Direction, sector_count> sector_directions = [] {
+  std::array<Direction, sector_count> all{};
+  for (std::size_t s = 0; s < sector_count; ++s) {
+    const double turns = (static_cast<double>(s) + 0.5) / sector_count;
+    const double x = 2 * std::numbers::pi * (turns > 0.5 ? turns - 1 : turns);
+    double term = 1;
+    for (int i = 0; i < 24; i += 2) {
+      all[s].u += term;
+      term *= x / (i + 1);
+      all[s].v += term;
+      term *= -x / (i + 2);
+    }
+  }
+  return all;
+}();
+
+/// A value for each cell of a ring, of which the last comes once more before the first, and the first after
+/// the last.
+struct RingRow : std::array<float, sector_count + 2> {
+  void copy(const float* cells) {
+    std::copy_n(cells, sector_count, data() + 1);
+    close();
+  }
+  void close() {
+    front() = (*this)[sector_count];
+    back() = (*this)[1];
+  }
+};
+
+}  // namespace pcl_bv

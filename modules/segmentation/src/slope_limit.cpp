@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "slope_limit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t max_aside = 16;  // sectors
+
+class SlopeLimit {
+ public:
+  SlopeLimit(float* heights, std::size_t rings, float max_slope)
+      : heights_(heights), rings_(rings), max_slope_(max_slope) {}
+
+  void run() {
+    for (std::size_t ring = 0; ring < rings_; ++ring)
+      limit(ring, ring, [&](std::size_t steps) { return ring - steps; });
+    for (std::size_t ring = rings_; ring-- > 0;)
+      limit(ring, rings_ - 1 - ring, [&](std::size_t steps) { return ring + steps; });
+  }
+
+ private:
+  // Of `ring`, by its own cells and those of at most `most` rings before it, at(1) the nearest.
+  template <typename At>
+  void limit(std::size_t ring, std::size_t most, const At& at) {
+    for (std::size_t aside = 1; aside <= max_aside; aside *= 2)
+      limit_by(ring, ring, 0, aside);
+    const float square = ring_width / width_of(ring);  // so many sectors are as wide as a ring
+    const auto aside = std::clamp<std::size_t>(static_cast<std::size_t>(square + 0.5F), 1, max_aside);
+    const auto reach = static_cast<std::size_t>(1 / square) + 1;
+    if (most > 0) limit_by(ring, at(1), 1, 0);
+    for (std::size_t steps = 1; steps <= std::min(most, reach); ++steps)
+      limit_by(ring, at(steps), steps, aside);
+  }
+
+  // By the cells of the ring `from`, `steps` rings away, `aside` sectors to both sides.
+  void limit_by(std::size_t ring, std::size_t from, std::size_t steps, std::size_t aside) {
+    const float across = width_of(ring) * static_cast<float>(aside);
+    const float along = ring_width * static_cast<float>(steps);
+    const float climb = max_slope_ * std::sqrt(along * along + across * across);
+    const float* const row = heights_ + from * sector_count;
+    std::array<float, sector_count + 2 * max_aside> other;
+    std::copy_n(row, sector_count, other.data() + max_aside);
+    std::copy_n(row + sector_count - max_aside, max_aside, other.data());
+    std::copy_n(row, max_aside, other.data() + sector_count + max_aside);
+    float* const own = heights_ + ring * sector_count;
+    const float *const left = other.data() + max_aside - aside, *const right = left + 2 * aside;
+    for (std::size_t s = 0; s < sector_count; ++s)
+      own[s] = std::min(own[s], std::min(left[s], right[s]) + climb);
+  }
+
+  float* heights_;
+  std::size_t rings_;
+  float max_slope_;
+};
+
+void add_plane(float* heights, std::size_t rings, double slope_u, double slope_v) {
+  std::array<float, sector_count> outwards;
+  for (std::size_t s = 0; s < sector_count; ++s) {
+    const Direction& d = sector_directions[s];
+    outwards[s] = static_cast<float>(d.u * slope_u + d.v * slope_v);
+  }
+  for (std::size_t ring = 0; ring < rings; ++ring) {
+    for (std::size_t s = 0; s < sector_count; ++s)
+      heights[ring * sector_count + s] += middle_of(ring) * outwards[s];
+  }
+}
+
+}  // namespace
+
+void limit_slopes(float* heights, std::size_t rings, const Slope& plane, float max_slope) {
+  add_plane(heights, rings, plane.slope_u, plane.slope_v);
+  SlopeLimit(heights, rings, max_slope).run();
+  add_plane(heights, rings, -plane.slope_u, -plane.slope_v);
+}
+
+}  // namespace pcl_bv
