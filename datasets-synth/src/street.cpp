@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "street_cast.h"
+#include "sweep.h"
 
 namespace pcl_bv {
 namespace {
@@ -28,58 +29,6 @@ StreetObject truth_of(const PlacedObject& object) {
           {to_array(object.forward), to_array(object.left), to_array(object.up)},
           to_array(0.5 * (bounds.hi - bounds.lo)),
           to_array(object.velocity)};
-}
-
-/// Azimuth of the middle of a column: from pi (backward) clockwise to -pi.
-double azimuth_of(double column, std::size_t columns) {
-  return std::numbers::pi * (1 - 2 * (column + 0.5) / static_cast<double>(columns));
-}
-
-struct Candidate {
-  double nearest;  // metres
-  const PlacedObject* object;
-};
-
-/// Adds the object to the columns whose rays may meet it. The sensor is outside its footprint, so the corners
-/// bound its azimuths, all within pi of the middle's.
-void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObject& object) {
-  const Box3& box = object.model.bounds;
-  const Vec3 middle = object.to_sensor(0.5 * (box.lo + box.hi));
-  const double azimuth = std::atan2(middle.y, middle.x);
-  double low = 0;
-  double high = 0;
-  for (const double x : {box.lo.x, box.hi.x}) {
-    for (const double y : {box.lo.y, box.hi.y}) {
-      for (const double z : {box.lo.z, box.hi.z}) {  // a tilted box leans over its footprint
-        const Vec3 corner = object.to_sensor({x, y, z});
-        const double turn = std::remainder(std::atan2(corner.y, corner.x) - azimuth, 2 * std::numbers::pi);
-        low = std::min(low, turn);
-        high = std::max(high, turn);
-      }
-    }
-  }
-  const auto count = static_cast<std::int64_t>(columns.size());
-  const double per_radian = static_cast<double>(count) / (2 * std::numbers::pi);
-  const auto column_at = [&](double angle) { return (std::numbers::pi - angle) * per_radian - 0.5; };
-  const auto first = static_cast<std::int64_t>(std::floor(column_at(azimuth + high)));
-  const auto last = static_cast<std::int64_t>(std::ceil(column_at(azimuth + low)));
-  const double nearest = nearest_distance(object);
-  for (std::int64_t column = first; column <= std::min(last, first + count - 1); ++column) {
-    columns[static_cast<std::size_t>((column % count + count) % count)].push_back({nearest, &object});
-  }
-}
-
-/// For each column the objects its rays may meet, nearest first.
-std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
-                                                         std::size_t columns) {
-  std::vector<std::vector<Candidate>> candidates(columns);
-  for (const PlacedObject& object : objects)
-    add_candidate(candidates, object);
-  for (auto& column : candidates) {
-    std::sort(column.begin(), column.end(),
-              [](const Candidate& a, const Candidate& b) { return a.nearest < b.nearest; });
-  }
-  return candidates;
 }
 
 /// The point that the sensor reports for a hit, written at position i.
@@ -102,8 +51,8 @@ void record(const Ray& ray, Hit hit, bool ground, SynthCloud& cloud, std::size_t
 }  // namespace
 
 std::string_view name_of(StreetObjectKind kind) {
-  constexpr std::array<std::string_view, 7> names{"car",  "pedestrian", "pole", "house",
-                                                  "wall", "hedge",      "tree"};
+  constexpr std::array<std::string_view, 9> names{"car",   "pedestrian", "pole",    "house", "wall",
+                                                  "hedge", "tree",       "cyclist", "bridge"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -43,5 +43,9 @@ Model make_house(SplitMix64& random);
 Model make_hedge_or_wall(SplitMix64& random);
 Model make_tree(SplitMix64& random);
 Model make_bush(SplitMix64& random);
+Model make_cyclist(SplitMix64& random);
+Model make_low_wall(SplitMix64& random);
+Model make_avenue_tree(SplitMix64& random);
+Model make_bridge(SplitMix64& random);
 
 }  // namespace pcl_bv

@@ -12,6 +12,8 @@ RawCloud to_raw_cloud(const SynthCloud& cloud) {
   RawCloud raw = make_cloud(cloud.xyz);
   if (!cloud.object.empty()) set_uint32_field(raw, "object", cloud.object);
   if (!cloud.ground.empty()) set_uint32_field(raw, "ground", cloud.ground);
+  if (!cloud.vegetation.empty()) set_uint32_field(raw, "vegetation", cloud.vegetation);
+  if (!cloud.kind.empty()) set_uint32_field(raw, "kind", cloud.kind);
   raw.height = cloud.height;
   raw.width = cloud.size() / cloud.height;
   return raw;

@@ -39,7 +39,8 @@ struct StreetOptions {
   std::size_t beams = street_beams;  ///< At least 1; twice as many lie half-way between those of 64 as well.
 };
 
-enum class StreetObjectKind : std::uint8_t { car, pedestrian, pole, house, wall, hedge, tree };
+/// The last two are in the verges (verges.h) only.
+enum class StreetObjectKind : std::uint8_t { car, pedestrian, pole, house, wall, hedge, tree, cyclist, bridge };
 
 /// "car", "pedestrian", ...
 std::string_view name_of(StreetObjectKind kind);

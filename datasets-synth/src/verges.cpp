@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/synth/verges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "street_cast.h"
+#include "sweep.h"
+#include "verges_layout.h"
+#include "verges_world.h"
+
+namespace pcl_bv {
+namespace verges {
+namespace {
+
+constexpr double kDropped = 0.015, kReflected = 1.0 / 700, kGrown = 0.75;
+constexpr double kRadians = std::numbers::pi / 180;
+
+struct Sensor {
+  std::size_t beams, columns;
+  double height, pitch, roll;  // metres, degrees; nose down, left side down
+};
+
+Sensor sensor_of(std::size_t beams) {
+  switch (beams) {
+    case 16:
+      return {16, 1800, 1.2, 0, 0};
+    case 32:
+      return {32, 1800, 2.4, 5, 0};
+    case 64:
+      return {64, 2000, street_sensor_height, 0, 0};
+    case 128:
+      return {128, 1800, 2, 0, 2};
+    default:
+      throw std::invalid_argument("verges: beams is " + std::to_string(beams) +
+                                  ", must be 16, 32, 64 or 128");
+  }
+}
+
+double elevation_of(std::size_t beams, std::size_t row) {
+  const auto i = static_cast<double>(row);
+  if (beams == 16) return 15 - 2 * i;
+  if (beams == 32) return 10.67 - i * 41.34 / 31;
+  if (row < 32) return 15 - i * 13 / 32;
+  return row < 96 ? 2 - (i - 32) / 8 : -6 - (i - 96) * 19 / 31;
+}
+
+Vec3 ray_of(const Sensor& sensor, std::size_t row, std::size_t column) {
+  if (sensor.beams == street_beams) {
+    const auto [x, y, z] = street_beam(static_cast<double>(row), column, sensor.columns);
+    return {x, y, z};
+  }
+  const double elevation = elevation_of(sensor.beams, row) * kRadians;
+  const double azimuth = azimuth_of(static_cast<double>(column), sensor.columns);
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+          std::sin(elevation)};
+}
+
+/// Where the sensor is, in the fixed frame.
+struct Mount {
+  Vec3 place, forward, left, up;
+
+  Vec3 to_sensor(Vec3 v) const { return {dot(v, forward), dot(v, left), dot(v, up)}; }
+  Vec3 to_fixed(Vec3 v) const { return v.x * forward + v.y * left + v.z * up; }
+};
+
+Mount mount(const World& world, const Sensor& sensor, double along) {
+  const PlacedObject car = on_road(world, {along, own_lane}, false, true);
+  const double p = sensor.pitch * kRadians, r = sensor.roll * kRadians;
+  const Vec3 forward = std::cos(p) * car.forward - std::sin(p) * car.up;
+  const Vec3 up = std::sin(p) * car.forward + std::cos(p) * car.up;
+  return {car.base + sensor.height * car.up, forward, std::cos(r) * car.left - std::sin(r) * up,
+          std::sin(r) * car.left + std::cos(r) * up};
+}
+
+std::array<double, 3> to_array(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+PlacedObject seen_from(const Mount& sensor, PlacedObject object) {
+  object.base = sensor.to_sensor(object.base - sensor.place);
+  object.forward = sensor.to_sensor(object.forward);
+  object.left = sensor.to_sensor(object.left);
+  object.up = sensor.to_sensor(object.up);
+  return object;
+}
+
+VergesObject truth_of(const PlacedObject& seen, const VergesPlaced& placed) {
+  const Box3& bounds = seen.model.bounds;
+  return {seen.id,
+          seen.model.kind,
+          to_array(seen.to_sensor(0.5 * (bounds.lo + bounds.hi))),
+          {to_array(seen.forward), to_array(seen.left), to_array(seen.up)},
+          to_array(0.5 * (bounds.hi - bounds.lo)),
+          to_array(placed.object.velocity),
+          placed.yaw_rate};
+}
+
+enum class What : std::uint8_t { nothing, object, ground, grass, reflection };
+
+struct Return {
+  double range = 0;
+  What what = What::nothing;
+};
+
+// Blades of grass end a ray before it comes to the ground; a mirrored one goes on below it.
+Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double sinking) {
+  SplitMix64 random(ray.key);
+  const double noise = street_range_noise * random.normal();
+  const bool dropped = random.uniform() < std::max(kDropped, hit.loss);
+  const double luck = random.uniform();
+  if (hit.range >= street_max_range || dropped) return {};
+  if (!ground) return {hit.range + noise, What::object};
+  if (luck < kReflected) return {hit.range * random.uniform(1.15, 1.6) + noise, What::reflection};
+  if (grass > 0 && random.uniform() < kGrown) {
+    const double blade = grass * random.uniform(0.2, 1);
+    return {hit.range - std::min(blade / std::max(sinking, 0.02), 1.5) + noise, What::grass};
+  }
+  return {hit.range + noise, What::ground};
+}
+
+struct Sweep {
+  const Sensor& sensor;
+  const Mount& at;
+  const Terrain& terrain;
+  const std::vector<PlacedObject>& objects;
+  std::uint64_t seed, frame;
+
+  void record(const Ray& ray, SynthCloud& cloud, std::size_t i,
+              const std::vector<Candidate>& candidates) const {
+    Hit hit;
+    for (const Candidate& candidate : candidates) {
+      if (candidate.nearest >= hit.range) break;
+      cast(ray, *candidate.object, hit);
+    }
+    const Vec3 direction = at.to_fixed(ray.direction);
+    const double range = terrain.cast(at.place, direction);
+    const bool ground = range < hit.range;
+    double grass = 0;
+    if (ground) {
+      hit = {range, 0, 0};
+      const Vec3 p = at.place + range * direction;
+      grass = terrain.grass(p.x, p.y);
+    }
+    const Return seen = return_of(ray, hit, ground, grass, -direction.z);
+    if (seen.what == What::nothing) return;
+    const Vec3 point = seen.range * ray.direction;
+    cloud.xyz[3 * i] = static_cast<float>(point.x);
+    cloud.xyz[3 * i + 1] = static_cast<float>(point.y);
+    cloud.xyz[3 * i + 2] = static_cast<float>(point.z);
+    cloud.object[i] = hit.object;
+    cloud.ground[i] = seen.what == What::ground;
+    cloud.vegetation[i] = seen.what == What::grass;
+    if (hit.object == 0) return;
+    const auto object = std::lower_bound(objects.begin(), objects.end(), hit.object,
+                                         [](const PlacedObject& o, std::uint32_t id) { return o.id < id; });
+    cloud.kind[i] = 1 + static_cast<std::uint32_t>(object->model.kind);
+  }
+
+  SynthCloud make() const {
+    const auto candidates = candidates_by_column(objects, sensor.columns);
+    const std::size_t rays = sensor.beams * sensor.columns;
+    SynthCloud cloud;
+    cloud.xyz.resize(3 * rays);
+    for (auto* labels : {&cloud.object, &cloud.ground, &cloud.vegetation, &cloud.kind})
+      labels->resize(rays);
+    cloud.height = sensor.beams;
+    for (std::size_t i = 0; i < rays; ++i) {
+      const std::size_t column = i % sensor.columns;
+      const Ray ray{ray_of(sensor, i / sensor.columns, column), SplitMix64({seed, frame, i}).next()};
+      record(ray, cloud, i, candidates[column]);
+    }
+    return cloud;
+  }
+};
+
+}  // namespace
+}  // namespace verges
+
+VergesFrame make_verges_frame(const VergesOptions& options, std::size_t frame) {
+  using namespace verges;
+  const Sensor sensor = sensor_of(options.beams);
+  const double seconds = static_cast<double>(frame) * street_frame_seconds;
+  const double along = driven(options.seed, seconds);
+  const World world(options.seed, along);
+  const Mount at = mount(world, sensor, along);
+  const Terrain terrain(world, options.seed, at.place.x, at.place.y);
+  VergesFrame result;
+  std::vector<PlacedObject> objects;
+  for (const VergesPlaced& placed : place_verges(world, options.seed, seconds)) {
+    PlacedObject seen = seen_from(at, placed.object);
+    if (nearest_distance(seen) >= street_max_range) continue;
+    result.objects.push_back(truth_of(seen, placed));
+    objects.push_back(std::move(seen));
+  }
+  result.cloud = Sweep{sensor, at, terrain, objects, options.seed, frame}.make();
+  result.pose = {at.forward.x, at.left.x,  at.up.x,      at.place.x, at.forward.y, at.left.y,
+                 at.up.y,      at.place.y, at.forward.z, at.left.z,  at.up.z,      at.place.z};
+  return result;
+}
+
+double verges_ground_height(std::uint64_t seed, std::size_t frame, double x, double y) {
+  return verges::World(seed, verges::driven(seed, static_cast<double>(frame) * street_frame_seconds)).height(x, y);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "verges_world.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pcl_bv::verges {
+namespace {
+
+constexpr double kBend = 60;          // metres from one bend of the road to the next
+constexpr double kCurvature = 0.045;  // 1/m: 30 degrees a second at 11.6 m/s
+constexpr double kClothoid = 4;       // metres over which a bend begins and ends
+constexpr double kSample = 0.25;      // metres
+constexpr double kRoadReach = 200;        // metres of road on either side
+constexpr double kStretch = 40;       // metres of road with the same side
+constexpr double kBlend = 3;          // metres over which sides change
+constexpr double kKerb = 4;           // metres from the middle
+constexpr double kKerbHeight = 0.12;  // metres
+constexpr double kDitchMiddle = 7, kDitchHalfWidth = 1.3;
+
+// Numbers that depend on a place only.
+double number(std::uint64_t seed, std::uint64_t what, std::int64_t place) {
+  return SplitMix64({seed, what, static_cast<std::uint64_t>(place)}).uniform();
+}
+
+// Headings between bends alternate, so that the road keeps its direction and never meets itself.
+double heading_after(std::uint64_t seed, std::int64_t bend) {
+  const double size = 0.35 + 0.23 * number(seed, 1, bend);
+  return bend % 2 == 0 ? size : -size;
+}
+
+double smooth(double t) {
+  const double u = std::clamp(t, 0.0, 1.0);
+  return u * u * (3 - 2 * u);
+}
+
+}  // namespace
+
+double Road::curvature(std::uint64_t seed, double along) {
+  const double bend = std::floor(along / kBend), local = along - bend * kBend;
+  const auto number = static_cast<std::int64_t>(bend);
+  const double turn = heading_after(seed, number) - heading_after(seed, number - 1);
+  const double length = std::abs(turn) / kCurvature + kClothoid;
+  const double shape = std::min({1.0, local / kClothoid, (length - local) / kClothoid});
+  return shape <= 0 ? 0 : std::copysign(kCurvature * shape, turn);
+}
+
+// From the beginning of the road on, so that every frame has the same one.
+Road::Road(std::uint64_t seed, double around) {
+  double heading = heading_after(seed, -1 - static_cast<std::int64_t>(kRoadReach / kBend) - 1);
+  const double origin = -kBend * (std::floor(kRoadReach / kBend) + 1);
+  begin_ = around - kRoadReach;
+  double x = origin, y = 0;
+  const auto steps = static_cast<std::int64_t>((around + kRoadReach - origin) / kSample);
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const double along = origin + kSample * static_cast<double>(i);
+    if (along >= begin_) {
+      if (samples_.empty()) begin_ = along;
+      samples_.push_back({x, y, heading});
+    }
+    const double turned = heading + 0.5 * kSample * curvature(seed, along + 0.25 * kSample);
+    x += kSample * std::cos(turned);
+    y += kSample * std::sin(turned);
+    heading += kSample * curvature(seed, along + 0.5 * kSample);
+  }
+}
+
+Vec3 Road::at(double along) const {
+  const double place = std::clamp((along - begin_) / kSample, 0.0, static_cast<double>(samples_.size() - 2));
+  const auto i = static_cast<std::size_t>(place);
+  const double t = place - static_cast<double>(i);
+  const Sample &a = samples_[i], &b = samples_[i + 1];
+  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0};
+}
+
+double Road::heading(double along) const {
+  const double place = std::clamp((along - begin_) / kSample, 0.0, static_cast<double>(samples_.size() - 2));
+  const auto i = static_cast<std::size_t>(place);
+  const double t = place - static_cast<double>(i);
+  return samples_[i].heading + t * (samples_[i + 1].heading - samples_[i].heading);
+}
+
+double Road::guess(double x) const {
+  const auto after = std::upper_bound(samples_.begin(), samples_.end(), x,
+                                      [](double value, const Sample& sample) { return value < sample.x; });
+  return begin_ + kSample * static_cast<double>(after - samples_.begin());
+}
+
+RoadPlace Road::place_of(double x, double y, double guess, int steps) const {
+  double along = guess;
+  for (int i = 0; i < steps; ++i) {
+    const Vec3 middle = at(along);
+    const double angle = heading(along);
+    along += 0.9 * ((x - middle.x) * std::cos(angle) + (y - middle.y) * std::sin(angle));
+  }
+  const Vec3 middle = at(along);
+  const double angle = heading(along);
+  return {along, (y - middle.y) * std::cos(angle) - (x - middle.x) * std::sin(angle)};
+}
+
+// Rounds of 20 s: faster for 4 s, on for 9 s, slower for 3 s, a stand for 2 s in every other round.
+double driven(std::uint64_t seed, double seconds) {
+  constexpr double kRound = 18;
+  double way = 0;
+  for (double begin = 0; begin < seconds; begin += kRound) {
+    const double top = 8 + 4 * number(seed, 2, std::llround(begin));
+    const auto round = std::llround(begin / kRound);
+    const double slow = round % 2 == 0 ? 0 : 3;
+    const double before = round % 2 == 0 ? 3 : 0;
+    const double t = std::min(seconds - begin, kRound);
+    const double up = std::min(t, 4.0), on = std::clamp(t - 4, 0.0, 9.0);
+    const double down = std::clamp(t - 13, 0.0, 3.0), still = std::max(t - 16, 0.0);
+    way += (before + (top - before) * up / 8) * up + top * on + (top - (top - slow) * down / 6) * down +
+           slow * still;
+  }
+  return way;
+}
+
+World::World(std::uint64_t seed, double along) : road(seed, along), seed_(seed) {
+  for (std::size_t i = 0; i < phases_.size(); ++i)
+    phases_[i] = 2 * std::numbers::pi * number(seed, 7, static_cast<std::int64_t>(i));
+}
+
+Side World::side_of(double along, bool left) const {
+  const auto stretch = static_cast<std::int64_t>(std::floor(along / kStretch));
+  return static_cast<Side>(static_cast<int>(3 * number(seed_, left ? 3 : 4, stretch)));
+}
+
+double World::side_profile(Side side, std::uint64_t key, double away) const {
+  if (side == Side::kerb) return kKerbHeight * smooth((away - kKerb) / 0.1);
+  if (side == Side::verge) return 0;
+  const double depth = 0.3 + 0.5 * SplitMix64(key).uniform();
+  const double t = std::abs(away - kDitchMiddle) / kDitchHalfWidth;
+  return t < 1 ? -0.5 * depth * (1 + std::cos(std::numbers::pi * t)) : 0;
+}
+
+// Across the road: it falls by 2 % to both sides, then what is beside it.
+double World::profile(double along, double left) const {
+  const double away = std::abs(left);
+  const double camber = -0.02 * std::min(away, kKerb);
+  if (away <= kKerb) return camber;
+  const double stretch = std::floor(along / kStretch);
+  const double into = along - stretch * kStretch;
+  const auto key = [&](double of) {
+    return SplitMix64({seed_, left > 0 ? 5U : 6U, static_cast<std::uint64_t>(static_cast<std::int64_t>(of))})
+        .next();
+  };
+  const double own = side_profile(side_of(along, left > 0), key(stretch), away);
+  const double blend = 1 - smooth(into / kBlend);  // of the stretch before
+  if (blend == 0) return camber + own;
+  const double last = side_profile(side_of(along - kBlend, left > 0), key(stretch - 1), away);
+  return camber + own + blend * (last - own);
+}
+
+double World::height(double x, double y, const RoadPlace& place) const {
+  const double hills = 4.2 * std::sin(x / 36 + phases_[0]) + 1.2 * std::sin(y / 25 + phases_[1]) +
+                       0.35 * std::sin((x + y) / 13 + phases_[2]);
+  return hills + profile(place.along, place.left);
+}
+
+double World::height(double x, double y) const {
+  return height(x, y, road.place_of(x, y, road.guess(x)));
+}
+
+Vec3 World::normal(double x, double y) const {
+  constexpr double d = 0.6;
+  return normalized(
+      {(height(x - d, y) - height(x + d, y)) / (2 * d), (height(x, y - d) - height(x, y + d)) / (2 * d), 1});
+}
+
+double World::roughness(const RoadPlace& place) const {
+  const double away = std::abs(place.left);
+  const bool paved = away < kKerb || (away < 8 && side_of(place.along, place.left > 0) == Side::kerb);
+  return paved ? 0.003 : away < 8 ? 0.02 : 0.04;
+}
+
+// Kept short on the first metre, high in and behind ditches.
+double World::grass(const RoadPlace& place) const {
+  const double away = std::abs(place.left);
+  const Side side = side_of(place.along, place.left > 0);
+  if (away < kKerb + 0.2 || (away < 8 && side == Side::kerb)) return 0;
+  return away < 5.5 ? 0.06 : side == Side::ditch ? 0.22 : 0.12;
+}
+
+namespace {
+
+constexpr double kCell = 0.25;  // metres
+constexpr double kHalf = 104;   // metres from the sensor to the edge
+constexpr auto kSide = static_cast<std::size_t>(2 * kHalf / kCell);
+
+}  // namespace
+
+// Nodes of the grid are where they are in the fixed frame, so that roughness stays from frame to frame.
+Terrain::Terrain(const World& world, std::uint64_t seed, double x, double y)
+    : x_(std::floor((x - kHalf) / kCell) * kCell), y_(std::floor((y - kHalf) / kCell) * kCell) {
+  heights_.resize(kSide * kSide);
+  grass_.resize(kSide * kSide);
+  const double left = std::round(x_ / kCell), low = std::round(y_ / kCell);
+  for (std::size_t i = 0; i < kSide; ++i) {
+    const double at = x_ + kCell * static_cast<double>(i);
+    RoadPlace place{world.road.guess(at), 0};
+    for (std::size_t k = 0; k < kSide; ++k) {
+      const double across = y_ + kCell * static_cast<double>(k);
+      place = world.road.place_of(at, across, place.along, 2);  // the last one is 0.25 m away
+      const auto column =
+          static_cast<std::uint64_t>(static_cast<std::int64_t>(left) + static_cast<std::int64_t>(i));
+      const auto row =
+          static_cast<std::uint64_t>(static_cast<std::int64_t>(low) + static_cast<std::int64_t>(k));
+      SplitMix64 random({seed, column, row});
+      const double rough = world.roughness(place) * random.uniform(-1, 1);
+      heights_[i * kSide + k] = static_cast<float>(world.height(at, across, place) + rough);
+      grass_[i * kSide + k] = static_cast<float>(world.grass(place));
+    }
+  }
+}
+
+double Terrain::height(double x, double y) const {
+  const double u = (x - x_) / kCell, v = (y - y_) / kCell;
+  if (!(u >= 0 && v >= 0 && u < kSide - 1 && v < kSide - 1)) return -std::numeric_limits<double>::infinity();
+  const auto i = static_cast<std::size_t>(u), k = static_cast<std::size_t>(v);
+  const double s = u - static_cast<double>(i), t = v - static_cast<double>(k);
+  const float* const at = heights_.data() + i * kSide + k;
+  const double low = at[0] + t * (double{at[1]} - at[0]),
+               high = at[kSide] + t * (double{at[kSide + 1]} - at[kSide]);
+  return low + s * (high - low);
+}
+
+double Terrain::grass(double x, double y) const {
+  const double u = (x - x_) / kCell, v = (y - y_) / kCell;
+  if (!(u >= 0 && v >= 0 && u < kSide && v < kSide)) return 0;
+  return grass_[static_cast<std::size_t>(u) * kSide + static_cast<std::size_t>(v)];
+}
+
+// No ground but the banks of ditches is steeper than 1: so far a ray may go without a look.
+double Terrain::cast(Vec3 origin, Vec3 direction) const {
+  const double level = std::hypot(direction.x, direction.y);
+  const double speed = 1.0 * level + std::abs(direction.z);
+  const auto above = [&](double range) {
+    const Vec3 p = origin + range * direction;
+    return p.z - height(p.x, p.y);
+  };
+  double range = 0, last = 0;
+  for (double clearance = above(0); clearance > 0; clearance = above(range)) {
+    last = range;
+    range += std::max(0.1, clearance / speed);
+    if (range > 100 || (direction.z > 0 && clearance > 12)) return std::numeric_limits<double>::infinity();
+  }
+  double under = range;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = 0.5 * (last + under);
+    (above(middle) > 0 ? last : under) = middle;
+  }
+  return under;
+}
+
+}  // namespace pcl_bv::verges
