@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -49,6 +50,10 @@ double wavy(double x, double y) {
 }
 double camber(double x, double y) {
   return -1.7 + 0.05 * x - 0.08 * y;
+}
+double ditch(double, double y) {
+  const double t = std::min(1.0, std::abs(y - 10) / 3);
+  return -1.7 - 0.28 * (1 + std::cos(3.14159265358979 * t));
 }
 double steep_along_x(double x, double) {
   return -1.7 + 0.6 * x;
@@ -176,6 +181,17 @@ TEST(GroundZones, GoOnWhereALorryHidesTheRoad) {
       cloud.push_back({12, y, z});
   }
   expect_split(split(view(cloud)), ground, cloud.size());
+}
+
+// 0.56 m deep and 6 m wide.
+TEST(GroundZones, GoOnBehindADitch) {
+  const Cloud<float> cloud = ground_of(ditch);
+  const GroundSplit result = split(view(cloud));
+  const auto behind = [&](std::int32_t i) { return cloud[static_cast<std::size_t>(i)][1] > 13; };
+  const std::vector<std::int32_t> all = numbers(0, cloud.size());
+  const auto there = std::count_if(all.begin(), all.end(), behind);
+  const auto found = std::count_if(result.ground.begin(), result.ground.end(), behind);
+  EXPECT_GE(static_cast<double>(found), 0.99 * static_cast<double>(there));
 }
 
 TEST(GroundZones, AreNoneWithoutPoints) {

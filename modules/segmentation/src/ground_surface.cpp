@@ -14,15 +14,18 @@ namespace {
 // A cell's lowest point is ground up to so far above and below the height expected, metres, and so much
 // farther for each metre since ground was last seen: curbs and clods pass, bonnets and seats of benches do
 // not.
-constexpr float above = 0.12F, above_growth = 0.02F, above_most = 0.3F;
-constexpr float below = 0.2F, below_growth = 0.05F, below_most = 1;
+constexpr float above = 0.12F, above_growth = 0.024F, above_most = 0.225F;
+constexpr float below = 0.1F, below_growth = 0.05F, below_most = 1;
 
 // Where something stands the lowest point may be its own.
-constexpr float foot_above = 0.03F, foot_growth = 0.02F;
+constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
-// What a rise says of the slope counts over so many metres, and a slope fades by so much in each: tilts go
-// on, but their errors must not grow with the distance.
-constexpr float slope_memory = 3, slope_loss = 0.02F;
+// What a rise says of the slope counts over so many metres.
+constexpr float slope_memory = 2.6F;
+
+// What is expected sinks by so much a metre at most, beyond its slope: behind a ditch the ground goes on as
+// before it.
+constexpr float fall = 0.06F;
 
 constexpr float first_age = 2;      // metres; the plane around the sensor is a guess for the innermost cells
 constexpr float never = 1000;       // metres since ground was seen
@@ -63,20 +66,20 @@ void GroundSurface::walk_out(const CellFacts& cells) {
       float& slope = front.slope[s + 1];
       height += slope * ring_width;
       age += ring_width;
-      slope -= slope_loss * ring_width * slope;
       const float up =
           stands ? foot_above + foot_growth * age : std::min(above_most, above + above_growth * age);
       const float down = std::min(below_most, below + below_growth * age);
       const float rise = low - height;
       const bool seen = rise <= up && rise >= -down;
       slope = seen ? slope + rise / (age + slope_memory) : slope;
-      height = seen ? low : height;
+      height = seen ? std::max(low, height - fall * ring_width) : height;
       front.anchor[s + 1] = seen ? low : front.anchor[s + 1];
       age = seen ? 0 : age;
       seen_[first + s] = seen;
     }
     front.share(width_of(ring));
-    std::copy_n(front.height.data() + 1, sector_count, height_.data() + first);
+    for (std::size_t s = 0; s < sector_count; ++s)
+      height_[first + s] = seen_[first + s] != 0 ? cells.low[first + s] : front.height[s + 1];
     std::copy_n(front.anchor.data() + 1, sector_count, anchor_.data() + first);
     std::copy_n(front.age.data() + 1, sector_count, age_.data() + first);
   }

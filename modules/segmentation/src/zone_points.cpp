@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kBatch = 512;
 
 // A cell whose lowest point is so far below all around it has a reflection in it, metres.
-constexpr float pit_depth = 0.25F;
+constexpr float pit_depth = 0.2F;
 
 // Something stands in a cell if it holds points so far above its lowest one, metres: a curb does not, and
 // neither does what is over a road.
