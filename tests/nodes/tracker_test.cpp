@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <map>
+#include <random>
 #include <set>
 
 #include "pcl_bv/nodes/frame_pipeline.h"
@@ -55,7 +58,11 @@ TEST(Tracker, SaysHowOldAndHowFastAnObjectIs) {
   }
   const auto other = update(tracker, 6, {box(3, 0), box(20, 0)}, config);
   EXPECT_EQ(other[0].track->age, 7U);
-  EXPECT_EQ(other[1].track, (TrackEntry{1, 1, Eigen::Vector3d::Zero()}));
+  ASSERT_TRUE(other[1].track);
+  EXPECT_EQ(other[1].track->id, 1U);
+  EXPECT_EQ(other[1].track->age, 1U);
+  EXPECT_EQ(other[1].track->velocity, Eigen::Vector3d::Zero());
+  EXPECT_EQ(other[1].track->pose, (std::array<double, 4>{20, 0, 0, 0}));
 }
 
 TEST(Tracker, KeepsIdsWhereObjectsCross) {
@@ -112,6 +119,101 @@ TEST(Tracker, AGapBeforeTheSecondSightingDoesNotDoubleTheVelocity) {
   update(tracker, 2, {box(2, 0)}, config);  // 10 m/s, not 20
   config.gate = 0.5;
   EXPECT_EQ(id_of(update(tracker, 3, {box(3, 0)}, config)[0]), 0U);
+}
+
+// Stamps 0, 1 or 100 ms apart, whatever the time was; places to 3 cm.
+TEST(Tracker, KeepsTheIdHoweverStampsJitter) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    std::mt19937 random(seed);
+    const auto noise = [&] { return 0.06 * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
+    Tracker tracker;
+    std::vector<Tracker::Assignment> found;
+    std::int64_t stamp = 0;
+    for (int i = 0; i < 60; ++i) {
+      const std::int64_t steps[] = {0, 1'000'000, 100'000'000};
+      stamp += steps[random() % 3];
+      tracker.update(stamp, {box(noise(), 10 + noise())}, {}, found);
+      if (i < 2) continue;
+      ASSERT_EQ(id_of(found[0]), 0U) << "seed " << seed << " frame " << i;
+      ASSERT_LT(found[0].track->velocity.norm(), 2) << "seed " << seed << " frame " << i;
+      ASSERT_FALSE(found[0].moving) << "seed " << seed << " frame " << i;
+    }
+  }
+}
+
+TEST(Tracker, KeepsIdsWhileTheOwnVehicleTurns) {
+  for (const bool posed : {true, false}) {
+    std::vector<Eigen::Vector2d> places;
+    for (int i = 0; i < 40; ++i)
+      places.push_back((i % 2 == 0 ? 50 : 25 + i / 2) *
+                       Eigen::Vector2d(std::cos(0.157 * i), std::sin(0.157 * i)));
+    Tracker tracker;
+    std::vector<Tracker::Assignment> found;
+    for (int f = 0; f < 30; ++f) {
+      Pose pose = Pose::Identity();
+      pose.linear() = Eigen::AngleAxisd(0.0524 * f, Eigen::Vector3d::UnitZ()).toRotationMatrix();  // 30 deg/s
+      pose.translation() << 0.5 * f, 0, 0;
+      std::vector<Aabb> boxes;
+      for (const Eigen::Vector2d& place : places) {
+        const Eigen::Vector3d at = pose.inverse() * Eigen::Vector3d(place.x(), place.y(), 0);
+        boxes.push_back(box(at.x(), at.y()));
+      }
+      tracker.update(f * 100'000'000LL, boxes, {}, found, posed ? std::optional(pose) : std::nullopt);
+      for (std::size_t i = 0; f >= 2 && i < boxes.size(); ++i) {
+        ASSERT_EQ(id_of(found[i]), i) << "frame " << f << " posed " << posed;
+        ASSERT_FALSE(found[i].moving) << "frame " << f << " posed " << posed;
+        if (posed) {
+          ASSERT_LT(found[i].track->velocity.norm(), 1e-6) << f;
+        }
+      }
+    }
+  }
+}
+
+TEST(Tracker, AnObjectThatMergesWithAnotherKeepsItsId) {
+  Tracker tracker;
+  for (int i = 0; i < 5; ++i)
+    update(tracker, i, {box(0, 0, 2), box(2.2, 0, 1)});
+  for (int i = 5; i < 15; ++i)  // twice as long as an object that is not seen lives
+    EXPECT_EQ(id_of(update(tracker, i, {Aabb({-1, -1, -1}, {2.7, 1, 1})})[0]), 0U);
+  const auto found = update(tracker, 15, {box(0, 0, 2), box(2.2, 0, 1)});
+  EXPECT_EQ(id_of(found[0]), 0U);
+  EXPECT_EQ(id_of(found[1]), 1U);
+}
+
+TEST(Tracker, KeepsTheIdOfAnObjectThatBrakesAndTurns) {
+  Tracker tracker;
+  Eigen::Vector2d at(-20, 0);
+  double speed = 12, yaw = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto found = update(tracker, i, {box(at.x(), at.y(), 2)});
+    if (i >= 2) {
+      ASSERT_EQ(id_of(found[0]), 0U) << i;
+    }
+    if (i == 30) {
+      EXPECT_TRUE(found[0].moving);
+    }
+    at += 0.1 * speed * Eigen::Vector2d(std::cos(yaw), std::sin(yaw));
+    if (i < 12) speed -= 0.7;  // 7 m/s^2
+    if (i > 15 && i < 45) yaw += 0.06;
+  }
+}
+
+TEST(Tracker, MovesWhatItFollowsIntoTheFixedFrameWhenPosesCome) {
+  Tracker tracker;
+  std::vector<Tracker::Assignment> found;
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::AngleAxisd(2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  pose.translation() << 1000, -2000, 5;
+  for (int i = 0; i < 8; ++i) {
+    tracker.update(i * 100'000'000LL, {box(10 + 0.5 * i, 3)}, {}, found,
+                   i < 4 || i == 6 ? std::nullopt : std::optional(pose));
+    if (i < 2) continue;
+    ASSERT_EQ(id_of(found[0]), 0U) << i;
+    const Eigen::Vector3d along(5, 0, 0);
+    const Eigen::Vector3d expected = i < 4 || i == 6 ? along : Eigen::Vector3d(pose.linear() * along);
+    EXPECT_LT((found[0].track->velocity - expected).norm(), 1e-6) << i;
+  }
 }
 
 TEST(BoxGrid, LooksAtFewOfManyBoxesInARowAndAtAllThatAreNear) {

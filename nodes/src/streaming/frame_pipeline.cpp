@@ -204,7 +204,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   const bool nothing = result.clusters.size() == 1 && result.clusters.cluster_size(0) == 0;  // has no place
   if (now->config.track.enabled && nothing) result.tracks.resize(result.clusters.size());
   if (now->config.track.enabled && !nothing) {
-    state_->tracks.update(now->config.track, state_->views, result);
+    state_->tracks.update(now->config.track, state_->views, frame.pose, result);
   } else {
     state_->tracks.reset();
   }

@@ -36,7 +36,7 @@ void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, std::size_
 }
 
 void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointView>& clusters,
-                            FrameResult& result) {
+                            const std::optional<Pose>& pose, FrameResult& result) {
   if (methods_ != result.methods) {
     methods_ = result.methods;
     last_.clear();
@@ -44,7 +44,7 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   boxes_.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
     boxes_.push_back(box_of(result, i, clusters[i]));
-  tracker_.update(result.header.stamp_ns, boxes_, config, assignments_);
+  tracker_.update(result.header.stamp_ns, boxes_, config, assignments_, pose);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     result.tracks.push_back(assignments_[i].track);
     keep_axes(assignments_[i], i, result);

@@ -4,6 +4,7 @@
 // Tracks of a frame's clusters, and boxes that do not flip from one frame to the next.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "pcl_bv/nodes/frame_result.h"
@@ -14,8 +15,9 @@ namespace pcl_bv {
 class TrackedVolumes {
  public:
   /// Fills result.tracks, and names the axes of each oriented box as those of the same object's last one.
-  /// `clusters`: the points of each.
-  void update(const TrackConfig& config, const std::vector<PointView>& clusters, FrameResult& result);
+  /// `clusters`: the points of each; `pose`: of the sensor in a fixed frame, if it is known.
+  void update(const TrackConfig& config, const std::vector<PointView>& clusters,
+              const std::optional<Pose>& pose, FrameResult& result);
 
   /// Forgets all tracks, but not which ids were given.
   void reset() { tracker_.reset(); }

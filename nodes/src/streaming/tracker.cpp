@@ -1,129 +1,230 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Greedy nearest-neighbour association with constant velocity.
+// Which box is whose: what is expected, what is likely, and what costs least.
 
 #include "pcl_bv/nodes/tracker.h"
 
 #include <algorithm>
-#include <tuple>
+#include <cmath>
 
 #include "box_grid.h"
+#include "tracking/assignment.h"
+#include "tracking/ego_motion.h"
+#include "tracking/track.h"
 
 namespace pcl_bv {
 namespace {
 
-// How much of what a sighting contradicts is believed: centres of partial views jump by decimetres.
-constexpr double kPositionGain = 0.8;
-constexpr double kVelocityGain = 0.5;
+constexpr double kGateCost = 16;         // four standard deviations
+constexpr std::size_t kHiddenShare = 4;  // frames inside another's box that count as one without a sighting
+
+Pose moved(const Pose& sensor, const PlanarMotion& motion) {
+  Pose step = Pose::Identity();
+  step.linear() = Eigen::AngleAxisd(motion.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  step.translation() << motion.shift, 0;
+  Pose next = sensor * step.inverse();
+  // Rounding must not add up over days.
+  next.linear() = Eigen::Quaterniond(next.linear()).normalized().toRotationMatrix();
+  return next;
+}
 
 }  // namespace
 
-Tracker::Tracker() : grid_(std::make_unique<BoxGrid>()) {}
+struct Tracker::State {
+  void move_sensor(double seconds, const std::vector<Aabb>& boxes, const std::optional<Pose>& pose);
+  void find_sensor(double seconds, const std::vector<Aabb>& boxes);
+  void find_pairs(const std::vector<Aabb>& boxes, double gate);
+  void join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void miss(const std::vector<Aabb>& boxes);
+  void bury(std::size_t death);
+  std::size_t free_slot();
+  Eigen::Vector3d apparent(const Eigen::Vector3d& place) const;
+
+  std::vector<Track> tracks;
+  std::vector<std::size_t> free;
+  std::vector<char> track_taken, box_taken;
+  std::vector<Aabb> expected;
+  std::vector<AssignmentPair> pairs;
+  BoxGrid grid;
+  SparseAssignment assignment;
+  EgoMotion ego;
+  PlanarMotion step;  // of standing points in the sensor's frame, over step_seconds
+  double step_seconds = 0;
+  Pose sensor = Pose::Identity();
+  bool posed = false;  // the frame is that of poses that were given
+  std::int64_t last_stamp_ns = 0;
+  bool started = false;
+  std::uint32_t next_id = 0;
+};
+
+// How fast a standing point seems to go.
+Eigen::Vector3d Tracker::State::apparent(const Eigen::Vector3d& place) const {
+  if (!(step_seconds > 0)) return Eigen::Vector3d::Zero();
+  const Eigen::Vector2d now = place.head<2>(), before = step.inverse() * now;
+  const Eigen::Vector2d velocity = (now - before) / step_seconds;
+  return {velocity.x(), velocity.y(), 0};
+}
+
+void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes) {
+  expected.clear();
+  for (Track& track : tracks) {
+    if (!track.alive || track.missed > 0) continue;
+    track.expect(sensor);
+    expected.push_back(track.box());
+  }
+  PlanarMotion guess;
+  if (step_seconds > 0) {
+    const double part = seconds / step_seconds;
+    guess = {part * step.yaw, part * step.shift};
+  }
+  PlanarMotion motion = guess;
+  const bool found = ego.estimate(expected, boxes, guess, motion);
+  sensor = moved(sensor, motion);
+  // Over a millisecond the noise of places is more than the way.
+  if (!found || seconds < 0.02) return;
+  step = motion;
+  step_seconds = seconds;
+}
+
+void Tracker::State::move_sensor(double seconds, const std::vector<Aabb>& boxes,
+                                 const std::optional<Pose>& pose) {
+  if (!pose || !posed) find_sensor(seconds, boxes);
+  if (pose && !posed) {  // what was followed so far moves into the fixed frame
+    for (Track& track : tracks) {
+      const Eigen::Matrix3d turn = pose->linear() * sensor.linear().transpose();
+      const Eigen::Vector3d place =
+          turn * (track.motion.place() - sensor.translation()) + pose->translation();
+      const Eigen::Vector3d velocity = turn * track.motion.velocity();
+      for (int i = 0; i < 3; ++i) {
+        track.motion.axes[static_cast<std::size_t>(i)].place = place[i];
+        track.motion.axes[static_cast<std::size_t>(i)].velocity = velocity[i];
+      }
+    }
+    posed = true;
+  }
+  if (pose) sensor = *pose;
+  for (Track& track : tracks)
+    if (track.alive) track.expect(sensor);
+}
+
+void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
+  pairs.clear();
+  grid.fill(boxes, 3 * gate);
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    const Track& track = tracks[t];
+    if (!track.alive) continue;
+    const Eigen::Vector3d centre = track.expected + (track.low + track.high) / 2;
+    grid.visit_near(centre, [&](std::size_t b) {
+      const double cost = cost_of(track, boxes[b], gate) + (track.id ? 0 : 1);
+      if (cost < kGateCost) pairs.push_back({t, b, cost});
+    });
+  }
+}
+
+void Tracker::State::join(double seconds, const std::vector<Aabb>& boxes,
+                          std::vector<Assignment>& assignments) {
+  track_taken.assign(tracks.size(), 0);
+  box_taken.assign(boxes.size(), 0);
+  assignment.solve(tracks.size(), boxes.size(), pairs, kGateCost);
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    const std::size_t b = assignment.columns()[t];
+    if (b == SparseAssignment::none) continue;
+    track_taken[t] = box_taken[b] = 1;
+    tracks[t].correct(boxes[b], sensor, seconds);
+    assignments[b].slot = t;
+  }
+}
+
+// A track whose place is inside the box of another is likely part of it, and comes back when they part.
+void Tracker::State::miss(const std::vector<Aabb>& boxes) {
+  for (std::size_t t = 0; t < track_taken.size(); ++t) {
+    Track& track = tracks[t];
+    if (!track.alive || track_taken[t] != 0) continue;
+    bool hides = false;
+    const Eigen::Vector3d centre = track.expected + (track.low + track.high) / 2;
+    grid.visit_near(centre, [&](std::size_t b) {
+      hides = hides || ((boxes[b].min().array() <= centre.array()).all() &&
+                        (centre.array() <= boxes[b].max().array()).all());
+    });
+    if (hides && ++track.hidden % kHiddenShare != 0) continue;
+    ++track.missed;
+  }
+}
+
+void Tracker::State::bury(std::size_t death) {
+  free.clear();
+  for (std::size_t t = tracks.size(); t-- > 0;) {
+    Track& track = tracks[t];
+    track.alive = track.alive && track.missed < death;
+    ++track.age;
+    if (!track.alive) free.push_back(t);
+  }
+}
+
+std::size_t Tracker::State::free_slot() {
+  if (free.empty()) {
+    tracks.emplace_back();
+    return tracks.size() - 1;
+  }
+  const std::size_t slot = free.back();
+  free.pop_back();
+  return slot;
+}
+
+Tracker::Tracker() : state_(std::make_unique<State>()) {}
 Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
-void Tracker::find_pairs(double seconds, const std::vector<Aabb>& boxes, double gate) {
-  pairs_.clear();
-  grid_->fill(boxes, 2 * gate);
-  for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    const Track& track = tracks_[t];
-    if (!track.alive) continue;
-    const Eigen::Vector3d expected = track.center + seconds * track.velocity;
-    grid_->visit_near(expected, [&](std::size_t b) {
-      const Eigen::Vector3d size = boxes[b].max() - boxes[b].min();
-      const double distance = (boxes[b].center() - expected).norm();
-      const double difference = (size - track.size).norm() / 2;
-      if (distance <= gate + std::min(difference, gate)) pairs_.push_back({distance + difference, t, b});
-    });
-  }
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tie(a.cost, a.track, a.box) < std::tie(b.cost, b.track, b.box);
-  });
-}
-
-// The second sighting is the first that says anything about the velocity, and is believed.
-void Tracker::correct(Track& track, const Aabb& box, double seconds) const {
-  const bool second = track.seen == 1;
-  const double passed = track.unseen + seconds;
-  const Eigen::Vector3d expected = track.center + seconds * track.velocity;
-  const Eigen::Vector3d surprise = box.center() - expected;
-  if (passed > 0) track.velocity += (second ? 1.0 : kVelocityGain) / passed * surprise;
-  track.center = expected + (second ? 1.0 : kPositionGain) * surprise;
-  track.size = box.max() - box.min();
-  track.unseen = 0;
-  track.missed = 0;
-  ++track.seen;
-}
-
-void Tracker::join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
-  track_taken_.assign(tracks_.size(), 0);
-  box_taken_.assign(boxes.size(), 0);
-  for (const Pair& pair : pairs_) {
-    if (track_taken_[pair.track] != 0 || box_taken_[pair.box] != 0) continue;
-    track_taken_[pair.track] = box_taken_[pair.box] = 1;
-    correct(tracks_[pair.track], boxes[pair.box], seconds);
-    assignments[pair.box].slot = pair.track;
-  }
-  for (std::size_t t = 0; t < track_taken_.size(); ++t) {
-    Track& track = tracks_[t];
-    if (!track.alive || track_taken_[t] != 0) continue;
-    ++track.missed;
-    track.unseen += seconds;
-    track.center += seconds * track.velocity;
-  }
-}
-
-std::size_t Tracker::free_slot() {
-  if (free_.empty()) {
-    tracks_.emplace_back();
-    return tracks_.size() - 1;
-  }
-  const std::size_t slot = free_.back();
-  free_.pop_back();
-  return slot;
-}
-
 void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
-                     std::vector<Assignment>& assignments) {
-  const double passed = 1e-9 * (static_cast<double>(stamp_ns) - static_cast<double>(last_stamp_ns_));
-  const double seconds = started_ && passed > 0 && passed <= 1 ? passed : 0;
-  started_ = true;
-  last_stamp_ns_ = stamp_ns;
+                     std::vector<Assignment>& assignments, const std::optional<Pose>& pose) {
+  State& s = *state_;
+  const double passed = 1e-9 * (static_cast<double>(stamp_ns) - static_cast<double>(s.last_stamp_ns));
+  const double seconds = s.started && passed > 0 && passed <= 1 ? passed : 0;
+  s.started = true;
+  s.last_stamp_ns = stamp_ns;
   assignments.assign(boxes.size(), Assignment());
   // Room for what lives on while others come: a sequence that is seen again finds more tracks than it made.
-  if (tracks_.capacity() < 2 * boxes.size()) tracks_.reserve(4 * boxes.size());
-  track_taken_.reserve(tracks_.capacity());
-  free_.reserve(tracks_.capacity());
-  find_pairs(seconds, boxes, config.gate);
-  join(seconds, boxes, assignments);
-  free_.clear();
-  for (std::size_t t = tracks_.size(); t-- > 0;) {
-    tracks_[t].alive = tracks_[t].alive && tracks_[t].missed < config.death;
-    ++tracks_[t].age;
-    if (!tracks_[t].alive) free_.push_back(t);
-  }
+  if (s.tracks.capacity() < 2 * boxes.size()) s.tracks.reserve(4 * boxes.size());
+  s.track_taken.reserve(s.tracks.capacity());
+  s.free.reserve(s.tracks.capacity());
+  s.expected.reserve(s.tracks.capacity());
+  s.pairs.reserve(4 * s.tracks.capacity());
+  for (Track& track : s.tracks)
+    if (track.alive) track.predict(seconds);
+  s.move_sensor(seconds, boxes, pose);
+  s.find_pairs(boxes, config.gate);
+  s.join(seconds, boxes, assignments);
+  s.miss(boxes);
+  s.bury(config.death);
   for (std::size_t b = 0; b < boxes.size(); ++b) {
-    if (box_taken_[b] == 0) {
-      const std::size_t slot = free_slot();
-      Track& fresh = tracks_[slot] = Track();
-      fresh.center = boxes[b].center();
-      fresh.size = boxes[b].max() - boxes[b].min();
-      fresh.seen = fresh.age = 1;
-      fresh.alive = true;
-      assignments[b] = {slot, true};
+    if (s.box_taken[b] == 0) {
+      const std::size_t slot = s.free_slot();
+      s.tracks[slot].start(boxes[b], s.sensor);
+      assignments[b].slot = slot;
+      assignments[b].fresh = true;
     }
-    Track& track = tracks_[assignments[b].slot];
-    if (!track.id && track.seen >= config.birth) track.id = next_id_++;
-    if (track.id) assignments[b].track = {*track.id, track.age, track.velocity};
+    Track& track = s.tracks[assignments[b].slot];
+    assignments[b].moving = track.moving;
+    assignments[b].velocity = s.sensor.linear().transpose() * track.motion.velocity();
+    if (!track.id && track.seen >= config.birth) track.id = s.next_id++;
+    if (track.id) assignments[b].track = track.entry(s.sensor, pose.has_value(), s.apparent(track.expected));
   }
+}
+
+const Pose& Tracker::sensor() const {
+  return state_->sensor;
 }
 
 void Tracker::reset() {
-  for (Track& track : tracks_)
+  for (Track& track : state_->tracks)
     track.alive = false;
-  started_ = false;
+  state_->started = false;
+  state_->posed = false;
+  state_->step = PlanarMotion();
+  state_->step_seconds = 0;
+  state_->sensor = Pose::Identity();
 }
 
 }  // namespace pcl_bv

@@ -10,28 +10,32 @@
 #include <optional>
 #include <vector>
 
+#include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/aabb.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-class BoxGrid;
-
 /// Gives objects ids that stay while they are seen, and are never given twice.
 ///
-/// Each track expects its box where constant velocity takes it. Box and track may be the same object if their
-/// centres are nearer than the gate; where their sizes differ, because an object came into view or was split,
-/// half of that difference more, but no more than another gate. Of all such pairs the nearest are joined
-/// first. A track is born with its birth-th sighting and dies after `death` frames without one; a gap does
-/// not cost it its id.
+/// Each track is a place and a velocity with their covariance (Kalman 1960), in the fixed frame where the
+/// sensor's poses are known. Where they are not, the frame is one that follows from how the sensor moved
+/// between frames, in the plane of x and y, found from boxes that stood still; with fewer than six boxes that
+/// agree, the sensor is taken to go on as it did. A box may be a track's if the least shift of its faces and
+/// the change of its size are likely; a track known well is not farther than the gate from where it is
+/// expected. All pairs are joined at once, at the least sum of costs (Kuhn 1955). A track is born with its
+/// birth-th sighting and dies after `death` frames without one; frames in which its place is inside another
+/// object's box count a quarter. A gap does not cost it its id.
 class Tracker {
  public:
   /// A box's place in the tracker: stays while the track lives, and is used again afterwards.
   struct Assignment {
     std::size_t slot = 0;
-    bool fresh = false;                 ///< The first sighting.
-    std::optional<TrackEntry> track{};  ///< None until the track is born.
+    bool fresh = false;                                  ///< The first sighting.
+    std::optional<TrackEntry> track{};                   ///< None until the track is born.
+    bool moving = false;                                 ///< As in TrackEntry, also before its birth.
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Over the ground, in the sensor's axes; m/s.
   };
 
   Tracker();
@@ -39,42 +43,21 @@ class Tracker {
   Tracker(Tracker&&) noexcept;
   Tracker& operator=(Tracker&&) noexcept;
 
-  /// Replaces `assignments` by one for each box. `stamp_ns` is the time of the boxes; where it does not
-  /// advance (or by more than a second), tracks are expected where they were. O(n log n), and the pairs
-  /// within the gate.
+  /// Replaces `assignments` by one for each box. `stamp_ns` is the time of the boxes, which are in the
+  /// sensor's frame, metres; where it does not advance (or by more than a second), tracks are expected where
+  /// they were. `pose`: of the sensor in a fixed frame. O(n log n), and the pairs within three gates.
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
-              std::vector<Assignment>& assignments);
+              std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
+
+  /// Where the sensor was in the last update: the pose that was given, or the one found.
+  const Pose& sensor() const;
 
   /// Forgets all tracks, but not which ids were given.
   void reset();
 
  private:
-  struct Track {
-    Eigen::Vector3d center = Eigen::Vector3d::Zero(), size = Eigen::Vector3d::Zero(),
-                    velocity = Eigen::Vector3d::Zero();
-    double unseen = 0;  // seconds since the last sighting
-    std::size_t seen = 0, missed = 0, age = 0;
-    bool alive = false;
-    std::optional<std::uint32_t> id;
-  };
-  struct Pair {
-    double cost;
-    std::size_t track, box;
-  };
-
-  void find_pairs(double seconds, const std::vector<Aabb>& boxes, double gate);
-  void join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
-  void correct(Track& track, const Aabb& box, double seconds) const;
-  std::size_t free_slot();
-
-  std::vector<Track> tracks_;
-  std::vector<Pair> pairs_;
-  std::unique_ptr<BoxGrid> grid_;
-  std::vector<std::size_t> free_;
-  std::vector<char> track_taken_, box_taken_;
-  std::int64_t last_stamp_ns_ = 0;
-  bool started_ = false;
-  std::uint32_t next_id_ = 0;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace pcl_bv

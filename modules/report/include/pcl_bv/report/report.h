@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -30,10 +31,19 @@ struct VolumeEntry {
 struct TrackEntry {
   std::uint32_t id = 0;  ///< Never given to another object.
   std::size_t age = 0;   ///< Frames since the first sighting, that one included.
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Units of the points a second, in their frame.
+  /// Units of the points a second: in the fixed frame where the sensor's pose is known, else relative to the
+  /// sensor, in its frame.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  bool moving = false;  ///< Over the ground, where the sensor's motion is known; else relative to the sensor.
+  /// x, y, z of the centre and the yaw, in radians, of where it faces; in the frame of `velocity`. The yaw is
+  /// that of the motion over the ground; until it has moved, of the longer side.
+  std::array<double, 4> pose{};
+  /// Of x, y, z, yaw, vx, vy: the upper triangle, row by row, of a positive definite matrix.
+  std::array<double, 21> covariance{};
 
   friend bool operator==(const TrackEntry& a, const TrackEntry& b) {
-    return a.id == b.id && a.age == b.age && a.velocity == b.velocity;
+    return a.id == b.id && a.age == b.age && a.velocity == b.velocity && a.moving == b.moving &&
+           a.pose == b.pose && a.covariance == b.covariance;
   }
 };
 

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "ego_motion.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kReach = 4;     // metres between frames, 40 m/s at 10 Hz
+constexpr double kAgree = 0.35;  // metres; centres of partial views jump by decimetres
+constexpr double kLargest = 6;   // metres; the centre of a longer wall is where the view of it ends
+constexpr std::size_t kFewest = 6;
+constexpr double kBin = 0.5;
+constexpr int kBins = 17;  // 2 kReach / kBin + 1
+
+bool small(const Aabb& box) {
+  const Eigen::Vector3d size = box.max() - box.min();
+  return std::max(size.x(), size.y()) < kLargest;
+}
+
+bool alike(const Aabb& a, const Aabb& b) {
+  const Eigen::Vector3d sizes = (a.max() - a.min()), others = b.max() - b.min();
+  return (sizes - others).cwiseAbs().maxCoeff() < 0.4 + 0.15 * sizes.maxCoeff();
+}
+
+Eigen::Vector2d place_of(const Aabb& box) {
+  return box.center().head<2>();
+}
+
+}  // namespace
+
+void EgoMotion::match(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen,
+                      const PlanarMotion& motion, double radius) {
+  pairs_.clear();
+  for (const Aabb& box : expected) {
+    if (!small(box)) continue;
+    const Eigen::Vector2d from = place_of(box), at = motion * from;
+    double nearest = radius * radius;
+    Eigen::Vector2d to = at;
+    bool found = false;
+    grid_.visit_near({at.x(), at.y(), 0}, [&](std::size_t b) {
+      const double distance = (place_of(seen[b]) - at).squaredNorm();
+      if (distance >= nearest || !alike(box, seen[b])) return;
+      nearest = distance;
+      to = place_of(seen[b]);
+      found = true;
+    });
+    if (found) pairs_.push_back({from, to});
+  }
+}
+
+// Nearest partners, then the rigid motion of least squares between them, in the plane.
+std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen,
+                              PlanarMotion& motion, double radius) {
+  match(expected, seen, motion, radius);
+  if (pairs_.size() < kFewest) return pairs_.size();
+  Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = from;
+  for (const Pair& pair : pairs_) {
+    from += pair.from;
+    to += pair.to;
+  }
+  from /= static_cast<double>(pairs_.size());
+  to /= static_cast<double>(pairs_.size());
+  double along = 0, across = 0;
+  for (const Pair& pair : pairs_) {
+    const Eigen::Vector2d a = pair.from - from, b = pair.to - to;
+    along += a.dot(b);
+    across += a.x() * b.y() - a.y() * b.x();
+  }
+  motion.yaw = std::atan2(across, along);
+  motion.shift.setZero();
+  motion.shift = to - motion * from;
+  return pairs_.size();
+}
+
+// The shift that most pairs vote for; motion.yaw is given.
+void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, PlanarMotion& motion) {
+  votes_.assign(kBins * kBins, 0);
+  for (const Aabb& box : expected) {
+    if (!small(box)) continue;
+    const Eigen::Vector2d at = PlanarMotion{motion.yaw} * place_of(box);
+    grid_.visit_near({at.x(), at.y(), 0}, [&](std::size_t b) {
+      const Eigen::Vector2d shift = (place_of(seen[b]) - at) / kBin;
+      const auto x = static_cast<int>(std::lround(std::clamp(shift.x(), -99.0, 99.0))) + kBins / 2;
+      const auto y = static_cast<int>(std::lround(std::clamp(shift.y(), -99.0, 99.0))) + kBins / 2;
+      if (x < 0 || y < 0 || x >= kBins || y >= kBins || !alike(box, seen[b])) return;
+      ++votes_[static_cast<std::size_t>(kBins * y + x)];
+    });
+  }
+  unsigned most = 0;
+  for (int y = 1; y < kBins - 1; ++y) {
+    for (int x = 1; x < kBins - 1; ++x) {
+      unsigned sum = 0;
+      for (int i = 0; i < 9; ++i)
+        sum += votes_[static_cast<std::size_t>(kBins * (y + i / 3 - 1) + x + i % 3 - 1)];
+      if (sum <= most) continue;
+      most = sum;
+      motion.shift = kBin * Eigen::Vector2d(x - kBins / 2, y - kBins / 2);
+    }
+  }
+}
+
+bool EgoMotion::estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen,
+                         const PlanarMotion& guess, PlanarMotion& motion) {
+  const auto few = static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), small));
+  if (few < kFewest || seen.size() < kFewest) return false;
+  grid_.fill(seen, kReach);
+  if (pairs_.capacity() < expected.size()) pairs_.reserve(4 * expected.size());
+  votes_.reserve(kBins * kBins);
+  const auto settle = [&](PlanarMotion& from) {
+    for (const double radius : {2.0, 1.5, 1.0, 0.7, 0.5, kAgree, kAgree})
+      refine(expected, seen, from, radius);
+    match(expected, seen, from, kAgree);
+    return pairs_.size();
+  };
+  PlanarMotion best = guess;
+  std::size_t agree = settle(best);
+  if (5 * agree < 2 * few) {
+    for (const double degrees : {0.0, -1.5, 1.5, -3.0, 3.0}) {
+      PlanarMotion other{degrees * 3.14159265358979323846 / 180};
+      vote(expected, seen, other);
+      const std::size_t others = settle(other);
+      if (others <= agree) continue;
+      agree = others;
+      best = other;
+    }
+  }
+  if (agree < kFewest || 10 * agree < 3 * few) return false;
+  motion = best;
+  return true;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Where an object is and how fast, and how well both are known (Kalman 1960).
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// Place and velocity along one axis, in metres and m/s, and their covariance.
+struct AxisFilter {
+  double place = 0, velocity = 0;
+  double place_variance = 1, covariance = 0, velocity_variance = 1;
+
+  /// Constant velocity, which a white acceleration of `density` (m^2/s^3) changes: many small steps are one
+  /// large one, so stamps a millisecond apart do no harm.
+  void predict(double seconds, double density) {
+    place += seconds * velocity;
+    place_variance += seconds * (2 * covariance + seconds * (velocity_variance + seconds * density / 3));
+    covariance += seconds * (velocity_variance + seconds * density / 2);
+    velocity_variance += seconds * density;
+  }
+
+  /// A sighting `surprise` beyond where the object was expected. Joseph's form: sums of squares, which
+  /// rounding does not make negative.
+  void correct(double surprise, double variance) {
+    const double all = place_variance + variance;
+    const double to_place = place_variance / all, to_velocity = covariance / all, left = variance / all;
+    place += to_place * surprise;
+    velocity += to_velocity * surprise;
+    const double old_place = place_variance, old_covariance = covariance;
+    place_variance = left * left * old_place + to_place * to_place * variance;
+    covariance = left * (old_covariance - to_velocity * old_place) + to_place * to_velocity * variance;
+    velocity_variance += to_velocity * (to_velocity * all - 2 * old_covariance);
+    // What is left of a velocity is never known better than its tie to the place allows.
+    velocity_variance =
+        std::max(velocity_variance, (1 + 1e-9) * covariance * covariance / place_variance + 1e-12);
+  }
+
+  /// The second of two sightings, both of this variance, `seconds` apart: nothing else is known.
+  void start(double surprise, double variance, double seconds) {
+    place += surprise;
+    velocity += surprise / seconds;
+    place_variance = variance;
+    covariance = variance / seconds;
+    velocity_variance = 2 * variance / (seconds * seconds);
+  }
+};
+
+/// The same along three axes that know nothing of each other.
+struct MotionFilter {
+  std::array<AxisFilter, 3> axes;
+
+  Eigen::Vector3d place() const { return {axes[0].place, axes[1].place, axes[2].place}; }
+  Eigen::Vector3d velocity() const { return {axes[0].velocity, axes[1].velocity, axes[2].velocity}; }
+  Eigen::Vector3d place_variance() const {
+    return {axes[0].place_variance, axes[1].place_variance, axes[2].place_variance};
+  }
+  Eigen::Vector3d velocity_variance() const {
+    return {axes[0].velocity_variance, axes[1].velocity_variance, axes[2].velocity_variance};
+  }
+  Eigen::Vector3d covariance() const { return {axes[0].covariance, axes[1].covariance, axes[2].covariance}; }
+  void predict(double seconds, double density) {
+    for (AxisFilter& axis : axes)
+      axis.predict(seconds, density);
+  }
+  void limit_speed(double most) {
+    const double speed = velocity().norm();
+    if (!(speed > most)) return;
+    for (AxisFilter& axis : axes)
+      axis.velocity *= most / speed;
+  }
+};
+
+}  // namespace pcl_bv

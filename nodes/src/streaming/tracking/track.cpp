@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kPlaceVariance = 0.1 * 0.1;   // of a face, m^2
+constexpr double kFirstSpeed = 8;              // m/s, standard deviation of what nothing is known of
+constexpr double kManoeuvre = 0.9;             // m^2/s^3: 3 m/s^2 for a tenth of a second
+constexpr double kFastest = 60;                // m/s
+constexpr double kShortest = 0.03;             // seconds between two sightings that make a velocity
+constexpr double kMoves = 0.8, kStands = 0.4;  // m/s
+constexpr std::size_t kSure = 3;               // frames until `moving` changes
+
+// Of each axis, once turned: the diagonal of R diag(v) R^T.
+Eigen::Vector3d turned(const Eigen::Matrix3d& turn, const Eigen::Vector3d& variances) {
+  return turn.cwiseAbs2() * variances;
+}
+
+// From the centre's shift, where the size stays, to the least shift of the faces, where it changes by 0.25 m.
+double surprise_of(const Change& change, int axis) {
+  const double part = std::clamp((std::abs(change.size[axis]) - 0.05) / 0.2, 0.0, 1.0);
+  return (1 - part) * change.centre[axis] + part * change.shift[axis];
+}
+
+}  // namespace
+
+void Track::start(const Aabb& box, const Pose& sensor) {
+  *this = Track();
+  const Eigen::Vector3d half = (box.max() - box.min()) / 2;
+  const Eigen::Vector3d place = sensor * box.center();
+  for (int i = 0; i < 3; ++i)
+    motion.axes[static_cast<std::size_t>(i)] = {place[i], 0, kPlaceVariance, 0, kFirstSpeed * kFirstSpeed};
+  low = -half;
+  high = half;
+  expected = box.center();
+  const Eigen::Vector3d along = half.x() >= half.y() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d facing = sensor.linear() * along;
+  yaw = std::atan2(facing.y(), facing.x());
+  seen = age = 1;
+  alive = true;
+}
+
+void Track::predict(double seconds) {
+  motion.predict(seconds, kManoeuvre);
+  unseen += seconds;
+}
+
+void Track::expect(const Pose& sensor) {
+  expected = sensor.linear().transpose() * (motion.place() - sensor.translation());
+}
+
+Change Track::change_to(const Aabb& seen_box) const {
+  const Eigen::Vector3d a = seen_box.min() - expected - low, b = seen_box.max() - expected - high;
+  Change change{(a + b) / 2, b - a, Eigen::Vector3d::Zero()};
+  for (int i = 0; i < 3; ++i) {
+    if (a[i] > 0 && b[i] > 0) change.shift[i] = std::min(a[i], b[i]);
+    if (a[i] < 0 && b[i] < 0) change.shift[i] = std::max(a[i], b[i]);
+  }
+  return change;
+}
+
+void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
+  const Change change = change_to(seen_box);
+  Eigen::Vector3d surprise, variance;
+  for (int i = 0; i < 3; ++i) {
+    surprise[i] = surprise_of(change, i);
+    variance[i] = kPlaceVariance + 0.09 * change.size[i] * change.size[i];
+  }
+  const Eigen::Matrix3d turn = sensor.linear();
+  surprise = turn * surprise;
+  variance = turned(turn, variance);
+  const double passed = std::max(unseen, seconds);
+  for (int i = 0; i < 3; ++i) {
+    AxisFilter& axis = motion.axes[static_cast<std::size_t>(i)];
+    if (seen == 1 && passed >= kShortest) {
+      axis.start(surprise[i], variance[i], passed);
+    } else {
+      axis.correct(surprise[i], variance[i]);
+    }
+  }
+  motion.limit_speed(kFastest);
+  expect(sensor);
+  for (int i = 0; i < 3; ++i) {
+    const double part = std::clamp(std::abs(change.size[i]) / 0.5, 0.3, 1.0);
+    low[i] += part * (seen_box.min()[i] - expected[i] - low[i]);
+    high[i] += part * (seen_box.max()[i] - expected[i] - high[i]);
+  }
+  unseen = 0;
+  missed = hidden = 0;
+  ++seen;
+  judge_motion();
+}
+
+// Moving, or standing, is what several frames in a row say: noise of a standing object's velocity is not.
+void Track::judge_motion() {
+  const Eigen::Vector3d velocity = motion.velocity(), variance = motion.velocity_variance();
+  const double speed = std::hypot(velocity.x(), velocity.y());
+  const double deviation = std::sqrt(std::max(variance.x(), variance.y()));
+  const bool other = moving ? speed < std::max(kStands, deviation) : speed > std::max(kMoves, 3 * deviation);
+  streak = other ? streak + 1 : 0;
+  if (streak >= kSure) {
+    moving = !moving;
+    streak = 0;
+  }
+  if (moving && speed > kStands) {
+    yaw = std::atan2(velocity.y(), velocity.x());
+    yaw_variance = std::min(1.0, deviation * deviation / (speed * speed));
+  }
+}
+
+TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent) const {
+  TrackEntry entry;
+  entry.id = id.value_or(0);
+  entry.age = age;
+  entry.moving = moving;
+  const Eigen::Vector3d centre = expected + (low + high) / 2;
+  const Eigen::Matrix3d turn =
+      fixed ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(sensor.linear().transpose());
+  entry.velocity = motion.velocity();
+  if (!fixed) entry.velocity = turn * entry.velocity + apparent;
+  const Eigen::Vector3d place = fixed ? Eigen::Vector3d(sensor * centre) : centre;
+  const Eigen::Vector3d facing = turn * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0);
+  entry.pose = {place.x(), place.y(), place.z(), std::atan2(facing.y(), facing.x())};
+  const auto block = [&](const Eigen::Vector3d& diagonal) {
+    return Eigen::Matrix3d(turn * diagonal.asDiagonal() * turn.transpose());
+  };
+  const Eigen::Matrix3d places = block(motion.place_variance()), both = block(motion.covariance()),
+                        velocities = block(motion.velocity_variance());
+  Eigen::Matrix<double, 6, 6> all = Eigen::Matrix<double, 6, 6>::Zero();
+  all.topLeftCorner<3, 3>() = places;
+  all(3, 3) = yaw_variance;
+  all.topRightCorner<3, 2>() = both.leftCols<2>();
+  all.bottomRightCorner<2, 2>() = velocities.topLeftCorner<2, 2>();
+  std::size_t next = 0;
+  for (Eigen::Index row = 0; row < 6; ++row)
+    for (Eigen::Index column = row; column < 6; ++column)
+      entry.covariance[next++] = all(row, column);
+  return entry;
+}
+
+double cost_of(const Track& track, const Aabb& box, double gate) {
+  const Change change = track.change_to(box);
+  const Eigen::Vector3d variance = track.motion.place_variance();  // the sensor's turn is left out: a gate
+  const double slack = kPlaceVariance + gate * gate / 16, most = std::max(variance.x(), variance.y());
+  double cost = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double size = track.high[i] - track.low[i];
+    const double change_in_size = change.size[i] / (1 + 0.3 * size);
+    cost += change.shift[i] * change.shift[i] / ((i < 2 ? most : variance.z()) + slack) +
+            change_in_size * change_in_size + 0.1 * change.centre[i] * change.centre[i];
+  }
+  return cost;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// One object that is followed, and what a sighting says about it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "motion_filter.h"
+#include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/report/report.h"
+#include "pcl_bv/volumes/aabb.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// How a box differs from where and how large it was expected, along the sensor's axes, in metres.
+struct Change {
+  Eigen::Vector3d centre, size;
+  /// The least move of both faces: what a part that came into view, or went out of it, leaves.
+  Eigen::Vector3d shift;
+};
+
+struct Track {
+  MotionFilter motion;        // in the fixed frame
+  Eigen::Vector3d low, high;  // faces of the box from the place, along the sensor's axes
+  Eigen::Vector3d expected;   // the place in the sensor's frame
+  double unseen = 0;          // seconds since the last sighting
+  std::size_t seen = 0, missed = 0, hidden = 0, age = 0, streak = 0;
+  double yaw = 0, yaw_variance = 1;
+  bool alive = false, moving = false;
+  std::optional<std::uint32_t> id;
+
+  void start(const Aabb& box, const Pose& sensor);
+  void predict(double seconds);
+  void expect(const Pose& sensor);
+  Aabb box() const { return {expected + low, expected + high}; }
+  Change change_to(const Aabb& box) const;
+  void correct(const Aabb& box, const Pose& sensor, double seconds);
+
+  /// `apparent`: velocity that standing points have in the sensor's frame; with `fixed`, all is told there.
+  TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent) const;
+
+ private:
+  void judge_motion();
+};
+
+/// How unlikely it is that the box is the track's: squared standard deviations, `gate` being four of them for
+/// a track of which all is known.
+double cost_of(const Track& track, const Aabb& box, double gate);
+
+}  // namespace pcl_bv

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a tracker is made of.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "streaming/tracking/assignment.h"
+#include "streaming/tracking/ego_motion.h"
+#include "streaming/tracking/motion_filter.h"
+#include "streaming/tracking/track.h"
+
+namespace pcl_bv {
+namespace {
+
+double uniform(std::mt19937& random, double low, double high) {
+  return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+}
+
+TEST(MotionFilter, ManySmallStepsAreOneLarge) {
+  AxisFilter one{1, 2, 0.5, 0.1, 3}, many = one;
+  one.predict(0.1, 0.9);
+  for (int i = 0; i < 100; ++i)
+    many.predict(0.001, 0.9);
+  EXPECT_NEAR(many.place, one.place, 1e-12);
+  EXPECT_NEAR(many.place_variance, one.place_variance, 1e-12);
+  EXPECT_NEAR(many.covariance, one.covariance, 1e-12);
+  EXPECT_NEAR(many.velocity_variance, one.velocity_variance, 1e-12);
+}
+
+TEST(MotionFilter, CovarianceStaysPositiveDefiniteHoweverStampsJitter) {
+  std::mt19937 random(19);
+  for (int run = 0; run < 100; ++run) {
+    AxisFilter axis{0, 0, 0.01, 0, 64};
+    for (int i = 0; i < 300; ++i) {
+      const double steps[] = {0, 1e-9, 0.001, 0.1, 1}, variances[] = {1e-6, 0.01, 100};
+      axis.predict(steps[random() % 5], 0.9);
+      axis.correct(uniform(random, -1, 1), variances[random() % 3]);
+      ASSERT_GT(axis.place_variance, 0) << run << ' ' << i;
+      ASSERT_GT(axis.place_variance * axis.velocity_variance, axis.covariance * axis.covariance)
+          << run << ' ' << i;
+    }
+  }
+}
+
+TEST(MotionFilter, ACovarianceIsThatOfWhatItEstimates) {
+  std::mt19937 random(7);  // normalised error squared of a two-state filter: 2 on average
+  double sum = 0;
+  constexpr int runs = 2000;
+  const auto normal = [&] {
+    double all = -6;
+    for (int i = 0; i < 12; ++i)
+      all += uniform(random, 0, 1);
+    return all;
+  };
+  for (int run = 0; run < runs; ++run) {
+    const double velocity = 8 * normal();
+    double place = 0.1 * normal();
+    AxisFilter axis{0, 0, 0.01, 0, 64};
+    for (int i = 0; i < 15; ++i) {
+      place += 0.1 * velocity;
+      axis.predict(0.1, 0);
+      axis.correct(place + 0.1 * normal() - axis.place, 0.01);
+    }
+    Eigen::Matrix2d covariance;
+    covariance << axis.place_variance, axis.covariance, axis.covariance, axis.velocity_variance;
+    const Eigen::Vector2d error(axis.place - place, axis.velocity - velocity);
+    sum += error.dot(covariance.inverse() * error);
+  }
+  EXPECT_NEAR(sum / runs, 2, 0.15);
+}
+
+// The least sum over all ways, by trying them.
+double least_cost(std::size_t row, std::size_t rows, std::vector<char>& taken,
+                  const std::vector<AssignmentPair>& pairs, double alone) {
+  if (row == rows) return 0;
+  double least = alone + least_cost(row + 1, rows, taken, pairs, alone);
+  for (const AssignmentPair& pair : pairs) {
+    if (pair.row != row || taken[pair.column] != 0) continue;
+    taken[pair.column] = 1;
+    least = std::min(least, pair.cost + least_cost(row + 1, rows, taken, pairs, alone));
+    taken[pair.column] = 0;
+  }
+  return least;
+}
+
+TEST(SparseAssignment, CostsWhatTheBestOfAllWaysCosts) {
+  SparseAssignment assignment;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    std::mt19937 random(seed);
+    const std::size_t rows = random() % 7, columns = 1 + random() % 6;
+    std::vector<AssignmentPair> pairs;
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t c = 0; c < columns; ++c)
+        if (random() % 3 != 0) pairs.push_back({r, c, static_cast<double>(random() % 12)});  // with ties
+    assignment.solve(rows, columns, pairs, 8);
+    std::vector<char> taken(columns, 0);
+    double sum = 0;
+    for (std::size_t r = 0; r < rows; ++r) {
+      const std::size_t c = assignment.columns()[r];
+      const auto pair = std::find_if(pairs.begin(), pairs.end(),
+                                     [&](const AssignmentPair& p) { return p.row == r && p.column == c; });
+      if (c == SparseAssignment::none) {
+        sum += 8;
+        continue;
+      }
+      ASSERT_NE(pair, pairs.end()) << "seed " << seed;
+      ASSERT_EQ(taken[c], 0) << "seed " << seed;
+      taken[c] = 1;
+      sum += pair->cost;
+    }
+    std::fill(taken.begin(), taken.end(), 0);
+    ASSERT_DOUBLE_EQ(sum, least_cost(0, rows, taken, pairs, 8)) << "seed " << seed;
+  }
+}
+
+TEST(SparseAssignment, GivesWayWhereTheNearestForEachCostsMore) {
+  SparseAssignment assignment;
+  assignment.solve(2, 2, {{0, 0, 1}, {0, 1, 2}, {1, 0, 1}}, 16);
+  EXPECT_EQ(assignment.columns(), (std::vector<std::size_t>{1, 0}));
+}
+
+Aabb block(const Eigen::Vector2d& at, double size) {
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(size / 2), center(at.x(), at.y(), 0);
+  return {center - half, center + half};
+}
+
+TEST(EgoMotion, IsFoundAmongMovingObjectsNoiseAndNewOnes) {
+  EgoMotion ego;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    std::mt19937 random(seed);
+    const PlanarMotion truth{uniform(random, -0.05, 0.05),
+                             {uniform(random, -2.5, 2.5), uniform(random, -0.5, 0.5)}};
+    std::vector<Aabb> before, after;
+    for (int i = 0; i < 60; ++i) {
+      const Eigen::Vector2d at(uniform(random, -50, 50), uniform(random, -50, 50));
+      const double size = uniform(random, 0.4, 3);
+      const Eigen::Vector2d noise(uniform(random, -0.05, 0.05), uniform(random, -0.05, 0.05));
+      if (i % 6 != 0) before.push_back(block(at, size));
+      const Eigen::Vector2d moves(i % 5 == 0 ? 1.2 : 0, 0);
+      if (i % 7 != 0) after.push_back(block(truth * at + moves + noise, size));
+    }
+    PlanarMotion found;
+    ASSERT_TRUE(ego.estimate(before, after, {}, found)) << "seed " << seed;
+    EXPECT_NEAR(found.yaw, truth.yaw, 0.004) << "seed " << seed;
+    EXPECT_LT((found.shift - truth.shift).norm(), 0.1) << "seed " << seed;
+  }
+}
+
+TEST(EgoMotion, OfFewOrStrangeBoxesIsNotFound) {
+  EgoMotion ego;
+  std::mt19937 random(1);
+  std::vector<Aabb> five, others;
+  for (int i = 0; i < 5; ++i)
+    five.push_back(block({10.0 * i, 0}, 1));
+  PlanarMotion motion{0.25};
+  EXPECT_FALSE(ego.estimate({}, {}, {}, motion));
+  EXPECT_FALSE(ego.estimate(five, five, {}, motion));
+  std::vector<Aabb> many;
+  for (int i = 0; i < 40; ++i) {
+    many.push_back(block({uniform(random, -50, 50), uniform(random, -50, 50)}, 1));
+    others.push_back(block({uniform(random, -50, 50), uniform(random, -50, 50)}, 3));
+  }
+  EXPECT_FALSE(ego.estimate(many, others, {}, motion));
+  EXPECT_EQ(motion.yaw, 0.25);
+}
+
+TEST(PlanarMotion, AndItsInverseLeaveAPlaceWhereItIs) {
+  const PlanarMotion motion{0.7, {3, -2}};
+  const Eigen::Vector2d place(5, 11);
+  EXPECT_LT(((motion.inverse() * (motion * place)) - place).norm(), 1e-12);
+  EXPECT_LT((((motion * motion) * place) - motion * (motion * place)).norm(), 1e-12);
+}
+
+TEST(Track, PartsThatComeIntoViewAreNoMotion) {
+  Track track;
+  track.start(block({0, 10}, 1), Pose::Identity());
+  for (int i = 1; i < 12; ++i) {  // its left end stays, its right one comes into view, 0.5 m a frame
+    track.predict(0.1);
+    track.expect(Pose::Identity());
+    track.correct({{-0.5, 9.5, -0.5}, {0.5 + 0.5 * i, 10.5, 0.5}}, Pose::Identity(), 0.1);
+  }
+  EXPECT_LT(track.motion.velocity().norm(), 0.05);
+  EXPECT_FALSE(track.moving);
+}
+
+TEST(Track, ItsCovarianceIsPositiveDefiniteInEveryFrame) {
+  std::mt19937 random(3);
+  Pose sensor = Pose::Identity();
+  sensor.linear() = Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  Track track;
+  track.start(block({0, 10}, 1), sensor);
+  for (int i = 0; i < 60; ++i) {
+    track.predict(i % 3 == 0 ? 0 : 0.1);
+    track.expect(sensor);
+    track.correct(block({uniform(random, -0.3, 0.3) + 0.3 * i, 10}, uniform(random, 0.5, 3)), sensor, 0.1);
+    for (const bool fixed : {true, false}) {
+      const TrackEntry entry = track.entry(sensor, fixed, Eigen::Vector3d::Zero());
+      Eigen::Matrix<double, 6, 6> all;
+      std::size_t next = 0;
+      for (Eigen::Index r = 0; r < 6; ++r)
+        for (Eigen::Index c = r; c < 6; ++c)
+          all(r, c) = all(c, r) = entry.covariance[next++];
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(all);
+      ASSERT_GT(solver.eigenvalues().minCoeff(), 0) << i << ' ' << fixed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
