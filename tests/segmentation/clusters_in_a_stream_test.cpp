@@ -35,19 +35,29 @@ std::vector<SynthCloud> sweeps() {
 }
 
 template <typename View>
-void expect_the_same_from_threads(const View& points, float tolerance) {
-  SCOPED_TRACE(testing::Message() << points.count << " points, tolerance " << tolerance);
+void expect_the_same_from_threads(const View& points, float tolerance, std::size_t min_points) {
+  SCOPED_TRACE(testing::Message() << points.count << " points, tolerance " << tolerance << ", min_points "
+                                  << min_points);
+  ClusterSettings settings{tolerance};
+  settings.min_points = min_points;
   Clusters serial, threaded;
   EuclideanClusterer clusterer;
-  clusterer.extract(points, {tolerance}, serial);
+  clusterer.extract(points, settings, serial);
   for (const unsigned threads : {2U, 3U, 5U}) {
     for (const ParallelPolicy& policy : {ParallelPolicy(OpenMP{threads}), ParallelPolicy(Threads{threads})}) {
       SCOPED_TRACE(threads);
-      clusterer.extract(points, {tolerance}, threaded, policy);
+      clusterer.extract(points, settings, threaded, policy);
       EXPECT_EQ(threaded.indices, serial.indices);
       EXPECT_EQ(threaded.offsets, serial.offsets);
+      EXPECT_EQ(threaded.noise_points, serial.noise_points);
     }
   }
+}
+
+template <typename View>
+void expect_the_same_from_threads(const View& points, float tolerance) {
+  for (const std::size_t min_points : {1U, 2U, 8U})
+    expect_the_same_from_threads(points, tolerance, min_points);
 }
 
 TEST(ClustersInAStream, AreTheSameFromAnyNumberOfThreads) {
@@ -102,8 +112,13 @@ TEST(ClustersInAStream, TakeNoMemoryInTheSecondPass) {
     for (int pass = 0; pass < 3; ++pass) {
       if (pass == 1) before = allocations();
       for (const SynthCloud& frame : frames) {
-        for (const float r : {0.1F, 0.5F})
-          clusterer.extract(view_of(frame), {r, 10}, clusters, policy);
+        for (const float r : {0.1F, 0.5F}) {
+          for (const std::size_t min_points : {1U, 6U}) {
+            ClusterSettings settings{r, 10};
+            settings.min_points = min_points;
+            clusterer.extract(view_of(frame), settings, clusters, policy);
+          }
+        }
       }
     }
     EXPECT_EQ(allocations(), before);

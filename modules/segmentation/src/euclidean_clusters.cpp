@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "cells.h"
+#include "core_points.h"
 #include "gather.h"
 #include "join_cells.h"
 #include "pcl_bv/numeric/float_environment.h"
@@ -24,6 +25,7 @@ struct PointScratch {
   ValidPoints<T> valid;
   Cells<T> cells;
   JoinScratch<T> join;
+  CoreScratch<T> core;
 };
 
 struct Component {
@@ -46,6 +48,8 @@ void check(const ClusterSettings& settings) {
   } else if (settings.min_size > settings.max_size) {
     message << "cluster min_size is " << settings.min_size << ", must be at most max_size, "
             << settings.max_size;
+  } else if (settings.min_points == 0) {
+    message << "cluster min_points is 0, must be at least 1";
   } else {
     return;
   }
@@ -69,17 +73,30 @@ bool cells_are_solid(const CellGrid& grid, T r2) {
   return grid.near && r2 >= T(1e-30) && r2 <= T(1e30);
 }
 
+// The root of noise where every valid point is in a cluster.
+constexpr std::uint32_t no_root = std::numeric_limits<std::uint32_t>::max();
+
+// Returns the root of noise. With min_points of 1 every point is core, and nothing is looked for.
 template <typename T, typename Key>
-void find_components(PointScratch<T>& scratch, const CellGrid& grid, T r2, const ParallelPolicy& policy,
-                     BlockKeys<Key>& keys, UnionFind& sets) {
-  scratch.cells.by_point = !cells_are_solid(grid, r2);
+std::uint32_t find_components(PointScratch<T>& scratch, const CellGrid& grid, T r2, std::size_t min_points,
+                              const ParallelPolicy& policy, BlockKeys<Key>& keys, UnionFind& sets) {
+  const bool solid = cells_are_solid(grid, r2);
+  scratch.cells.by_point = !solid || min_points > 1;
   make_cells(scratch.valid.points, grid, policy, scratch.cells, keys);
+  std::uint32_t noise = no_root;
+  if (min_points > 1) {
+    find_core(grid, r2, min_points, solid, policy, keys.keys, scratch.cells, scratch.core);
+    scratch.cells.by_point = !solid;
+    noise = keep_core(scratch.cells, scratch.core);
+  }
   join_cells(grid, r2, policy, keys.keys, scratch.cells, sets, scratch.join);
+  if (noise != no_root) sets.add();
+  return noise;
 }
 
 // Sizes, and the components to keep in the order of the result.
 void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
-            const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
+            std::uint32_t noise, const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
   collector.size.assign(roots.size(), 0);
   for (const std::uint32_t n : node)
     ++collector.size[roots[n]];
@@ -90,7 +107,9 @@ void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint
     if (collector.next[root] != unseen) continue;
     collector.next[root] = dropped;
     const std::uint32_t size = collector.size[root];
-    if (size < settings.min_size) {
+    if (root == noise) {
+      clusters.noise_points = size;
+    } else if (size < settings.min_size) {
       clusters.small_points += size;
     } else if (size > settings.max_size) {
       clusters.large_points += size;
@@ -138,13 +157,12 @@ struct EuclideanClusterer::Scratch {
     const double r = settings.tolerance;
     const T r2 = static_cast<T>(r * r);
     const CellGrid grid(scratch.valid.box, inverse_cell_side(r2));
-    if (grid.key_bits <= 64) {
-      find_components(scratch, grid, r2, policy, keys, sets);
-    } else {
-      find_components(scratch, grid, r2, policy, wide_keys, sets);
-    }
+    const std::uint32_t noise =
+        grid.key_bits <= 64
+            ? find_components(scratch, grid, r2, settings.min_points, policy, keys, sets)
+            : find_components(scratch, grid, r2, settings.min_points, policy, wide_keys, sets);
     const std::vector<std::uint32_t>& roots = sets.roots();
-    select(roots, scratch.cells.node, settings, collector, clusters);
+    select(roots, scratch.cells.node, noise, settings, collector, clusters);
     write(roots, scratch.cells.node, scratch.valid.numbers, collector, clusters);
   }
 };
@@ -162,6 +180,7 @@ void EuclideanClusterer::extract(const PointView& points, const ClusterSettings&
   clusters.offsets.assign(1, 0);
   clusters.small_points = 0;
   clusters.large_points = 0;
+  clusters.noise_points = 0;
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
   if (points.scalar == ScalarType::float32) {
     scratch_->extract<float>(points, settings, policy, clusters);

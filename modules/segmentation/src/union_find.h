@@ -25,6 +25,9 @@ class UnionFind {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
+  /// One more set of one: of n, if there were n members.
+  void add() { parent_.push_back(static_cast<std::uint32_t>(parent_.size())); }
+
   /// Puts a root under another one, not greater, while no other thread knows either.
   void set_root(std::uint32_t i, std::uint32_t root) { parent_[i] = root; }
 

@@ -22,6 +22,9 @@ struct ClusterSettings {
   float tolerance;
   std::size_t min_size = 1;                                        ///< Smaller clusters are dropped; points.
   std::size_t max_size = std::numeric_limits<std::size_t>::max();  ///< Larger clusters are dropped; points.
+  /// DBSCAN's core condition, >= 1: so many points, itself included, are nearer than the tolerance to a core
+  /// point. With 1 every point is core.
+  std::size_t min_points = 1;
 };
 
 /// Clusters of a cloud: the largest first, among equal sizes the one with the smallest point number first.
@@ -31,6 +34,7 @@ struct Clusters {
   std::vector<std::size_t> offsets{0};  ///< Where each cluster begins in `indices`; size() + 1 entries.
   std::size_t small_points = 0;         ///< Points in clusters dropped for having fewer than min_size.
   std::size_t large_points = 0;         ///< Points in clusters dropped for having more than max_size.
+  std::size_t noise_points = 0;         ///< Points that are neither core nor near to a core point.
 
   std::size_t size() const { return offsets.size() - 1; }
   std::size_t cluster_size(std::size_t i) const { return offsets[i + 1] - offsets[i]; }
@@ -45,10 +49,17 @@ struct Clusters {
 /// operation. So points at exactly the tolerance are apart, and a tolerance whose square is 0 in float joins
 /// not even duplicates.
 ///
+/// With min_points > 1 these are the clusters of DBSCAN (Ester et al. 1996): core points that are linked
+/// belong together; another point that is linked to core points belongs to the nearest of them (by d2; of
+/// several the one of the smallest number), so that the result does not depend on the order in which points
+/// are visited; the rest is noise. A cluster's size counts all its points, core or not.
+///
 /// Method: cells of side just under tolerance / sqrt(3), whose points always belong together, joined by
 /// union-find with the cells at most two away (exact grid DBSCAN: Gunawan 2013, Gan and Tao 2015); here by
 /// blocks of 64 cells, so that one comparison settles most neighbours. O(n) for points as a sensor sees them,
-/// whatever the number of neighbours, and O(n^1.5) where dense sheets lie just out of each other's reach.
+/// whatever the number of neighbours, and O(n^1.5) where dense sheets lie just out of each other's reach. A
+/// cell of min_points points is core without a test; points of others ask the cells around until they have
+/// enough: at most O(n * min_points) tests.
 class EuclideanClusterer {
  public:
   EuclideanClusterer();
@@ -60,10 +71,11 @@ class EuclideanClusterer {
   /// named twice by the index list counts once. No valid point: no clusters. A lone point is a cluster of
   /// one.
   ///
-  /// Throws std::invalid_argument if the tolerance is not finite and > 0 or min_size > max_size,
-  /// std::length_error if a point number exceeds 2^31 - 1. Threads never change the result, and none are used
-  /// for fewer than 16 384 points or 512 blocks of 64 cells. Memory is kept for the next call, which needs no more for a
-  /// cloud like this one: about 50 bytes a point and 150 a block.
+  /// Throws std::invalid_argument if the tolerance is not finite and > 0, min_size > max_size or min_points
+  /// is 0, std::length_error if a point number exceeds 2^31 - 1. Threads never change the result, and none
+  /// are used for fewer than 16 384 points or 512 blocks of 64 cells. Memory is kept for the next call, which
+  /// needs no more for a cloud like this one: about 50 bytes a point and 150 a block; with min_points > 1, 9
+  /// and 16 more.
   void extract(const PointView& points, const ClusterSettings& settings, Clusters& clusters,
                const ParallelPolicy& policy = Serial{});
 

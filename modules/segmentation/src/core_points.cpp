@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Most points of a dense cloud are core by the number of points in their cell alone. Others ask the cells
+// around them, and stop at the point that makes them core.
+#include "core_points.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "neighbourhood.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::uint32_t noise = std::numeric_limits<std::uint32_t>::max();
+
+// Fewer are not worth the start of a thread.
+constexpr std::size_t blocks_per_part = 256;
+
+// What all steps look at.
+template <typename T>
+struct CoreSearch {
+  const Cells<T>& cells;
+  CoreScratch<T>& scratch;
+  T r2;
+  std::size_t min_points;
+  bool solid;
+
+  std::uint64_t occupied(std::uint32_t block) const { return cells.blocks[block].occupied; }
+
+  // Calls test(begin, end) for the places of a run, a group at a time, but for groups of which skip(box) says
+  // that they need none; ends when either returns false.
+  template <typename Skip, typename Test>
+  bool by_group(const PlaceRun& run, Skip skip, Test test) const {
+    for (std::uint32_t i = run.begin; i < run.end;) {
+      const std::uint32_t group_end = (i / group_size + 1) * group_size;
+      const std::uint32_t end = std::min(run.end, group_end);
+      const bool whole = i + group_size == end;
+      if (!(whole && skip(scratch.groups[i / group_size])) && !test(i, end)) return false;
+      i = end;
+    }
+    return true;
+  }
+
+  // How many points of a run are linked to one; of no more than it needs.
+  std::size_t count(const PlaceRun& run, const Point<T>& p, std::size_t needed) const {
+    const Box<T> at{p, p};
+    std::size_t found = 0;
+    const auto skip = [&](const Box<T>& box) {
+      if (!(least_squared_distance(at, box) < r2)) return true;
+      if (!(greatest_squared_distance(at, box) < r2)) return false;
+      found += group_size;
+      return true;
+    };
+    by_group(run, skip, [&](std::uint32_t begin, std::uint32_t end) {
+      std::uint32_t linked = 0;
+      for (std::uint32_t i = begin; i < end; ++i)
+        linked += squared_distance(cells.points[i], p) < r2 ? 1 : 0;
+      found += linked;
+      return found < needed;
+    });
+    return found;
+  }
+};
+
+// Whether a point of a cell is core; the cells around it are sought as far as they are needed.
+template <typename T>
+bool is_core(const CoreSearch<T>& search, const Point<T>& p, const PlaceRun& own, const BlocksAround& around,
+             Neighbourhood<T>& near) {
+  std::size_t found = search.solid ? own.end - own.begin : search.count(own, p, search.min_points);
+  const auto occupied = [&search](std::uint32_t block) { return search.occupied(block); };
+  for (std::size_t i = 0; found < search.min_points; ++i) {
+    if (i == near.size() && !near.more(around, occupied)) return false;
+    found += search.count(near[i], p, search.min_points - found);
+  }
+  return true;
+}
+
+// The cells of one block.
+template <typename T, typename FindAround>
+void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
+               Neighbourhood<T>& near) {
+  const Block& block = search.cells.blocks[number];
+  const BlocksAround* around = nullptr;
+  std::uint64_t core_cells = 0;
+  std::uint64_t sparse_cells = 0;
+  std::uint32_t cell = block.first_cell;
+  for (std::uint64_t rest = block.occupied; rest != 0; rest &= rest - 1, ++cell) {
+    const PlaceRun own{search.cells.begin[cell], search.cells.begin[cell + 1]};
+    const std::uint64_t bit = rest & -rest;
+    if (search.solid && own.end - own.begin >= search.min_points) {
+      std::fill(search.scratch.core.begin() + own.begin, search.scratch.core.begin() + own.end,
+                std::uint8_t{1});
+      core_cells |= bit;
+      continue;
+    }
+    if (around == nullptr) around = &find_around();
+    near.start(static_cast<unsigned>(std::countr_zero(rest)));
+    for (std::uint32_t i = own.begin; i < own.end; ++i) {
+      const bool core = is_core(search, search.cells.points[i], own, *around, near);
+      search.scratch.core[i] = core ? 1 : 0;
+      (core ? core_cells : sparse_cells) |= bit;
+    }
+  }
+  search.scratch.core_cells[number] = core_cells;
+  search.scratch.sparse_cells[number] = sparse_cells;
+}
+
+// The place of the core point to which one that is none belongs, or `noise`.
+template <typename T>
+std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const PlaceRun& own,
+                           const Neighbourhood<T>& near) {
+  const CoreScratch<T>& scratch = search.scratch;
+  const Box<T> at{p, p};
+  T least = search.r2;
+  std::uint32_t nearest = noise;
+  const auto look = [&](const PlaceRun& run) {
+    search.by_group(
+        run, [&](const Box<T>& box) { return least_squared_distance(at, box) > least; },
+        [&](std::uint32_t begin, std::uint32_t end) {
+          for (std::uint32_t i = begin; i < end; ++i) {
+            const T d2 = squared_distance(search.cells.points[i], p);
+            if (scratch.core[i] == 0 || d2 > least) continue;
+            const bool tie = d2 == least;  // with a point, or with the tolerance, which is no link
+            if (tie && (nearest == noise || scratch.number[i] > scratch.number[nearest])) continue;
+            least = d2;
+            nearest = i;
+          }
+          return true;
+        });
+  };
+  look(own);
+  for (std::size_t i = 0; i < near.size(); ++i)
+    look(near[i]);
+  return nearest;
+}
+
+template <typename T, typename FindAround>
+void label_sparse(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
+                  Neighbourhood<T>& near) {
+  CoreScratch<T>& scratch = search.scratch;
+  if (scratch.sparse_cells[number] == 0) return;
+  const Block& block = search.cells.blocks[number];
+  const BlocksAround& around = find_around();
+  const auto with_core = [&scratch](std::uint32_t other) { return scratch.core_cells[other]; };
+  for (std::uint64_t rest = scratch.sparse_cells[number]; rest != 0; rest &= rest - 1) {
+    const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+    const std::uint32_t cell = block.cell(bit);
+    const PlaceRun own{search.cells.begin[cell], search.cells.begin[cell + 1]};
+    near.start(bit);
+    while (near.more(around, with_core)) {
+    }
+    for (std::uint32_t i = own.begin; i < own.end; ++i) {
+      if (scratch.core[i] == 0) scratch.label[i] = nearest_core(search, search.cells.points[i], own, near);
+    }
+  }
+}
+
+template <typename T>
+void start_scratch(const Cells<T>& cells, CoreScratch<T>& scratch) {
+  const std::size_t points = cells.points.size();
+  scratch.core.assign(points, 0);
+  scratch.label.assign(points, noise);
+  scratch.core_cells.resize(cells.blocks.size());
+  scratch.sparse_cells.resize(cells.blocks.size());
+  scratch.number.resize(points);
+  for (std::size_t i = 0; i < points; ++i)
+    scratch.number[cells.node[i]] = static_cast<std::uint32_t>(i);
+  scratch.groups.resize(points / group_size);
+  for (std::size_t g = 0; g < scratch.groups.size(); ++g)
+    scratch.groups[g] = box_of(cells.points.data() + g * group_size, group_size);
+}
+
+}  // namespace
+
+template <typename T, typename Key>
+void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, const ParallelPolicy& policy,
+               const std::vector<Key>& keys, const Cells<T>& cells, CoreScratch<T>& scratch) {
+  start_scratch(cells, scratch);
+  if (!(r2 > 0)) return;  // Nothing is linked.
+  const CoreSearch<T> search{cells, scratch, r2, min_points, solid};
+  const std::size_t blocks = keys.size();
+  const auto in_parts = [&](auto work) {
+    for_each_chunk(policy, (blocks + blocks_per_part - 1) / blocks_per_part, [&](std::size_t part) {
+      const FloatEnvironment environment;
+      const std::size_t begin = part * blocks_per_part;
+      BlockRows<Key> rows(grid, keys, begin);
+      BlocksAround around{};
+      Neighbourhood<T> near(cells);
+      for (std::size_t b = begin; b < std::min(blocks, begin + blocks_per_part); ++b) {
+        const auto find_around = [&]() -> const BlocksAround& {
+          rows.find(b, around);
+          return around;
+        };
+        work(b, find_around, near);
+      }
+    });
+  };
+  in_parts([&](std::size_t b, auto find_around, auto& near) { mark_core(search, b, find_around, near); });
+  in_parts([&](std::size_t b, auto find_around, auto& near) { label_sparse(search, b, find_around, near); });
+}
+
+template <typename T>
+std::uint32_t keep_core(Cells<T>& cells, CoreScratch<T>& scratch) {
+  std::uint32_t to = 0;
+  std::uint32_t to_cell = 0;
+  std::uint32_t begin = 0;
+  std::uint32_t cell = 0;
+  for (std::size_t b = 0; b < cells.blocks.size(); ++b) {
+    const std::uint32_t end_cell = cell + count_bits(cells.blocks[b].occupied);
+    cells.blocks[b] = {scratch.core_cells[b], to_cell, false};
+    for (; cell < end_cell; ++cell) {
+      const std::uint32_t end = cells.begin[cell + 1];  // Before begin[to_cell], which may be this cell's.
+      const std::uint32_t first = to;
+      for (std::uint32_t i = begin; i < end; ++i) {
+        if (scratch.core[i] == 0) continue;
+        scratch.label[i] = cells.by_point ? to : to_cell;
+        cells.points[to++] = cells.points[i];
+      }
+      if (to > first) cells.begin[to_cell++] = first;
+      begin = end;
+    }
+  }
+  cells.begin.resize(to_cell + 1);
+  cells.begin[to_cell] = to;
+  cells.points.resize(to);
+  const std::uint32_t noise_node = cells.by_point ? to : to_cell;
+  for (std::uint32_t& node : cells.node) {
+    const std::uint32_t label = scratch.label[node];
+    node = scratch.core[node] != 0 ? label : label == noise ? noise_node : scratch.label[label];
+  }
+  return noise_node;
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): the arguments are types
+#define PCL_BV_FIND_CORE(T, Key)                                                        \
+  template void find_core(const CellGrid&, T, std::size_t, bool, const ParallelPolicy&, \
+                          const std::vector<Key>&, const Cells<T>&, CoreScratch<T>&);
+// NOLINTEND(bugprone-macro-parentheses)
+PCL_BV_FIND_CORE(float, std::uint64_t)
+PCL_BV_FIND_CORE(float, WideKey)
+PCL_BV_FIND_CORE(double, std::uint64_t)
+PCL_BV_FIND_CORE(double, WideKey)
+#undef PCL_BV_FIND_CORE
+template std::uint32_t keep_core(Cells<float>&, CoreScratch<float>&);
+template std::uint32_t keep_core(Cells<double>&, CoreScratch<double>&);
+
+}  // namespace pcl_bv
