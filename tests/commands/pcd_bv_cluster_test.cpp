@@ -74,6 +74,33 @@ TEST_F(PcdBv, SizesLimitTheClusters) {
   EXPECT_EQ(report["counts"]["large"], 30);
 }
 
+// Two dense rows and a thin one between, of which each point has two neighbours at most.
+TEST_F(PcdBv, MinPointsDropsWhatIsThinAsNoise) {
+  std::vector<std::string> points;
+  for (int row = 0; row < 2; ++row) {
+    for (int i = 0; i < 40; ++i)
+      points.push_back(std::to_string(0.05 * i + 4 * row) + " 0 0");
+  }
+  for (int i = 0; i < 13; ++i)
+    points.push_back(std::to_string(2.1 + 0.145 * i) + " 0 0");
+  const std::string cloud = ascii("thin.pcd", points);
+  const std::vector<std::string> options = {"--format", "jsonl", "--cluster", "0.16", "--volume", "aabb"};
+  const auto report = [&](const std::string& least) {
+    std::vector<std::string> all = options;
+    all.insert(all.end(), {"--min-points", least, cloud});
+    return run(all).json();
+  };
+  EXPECT_EQ(report("1")["clusters"].size(), 1u);
+  EXPECT_EQ(report("1")["counts"]["noise"], 0);
+  const Json dense = report("5");
+  ASSERT_EQ(dense["clusters"].size(), 2u);
+  EXPECT_EQ(dense["clusters"][0]["points"].get<int>() + dense["clusters"][1]["points"].get<int>() +
+                dense["counts"]["noise"].get<int>(),
+            93);
+  EXPECT_GE(dense["counts"]["noise"], 11);
+  EXPECT_THAT(run({"--cluster", "0.16", "--min-points", "5", cloud}).out, testing::HasSubstr(" in no cluster"));
+}
+
 TEST_F(PcdBv, LabelsAreTheClustersOfTheReport) {
   const Result result = run({"--format", "jsonl", "--volume", "aabb", "--range", "1:50", "--cluster", "0.3",
                              "--labels", at("l.pcd"), "synth:street:32000"});

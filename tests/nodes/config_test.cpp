@@ -33,7 +33,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   config.pipeline.filter = {0.1, 123.456789012345, Eigen::Vector3d(-1, -2, -0.1), Eigen::Vector3d(1.5, 2, 3)};
   config.pipeline.ground = {
       GroundMethod::plane, {0.1, -1, 1.0 / 3}, Eigen::Vector3d(1, 2, 3.5), 1.0 / 3, 0.07, 12};
-  config.pipeline.cluster = {0.3, std::size_t{0}, 5000};
+  config.pipeline.cluster = {0.3, std::size_t{0}, 5000, 4};
   config.pipeline.growth = SphereGrowth::stationary;
   config.pipeline.filter.regions = {{"robot arm.json", false, 0.1}, {"hall.json", true, 0}};
   config.pipeline.volumes = {"dop26", "sphere-exact"};
@@ -52,6 +52,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.pipeline.ground.sensor, Eigen::Vector3d(1, 2, 3.5));
   EXPECT_EQ(read.pipeline.cluster.min_size, 0U);
   EXPECT_EQ(read.pipeline.cluster.max_size, 5000U);
+  EXPECT_EQ(read.pipeline.cluster.min_points, 4U);
   EXPECT_EQ(read.pipeline.growth, SphereGrowth::stationary);
   ASSERT_EQ(read.pipeline.filter.regions.size(), 2U);
   EXPECT_EQ(read.pipeline.filter.regions[0].file, "robot arm.json");

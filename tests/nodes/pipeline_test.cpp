@@ -60,6 +60,23 @@ TEST(Pipeline, CountsEachPointOnce) {
             result.points);
 }
 
+TEST(Pipeline, CountsNoiseOnce) {
+  PipelineConfig config;
+  config.cluster.min_points = 8;
+  FramePipeline pipeline(config);
+  FrameResult result;
+  const std::vector<float> xyz = street(1)[0];
+  pipeline.process(frame_of(xyz, 0), result);
+  const Counts& c = result.counts;
+  EXPECT_GT(c.noise, 100U);
+  EXPECT_EQ(c.nonfinite + c.range + c.ground + c.small + c.large + c.noise + result.clusters.indices.size(),
+            result.points);
+  config.cluster.tolerance = 0;  // all points are one
+  pipeline.set_config(config);
+  pipeline.process(frame_of(xyz, 1), result);
+  EXPECT_EQ(result.counts.noise, 0U);
+}
+
 TEST(Pipeline, WithoutAPointGivesAnEmptyResultWithTheHeader) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const std::vector<float>& xyz :

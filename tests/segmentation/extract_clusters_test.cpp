@@ -42,6 +42,26 @@ typename pcl::PointCloud<PointT>::Ptr cloud_of(const pcl_bv::test::Cloud<float>&
   return cloud;
 }
 
+TEST(ExtractClusters, MinPointsTellsNoiseApart) {
+  pcl_bv::test::Cloud<float> points;
+  for (int i = 0; i < 20; ++i)
+    points.push_back({0.1F * static_cast<float>(i), 0, 0});
+  points.push_back({2.4F, 0, 0});  // near to the last one only
+  pcl_bv::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
+  extraction.setInputCloud(cloud_of<pcl::PointXYZ>(points));
+  extraction.setClusterTolerance(0.55);
+  std::vector<pcl::PointIndices> clusters;
+  for (const auto& [least, size] : {std::pair(1U, 21U), std::pair(3U, 21U), std::pair(8U, 20U)}) {
+    extraction.setMinPoints(least);
+    EXPECT_EQ(extraction.getMinPoints(), least);
+    extraction.extract(clusters);
+    ASSERT_EQ(clusters.size(), 1U) << least;
+    EXPECT_EQ(clusters[0].indices.size(), size) << least;
+  }
+  extraction.setMinPoints(0);
+  EXPECT_THROW(extraction.extract(clusters), std::invalid_argument);
+}
+
 // Written for PCL; both classes must serve.
 template <typename Extraction, typename PointT>
 std::vector<pcl::PointIndices> run(const typename pcl::PointCloud<PointT>::Ptr& cloud,

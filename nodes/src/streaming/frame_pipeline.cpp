@@ -121,6 +121,7 @@ void take_all(const ClusterConfig& config, const PointView& points, FrameResult&
   const bool small = valid<config.least_size(), large = valid> config.max_size;
   all.small_points = small ? valid : 0;
   all.large_points = large ? valid : 0;
+  all.noise_points = 0;
   if (small || large) return;
   all.offsets.push_back(valid);
   if (points.indices != nullptr && points.count == valid)
@@ -131,13 +132,14 @@ void FramePipeline::State::find_clusters(const Prepared& now, const PointView& p
   const ClusterConfig& config = now.config.cluster;
   if (config.tolerance > 0) {
     const ClusterSettings settings{static_cast<float>(config.tolerance), config.least_size(),
-                                   config.max_size};
+                                   config.max_size, config.min_points};
     clusterer.extract(points, settings, result.clusters, now.execution.parallel);
   } else {
     take_all(config, points, result);
   }
   result.counts.small = result.clusters.small_points;
   result.counts.large = result.clusters.large_points;
+  result.counts.noise = result.clusters.noise_points;
 }
 
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {

@@ -64,6 +64,9 @@ struct ClusterConfig {
   /// Points; smaller objects are dropped. If not given 10, and 0 where all points are one.
   std::optional<std::size_t> min_size;
   std::size_t max_size = std::numeric_limits<std::size_t>::max();  ///< Points; larger ones are dropped.
+  /// DBSCAN: points nearer to each other than the tolerance are one object only if one of them has so many
+  /// points nearer than that, itself included; 1: always.
+  std::size_t min_points = 1;
 
   std::size_t least_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
 };
@@ -105,4 +108,4 @@ PipelineConfig whole_cloud_config();
 /// them, in its optical frame: z forward, y down). Throws std::invalid_argument for another name.
 void apply_preset(std::string_view name, PipelineConfig& config);
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

@@ -70,6 +70,8 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
           "10; without clusters 0", "--min-size", "N"}, c.cluster.min_size);
   visit(S{"cluster.max_size", "points", "Drop objects of more points", {1, kNoLimit}, {}, "--max-size", "N"},
         c.cluster.max_size);
+  visit(S{"cluster.min_points", "points; 1: no noise", "DBSCAN: drop points with fewer about them and no such one near",
+          {1, kNoLimit}, {}, "--min-points", "N"}, c.cluster.min_points);
   visit(S{"volumes", "methods", "Methods with commas, or all", {},
           "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
   visit(S{"growth", "sequential, stationary, deferred",

@@ -14,6 +14,7 @@ struct Counts {
   std::size_t ground = 0;  ///< Removed as ground.
   std::size_t small = 0;   ///< In clusters of too few points.
   std::size_t large = 0;   ///< In clusters of too many points.
+  std::size_t noise = 0;   ///< Neither core of a cluster nor near to one: see ClusterSettings::min_points.
   std::size_t inside = 0;  ///< Dropped for regions: inside of one, or outside of all that are kept.
 };
 

@@ -68,6 +68,12 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   void setMaxClusterSize(pcl::uindex_t size) { max_size_ = size; }
   pcl::uindex_t getMaxClusterSize() const { return max_size_; }
 
+  /// DBSCAN (Ester et al. 1996) with more than 1: points are core that have so many, themselves included, nearer
+  /// than the tolerance; linked core points are a cluster, with the points nearest to them, and the rest is
+  /// noise. Default 1: every point is core.
+  void setMinPoints(pcl::uindex_t points) { min_points_ = points; }
+  pcl::uindex_t getMinPoints() const { return min_points_; }
+
   /// Threads for extract(): 0 means all processors, 1 (the default) the calling thread. Never changes the
   /// result.
   void setNumberOfThreads(unsigned threads) { policy_ = Threads{threads}; }
@@ -79,7 +85,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   /// std::invalid_argument if the tolerance is not finite and > 0 as a float, or the minimum size exceeds the
   /// maximum.
   void extract(std::vector<pcl::PointIndices>& clusters) {
-    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_};
+    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_, min_points_};
     clusterer_.extract(view(), settings, found_, policy_);
     clusters.resize(found_.size());
     for (std::size_t i = 0; i < clusters.size(); ++i) {
@@ -103,6 +109,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   double tolerance_ = 0;
   pcl::uindex_t min_size_ = 1;
   pcl::uindex_t max_size_ = std::numeric_limits<pcl::uindex_t>::max();
+  pcl::uindex_t min_points_ = 1;
   ParallelPolicy policy_ = Serial{};
   EuclideanClusterer clusterer_;
   Clusters found_;
