@@ -110,7 +110,9 @@ struct Return {
 };
 
 // Blades of grass end a ray before it comes to the ground; a mirrored one goes on below it.
-Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double sinking) {
+// `above(range)`: the ray's height above the ground there.
+template <typename Above>
+Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double sinking, Above above) {
   SplitMix64 random(ray.key);
   const double noise = street_range_noise * random.normal();
   const bool dropped = random.uniform() < std::max(kDropped, hit.loss);
@@ -120,7 +122,11 @@ Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, doub
   if (luck < kReflected) return {hit.range * random.uniform(1.15, 1.6) + noise, What::reflection};
   if (grass > 0 && random.uniform() < kGrown) {
     const double blade = grass * random.uniform(0.2, 1);
-    return {hit.range - std::min(blade / std::max(sinking, 0.02), 1.5) + noise, What::grass};
+    double back = std::min(blade / std::max(sinking, 0.02), 1.5);
+    // Where the ground falls away towards the sensor, as into a ditch, no blade is so high.
+    while (back > 0.01 && above(hit.range - back) > grass)
+      back *= 0.5;
+    return {hit.range - back + noise, What::grass};
   }
   return {hit.range + noise, What::ground};
 }
@@ -148,7 +154,11 @@ struct Sweep {
       const Vec3 p = at.place + range * direction;
       grass = terrain.grass(p.x, p.y);
     }
-    const Return seen = return_of(ray, hit, ground, grass, -direction.z);
+    const auto above = [&](double r) {
+      const Vec3 p = at.place + r * direction;
+      return p.z - terrain.height(p.x, p.y);
+    };
+    const Return seen = return_of(ray, hit, ground, grass, -direction.z, above);
     if (seen.what == What::nothing) return;
     const Vec3 point = seen.range * ray.direction;
     cloud.xyz[3 * i] = static_cast<float>(point.x);
@@ -183,30 +193,53 @@ struct Sweep {
 }  // namespace
 }  // namespace verges
 
-VergesFrame make_verges_frame(const VergesOptions& options, std::size_t frame) {
-  using namespace verges;
-  const Sensor sensor = sensor_of(options.beams);
-  const double seconds = static_cast<double>(frame) * street_frame_seconds;
-  const double along = driven(options.seed, seconds);
-  const World world(options.seed, along);
-  const Mount at = mount(world, sensor, along);
-  const Terrain terrain(world, options.seed, at.place.x, at.place.y);
-  VergesFrame result;
-  std::vector<PlacedObject> objects;
-  for (const VergesPlaced& placed : place_verges(world, options.seed, seconds)) {
-    PlacedObject seen = seen_from(at, placed.object);
-    if (nearest_distance(seen) >= street_max_range) continue;
-    result.objects.push_back(truth_of(seen, placed));
-    objects.push_back(std::move(seen));
+namespace verges {
+namespace {
+
+/// All of a frame but its cloud, and what rays need to make that.
+struct Scene {
+  Scene(const VergesOptions& options, std::size_t frame)
+      : sensor(sensor_of(options.beams)),
+        seconds(static_cast<double>(frame) * street_frame_seconds),
+        along(driven(options.seed, seconds)),
+        world(options.seed, along),
+        at(mount(world, sensor, along)) {
+    for (const VergesPlaced& placed : place_verges(world, options.seed, seconds)) {
+      PlacedObject seen = seen_from(at, placed.object);
+      if (nearest_distance(seen) >= street_max_range) continue;
+      result.objects.push_back(truth_of(seen, placed));
+      objects.push_back(std::move(seen));
+    }
+    result.pose = {at.forward.x, at.left.x,  at.up.x,      at.place.x, at.forward.y, at.left.y,
+                   at.up.y,      at.place.y, at.forward.z, at.left.z,  at.up.z,      at.place.z};
   }
-  result.cloud = Sweep{sensor, at, terrain, objects, options.seed, frame}.make();
-  result.pose = {at.forward.x, at.left.x,  at.up.x,      at.place.x, at.forward.y, at.left.y,
-                 at.up.y,      at.place.y, at.forward.z, at.left.z,  at.up.z,      at.place.z};
-  return result;
+
+  Sensor sensor;
+  double seconds, along;
+  World world;
+  Mount at;
+  std::vector<PlacedObject> objects;
+  VergesFrame result;
+};
+
+}  // namespace
+}  // namespace verges
+
+VergesFrame make_verges_frame(const VergesOptions& options, std::size_t frame) {
+  verges::Scene scene(options, frame);
+  const verges::Terrain terrain(scene.world, options.seed, scene.at.place.x, scene.at.place.y);
+  scene.result.cloud =
+      verges::Sweep{scene.sensor, scene.at, terrain, scene.objects, options.seed, frame}.make();
+  return std::move(scene.result);
+}
+
+VergesFrame make_verges_truth(const VergesOptions& options, std::size_t frame) {
+  return verges::Scene(options, frame).result;
 }
 
 double verges_ground_height(std::uint64_t seed, std::size_t frame, double x, double y) {
-  return verges::World(seed, verges::driven(seed, static_cast<double>(frame) * street_frame_seconds)).height(x, y);
+  return verges::World(seed, verges::driven(seed, static_cast<double>(frame) * street_frame_seconds))
+      .height(x, y);
 }
 
 }  // namespace pcl_bv

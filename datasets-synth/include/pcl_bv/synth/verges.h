@@ -54,6 +54,9 @@ struct VergesFrame {
 /// O(points + frame), some 150 ms for 64 beams.
 VergesFrame make_verges_frame(const VergesOptions& options, std::size_t frame);
 
+/// The same frame without its cloud: objects and pose. O(frame), below a millisecond for the first thousands.
+VergesFrame make_verges_truth(const VergesOptions& options, std::size_t frame);
+
 /// Height of the ground in the fixed frame, metres, but for its roughness of up to 5 cm.
 double verges_ground_height(std::uint64_t seed, std::size_t frame, double x, double y);
 
