@@ -12,6 +12,7 @@
 
 #include "pcl_bv/synth/shapes.h"
 #include "pcl_bv/synth/street.h"
+#include "pcl_bv/synth/verges.h"
 
 namespace pcl_bv {
 namespace {
@@ -28,6 +29,11 @@ struct Scene {
 
 SynthCloud make_paper(std::size_t points, std::uint64_t seed) {
   return make_surface(points, seed, static_cast<double>(points));
+}
+
+template <std::size_t beams>
+SynthCloud make_verges(std::size_t, std::uint64_t seed) {
+  return make_verges_frame({seed, beams}, 0).cloud;
 }
 
 constexpr std::array scenes{
@@ -47,6 +53,10 @@ constexpr std::array scenes{
     Scene{"paper-48485", 48'485, true, make_paper},
     Scene{"paper-100722", 100'722, true, make_paper},
     Scene{"paper-327323", 327'323, true, make_paper},
+    Scene{"verges", 128'000, true, make_verges<64>},
+    Scene{"verges-16", 28'800, true, make_verges<16>},
+    Scene{"verges-32", 57'600, true, make_verges<32>},
+    Scene{"verges-128", 230'400, true, make_verges<128>},
 };
 
 const Scene& find_scene(std::string_view name) {
@@ -94,6 +104,8 @@ std::uint64_t seed_of(const std::vector<std::string_view>& parts) {
   return parts.size() > 2 ? whole_number("SEED", parts[2], 0, UINT64_MAX) : 1;
 }
 
+constexpr std::string_view verges_sequence = "verges-sequence";
+
 }  // namespace
 
 SynthSpec parse_synth(std::string_view text) {
@@ -120,10 +132,37 @@ std::string synth_names() {
   return names;
 }
 
+bool is_verges_sequence(std::string_view text) {
+  return text.substr(0, text.find(':')).starts_with(verges_sequence);
+}
+
+VergesSequenceSpec parse_verges_sequence(std::string_view text) {
+  const auto parts = split_spec(text, "FRAMES");
+  VergesSequenceSpec spec;
+  if (parts[0] != verges_sequence) {
+    constexpr std::array<std::string_view, 4> sensors{"16", "32", "64", "128"};
+    const std::string_view sensor =
+        is_verges_sequence(parts[0]) ? parts[0].substr(verges_sequence.size()) : std::string_view();
+    const auto known = std::find_if(sensors.begin(), sensors.end(), [sensor](std::string_view beams) {
+      return sensor.starts_with('-') && sensor.substr(1) == beams;
+    });
+    if (known == sensors.end()) {
+      throw std::invalid_argument(
+          "unknown sequence '" + std::string(parts[0]) +
+          "': it is verges-sequence, with -16, -32, -64 or -128 after it for so many beams");
+    }
+    spec.options.beams = whole_number("BEAMS", *known, 16, 128);
+  }
+  spec.options.seed = seed_of(parts);
+  if (parts.size() > 1) spec.frames = whole_number("FRAMES", parts[1], 1, max_frames);
+  return spec;
+}
+
 StreetSequenceSpec parse_street_sequence(std::string_view text) {
   const auto parts = split_spec(text, "FRAMES");
   if (parts[0] != "street-sequence") {
-    throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) + "': it is street-sequence");
+    throw std::invalid_argument("unknown sequence '" + std::string(parts[0]) +
+                                "': it is street-sequence or verges-sequence[-BEAMS]");
   }
   StreetSequenceSpec spec;
   spec.seed = seed_of(parts);

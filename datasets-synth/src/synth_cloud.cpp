@@ -13,7 +13,7 @@ RawCloud to_raw_cloud(const SynthCloud& cloud) {
   if (!cloud.object.empty()) set_uint32_field(raw, "object", cloud.object);
   if (!cloud.ground.empty()) set_uint32_field(raw, "ground", cloud.ground);
   if (!cloud.vegetation.empty()) set_uint32_field(raw, "vegetation", cloud.vegetation);
-  if (!cloud.kind.empty()) set_uint32_field(raw, "kind", cloud.kind);
+  if (!cloud.kind.empty()) set_uint32_field(raw, "class", cloud.kind);
   raw.height = cloud.height;
   raw.width = cloud.size() / cloud.height;
   return raw;

@@ -7,14 +7,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
+#include "pcl_bv/synth/verges.h"
 
 namespace pcl_bv {
 namespace {
@@ -56,6 +63,31 @@ class SynthCommand : public testing::Test {
   fs::path folder_;
 };
 
+void expect_truth(const std::string& line, const VergesFrame& frame, std::size_t number) {
+  const auto truth = nlohmann::json::parse(line);
+  EXPECT_EQ(truth.at("seq"), number);
+  EXPECT_EQ(truth.at("stamp_ns"), 100'000'000 * number);
+  EXPECT_EQ(truth.at("pose").get<std::vector<double>>(),
+            std::vector<double>(frame.pose.begin(), frame.pose.end()));
+  ASSERT_EQ(truth.at("objects").size(), frame.objects.size());
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < frame.objects.size(); ++i) {
+    const auto& told = truth.at("objects").at(i);
+    const VergesObject& object = frame.objects[i];
+    EXPECT_EQ(told.at("id"), object.id);
+    EXPECT_EQ(told.at("class"), name_of(object.kind));
+    EXPECT_EQ((told.at("center").get<std::array<double, 3>>()), object.center);
+    EXPECT_EQ((told.at("axes").get<std::array<std::array<double, 3>, 3>>()), object.axes);
+    EXPECT_EQ((told.at("velocity").get<std::array<double, 3>>()), object.velocity);
+    EXPECT_EQ(told.at("yaw_rate"), object.yaw_rate);
+    EXPECT_EQ(told.at("yaw"), std::atan2(object.axes[0][1], object.axes[0][0]));
+    EXPECT_EQ(told.at("size").at(0), 2 * object.half_extents[0]);
+    points += told.at("points").get<std::size_t>();
+  }
+  const auto& owners = frame.cloud.object;
+  EXPECT_EQ(points, owners.size() - static_cast<std::size_t>(std::count(owners.begin(), owners.end(), 0U)));
+}
+
 TEST_F(SynthCommand, WritesTheSceneThatTheLibraryMakes) {
   for (const std::string scene : {"gauss:1000:3", "street:6400:2", "paper-4010"}) {
     SCOPED_TRACE(scene);
@@ -83,6 +115,36 @@ TEST_F(SynthCommand, WritesASequenceIntoAFolderThatItMakes) {
   }
 }
 
+TEST_F(SynthCommand, WritesTheVergesWithTheirPosesAndTruth) {
+  const fs::path road = path("road");
+  const Outcome outcome = run("verges-sequence-16:3:7 " + road.string());
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  EXPECT_EQ(std::distance(fs::directory_iterator(road), fs::directory_iterator{}), 5);
+  std::istringstream poses(content_of(road / "poses.txt")), truths(content_of(road / "truth.jsonl"));
+  for (std::size_t number = 0; number < 3; ++number) {
+    SCOPED_TRACE(number);
+    const VergesFrame frame = make_verges_frame({7, 16}, number);
+    const RawCloud cloud = read_pcd(road / ("000000000" + std::to_string(number) + ".pcd"));
+    EXPECT_EQ(cloud.data, to_raw_cloud(frame.cloud).data);
+    for (const char* const field : {"object", "ground", "vegetation", "class"}) {
+      const auto has = [field](const PointField& f) { return f.name == field; };
+      EXPECT_TRUE(std::any_of(cloud.fields.begin(), cloud.fields.end(), has)) << field;
+    }
+    for (const double value : frame.pose) {
+      double read = 0;
+      EXPECT_TRUE(poses >> read);
+      EXPECT_EQ(read, value);
+    }
+    std::string line;
+    ASSERT_TRUE(std::getline(truths, line));
+    expect_truth(line, frame, number);
+  }
+  std::string more;
+  EXPECT_FALSE(poses >> more);
+  EXPECT_FALSE(std::getline(truths, more));
+}
+
 TEST_F(SynthCommand, SaysInOneLineWhyAnOutputWasNotWritten) {
   std::ofstream(path("file")) << "not a folder";
   const std::string below_a_file = (path("file") / "a.pcd").string();
@@ -106,7 +168,8 @@ TEST_F(SynthCommand, WrongUseIsStatusTwoAndWritesNothing) {
   const std::string file = path("a.pcd").string();
   for (const std::string& arguments :
        {std::string(), std::string("box"), "cube " + file, "box:0 " + file, "paper-4010:5 " + file,
-        "street-sequence:0 " + file, "box " + file + " more", "--unknown box " + file}) {
+        "street-sequence:0 " + file, "verges-sequence-17 " + file, "verges-sequence:0 " + file,
+        "verges:7 " + file, "box " + file + " more", "--unknown box " + file}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2);
@@ -122,6 +185,7 @@ TEST_F(SynthCommand, HelpNamesTheScenesAndShowsExamples) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, HasSubstr("paper-327323"));
   EXPECT_THAT(outcome.out, HasSubstr("synth street-sequence"));
+  EXPECT_THAT(outcome.out, HasSubstr("synth verges-sequence-16"));
 }
 
 }  // namespace
