@@ -9,6 +9,7 @@
 
 #include "folder.h"
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/synth/verges.h"
 
 namespace pcl_bv {
 namespace {
@@ -127,6 +128,33 @@ TEST(SynthSource, GivesTheFramesOfTheSequence) {
   EXPECT_FALSE(next(*source, frame));
 }
 
+TEST(SynthSource, GivesTheRoadWithVergesAsManyBeamsSeeItAndItsPoses) {
+  const auto source = open_source("synth:verges-sequence-16:2:7");
+  for (std::size_t i = 0; i < 2; ++i) {
+    Frame frame;
+    ASSERT_TRUE(next(*source, frame));
+    const VergesFrame made = make_verges_frame({7, 16}, i);
+    ASSERT_EQ(frame.points.count, made.cloud.size());
+    EXPECT_EQ(frame.header.frame_id, "verges");
+    for (std::size_t point = 0; point < made.cloud.size(); point += 1000)
+      EXPECT_EQ(load_point(frame.points, point).x, made.cloud.xyz[3 * point]);
+    ASSERT_TRUE(frame.pose);
+    for (Eigen::Index k = 0; k < 12; ++k)
+      EXPECT_EQ((*frame.pose)(k / 4, k % 4), made.pose[static_cast<std::size_t>(k)]);
+  }
+  EXPECT_THROW(open_source("synth:verges-sequence-17"), std::invalid_argument);
+}
+
+TEST_F(FolderSource, GivesPosesInPlaceOfTheVergesOwn) {
+  write("poses.txt", "1 0 0 5 0 1 0 6 0 0 1 7\n");
+  ReplayOptions options;
+  options.poses = path_ / "poses.txt";
+  Frame frame;
+  ASSERT_TRUE(next(*open_source("synth:verges-sequence-16:1", options), frame));
+  ASSERT_TRUE(frame.pose);
+  EXPECT_EQ(frame.pose->translation(), Eigen::Vector3d(5, 6, 7));
+}
+
 TEST(FunctionSource, EndsWhenTheFunctionSaysSo) {
   int calls = 0;
   const auto source = make_source([&](Frame& frame) {
@@ -184,7 +212,9 @@ TEST(FunctionSource, ItsExceptionsCostTheirFramesOnly) {
 }
 
 TEST(SourceKinds, AreListedForUsers) {
-  EXPECT_EQ(source_syntax(), "A folder of clouds, one file or synth:street-sequence[:FRAMES[:SEED]]");
+  EXPECT_EQ(source_syntax(),
+            "A folder of clouds, one file or synth:street-sequence[:FRAMES[:SEED]] or "
+            "synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]");
 }
 
 }  // namespace

@@ -4,12 +4,14 @@
 // The table of sources: files of clouds, and made frames.
 
 #include <algorithm>
+#include <array>
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
+#include "pcl_bv/synth/verges.h"
 #include "sources.h"
 
 namespace pcl_bv {
@@ -38,8 +40,30 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
       });
 }
 
+Pose pose_of(const std::array<double, 12>& rows) {
+  Pose pose = Pose::Identity();
+  for (std::size_t i = 0; i < 12; ++i)
+    pose(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = rows[i];
+  return pose;
+}
+
+// Its poses are known; those of a file, where one is given, take their place.
+std::unique_ptr<FrameSource> open_verges(const std::string& name, const ReplayOptions& options) {
+  const VergesSequenceSpec spec = parse_verges_sequence(name.substr(kSynth.size()));
+  const bool own_poses = options.poses.empty();
+  return make_replay(spec.frames, {}, options, [spec, own_poses](std::size_t place, Frame& frame) {
+    VergesFrame made = make_verges_frame(spec.options, place);
+    if (own_poses) frame.pose = pose_of(made.pose);
+    const auto xyz = std::make_shared<std::vector<float>>(std::move(made.cloud.xyz));
+    frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
+    frame.owner = xyz;
+    if (frame.header.frame_id.empty()) frame.header.frame_id = "verges";
+  });
+}
+
 std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOptions& options) {
   if (options.from_name) throw std::invalid_argument("'" + name + "' has no names with times");
+  if (is_verges_sequence(name.substr(kSynth.size()))) return open_verges(name, options);
   const StreetSequenceSpec spec = parse_street_sequence(name.substr(kSynth.size()));
   StreetOptions street;
   street.seed = spec.seed;
@@ -56,7 +80,7 @@ std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOpt
 
 const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds{
-      {"synth:street-sequence[:FRAMES[:SEED]]", false,
+      {"synth:street-sequence[:FRAMES[:SEED]] or synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]", false,
        [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
       {"A folder of clouds, one file", true, [](const std::string&) { return true; }, open_folder}};
   return kinds;
