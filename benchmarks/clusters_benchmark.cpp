@@ -94,10 +94,12 @@ ClusterSets sorted(ClusterSets sets) {
 
 class Ours {
  public:
-  Ours(const ClusterCloud& cloud, float tolerance, ParallelPolicy policy)
-      : view_(point_view(cloud)), tolerance_(tolerance), policy_(policy) {}
+  Ours(const ClusterCloud& cloud, float tolerance, ParallelPolicy policy, std::size_t min_points = 1)
+      : view_(point_view(cloud)), settings_{tolerance}, policy_(policy) {
+    settings_.min_points = min_points;
+  }
 
-  void operator()() { clusterer_.extract(view_, {tolerance_}, clusters_, policy_); }
+  void operator()() { clusterer_.extract(view_, settings_, clusters_, policy_); }
 
   ClusterSets sets() const {
     ClusterSets all;
@@ -108,7 +110,7 @@ class Ours {
 
  private:
   PointView view_;
-  float tolerance_;
+  ClusterSettings settings_;
   ParallelPolicy policy_;
   EuclideanClusterer clusterer_;
   Clusters clusters_;
@@ -159,7 +161,24 @@ void two_threads(const Scene& scene, float tolerance) {
       });
 }
 
+// DBSCAN beside clusters without a core condition: the ratio is the latter's time over the former's.
+void dbscan(const Scene& scene, float tolerance) {
+  for (const std::size_t min_points : {2U, 5U, 20U}) {
+    add_turns(row_name("dbscan-" + std::to_string(min_points), scene, tolerance), kPairs,
+              [=](benchmark::State& state) {
+                const ClusterCloud::ConstPtr cloud = cloud_of(scene);
+                Ours plain(*cloud, tolerance, Serial{});
+                Ours ours(*cloud, tolerance, Serial{}, min_points);
+                ours();
+                compare(
+                    state, [&] { plain(); }, ours);
+              });
+  }
+}
+
 void register_all() {
+  for (const float r : {0.2F, 0.5F, 100.F})
+    dbscan({"street", 128'000}, r);
   for (const float r : {0.1F, 0.2F, 0.5F, 1.F}) {
     for (const std::size_t rays : {56'000U, 128'000U})  // 19 k and 43 k points
       over_peers({"street", rays}, r, 5);
@@ -174,8 +193,10 @@ void register_all() {
     two_threads({"sheets", points}, 0.5F);
   }
   if (std::getenv("PCL_BV_DATA") != nullptr && !tiny()) {
-    for (const float r : {0.2F, 0.5F})
+    for (const float r : {0.2F, 0.5F}) {
       over_peers({"sweep", 0}, r, 5);
+      dbscan({"sweep", 0}, r);
+    }
   }
   for (std::size_t rays = 3072; rays <= 3'145'728; rays *= 4)  // 1 k to 1 M points
     alone({"street", rays}, 0.5F);

@@ -30,8 +30,6 @@ struct CoreSearch {
   std::size_t min_points;
   bool solid;
 
-  std::uint64_t occupied(std::uint32_t block) const { return cells.blocks[block].occupied; }
-
   // Calls test(begin, end) for the places of a run, a group at a time, but for groups of which skip(box) says
   // that they need none; ends when either returns false.
   template <typename Skip, typename Test>
@@ -67,14 +65,13 @@ struct CoreSearch {
   }
 };
 
-// Whether a point of a cell is core; the cells around it are sought as far as they are needed.
+// Whether a point is core. The cells of other blocks are sought if they are needed.
 template <typename T>
-bool is_core(const CoreSearch<T>& search, const Point<T>& p, const PlaceRun& own, const BlocksAround& around,
-             Neighbourhood<T>& near) {
-  std::size_t found = search.solid ? own.end - own.begin : search.count(own, p, search.min_points);
-  const auto occupied = [&search](std::uint32_t block) { return search.occupied(block); };
+bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
+  std::size_t found = 0;
   for (std::size_t i = 0; found < search.min_points; ++i) {
-    if (i == near.size() && !near.more(around, occupied)) return false;
+    if (i == near.size()) near.complete();
+    if (i == near.size()) return false;
     found += search.count(near[i], p, search.min_points - found);
   }
   return true;
@@ -85,6 +82,7 @@ template <typename T, typename FindAround>
 void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
                Neighbourhood<T>& near) {
   const Block& block = search.cells.blocks[number];
+  std::vector<std::uint8_t>& core = search.scratch.core;
   const BlocksAround* around = nullptr;
   std::uint64_t core_cells = 0;
   std::uint64_t sparse_cells = 0;
@@ -93,17 +91,17 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
     const PlaceRun own{search.cells.begin[cell], search.cells.begin[cell + 1]};
     const std::uint64_t bit = rest & -rest;
     if (search.solid && own.end - own.begin >= search.min_points) {
-      std::fill(search.scratch.core.begin() + own.begin, search.scratch.core.begin() + own.end,
-                std::uint8_t{1});
+      std::fill(core.begin() + own.begin, core.begin() + own.end, std::uint8_t{1});
       core_cells |= bit;
       continue;
     }
     if (around == nullptr) around = &find_around();
-    near.start(static_cast<unsigned>(std::countr_zero(rest)));
+    near.start(*around, static_cast<unsigned>(std::countr_zero(rest)));
+    if (near.points() < search.min_points) near.complete();
+    const bool too_few = near.points() < search.min_points;
     for (std::uint32_t i = own.begin; i < own.end; ++i) {
-      const bool core = is_core(search, search.cells.points[i], own, *around, near);
-      search.scratch.core[i] = core ? 1 : 0;
-      (core ? core_cells : sparse_cells) |= bit;
+      core[i] = !too_few && is_core(search, search.cells.points[i], near) ? 1 : 0;
+      (core[i] != 0 ? core_cells : sparse_cells) |= bit;
     }
   }
   search.scratch.core_cells[number] = core_cells;
@@ -112,8 +110,7 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
 
 // The place of the core point to which one that is none belongs, or `noise`.
 template <typename T>
-std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const PlaceRun& own,
-                           const Neighbourhood<T>& near) {
+std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const Neighbourhood<T>& near) {
   const CoreScratch<T>& scratch = search.scratch;
   const Box<T> at{p, p};
   T least = search.r2;
@@ -133,7 +130,6 @@ std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const
           return true;
         });
   };
-  look(own);
   for (std::size_t i = 0; i < near.size(); ++i)
     look(near[i]);
   return nearest;
@@ -146,16 +142,14 @@ void label_sparse(const CoreSearch<T>& search, std::size_t number, FindAround fi
   if (scratch.sparse_cells[number] == 0) return;
   const Block& block = search.cells.blocks[number];
   const BlocksAround& around = find_around();
-  const auto with_core = [&scratch](std::uint32_t other) { return scratch.core_cells[other]; };
   for (std::uint64_t rest = scratch.sparse_cells[number]; rest != 0; rest &= rest - 1) {
     const auto bit = static_cast<unsigned>(std::countr_zero(rest));
     const std::uint32_t cell = block.cell(bit);
     const PlaceRun own{search.cells.begin[cell], search.cells.begin[cell + 1]};
-    near.start(bit);
-    while (near.more(around, with_core)) {
-    }
+    near.start(around, bit);
+    near.complete();
     for (std::uint32_t i = own.begin; i < own.end; ++i) {
-      if (scratch.core[i] == 0) scratch.label[i] = nearest_core(search, search.cells.points[i], own, near);
+      if (scratch.core[i] == 0) scratch.label[i] = nearest_core(search, search.cells.points[i], near);
     }
   }
 }

@@ -19,11 +19,11 @@ namespace pcl_bv {
 
 /// By row: a variable for each, as clang allows a million steps for one.
 template <int dy, int dz>
-inline constexpr std::array<NearAndFar, 3> masks_of_row{near_and_far({-1, dy, dz}), near_and_far({0, dy, dz}),
-                                                        near_and_far({1, dy, dz})};
+inline constexpr std::array<CellMasks, 3> masks_of_row{
+    cells_up_to({-1, dy, dz}, 2), cells_up_to({0, dy, dz}, 2), cells_up_to({1, dy, dz}, 2)};
 
 /// By (dz + 1) * 3 + dy + 1, and there by dx + 1.
-inline constexpr std::array<const std::array<NearAndFar, 3>*, 9> masks_around{
+inline constexpr std::array<const std::array<CellMasks, 3>*, 9> masks_around{
     &masks_of_row<-1, -1>, &masks_of_row<0, -1>, &masks_of_row<1, -1>,
     &masks_of_row<-1, 0>,  &masks_of_row<0, 0>,  &masks_of_row<1, 0>,
     &masks_of_row<-1, 1>,  &masks_of_row<0, 1>,  &masks_of_row<1, 1>};
@@ -67,66 +67,66 @@ class BlockRows {
   std::array<std::size_t, 9> next_{};
 };
 
-/// Places of a cell's points.
+/// Places of points of several cells of a block.
 struct PlaceRun {
   std::uint32_t begin, end;
 };
 
-/// The cells at most two away from one along each axis, without itself: those that touch it before the
-/// others, those of its block before those of other blocks, each of the four kinds sought when asked for.
+/// The points in the cells at most two away from one along each axis, itself included: those of its own
+/// block, and, when asked for, those of others. Cells that follow each other in a block, but for empty ones,
+/// are one run: of the 125 cells mostly some ten runs remain.
 template <typename T>
 class Neighbourhood {
  public:
   explicit Neighbourhood(const Cells<T>& cells) : cells_(cells) {}
 
-  void start(unsigned bit) {
+  /// `around` must live on.
+  void start(const BlocksAround& around, unsigned bit) {
+    around_ = &around;
     bit_ = bit;
-    kind_ = 0;
     count_ = 0;
+    points_ = 0;
+    add(1, 1, 1);
+    complete_ = false;
   }
 
-  /// Adds the next kind that has any; `wanted` says which cells of a block. False if there is none.
-  template <typename Wanted>
-  bool more(const BlocksAround& around, const Wanted& wanted) {
-    const std::size_t before = count_;
-    while (kind_ < 4 && count_ == before)
-      add(around, wanted, kind_++);
-    return count_ > before;
+  /// A cell in the lower half of its block is never within two of the next block, nor one in the upper half
+  /// of the block before: seven others matter.
+  void complete() {
+    if (complete_) return;
+    complete_ = true;
+    const auto side = [this](unsigned shift) { return (bit_ >> shift & 3) < 2 ? 0U : 2U; };
+    for (unsigned i = 1; i < 8; ++i)
+      add((i & 1) != 0 ? side(0) : 1, (i & 2) != 0 ? side(2) : 1, (i & 4) != 0 ? side(4) : 1);
   }
 
   std::size_t size() const { return count_; }
+  std::size_t points() const { return points_; }  ///< Of all runs.
   const PlaceRun& operator[](std::size_t i) const { return runs_[i]; }
 
  private:
-  // A cell in the lower half of its block is never within two of the next block, nor one in the upper half
-  // of the block before: seven others matter.
-  template <typename Wanted>
-  void add(const BlocksAround& around, const Wanted& wanted, unsigned kind) {
-    const auto side = [this](unsigned shift) { return (bit_ >> shift & 3) < 2 ? 0U : 2U; };
-    const unsigned first = kind % 2 == 0 ? 0 : 1;
-    const unsigned last = kind % 2 == 0 ? 0 : 7;
-    for (unsigned i = first; i <= last; ++i) {
-      const unsigned x = (i & 1) != 0 ? side(0) : 1;
-      const unsigned y = (i & 2) != 0 ? side(2) : 1;
-      const unsigned z = (i & 4) != 0 ? side(4) : 1;
-      const std::uint32_t block = around[9 * z + 3 * y + x];
-      if (block == no_block) continue;
-      const NearAndFar& masks = (*masks_around[3 * z + y])[x];
-      add(cells_.blocks[block], (kind < 2 ? masks.near : masks.far)[bit_] & wanted(block));
+  void add(unsigned x, unsigned y, unsigned z) {
+    const std::uint32_t number = (*around_)[9 * z + 3 * y + x];
+    if (number == no_block) return;
+    const Block& block = cells_.blocks[number];
+    const std::uint64_t mask = (*masks_around[3 * z + y])[x][bit_];
+    std::uint64_t rest = mask & block.occupied;
+    while (rest != 0) {
+      const std::uint64_t others = block.occupied & ~mask & ~((rest & -rest) - 1);
+      const std::uint64_t before = others == 0 ? ~std::uint64_t{0} : (others & -others) - 1;
+      const std::uint32_t first = block.cell(static_cast<unsigned>(std::countr_zero(rest)));
+      const PlaceRun run{cells_.begin[first], cells_.begin[first + count_bits(rest & before)]};
+      runs_[count_++] = run;
+      points_ += run.end - run.begin;
+      rest &= ~before;
     }
   }
-
-  void add(const Block& block, std::uint64_t bits) {
-    for (; bits != 0; bits &= bits - 1) {
-      const std::uint32_t cell = block.cell(static_cast<unsigned>(std::countr_zero(bits)));
-      runs_[count_++] = {cells_.begin[cell], cells_.begin[cell + 1]};
-    }
-  }
-
   const Cells<T>& cells_;
-  unsigned bit_ = 0, kind_ = 0;
-  std::size_t count_ = 0;
-  std::array<PlaceRun, 124> runs_;  // The first count_.
+  const BlocksAround* around_ = nullptr;
+  unsigned bit_ = 0;
+  bool complete_ = false;
+  std::size_t count_ = 0, points_ = 0;
+  std::array<PlaceRun, 125> runs_;  // The first count_.
 };
 
 }  // namespace pcl_bv
