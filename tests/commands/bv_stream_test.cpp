@@ -85,6 +85,8 @@ TEST_F(BvStream, WritesALinePerFrameWithTheDocumentedKeys) {
     const Json& first = frames[i]["clusters"][0];
     EXPECT_EQ(first["id"], 0);
     EXPECT_EQ(first["track"].is_null(), i < 2);
+    for (const char* key : {"age", "velocity", "moving", "pose", "covariance"})
+      EXPECT_EQ(first.contains(key), i == 2) << key;
     EXPECT_EQ(first["volumes"][1]["method"], "dop14");
     for (const char* stage : {"decode", "filter", "ground", "cluster", "fit", "track", "total"})
       EXPECT_TRUE(frames[i]["ms"][stage].is_number()) << stage;
@@ -233,7 +235,8 @@ TEST_F(BvStream, WritesCsvAndMeshesThatParaViewPlays) {
   EXPECT_EQ(result.out, "");
   const std::string text = read_file(csv);
   EXPECT_EQ(text.substr(0, text.find('\n')),
-            "seq,stamp_ns,track,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume");
+            "seq,stamp_ns,track,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume,"
+            "vx,vy,vz,x,y,z,yaw");
   EXPECT_THAT(text, HasSubstr("\n0,0,,0,"));
   EXPECT_THAT(text, HasSubstr("\n1,100000000,,0,"));
   EXPECT_EQ(text.back(), '\n');

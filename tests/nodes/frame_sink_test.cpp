@@ -29,7 +29,7 @@ struct Found {
     PipelineConfig config;
     config.track.enabled = true;
     result.config = std::make_shared<PipelineConfig>(config);
-    result.tracks = {TrackEntry{17}};
+    result.tracks = {TrackEntry{17, 4, {3, -2, 0}, true, {1.25, 2, 3, 0.5}}};
     result.methods = {find_method("aabb")};
     result.volumes = {Aabb({1, 2, 3}, {1.5, 2, 3})};
     result.results.resize(1);
@@ -119,13 +119,16 @@ TEST_F(FrameSinks, LinesAreWholeAfterEachFrameAndSayWhatIsLost) {
   found.frame.header.seq = 3;
   found.frame.file = "sweep \"3\".pcd";
   csv->write(found.frame, found.result);
-  EXPECT_THAT(read("a.csv"), testing::EndsWith("\n3,0,17,0,2,aabb,1.25,2,3,0.5,0,0,,,,,,0\n"));
+  EXPECT_THAT(read("a.csv"),
+              testing::EndsWith("\n3,0,17,0,2,aabb,1.25,2,3,0.5,0,0,,,,,,0,3,-2,0,1.25,2,3,0.5\n"));
   csv->write_lost(found.frame, "dropped, it seems");
-  EXPECT_THAT(read("a.csv"), testing::EndsWith("\n3,0,,,,\"error: dropped, it seems\",,,,,,,,,,,,\n"));
+  EXPECT_THAT(read("a.csv"), testing::EndsWith("\n3,0,,,,\"error: dropped, it seems\",,,,,,,,,,,,,,,,,,,\n"));
   const std::string heading = read("a.csv").substr(0, read("a.csv").find('\n'));
-  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 5 + 12);
+  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 5 + 12 + 7);
   jsonl->write(found.frame, found.result);
   EXPECT_THAT(read("a.jsonl"), HasSubstr("\"file\":\"sweep \\\"3\\\".pcd\",\"points\""));
+  EXPECT_THAT(read("a.jsonl"), HasSubstr("\"track\":17,\"age\":4,\"velocity\":[3,-2,0],\"moving\":true,"
+                                         "\"pose\":[1.25,2,3,0.5],\"covariance\":[0,"));
   jsonl->write_lost(found.frame, "dropped: age");
   EXPECT_THAT(read("a.jsonl"), testing::EndsWith(".pcd\",\"error\":\"dropped: age\"}\n"));
 }

@@ -37,12 +37,17 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text) {
+void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text,
+                bool tracked) {
   for (const VolumeEntry& entry : cluster.volumes) {
     text += first_columns;
     text +=
         ',' + std::to_string(cluster.id) + ',' + std::to_string(cluster.points) + ',' + shown_method(entry);
     append_volume(entry.volume, text);
+    if (tracked) {
+      append_columns(3, cluster.track ? cluster.track->velocity.data() : nullptr, text);
+      append_columns(4, cluster.track ? cluster.track->pose.data() : nullptr, text);
+    }
     text += '\n';
   }
 }

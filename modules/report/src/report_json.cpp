@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "pcl_bv/report/frame_report.h"
 #include "pcl_bv/report/report.h"
@@ -203,10 +204,18 @@ std::string frame_json(const FrameReport& report) {
   json["counts"] = counts_json(report.counts);
   json["clusters"] = Json::array();
   for (const ClusterEntry& cluster : report.clusters) {
-    json["clusters"].push_back({{"id", cluster.id},
-                                {"track", cluster.track ? Json(cluster.track->id) : Json()},
-                                {"points", cluster.points},
-                                {"volumes", volumes_json(cluster)}});
+    Json entry{{"id", cluster.id}, {"track", nullptr}};
+    if (const TrackEntry* track = cluster.track ? &*cluster.track : nullptr; track != nullptr) {
+      entry["track"] = track->id;
+      entry["age"] = track->age;
+      entry["velocity"] = {track->velocity.x(), track->velocity.y(), track->velocity.z()};
+      entry["moving"] = track->moving;
+      entry["pose"] = track->pose;
+      entry["covariance"] = track->covariance;
+    }
+    entry["points"] = cluster.points;
+    entry["volumes"] = volumes_json(cluster);
+    json["clusters"].push_back(std::move(entry));
   }
   json["ms"] = Json::object();
   for (const auto& [stage, milliseconds] : report.ms)

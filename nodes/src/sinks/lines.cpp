@@ -40,11 +40,12 @@ std::string first_columns(const FrameReport& report) {
 std::string csv_lines(const FrameReport& report) {
   // A line of a volume without numbers, whose method is the reason.
   if (report.error)
-    return first_columns(report) + ",,," + csv_field("error: " + *report.error) + std::string(12, ',') + '\n';
+    return first_columns(report) + ",,," + csv_field("error: " + *report.error) + std::string(12 + 7, ',') +
+           '\n';
   std::string lines;
   for (const ClusterEntry& cluster : report.clusters) {
     const std::string track = cluster.track ? std::to_string(cluster.track->id) : "";
-    append_csv(first_columns(report) + track, cluster, lines);
+    append_csv(first_columns(report) + track, cluster, lines, true);
   }
   return lines;
 }
@@ -86,8 +87,10 @@ std::unique_ptr<FrameSink> open_jsonl(const SinkDescription& description) {
 }
 
 std::unique_ptr<FrameSink> open_csv(const SinkDescription& description) {
-  return std::make_unique<LineSink>(description, "seq,stamp_ns,track," + std::string(csv_columns) + '\n',
-                                    csv_lines);
+  return std::make_unique<LineSink>(
+      description,
+      "seq,stamp_ns,track," + std::string(csv_columns) + ',' + std::string(csv_track_columns) + '\n',
+      csv_lines);
 }
 
 }  // namespace pcl_bv

@@ -19,14 +19,19 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 inline constexpr std::string_view csv_columns =
     "cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume";
 
+/// What follows of a cluster that may be a track: velocity and pose of TrackEntry. Empty until it is born.
+inline constexpr std::string_view csv_track_columns = "vx,vy,vz,x,y,z,yaw";
+
 /// A text as one field (RFC 4180): in double quotes, with those inside doubled, where it holds a comma, a
 /// quote or a line end; else as it is.
 std::string csv_field(std::string_view text);
 
 /// Appends a line for each volume of the cluster: `first_columns` (fields joined by commas), then
-/// csv_columns. Lines end in "\n". Numbers have the fewest digits that read back as exactly the same double.
-/// Throws std::domain_error if one is not finite, which no fitted volume has.
-void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text);
+/// csv_columns and, if `tracked`, csv_track_columns. Lines end in "\n". Numbers have the fewest digits that
+/// read back as exactly the same double. Throws std::domain_error if one is not finite, which no fitted
+/// volume has.
+void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text,
+                bool tracked = false);
 
 /// The lines of all clusters of the report, with its file as the first column. Nothing for a failed report.
 std::string report_csv(const Report& report);
