@@ -37,7 +37,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   config.pipeline.growth = SphereGrowth::stationary;
   config.pipeline.filter.regions = {{"robot arm.json", false, 0.1}, {"hall.json", true, 0}};
   config.pipeline.volumes = {"dop26", "sphere-exact"};
-  config.pipeline.track = {true, 1.25, 2, 9};
+  config.pipeline.track = {true, 1.25, 2, 9, true, true};
   config.pipeline.threads = 0;
   config.pipeline.isa = "scalar";
   config.runner = {7, QueuePolicy::block, 12.5, 3};
@@ -60,6 +60,8 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_TRUE(read.pipeline.filter.regions[1].keep);
   EXPECT_EQ(read.pipeline.volumes, config.pipeline.volumes);
   EXPECT_TRUE(read.pipeline.track.enabled);
+  EXPECT_TRUE(read.pipeline.track.smooth);
+  EXPECT_TRUE(read.pipeline.track.grow);
   EXPECT_EQ(read.runner.policy, QueuePolicy::block);
   EXPECT_EQ(read.runner.max_age_ms, 12.5);
 }

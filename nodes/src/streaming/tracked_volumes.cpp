@@ -22,16 +22,20 @@ Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& poi
 
 }  // namespace
 
-void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, std::size_t cluster,
-                               FrameResult& result) {
+void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, const TrackConfig& config,
+                               std::size_t cluster, const PointView& points, FrameResult& result) {
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
-  if (last_.capacity() < first + methods) last_.reserve(4 * (first + methods));
-  if (last_.size() < first + methods) last_.resize(first + methods);
+  if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
+  if (filters_.size() < first + methods) filters_.resize(first + methods);
+  const BoxSighting sighting{tracker_.sensor(), assignment.velocity, assignment.moving};
   for (std::size_t m = 0; m < methods; ++m) {
-    Obb& last = last_[first + m];
-    if (assignment.fresh) last = Obb();
+    BoxFilter& filter = filters_[first + m];
+    if (assignment.fresh) filter = BoxFilter();
     Obb* const box = std::get_if<Obb>(&result.volumes[cluster * methods + m]);
-    if (box != nullptr) last = *box = box->oriented_as(last);
+    if (box == nullptr) continue;
+    *box = filter.face(*box, sighting);
+    if (config.smooth || config.grow)
+      *box = filter.steady(*box, points, sighting, config.smooth, config.grow);
   }
 }
 
@@ -39,7 +43,7 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
                             const std::optional<Pose>& pose, FrameResult& result) {
   if (methods_ != result.methods) {
     methods_ = result.methods;
-    last_.clear();
+    filters_.clear();
   }
   boxes_.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
@@ -47,7 +51,7 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   tracker_.update(result.header.stamp_ns, boxes_, config, assignments_, pose);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     result.tracks.push_back(assignments_[i].track);
-    keep_axes(assignments_[i], i, result);
+    keep_axes(assignments_[i], config, i, clusters[i], result);
   }
 }
 

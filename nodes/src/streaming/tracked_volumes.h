@@ -9,12 +9,14 @@
 
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/nodes/tracker.h"
+#include "tracking/box_filter.h"
 
 namespace pcl_bv {
 
 class TrackedVolumes {
  public:
-  /// Fills result.tracks, and names the axes of each oriented box as those of the same object's last one.
+  /// Fills result.tracks, and names the axes of each oriented box as those of the same object's last one; if
+  /// asked for, oriented boxes are steadied.
   /// `clusters`: the points of each; `pose`: of the sensor in a fixed frame, if it is known.
   void update(const TrackConfig& config, const std::vector<PointView>& clusters,
               const std::optional<Pose>& pose, FrameResult& result);
@@ -23,13 +25,14 @@ class TrackedVolumes {
   void reset() { tracker_.reset(); }
 
  private:
-  void keep_axes(const Tracker::Assignment& assignment, std::size_t cluster, FrameResult& result);
+  void keep_axes(const Tracker::Assignment& assignment, const TrackConfig& config, std::size_t cluster,
+                 const PointView& points, FrameResult& result);
 
   Tracker tracker_;
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
-  std::vector<const Method*> methods_;  // of last_
-  std::vector<Obb> last_;               // slot by slot, by method; empty where it gives another shape
+  std::vector<const Method*> methods_;  // of filters_
+  std::vector<BoxFilter> filters_;      // slot by slot, by method
 };
 
 }  // namespace pcl_bv

@@ -76,6 +76,8 @@ struct TrackConfig {
   double gate = 2.0;      ///< How far an object may be from where it was expected, metres, at most 100.
   std::size_t birth = 3;  ///< Frames in which an object must have been seen to get its id.
   std::size_t death = 5;  ///< Frames without it after which it is gone.
+  bool smooth = false;    ///< Upright boxes turn with the mean over time, still around all points.
+  bool grow = false;      ///< Upright boxes are as large as the object has been seen.
 };
 
 struct PipelineConfig {

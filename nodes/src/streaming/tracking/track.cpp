@@ -9,13 +9,14 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kPlaceVariance = 0.1 * 0.1;   // of a face, m^2
-constexpr double kFirstSpeed = 8;              // m/s, standard deviation of what nothing is known of
-constexpr double kManoeuvre = 0.9;             // m^2/s^3: 3 m/s^2 for a tenth of a second
-constexpr double kFastest = 60;                // m/s
-constexpr double kShortest = 0.03;             // seconds between two sightings that make a velocity
-constexpr double kMoves = 0.8, kStands = 0.4;  // m/s
-constexpr std::size_t kSure = 3;               // frames until `moving` changes
+constexpr double kPlaceVariance = 0.1 * 0.1;    // of a face, m^2
+constexpr double kFirstSpeed = 8;               // m/s, standard deviation of what nothing is known of
+constexpr double kManoeuvre = 0.9;              // m^2/s^3: 3 m/s^2 for a tenth of a second
+constexpr double kFastest = 60;                 // m/s
+constexpr double kShortest = 0.03;              // seconds between two sightings that make a velocity
+constexpr double kMoves = 0.6, kStands = 0.35;  // m/s
+constexpr double kMeanTime = 0.5;               // seconds
+constexpr std::size_t kSure = 3;                // frames until `moving` changes
 
 // Of each axis, once turned: the diagonal of R diag(v) R^T.
 Eigen::Vector3d turned(const Eigen::Matrix3d& turn, const Eigen::Vector3d& variances) {
@@ -91,18 +92,21 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
     low[i] += part * (seen_box.min()[i] - expected[i] - low[i]);
     high[i] += part * (seen_box.max()[i] - expected[i] - high[i]);
   }
-  unseen = 0;
   missed = hidden = 0;
   ++seen;
-  judge_motion();
+  judge_motion(passed);
+  unseen = 0;
 }
 
-// Moving, or standing, is what several frames in a row say: noise of a standing object's velocity is not.
-void Track::judge_motion() {
+// Moving, or standing, is what a mean over most of a second says for several frames in a row: a walker is
+// slower than the noise of one frame's velocity.
+void Track::judge_motion(double seconds) {
   const Eigen::Vector3d velocity = motion.velocity(), variance = motion.velocity_variance();
-  const double speed = std::hypot(velocity.x(), velocity.y());
+  const double part = seconds / (seconds + kMeanTime);
+  mean_velocity += part * (velocity - mean_velocity);
+  const double speed = mean_velocity.head<2>().norm();
   const double deviation = std::sqrt(std::max(variance.x(), variance.y()));
-  const bool other = moving ? speed < std::max(kStands, deviation) : speed > std::max(kMoves, 3 * deviation);
+  const bool other = moving ? speed < kStands : speed > std::max(kMoves, 1.5 * deviation);
   streak = other ? streak + 1 : 0;
   if (streak >= kSure) {
     moving = !moving;

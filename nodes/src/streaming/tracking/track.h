@@ -27,7 +27,8 @@ struct Track {
   MotionFilter motion;        // in the fixed frame
   Eigen::Vector3d low, high;  // faces of the box from the place, along the sensor's axes
   Eigen::Vector3d expected;   // the place in the sensor's frame
-  double unseen = 0;          // seconds since the last sighting
+  Eigen::Vector3d mean_velocity = Eigen::Vector3d::Zero();
+  double unseen = 0;  // seconds since the last sighting
   std::size_t seen = 0, missed = 0, hidden = 0, age = 0, streak = 0;
   double yaw = 0, yaw_variance = 1;
   bool alive = false, moving = false;
@@ -44,7 +45,7 @@ struct Track {
   TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent) const;
 
  private:
-  void judge_motion();
+  void judge_motion(double seconds);
 };
 
 /// How unlikely it is that the box is the track's: squared standard deviations, `gate` being four of them for
