@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -139,6 +140,21 @@ TEST(Tracker, KeepsTheIdHoweverStampsJitter) {
       ASSERT_FALSE(found[0].moving) << "seed " << seed << " frame " << i;
     }
   }
+}
+
+TEST(Tracker, StampsThatGoBackOrJumpCostNoId) {
+  Tracker tracker;
+  std::vector<Tracker::Assignment> found;
+  std::int64_t stamp = 5'000'000'000;
+  for (int i = 0; i < 40; ++i) {
+    tracker.update(stamp, {box(3 + 0.3 * i, 10)}, {}, found);
+    stamp += i % 4 == 1 ? -300'000'000 : i % 4 == 3 ? 60'000'000'000 : 100'000'000;
+    if (i < 2) continue;
+    ASSERT_EQ(id_of(found[0]), 0U) << i;
+    ASSERT_LT(found[0].track->velocity.norm(), 10) << i;
+  }
+  tracker.update(std::numeric_limits<std::int64_t>::min(), {box(3 + 0.3 * 40, 10)}, {}, found);
+  EXPECT_EQ(id_of(found[0]), 0U);
 }
 
 TEST(Tracker, KeepsIdsWhileTheOwnVehicleTurns) {
