@@ -200,8 +200,9 @@ class PcdBvFullPipe : public PcdBvSignals {
     return bytes;
   }
 
+  // A page of the pipe's 64 KiB takes only whole lines of the writer: half of it may stay empty.
   void wait_until_full() const {
-    for (int before = -1; waiting() < 60'000 || waiting() != before;
+    for (int before = -1; waiting() <= 32'768 || waiting() != before;
          std::this_thread::sleep_for(std::chrono::milliseconds(100)))
       before = waiting();
   }
