@@ -82,7 +82,7 @@ TEST_F(PcdBv, MinPointsDropsWhatIsThinAsNoise) {
       points.push_back(std::to_string(0.05 * i + 4 * row) + " 0 0");
   }
   for (int i = 0; i < 13; ++i)
-    points.push_back(std::to_string(2.1 + 0.145 * i) + " 0 0");
+    points.push_back(std::to_string(2.105 + 0.145 * i) + " 0 0");
   const std::string cloud = ascii("thin.pcd", points);
   const std::vector<std::string> options = {"--format", "jsonl", "--cluster", "0.16", "--volume", "aabb"};
   const auto report = [&](const std::string& least) {

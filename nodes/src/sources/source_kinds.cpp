@@ -80,7 +80,7 @@ std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOpt
 
 const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds{
-      {"synth:street-sequence[:FRAMES[:SEED]] or synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]", false,
+      {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]", false,
        [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
       {"A folder of clouds, one file", true, [](const std::string&) { return true; }, open_folder}};
   return kinds;
@@ -94,7 +94,7 @@ const SourceKind& source_kind(const std::string& name) {
 std::string source_syntax() {
   std::string all;
   for (auto kind = source_kinds().rbegin(); kind != source_kinds().rend(); ++kind)
-    all += (all.empty() ? "" : " or ") + std::string(kind->syntax);
+    all += (all.empty() ? "" : "\nor ") + std::string(kind->syntax);
   return all;
 }
 
