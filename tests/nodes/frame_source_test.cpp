@@ -213,8 +213,8 @@ TEST(FunctionSource, ItsExceptionsCostTheirFramesOnly) {
 
 TEST(SourceKinds, AreListedForUsers) {
   EXPECT_EQ(source_syntax(),
-            "A folder of clouds, one file or synth:street-sequence[:FRAMES[:SEED]] or "
-            "synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]");
+            "A folder of clouds, one file\nor synth:street-sequence[:FRAMES[:SEED]]\n"
+            "or synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]");
 }
 
 }  // namespace
