@@ -103,6 +103,18 @@ TEST(BoxFilter, ASmoothTurnIsTheMeanOfAnglesModulo90) {
   EXPECT_LT(worst, 2);
 }
 
+// Fits that are wrong by 40 degrees, then by 80, lead names that follow the fit round by a quarter.
+TEST(BoxFilter, ASmoothBoxKeepsItsFrontWhereFitsAreWrongForAFewFrames) {
+  std::mt19937 random(6);
+  BoxFilter filter;
+  for (int i = 0; i < 60; ++i) {
+    const std::vector<float> xyz = block(10, random);
+    const double wrong = i < 30 ? 0 : i < 33 ? 40 : i < 36 ? 80 : 0;
+    const Obb box = filter.steady(filter.face(upright_box(10 + wrong, 4, 2), {}), view(xyz), {}, true, false);
+    EXPECT_NEAR(yaw_of(box), 10, 15) << i;
+  }
+}
+
 TEST(BoxFilter, EveryPointIsInsideHoweverTheBoxIsSteadied) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     std::mt19937 random(seed);

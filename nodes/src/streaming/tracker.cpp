@@ -68,11 +68,8 @@ Eigen::Vector3d Tracker::State::apparent(const Eigen::Vector3d& place) const {
 
 void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes) {
   expected.clear();
-  for (Track& track : tracks) {
-    if (!track.alive || track.missed > 0) continue;
-    track.expect(sensor);
-    expected.push_back(track.box());
-  }
+  for (const Track& track : tracks)
+    if (track.alive && track.missed == 0) expected.push_back(track.standing_box(sensor));
   PlanarMotion guess;
   if (step_seconds > 0) {
     const double part = seconds / step_seconds;

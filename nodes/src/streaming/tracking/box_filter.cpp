@@ -122,6 +122,7 @@ Obb BoxFilter::steady(const Obb& box, const PointView& points, const BoxSighting
     axes.col(0) = std::cos(by) * box.axis(0) + std::sin(by) * box.axis(1);
     axes = orthonormal_axes((Eigen::Matrix3d() << axes.col(0), box.axis(1), box.axis(2)).finished());
     if (axes.col(2).dot(box.axis(2)) < 0) return box;
+    axes_ = sighting.sensor.linear() * axes;  // names are kept by the turn that does not jitter
   }
   Eigen::Vector3d low, high;
   slabs_of(points, axes, box.center(), low, high);

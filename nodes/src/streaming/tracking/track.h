@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "motion_filter.h"
+#include "motion_judge.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/aabb.h"
@@ -24,12 +25,13 @@ struct Change {
 };
 
 struct Track {
-  MotionFilter motion;        // in the fixed frame
+  MotionFilter motion;  // in the fixed frame
+  MotionJudge judge;
   Eigen::Vector3d low, high;  // faces of the box from the place, along the sensor's axes
   Eigen::Vector3d expected;   // the place in the sensor's frame
-  Eigen::Vector3d mean_velocity = Eigen::Vector3d::Zero();
-  double unseen = 0;  // seconds since the last sighting
-  std::size_t seen = 0, missed = 0, hidden = 0, age = 0, streak = 0;
+  Eigen::Vector3d before;     // the place at the last frame, in the fixed frame
+  double unseen = 0;          // seconds since the last sighting
+  std::size_t seen = 0, missed = 0, hidden = 0, age = 0;
   double yaw = 0, yaw_variance = 1;
   bool alive = false, moving = false;
   std::optional<std::uint32_t> id;
@@ -37,7 +39,10 @@ struct Track {
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
   void expect(const Pose& sensor);
-  Aabb box() const { return {expected + low, expected + high}; }
+  /// Where it is in the sensor's frame if it stands, unless it is known to move. If standing tracks were
+  /// expected where their velocities lead, an error of the sensor's velocity would become theirs and stay for
+  /// good.
+  Aabb standing_box(const Pose& sensor) const;
   Change change_to(const Aabb& box) const;
   void correct(const Aabb& box, const Pose& sensor, double seconds);
 
@@ -45,7 +50,7 @@ struct Track {
   TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent) const;
 
  private:
-  void judge_motion(double seconds);
+  void judge_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);
 };
 
 /// How unlikely it is that the box is the track's: squared standard deviations, `gate` being four of them for

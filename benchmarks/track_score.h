@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How well objects keep their ids, where the truth is known.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace pcl_bv::bench {
+
+/// An object with enough returns to be asked for.
+struct TrueObject {
+  std::uint32_t id = 0;
+  std::size_t points = 0;
+};
+
+/// What a track has in a frame.
+struct FoundObject {
+  std::uint32_t track = 0;
+  std::size_t points = 0;
+  std::vector<std::pair<std::size_t, std::size_t>> shared;  ///< True object (its place in the list), points.
+  /// Most of its points are of things that are not asked for: not counted, unless it matches a true object.
+  bool other = false;
+};
+
+struct TrackScores {
+  std::size_t truths = 0, matches = 0, misses = 0, wrong = 0;
+  std::size_t switches = 0;   ///< An object has another track than when it was last matched.
+  std::size_t fragments = 0;  ///< An object is matched again after a frame without.
+  double mota = 0;            ///< 1 - (misses + wrong + switches) / truths (Bernardin and Stiefelhagen 2008).
+  double hota = 0, detection = 0, association = 0;  ///< Means over 19 thresholds (Luiten et al. 2021).
+};
+
+/// Similarity is what two sets of points share of their union (as for MOTS, Voigtlaender et al. 2019): an
+/// object and a track match where it is above one half, and so never two tracks the same object.
+class TrackScore {
+ public:
+  /// Another sequence: its objects and tracks have nothing to do with those before.
+  void start_sequence() { ++sequence_; }
+
+  /// The matches of the frame: true object and found one, by their places in the lists.
+  std::vector<std::pair<std::size_t, std::size_t>> add(const std::vector<TrueObject>& truths,
+                                                       const std::vector<FoundObject>& found);
+
+  /// O(pairs * 19).
+  TrackScores result() const;
+
+ private:
+  using Key = std::pair<std::size_t, std::uint32_t>;  // sequence, object or track
+  struct Pair {
+    Key truth, track;
+    double similarity = 0;
+  };
+  struct Frame {
+    std::vector<Key> truths, tracks;
+    std::vector<Pair> pairs;  // by their places in the lists, ascending
+  };
+
+  std::vector<Pair> align(const std::map<std::pair<Key, Key>, double>& alignment, const Frame& frame) const;
+
+  std::size_t sequence_ = 0;
+  std::vector<Frame> frames_;
+  std::map<Key, std::uint32_t> last_;
+  std::set<Key> lost_;
+  TrackScores sums_;
+};
+
+}  // namespace pcl_bv::bench

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "motion_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kWindow = 0.55;               // seconds looked back
+constexpr double kSpacing = 0.09;              // seconds between sightings that are kept
+constexpr double kSoonest = 0.15;              // seconds after which a sighting tells
+constexpr double kLeaves = 0.3;                // metres
+constexpr double kMoves = 0.7, kStands = 0.5;  // m/s
+constexpr double kSameWay = 0.25;              // of the greater square, what both halves have in common
+
+// The least move of both faces, along the sensor's axes in the plane: what a part that came into view, or
+// went out of it, leaves.
+Eigen::Vector2d least_shift(const Eigen::Vector3d& way, const Eigen::Vector3d& before,
+                            const Eigen::Vector3d& now) {
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 2; ++i) {
+    const double low = way[i] - now[i] + before[i], high = way[i] + now[i] - before[i];
+    if ((low > 0) != (high > 0)) continue;
+    shift[i] = std::abs(low) < std::abs(high) ? low : high;
+  }
+  return shift;
+}
+
+}  // namespace
+
+void MotionJudge::add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Eigen::Matrix3d& turn,
+                      double seconds) {
+  seconds_ += seconds;
+  const Sighting now{seconds_, centre, half};
+  for (; count_ > 1 && past(1).seconds <= seconds_ - kWindow; --count_)
+    first_ = (first_ + 1) % kMost;
+  if (count_ > 1 && seconds_ - past(0).seconds >= kSoonest) judge(now, turn);
+  if (count_ < kMost && (count_ == 0 || seconds_ - past(count_ - 1).seconds >= kSpacing))
+    past_[(first_ + count_++) % kMost] = now;
+}
+
+void MotionJudge::judge(const Sighting& now, const Eigen::Matrix3d& turn) {
+  const auto shift = [&](const Sighting& from, const Sighting& to) {
+    return least_shift(turn.transpose() * (to.centre - from.centre), from.half, to.half);
+  };
+  const Sighting &oldest = past(0), &middle = past(count_ / 2);
+  const double passed = now.seconds - oldest.seconds, way = shift(oldest, now).norm();
+  if (moving_) {
+    moving_ = way >= kStands * std::max(passed, kWindow);
+    return;
+  }
+  if (!(now.seconds > middle.seconds)) return;
+  const Eigen::Vector2d first = shift(oldest, middle) / (middle.seconds - oldest.seconds),
+                        second = shift(middle, now) / (now.seconds - middle.seconds);
+  const bool same_way = first.dot(second) > kSameWay * std::max(first.squaredNorm(), second.squaredNorm());
+  moving_ = same_way && way > kLeaves && way > kMoves * passed;
+}
+
+}  // namespace pcl_bv
