@@ -98,7 +98,64 @@ TEST_F(PcdBv, MinPointsDropsWhatIsThinAsNoise) {
                 dense["counts"]["noise"].get<int>(),
             93);
   EXPECT_GE(dense["counts"]["noise"], 11);
-  EXPECT_THAT(run({"--cluster", "0.16", "--min-points", "5", cloud}).out, testing::HasSubstr(" in no cluster"));
+  EXPECT_THAT(run({"--cluster", "0.16", "--min-points", "5", cloud}).out,
+              testing::HasSubstr(" in no cluster"));
+}
+
+// Rows of points 0.5 m apart at 2 m and at 50 m.
+TEST_F(PcdBv, TheToleranceGrowsWithTheRange) {
+  std::vector<std::string> points;
+  for (int i = 0; i < 10; ++i) {
+    for (const int x : {2, 50})
+      points.push_back(std::to_string(x) + " " + std::to_string(0.5 * i) + " 0");
+  }
+  const std::string cloud = ascii("rows.pcd", points);
+  const auto clusters = [&](const std::string& tolerance) {
+    return run({"--format", "jsonl", "--cluster", tolerance, "--min-size", "2", "--volume", "aabb", cloud})
+        .json()["clusters"];
+  };
+  EXPECT_EQ(clusters("0.3").size(), 0u);
+  const Json far = clusters("0.3:0.01");
+  ASSERT_EQ(far.size(), 1u);
+  EXPECT_EQ(far[0]["points"], 10);
+  EXPECT_EQ(far[0]["volumes"][0]["min"][0], 50);
+  EXPECT_EQ(clusters("0.3:0.2").size(), 2u);
+}
+
+TEST_F(PcdBv, OversizedClustersAreDroppedKeptOrSplit) {
+  std::vector<std::string> points;
+  for (int i = 0; i < 60; ++i)
+    points.push_back(std::to_string((i < 30 ? 0.05 : 0.06) * i + (i < 30 ? 0 : 0.1)) + " 0 0");
+  const std::string cloud = ascii("rows.pcd", points);
+  const auto report = [&](const std::string& rule) {
+    return run({"--format", "jsonl", "--cluster", "0.5", "--max-size", "40", "--volume", "aabb",
+                "--oversized", rule, cloud})
+        .json();
+  };
+  EXPECT_EQ(report("drop")["clusters"].size(), 0u);
+  EXPECT_EQ(report("drop")["counts"]["large"], 60);
+  EXPECT_EQ(report("keep")["clusters"][0]["points"], 60);
+  const Json split = report("split");
+  ASSERT_EQ(split["clusters"].size(), 2u) << split;
+  EXPECT_EQ(split["clusters"][0]["points"], 30);
+  EXPECT_EQ(split["counts"]["large"], 0);
+}
+
+TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
+  const auto refused = [&](std::vector<std::string> options, const std::string& line) {
+    options.push_back("synth:sphere");
+    const Result result = run(options);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.err, "pcd_bv: " + line + "\n");
+  };
+  refused({"--cluster", "0.5:far"}, "--cluster: 'far' is not a number");
+  refused({"--cluster", "0.5:"}, "--cluster: '' is not a number");
+  refused({"--cluster", "0.5:-1"}, "cluster.tolerance_per_metre: -1 is not at least 0 and at most 1e+06");
+  refused({"--cluster", "0.5:0.01", "--min-points", "5"},
+          "cluster.min_points: 5 is not 1 where the tolerance grows with the range");
+  refused({"--cluster", "0.5", "--oversized", "shrink"},
+          "--oversized: 'shrink' is not one of drop, keep, split");
+  refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");
 }
 
 TEST_F(PcdBv, LabelsAreTheClustersOfTheReport) {

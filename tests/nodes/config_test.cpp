@@ -33,7 +33,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   config.pipeline.filter = {0.1, 123.456789012345, Eigen::Vector3d(-1, -2, -0.1), Eigen::Vector3d(1.5, 2, 3)};
   config.pipeline.ground = {
       GroundMethod::plane, {0.1, -1, 1.0 / 3}, Eigen::Vector3d(1, 2, 3.5), 1.0 / 3, 0.07, 12};
-  config.pipeline.cluster = {0.3, std::size_t{0}, 5000, 4};
+  config.pipeline.cluster = {0.3, std::size_t{0}, 5000, 4, 0, Oversized::split};
   config.pipeline.growth = SphereGrowth::stationary;
   config.pipeline.filter.regions = {{"robot arm.json", false, 0.1}, {"hall.json", true, 0}};
   config.pipeline.volumes = {"dop26", "sphere-exact"};
@@ -53,6 +53,7 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.pipeline.cluster.min_size, 0U);
   EXPECT_EQ(read.pipeline.cluster.max_size, 5000U);
   EXPECT_EQ(read.pipeline.cluster.min_points, 4U);
+  EXPECT_EQ(read.pipeline.cluster.oversized, Oversized::split);
   EXPECT_EQ(read.pipeline.growth, SphereGrowth::stationary);
   ASSERT_EQ(read.pipeline.filter.regions.size(), 2U);
   EXPECT_EQ(read.pipeline.filter.regions[0].file, "robot arm.json");
@@ -64,6 +65,18 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_TRUE(read.pipeline.track.grow);
   EXPECT_EQ(read.runner.policy, QueuePolicy::block);
   EXPECT_EQ(read.runner.max_age_ms, 12.5);
+}
+
+TEST(StreamConfig, AToleranceThatGrowsReadsBackAndGoesAlone) {
+  StreamConfig config;
+  config.pipeline.cluster.tolerance_per_metre = 0.015;
+  EXPECT_EQ(parse_stream_config(to_yaml(config), "").pipeline.cluster.tolerance_per_metre, 0.015);
+  config.pipeline.cluster.min_points = 5;
+  EXPECT_EQ(config.pipeline.validate(),
+            (std::vector<std::string>{"cluster.min_points: 5 is not 1 where the tolerance grows with the range"}));
+  config.pipeline.cluster = {0.0, std::size_t{1}, 100, 1, 0.01};
+  EXPECT_EQ(config.pipeline.validate(),
+            (std::vector<std::string>{"cluster.tolerance: 0 does not grow: all points are one object"}));
 }
 
 TEST(StreamConfig, FilesOfAnyNameReadBackAsTheyArePrinted) {

@@ -62,6 +62,32 @@ TEST(ExtractClusters, MinPointsTellsNoiseApart) {
   EXPECT_THROW(extraction.extract(clusters), std::invalid_argument);
 }
 
+TEST(ExtractClusters, TheToleranceGrowsAndOversizedClustersAreKeptIfToldSo) {
+  pcl_bv::test::Cloud<float> points;
+  for (int i = 0; i < 20; ++i)
+    points.push_back({100, 0.3F * static_cast<float>(i), 0});
+  pcl_bv::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
+  extraction.setInputCloud(cloud_of<pcl::PointXYZ>(points));
+  extraction.setClusterTolerance(0.2);
+  extraction.setMinClusterSize(2);
+  extraction.setMaxClusterSize(15);
+  std::vector<pcl::PointIndices> clusters;
+  extraction.setOversized(pcl_bv::Oversized::keep);
+  EXPECT_EQ(extraction.getOversized(), pcl_bv::Oversized::keep);
+  extraction.extract(clusters);
+  EXPECT_EQ(clusters.size(), 0U);
+  extraction.setToleranceGrowth(0.005);
+  EXPECT_EQ(extraction.getToleranceGrowth(), 0.005);
+  extraction.extract(clusters);
+  ASSERT_EQ(clusters.size(), 1U);
+  EXPECT_EQ(clusters[0].indices.size(), 20U);
+  extraction.setOversized(pcl_bv::Oversized::drop);
+  extraction.extract(clusters);
+  EXPECT_EQ(clusters.size(), 0U);
+  extraction.setToleranceGrowth(-1);
+  EXPECT_THROW(extraction.extract(clusters), std::invalid_argument);
+}
+
 // Written for PCL; both classes must serve.
 template <typename Extraction, typename PointT>
 std::vector<pcl::PointIndices> run(const typename pcl::PointCloud<PointT>::Ptr& cloud,

@@ -5,16 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
 
 #include "cells.h"
+#include "collect.h"
 #include "core_points.h"
 #include "gather.h"
 #include "join_cells.h"
+#include "oversized.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "range_levels.h"
 
 namespace pcl_bv {
 namespace {
@@ -26,20 +31,8 @@ struct PointScratch {
   Cells<T> cells;
   JoinScratch<T> join;
   CoreScratch<T> core;
+  RangeLevels<T> levels;
 };
-
-struct Component {
-  std::uint32_t root, size, first_point;
-};
-
-// Components by root, and where the next index of each goes.
-struct Collector {
-  std::vector<std::uint32_t> size;
-  std::vector<std::uint32_t> next;  // `unseen` before, `dropped` if of a size not wanted.
-  std::vector<Component> kept;
-};
-constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint32_t dropped = unseen - 1;
 
 void check(const ClusterSettings& settings) {
   std::ostringstream message;
@@ -50,6 +43,12 @@ void check(const ClusterSettings& settings) {
             << settings.max_size;
   } else if (settings.min_points == 0) {
     message << "cluster min_points is 0, must be at least 1";
+  } else if (!(settings.tolerance_per_metre >= 0 && std::isfinite(settings.tolerance_per_metre))) {
+    message << "cluster tolerance_per_metre is " << settings.tolerance_per_metre
+            << ", must be finite and at least 0";
+  } else if (settings.tolerance_per_metre > 0 && settings.min_points > 1) {
+    message << "cluster min_points is " << settings.min_points
+            << ", must be 1 where the tolerance grows with the range";
   } else {
     return;
   }
@@ -73,16 +72,14 @@ bool cells_are_solid(const CellGrid& grid, T r2) {
   return grid.near && r2 >= T(1e-30) && r2 <= T(1e30);
 }
 
-// The root of noise where every valid point is in a cluster.
-constexpr std::uint32_t no_root = std::numeric_limits<std::uint32_t>::max();
-
 // Returns the root of noise. With min_points of 1 every point is core, and nothing is looked for.
 template <typename T, typename Key>
-std::uint32_t find_components(PointScratch<T>& scratch, const CellGrid& grid, T r2, std::size_t min_points,
+std::uint32_t find_components(const std::vector<Point<T>>& points, PointScratch<T>& scratch,
+                              const CellGrid& grid, T r2, std::size_t min_points,
                               const ParallelPolicy& policy, BlockKeys<Key>& keys, UnionFind& sets) {
   const bool solid = cells_are_solid(grid, r2);
   scratch.cells.by_point = !solid || min_points > 1;
-  make_cells(scratch.valid.points, grid, policy, scratch.cells, keys);
+  make_cells(points, grid, policy, scratch.cells, keys);
   std::uint32_t noise = no_root;
   if (min_points > 1) {
     find_core(grid, r2, min_points, solid, policy, keys.keys, scratch.cells, scratch.core);
@@ -94,49 +91,6 @@ std::uint32_t find_components(PointScratch<T>& scratch, const CellGrid& grid, T 
   return noise;
 }
 
-// Sizes, and the components to keep in the order of the result.
-void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
-            std::uint32_t noise, const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
-  collector.size.assign(roots.size(), 0);
-  for (const std::uint32_t n : node)
-    ++collector.size[roots[n]];
-  collector.next.assign(roots.size(), unseen);
-  collector.kept.clear();
-  for (std::uint32_t i = 0; i < node.size(); ++i) {
-    const std::uint32_t root = roots[node[i]];
-    if (collector.next[root] != unseen) continue;
-    collector.next[root] = dropped;
-    const std::uint32_t size = collector.size[root];
-    if (root == noise) {
-      clusters.noise_points = size;
-    } else if (size < settings.min_size) {
-      clusters.small_points += size;
-    } else if (size > settings.max_size) {
-      clusters.large_points += size;
-    } else {
-      collector.kept.push_back({root, size, i});
-    }
-  }
-  std::sort(collector.kept.begin(), collector.kept.end(), [](const Component& a, const Component& b) {
-    return a.size != b.size ? a.size > b.size : a.first_point < b.first_point;
-  });
-}
-
-void write(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
-           const std::vector<std::int32_t>& numbers, Collector& collector, Clusters& clusters) {
-  std::uint32_t end = 0;
-  for (const Component& component : collector.kept) {
-    collector.next[component.root] = end;
-    end += component.size;
-    clusters.offsets.push_back(end);
-  }
-  clusters.indices.resize(end);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    std::uint32_t& next = collector.next[roots[node[i]]];
-    if (next != dropped) clusters.indices[next++] = numbers[i];
-  }
-}
-
 }  // namespace
 
 struct EuclideanClusterer::Scratch {
@@ -144,26 +98,60 @@ struct EuclideanClusterer::Scratch {
   BlockKeys<std::uint64_t> keys;
   BlockKeys<WideKey> wide_keys;
   UnionFind sets;
+  std::vector<std::uint32_t> same;  // 0, 1, 2, ...
   Collector collector;
+  SplitScratch split;
+
+  /// Components of the points at one tolerance, as roots of scratch.cells.node. Returns the root of noise.
+  template <typename T>
+  std::uint32_t link(const std::vector<Point<T>>& all, const Box<T>& box, double r, std::size_t min_points,
+                     const ParallelPolicy& policy) {
+    auto& scratch = std::get<PointScratch<T>>(points);
+    const T r2 = static_cast<T>(r * r);
+    const CellGrid grid(box, inverse_cell_side(r2));
+    return grid.key_bits <= 64 ? find_components(all, scratch, grid, r2, min_points, policy, keys, sets)
+                               : find_components(all, scratch, grid, r2, min_points, policy, wide_keys, sets);
+  }
+
+  template <typename T>
+  void link_by_range(const ClusterSettings& settings, const ParallelPolicy& policy) {
+    auto& scratch = std::get<PointScratch<T>>(points);
+    RangeLevels<T>& levels = scratch.levels;
+    levels.start(scratch.valid.points);
+    for (std::size_t i = 0;; ++i) {
+      const RangeLevel level = range_level(settings.tolerance, settings.tolerance_per_metre, i);
+      if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) || !levels.climb(level)) break;
+      link(levels.points(), box_of(levels.points().data(), levels.points().size()),
+           double{static_cast<float>(level.tolerance)}, 1, policy);
+      levels.unite(sets.roots(), scratch.cells.node);
+    }
+  }
 
   template <typename T>
   void extract(const PointView& view, const ClusterSettings& settings, const ParallelPolicy& policy,
                Clusters& clusters) {
     auto& scratch = std::get<PointScratch<T>>(points);
-    const std::vector<Point<T>>& valid = scratch.valid.points;
     gather(view, policy, scratch.valid);
-    if (valid.empty()) return;
-
-    const double r = settings.tolerance;
-    const T r2 = static_cast<T>(r * r);
-    const CellGrid grid(scratch.valid.box, inverse_cell_side(r2));
+    const std::size_t count = scratch.valid.points.size();
+    if (count == 0) return;
+    if (settings.tolerance_per_metre > 0) {
+      link_by_range<T>(settings, policy);
+      same.resize(count);
+      std::iota(same.begin(), same.end(), 0U);
+      collect(scratch.levels.roots(), same, no_root, scratch.valid.numbers, settings, collector, clusters);
+      return;
+    }
     const std::uint32_t noise =
-        grid.key_bits <= 64
-            ? find_components(scratch, grid, r2, settings.min_points, policy, keys, sets)
-            : find_components(scratch, grid, r2, settings.min_points, policy, wide_keys, sets);
-    const std::vector<std::uint32_t>& roots = sets.roots();
-    select(roots, scratch.cells.node, noise, settings, collector, clusters);
-    write(roots, scratch.cells.node, scratch.valid.numbers, collector, clusters);
+        link(scratch.valid.points, scratch.valid.box, settings.tolerance, settings.min_points, policy);
+    collect(sets.roots(), scratch.cells.node, noise, scratch.valid.numbers, settings, collector, clusters);
+  }
+
+  /// Appends the clusters, and those above max_size only if they are to be dropped later.
+  void append(const PointView& view, ClusterSettings settings, const ParallelPolicy& policy,
+              Clusters& clusters) {
+    if (settings.oversized != Oversized::drop) settings.max_size = std::numeric_limits<std::size_t>::max();
+    view.scalar == ScalarType::float32 ? extract<float>(view, settings, policy, clusters)
+                                       : extract<double>(view, settings, policy, clusters);
   }
 };
 
@@ -182,11 +170,12 @@ void EuclideanClusterer::extract(const PointView& points, const ClusterSettings&
   clusters.large_points = 0;
   clusters.noise_points = 0;
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
-  if (points.scalar == ScalarType::float32) {
-    scratch_->extract<float>(points, settings, policy, clusters);
-  } else {
-    scratch_->extract<double>(points, settings, policy, clusters);
-  }
+  scratch_->append(points, settings, policy, clusters);
+  if (settings.oversized != Oversized::split) return;
+  const auto again = [&](const PointView& part, const ClusterSettings& finer, Clusters& to) {
+    scratch_->append(part, finer, policy, to);
+  };
+  split_oversized(points, settings, std::cref(again), clusters, scratch_->split);
 }
 
 }  // namespace pcl_bv

@@ -34,6 +34,21 @@ void keep_first_mentions(std::vector<std::string>& methods) {
   methods = std::move(once);
 }
 
+// --cluster TOL:PER_METRE
+constexpr std::string_view kTolerance = "cluster.tolerance";
+
+std::string own_part(const Setting& setting, const std::string& text) {
+  return setting.key == kTolerance ? text.substr(0, text.find(':')) : text;
+}
+
+void read_growth(const std::string& text, ClusterConfig& cluster) {
+  cluster.tolerance_per_metre = 0;
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return;
+  parse_with("--cluster", text.substr(colon + 1),
+             [&](const std::string& growth) { read_text(growth, cluster.tolerance_per_metre); });
+}
+
 }  // namespace
 
 std::string with_options(std::string text) {
@@ -77,7 +92,7 @@ void SettingOptions::apply(StreamConfig& config) const {
     if constexpr (std::is_same_v<decltype(value), bool&>) {
       value = true;
     } else {
-      parse_with(setting.option, texts_.at(setting.option),
+      parse_with(setting.option, own_part(setting, texts_.at(setting.option)),
                  [&](const std::string& text) { read_text(text, value); });
     }
     if constexpr (std::is_same_v<decltype(value), std::vector<std::string>&>) keep_first_mentions(value);
@@ -95,6 +110,7 @@ void SettingOptions::apply(StreamConfig& config) const {
     if (line_.given("--padding"))
       parse_with("--padding", padding_, [&](const std::string& text) { read_text(text, region.padding); });
   }
+  if (line_.given("--cluster")) read_growth(texts_.at("--cluster"), config.pipeline.cluster);
   if (line_.given("--range")) std::tie(filter.range_min, filter.range_max) = parse_range(range_);
 }
 
@@ -106,7 +122,7 @@ void SettingOptions::refuse_useless(const PipelineConfig& config) const {
   const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
   refuse("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
-  for (const char* option : {"--min-size", "--max-size", "--min-points"})
+  for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized"})
     refuse(option, clusters, "--cluster");
   for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
     refuse(option, ground, "--ground");

@@ -35,6 +35,11 @@ void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problem
   }
   if (c.cluster.tolerance > 0 && static_cast<float>(c.cluster.tolerance) == 0)
     add("cluster.tolerance", to_text(c.cluster.tolerance) + " is 0 as a float, which points are");
+  if (c.cluster.tolerance_per_metre > 0 && c.cluster.min_points > 1)
+    add("cluster.min_points",
+        to_text(c.cluster.min_points) + " is not 1 where the tolerance grows with the range");
+  if (c.cluster.tolerance_per_metre > 0 && c.cluster.tolerance == 0)
+    add("cluster.tolerance", "0 does not grow: all points are one object");
   if (c.cluster.least_size() > c.cluster.max_size) {
     add("cluster.max_size",
         to_text(c.cluster.max_size) + " is below cluster.min_size, " + to_text(c.cluster.least_size()));

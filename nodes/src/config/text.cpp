@@ -13,6 +13,8 @@ namespace {
 
 constexpr Names<GroundMethod, 3> kGroundMethods{
     {{"none", GroundMethod::none}, {"plane", GroundMethod::plane}, {"zones", GroundMethod::zones}}};
+constexpr Names<Oversized, 3> kOversized{
+    {{"drop", Oversized::drop}, {"keep", Oversized::keep}, {"split", Oversized::split}}};
 constexpr Names<SphereGrowth, 3> kGrowths{{{"sequential", SphereGrowth::sequential},
                                            {"stationary", SphereGrowth::stationary},
                                            {"deferred", SphereGrowth::deferred}}};
@@ -98,6 +100,9 @@ std::string to_text(const std::vector<RegionConfig>& regions) {
 std::string to_text(GroundMethod method) {
   return find_name(kGroundMethods, method);
 }
+std::string to_text(Oversized rule) {
+  return find_name(kOversized, rule);
+}
 std::string to_text(SphereGrowth growth) {
   return find_name(kGrowths, growth);
 }
@@ -146,6 +151,9 @@ void read_text(std::string_view text, std::vector<RegionConfig>& regions) {
 }
 void read_text(std::string_view text, GroundMethod& method) {
   method = read_name(kGroundMethods, text);
+}
+void read_text(std::string_view text, Oversized& rule) {
+  rule = read_name(kOversized, text);
 }
 void read_text(std::string_view text, SphereGrowth& growth) {
   growth = read_name(kGrowths, text);

@@ -118,7 +118,8 @@ void take_all(const ClusterConfig& config, const PointView& points, FrameResult&
   Clusters& all = result.clusters;
   all.indices.clear();
   all.offsets.assign(1, 0);
-  const bool small = valid<config.least_size(), large = valid> config.max_size;
+  const bool small = valid < config.least_size();
+  const bool large = valid > config.max_size && config.oversized != Oversized::keep;
   all.small_points = small ? valid : 0;
   all.large_points = large ? valid : 0;
   all.noise_points = 0;
@@ -131,8 +132,12 @@ void take_all(const ClusterConfig& config, const PointView& points, FrameResult&
 void FramePipeline::State::find_clusters(const Prepared& now, const PointView& points, FrameResult& result) {
   const ClusterConfig& config = now.config.cluster;
   if (config.tolerance > 0) {
-    const ClusterSettings settings{static_cast<float>(config.tolerance), config.least_size(),
-                                   config.max_size, config.min_points};
+    const ClusterSettings settings{static_cast<float>(config.tolerance),
+                                   config.least_size(),
+                                   config.max_size,
+                                   config.min_points,
+                                   static_cast<float>(config.tolerance_per_metre),
+                                   config.oversized};
     clusterer.extract(points, settings, result.clusters, now.execution.parallel);
   } else {
     take_all(config, points, result);

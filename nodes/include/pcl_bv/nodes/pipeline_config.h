@@ -16,6 +16,7 @@
 
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/segmentation/euclidean_clusters.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -67,6 +68,9 @@ struct ClusterConfig {
   /// DBSCAN: points nearer to each other than the tolerance are one object only if one of them has so many
   /// points nearer than that, itself included; 1: always.
   std::size_t min_points = 1;
+  /// By how much the tolerance grows with the distance from the origin (ClusterSettings).
+  double tolerance_per_metre = 0;
+  Oversized oversized = Oversized::drop;  ///< What becomes of objects above max_size.
 
   std::size_t least_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
 };

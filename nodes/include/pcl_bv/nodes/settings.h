@@ -64,7 +64,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"ground.max_slope_degrees", "degrees", "Greatest slope of the ground", {0, 89},
           "15 of a plane, 20 of zones", "--ground-slope", "DEG"}, c.ground.max_slope_degrees);
   visit(S{"cluster.tolerance", "m; 0: all points are one object",
-          "Points nearer than this are one object; 0: a whole cloud", {0, 1e6}, {}, "--cluster", "TOL"},
+          "Points nearer are one object; 0: a whole cloud; TOL:PER_METRE grows", {0, 1e6}, {}, "--cluster", "TOL"},
         c.cluster.tolerance);
   visit(S{"cluster.min_size", "points", "Drop objects of fewer points", {0, kNoLimit},
           "10; without clusters 0", "--min-size", "N"}, c.cluster.min_size);
@@ -72,6 +72,11 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.cluster.max_size);
   visit(S{"cluster.min_points", "points; 1: no noise", "DBSCAN: drop points with fewer about them and no such one near",
           {1, kNoLimit}, {}, "--min-points", "N"}, c.cluster.min_points);
+  visit(S{"cluster.tolerance_per_metre", "m per m", "The tolerance grows by this with the distance from the origin",
+          {0, 1e6}}, c.cluster.tolerance_per_metre);
+  visit(S{"cluster.oversized", "drop, keep, split",
+          "Objects above --max-size: drop, keep, split (half the tolerance)", {}, {}, "--oversized", "RULE"},
+        c.cluster.oversized);
   visit(S{"volumes", "methods", "Methods with commas, or all", {},
           "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
   visit(S{"growth", "sequential, stationary, deferred",
@@ -114,6 +119,7 @@ std::string to_text(const std::vector<std::string>& names);  ///< Separated by "
 std::string to_text(
     const std::vector<RegionConfig>& regions);  ///< As the setting's unit shows it, without [].
 std::string to_text(GroundMethod method);
+std::string to_text(Oversized rule);
 std::string to_text(SphereGrowth growth);
 std::string to_text(QueuePolicy policy);
 std::string to_text(const std::optional<Eigen::Vector3d>& point);
@@ -133,6 +139,7 @@ void read_text(std::string_view text,
                std::vector<std::string>& names);  ///< `all` stands for methods_of_all().
 void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One of that file's name.
 void read_text(std::string_view text, GroundMethod& method);
+void read_text(std::string_view text, Oversized& rule);
 void read_text(std::string_view text, SphereGrowth& growth);
 void read_text(std::string_view text, QueuePolicy& policy);
 void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point);

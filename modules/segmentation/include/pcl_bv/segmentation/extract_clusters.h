@@ -74,6 +74,15 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   void setMinPoints(pcl::uindex_t points) { min_points_ = points; }
   pcl::uindex_t getMinPoints() const { return min_points_; }
 
+  /// By how much the tolerance grows with the distance from the origin (ClusterSettings::tolerance_per_metre).
+  /// Default 0: not at all.
+  void setToleranceGrowth(double per_metre) { per_metre_ = per_metre; }
+  double getToleranceGrowth() const { return per_metre_; }
+
+  /// What becomes of clusters above the maximum size (Oversized). Default: they are dropped.
+  void setOversized(Oversized rule) { oversized_ = rule; }
+  Oversized getOversized() const { return oversized_; }
+
   /// Threads for extract(): 0 means all processors, 1 (the default) the calling thread. Never changes the
   /// result.
   void setNumberOfThreads(unsigned threads) { policy_ = Threads{threads}; }
@@ -82,10 +91,12 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   /// cloud): largest first, indices ascending, each with the cloud's header. No finite point: no clusters.
   ///
   /// Throws std::logic_error without an input cloud, std::out_of_range for an index outside it,
-  /// std::invalid_argument if the tolerance is not finite and > 0 as a float, or the minimum size exceeds the
-  /// maximum.
+  /// std::invalid_argument if the tolerance is not finite and > 0 as a float, the minimum size exceeds the
+  /// maximum, or the growth is not finite and >= 0, or not 0 with more than one minimum point.
   void extract(std::vector<pcl::PointIndices>& clusters) {
-    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_, min_points_};
+    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_,
+                                   max_size_, min_points_,
+                                   static_cast<float>(per_metre_), oversized_};
     clusterer_.extract(view(), settings, found_, policy_);
     clusters.resize(found_.size());
     for (std::size_t i = 0; i < clusters.size(); ++i) {
@@ -110,6 +121,8 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   pcl::uindex_t min_size_ = 1;
   pcl::uindex_t max_size_ = std::numeric_limits<pcl::uindex_t>::max();
   pcl::uindex_t min_points_ = 1;
+  double per_metre_ = 0;
+  Oversized oversized_ = Oversized::drop;
   ParallelPolicy policy_ = Serial{};
   EuclideanClusterer clusterer_;
   Clusters found_;

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "collect.h"
+
+#include <algorithm>
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t dropped = unseen - 1;  // of a size that is not wanted
+
+// Sizes, and the components to keep in the order of the result.
+void select(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
+            std::uint32_t noise, const ClusterSettings& settings, Collector& collector, Clusters& clusters) {
+  collector.size.assign(roots.size(), 0);
+  for (const std::uint32_t n : node)
+    ++collector.size[roots[n]];
+  collector.next.assign(roots.size(), unseen);
+  collector.kept.clear();
+  for (std::uint32_t i = 0; i < node.size(); ++i) {
+    const std::uint32_t root = roots[node[i]];
+    if (collector.next[root] != unseen) continue;
+    collector.next[root] = dropped;
+    const std::uint32_t size = collector.size[root];
+    if (root == noise) {
+      clusters.noise_points += size;
+    } else if (size < settings.min_size) {
+      clusters.small_points += size;
+    } else if (size > settings.max_size) {
+      clusters.large_points += size;
+    } else {
+      collector.kept.push_back({root, size, i});
+    }
+  }
+  std::sort(collector.kept.begin(), collector.kept.end(), [](const Component& a, const Component& b) {
+    return a.size != b.size ? a.size > b.size : a.first_point < b.first_point;
+  });
+}
+
+void write(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
+           const std::vector<std::int32_t>& numbers, Collector& collector, Clusters& clusters) {
+  std::uint32_t end = static_cast<std::uint32_t>(clusters.indices.size());
+  for (const Component& component : collector.kept) {
+    collector.next[component.root] = end;
+    end += component.size;
+    clusters.offsets.push_back(end);
+  }
+  clusters.indices.resize(end);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::uint32_t& next = collector.next[roots[node[i]]];
+    if (next != dropped) clusters.indices[next++] = numbers[i];
+  }
+}
+
+}  // namespace
+
+void collect(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
+             std::uint32_t noise, const std::vector<std::int32_t>& numbers, const ClusterSettings& settings,
+             Collector& collector, Clusters& clusters) {
+  select(roots, node, noise, settings, collector, clusters);
+  write(roots, node, numbers, collector, clusters);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "oversized.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pcl_bv {
+namespace {
+
+constexpr int halvings = 3;
+
+void append(const Clusters& from, std::size_t cluster, Clusters& to) {
+  const std::int32_t* const points = from.cluster(cluster);
+  to.indices.insert(to.indices.end(), points, points + from.cluster_size(cluster));
+  to.offsets.push_back(to.indices.size());
+}
+
+void clear(Clusters& clusters) {
+  clusters.indices.clear();
+  clusters.offsets.assign(1, 0);
+  clusters.small_points = clusters.large_points = clusters.noise_points = 0;
+}
+
+bool any_above(const Clusters& clusters, std::size_t size) {
+  for (std::size_t i = 0; i < clusters.size(); ++i)
+    if (clusters.cluster_size(i) > size) return true;
+  return false;
+}
+
+// The largest first, then by the smallest point number; without those that are too large.
+void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::size_t>& order, Clusters& to) {
+  order.resize(from.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return from.cluster_size(a) != from.cluster_size(b) ? from.cluster_size(a) > from.cluster_size(b)
+                                                        : *from.cluster(a) < *from.cluster(b);
+  });
+  to.indices.clear();
+  to.offsets.assign(1, 0);
+  for (const std::size_t i : order) {
+    if (from.cluster_size(i) > max_size) {
+      to.large_points += from.cluster_size(i);
+    } else {
+      append(from, i, to);
+    }
+  }
+}
+
+}  // namespace
+
+void split_oversized(const PointView& points, const ClusterSettings& settings, const ClusterPoints& cluster,
+                     Clusters& clusters, SplitScratch& scratch) {
+  if (!any_above(clusters, settings.max_size)) return;
+  ClusterSettings finer = settings;
+  scratch.current = clusters;
+  for (int round = 0; round < halvings && any_above(scratch.current, settings.max_size); ++round) {
+    finer.tolerance /= 2;
+    finer.tolerance_per_metre /= 2;
+    clear(scratch.next);
+    for (std::size_t i = 0; i < scratch.current.size(); ++i) {
+      if (scratch.current.cluster_size(i) <= settings.max_size) {
+        append(scratch.current, i, scratch.next);
+        continue;
+      }
+      PointView part = points;
+      part.indices = scratch.current.cluster(i);
+      part.count = scratch.current.cluster_size(i);
+      cluster(part, finer, scratch.next);
+    }
+    clusters.small_points += scratch.next.small_points;
+    clusters.noise_points += scratch.next.noise_points;
+    std::swap(scratch.current, scratch.next);
+  }
+  write_sorted(scratch.current, settings.max_size, scratch.order, clusters);
+}
+
+}  // namespace pcl_bv
