@@ -4,6 +4,7 @@
 #include "collect.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace pcl_bv {
 namespace {
@@ -61,6 +62,30 @@ void collect(const std::vector<std::uint32_t>& roots, const std::vector<std::uin
              Collector& collector, Clusters& clusters) {
   select(roots, node, noise, settings, collector, clusters);
   write(roots, node, numbers, collector, clusters);
+}
+
+void append(const Clusters& from, std::size_t cluster, Clusters& to) {
+  const std::int32_t* const points = from.cluster(cluster);
+  to.indices.insert(to.indices.end(), points, points + from.cluster_size(cluster));
+  to.offsets.push_back(to.indices.size());
+}
+
+void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::size_t>& order, Clusters& to) {
+  order.resize(from.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return from.cluster_size(a) != from.cluster_size(b) ? from.cluster_size(a) > from.cluster_size(b)
+                                                        : *from.cluster(a) < *from.cluster(b);
+  });
+  to.indices.clear();
+  to.offsets.assign(1, 0);
+  for (const std::size_t i : order) {
+    if (from.cluster_size(i) > max_size) {
+      to.large_points += from.cluster_size(i);
+    } else {
+      append(from, i, to);
+    }
+  }
 }
 
 }  // namespace pcl_bv

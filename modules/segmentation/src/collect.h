@@ -4,6 +4,7 @@
 // From roots of points to clusters in the order of the result.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -31,5 +32,13 @@ struct Collector {
 void collect(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
              std::uint32_t noise, const std::vector<std::int32_t>& numbers, const ClusterSettings& settings,
              Collector& collector, Clusters& clusters);
+
+/// Appends one of the clusters.
+void append(const Clusters& from, std::size_t cluster, Clusters& to);
+
+/// Replaces the lists of `to` by those of `from`, the largest first, then by the smallest point number;
+/// clusters above max_size are dropped, and their points added to to.large_points. `order` has the places in
+/// `from` of all.
+void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::size_t>& order, Clusters& to);
 
 }  // namespace pcl_bv

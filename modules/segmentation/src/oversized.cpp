@@ -3,19 +3,14 @@
 
 #include "oversized.h"
 
-#include <algorithm>
-#include <numeric>
+#include <utility>
+
+#include "collect.h"
 
 namespace pcl_bv {
 namespace {
 
 constexpr int halvings = 3;
-
-void append(const Clusters& from, std::size_t cluster, Clusters& to) {
-  const std::int32_t* const points = from.cluster(cluster);
-  to.indices.insert(to.indices.end(), points, points + from.cluster_size(cluster));
-  to.offsets.push_back(to.indices.size());
-}
 
 void clear(Clusters& clusters) {
   clusters.indices.clear();
@@ -27,25 +22,6 @@ bool any_above(const Clusters& clusters, std::size_t size) {
   for (std::size_t i = 0; i < clusters.size(); ++i)
     if (clusters.cluster_size(i) > size) return true;
   return false;
-}
-
-// The largest first, then by the smallest point number; without those that are too large.
-void write_sorted(const Clusters& from, std::size_t max_size, std::vector<std::size_t>& order, Clusters& to) {
-  order.resize(from.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return from.cluster_size(a) != from.cluster_size(b) ? from.cluster_size(a) > from.cluster_size(b)
-                                                        : *from.cluster(a) < *from.cluster(b);
-  });
-  to.indices.clear();
-  to.offsets.assign(1, 0);
-  for (const std::size_t i : order) {
-    if (from.cluster_size(i) > max_size) {
-      to.large_points += from.cluster_size(i);
-    } else {
-      append(from, i, to);
-    }
-  }
 }
 
 }  // namespace

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/segmentation/class_clusters.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "collect.h"
+
+namespace pcl_bv {
+namespace {
+
+void check(const std::vector<ClassSettings>& own) {
+  for (auto one = own.begin(); one != own.end(); ++one) {
+    const auto same = [&](const ClassSettings& other) { return other.value == one->value; };
+    if (std::any_of(own.begin(), one, same))
+      throw std::invalid_argument("class " + std::to_string(one->value) + " has settings twice");
+  }
+}
+
+std::int64_t class_of_point(const std::vector<std::int64_t>& classes, std::size_t number) {
+  if (number < classes.size()) return classes[number];
+  throw std::invalid_argument("point " + std::to_string(number) + " has no class: there are " +
+                              std::to_string(classes.size()));
+}
+
+}  // namespace
+
+// The place of the class among the groups, a new one if need be.
+std::size_t ClassClusterer::group_of(std::int64_t value) {
+  const auto at = std::lower_bound(groups_.begin(), groups_.end(), value,
+                                   [](const Group& group, std::int64_t v) { return group.value < v; });
+  const auto place = static_cast<std::size_t>(at - groups_.begin());
+  if (at == groups_.end() || at->value != value) groups_.insert(at, {value, 0, 0});
+  return place;
+}
+
+// Point numbers by class, in the order of the points within each.
+void ClassClusterer::sort_points(const PointView& points, const std::vector<std::int64_t>& classes) {
+  groups_.clear();
+  for (std::size_t i = 0; i < points.count; ++i)
+    ++groups_[group_of(class_of_point(classes, points.index(i)))].count;
+  std::size_t end = 0;
+  for (Group& group : groups_) {
+    group.end = end;
+    end += group.count;
+  }
+  numbers_.resize(end);
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const std::size_t number = points.index(i);
+    numbers_[groups_[group_of(classes[number])].end++] = static_cast<std::int32_t>(number);
+  }
+}
+
+void ClassClusterer::extract(const PointView& points, const std::vector<std::int64_t>& classes,
+                             const ClusterSettings& others, const std::vector<ClassSettings>& own,
+                             Clusters& clusters, std::vector<std::int64_t>& class_of,
+                             const ParallelPolicy& policy) {
+  check(own);
+  sort_points(points, classes);
+  clusterer_.extract(points.slice(0, 0), others, all_, policy);  // checks the settings, and empties
+  found_class_.clear();
+  for (const Group& group : groups_) {
+    const auto settings = std::find_if(own.begin(), own.end(),
+                                       [&](const ClassSettings& one) { return one.value == group.value; });
+    if (settings != own.end() && settings->drop) continue;
+    PointView part = points;
+    part.indices = numbers_.data() + (group.end - group.count);
+    part.count = group.count;
+    clusterer_.extract(part, settings == own.end() ? others : settings->clusters, found_, policy);
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      append(found_, i, all_);
+    found_class_.insert(found_class_.end(), found_.size(), group.value);
+    all_.small_points += found_.small_points;
+    all_.large_points += found_.large_points;
+    all_.noise_points += found_.noise_points;
+  }
+  clusters.small_points = all_.small_points;
+  clusters.large_points = all_.large_points;
+  clusters.noise_points = all_.noise_points;
+  write_sorted(all_, std::numeric_limits<std::size_t>::max(), order_, clusters);
+  class_of.clear();
+  for (const std::size_t i : order_)
+    class_of.push_back(found_class_[i]);
+}
+
+}  // namespace pcl_bv
