@@ -141,6 +141,41 @@ TEST_F(PcdBv, OversizedClustersAreDroppedKeptOrSplit) {
   EXPECT_EQ(split["counts"]["large"], 0);
 }
 
+// One row of points, of two classes in turn, and a lone point of a third.
+TEST_F(PcdBv, PointsOfDifferentClassesShareNoCluster) {
+  std::string text =
+      "VERSION .7\nFIELDS x y z kind\nSIZE 4 4 4 2\nTYPE F F F I\nCOUNT 1 1 1 1\nWIDTH 31\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 31\nDATA ascii\n";
+  for (int i = 0; i < 30; ++i)
+    text += std::to_string(0.1 * i) + " 0 0 " + (i % 3 == 0 ? "-2" : "7") + "\n";
+  text += "9 9 9 30000\n";
+  std::ofstream(at("kinds.pcd")) << text;
+  const std::vector<std::string> options = {"--format",   "jsonl", "--cluster", "0.5",
+                                            "--min-size", "2",     "--volume",  "aabb"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = options;
+    all.insert(all.end(), more.begin(), more.end());
+    all.push_back(at("kinds.pcd"));
+    return run(all);
+  };
+  EXPECT_EQ(with({}).json()["clusters"].size(), 1u);
+  EXPECT_FALSE(with({}).json()["clusters"][0].contains("class"));
+  const Json report = with({"--class", "kind"}).json();
+  ASSERT_EQ(report["clusters"].size(), 2u) << report;
+  EXPECT_EQ(report["clusters"][0]["class"], 7);
+  EXPECT_EQ(report["clusters"][0]["points"], 20);
+  EXPECT_EQ(report["clusters"][1]["class"], -2);
+  EXPECT_EQ(report["clusters"][1]["points"], 10);
+  EXPECT_EQ(report["counts"]["small"], 1);
+  const Result absent = with({"--class", "label"});
+  EXPECT_EQ(absent.status, 1);
+  EXPECT_EQ(absent.err,
+            "pcd_bv: " + at("kinds.pcd") + ": field 'label' is not there: the fields are x, y, z, kind\n");
+  const Result wrong = with({"--class", "x"});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_EQ(wrong.err, "pcd_bv: " + at("kinds.pcd") + ": field 'x' is floating point, not an integer\n");
+}
+
 TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
   const auto refused = [&](std::vector<std::string> options, const std::string& line) {
     options.push_back("synth:sphere");
@@ -156,6 +191,7 @@ TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
   refused({"--cluster", "0.5", "--oversized", "shrink"},
           "--oversized: 'shrink' is not one of drop, keep, split");
   refused({"--oversized", "keep"}, "--oversized: only useful with --cluster");
+  refused({"--class", "label"}, "--class: only useful with --cluster");
 }
 
 TEST_F(PcdBv, LabelsAreTheClustersOfTheReport) {

@@ -72,11 +72,31 @@ TEST(StreamConfig, AToleranceThatGrowsReadsBackAndGoesAlone) {
   config.pipeline.cluster.tolerance_per_metre = 0.015;
   EXPECT_EQ(parse_stream_config(to_yaml(config), "").pipeline.cluster.tolerance_per_metre, 0.015);
   config.pipeline.cluster.min_points = 5;
-  EXPECT_EQ(config.pipeline.validate(),
-            (std::vector<std::string>{"cluster.min_points: 5 is not 1 where the tolerance grows with the range"}));
+  EXPECT_EQ(
+      config.pipeline.validate(),
+      (std::vector<std::string>{"cluster.min_points: 5 is not 1 where the tolerance grows with the range"}));
   config.pipeline.cluster = {0.0, std::size_t{1}, 100, 1, 0.01};
   EXPECT_EQ(config.pipeline.validate(),
             (std::vector<std::string>{"cluster.tolerance: 0 does not grow: all points are one object"}));
+}
+
+TEST(StreamConfig, AClassFieldReadsBackAndNeedsClusters) {
+  for (const char* name : {"label", "a: b #c", "\"quoted\""}) {
+    StreamConfig config;
+    config.pipeline.cluster.class_field = FieldName{name};
+    const auto read = parse_stream_config(to_yaml(config), "").pipeline.cluster.class_field;
+    ASSERT_TRUE(read) << name;
+    EXPECT_EQ(read->name, name);
+  }
+  PipelineConfig config;
+  config.cluster.class_field = FieldName{""};
+  EXPECT_EQ(config.validate(), std::vector<std::string>{"cluster.class_field: a field without a name"});
+  config.cluster = {0.0, std::size_t{1}};
+  config.cluster.class_field = FieldName{"label"};
+  EXPECT_EQ(
+      config.validate(),
+      (std::vector<std::string>{
+          "cluster.class_field: means nothing where cluster.tolerance is 0: all points are one object"}));
 }
 
 TEST(StreamConfig, FilesOfAnyNameReadBackAsTheyArePrinted) {

@@ -41,7 +41,51 @@ std::vector<PointField> fields_with(const RawCloud& cloud, std::string_view name
   return fields;
 }
 
+template <typename T>
+void copy_integers(const RawCloud& cloud, std::size_t offset, std::vector<std::int64_t>& values) {
+  const std::byte* from = reinterpret_cast<const std::byte*>(cloud.data.data()) + offset;
+  for (std::int64_t& value : values) {
+    T stored;
+    std::memcpy(&stored, from, sizeof stored);
+    value = static_cast<std::int64_t>(stored);
+    from += cloud.point_step;
+  }
+}
+
 }  // namespace
+
+std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view name) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error("field '" + std::string(name) + "' " + why);
+  };
+  const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
+                                  [&](const PointField& one) { return one.name == name; });
+  if (field == cloud.fields.end()) {
+    std::string names;
+    for (const PointField& one : cloud.fields)
+      names += (names.empty() ? "" : ", ") + one.name;
+    refuse("is not there: the fields are " + names);
+  }
+  if (field->type == 'F') refuse("is floating point, not an integer");
+  if (field->count != 1) refuse("has " + std::to_string(field->count) + " elements a point, not one");
+  std::vector<std::int64_t> values(cloud.size());
+  const bool is_signed = field->type == 'I';
+  const std::size_t at = field->offset;
+  if (field->size == 1) {
+    is_signed ? copy_integers<std::int8_t>(cloud, at, values)
+              : copy_integers<std::uint8_t>(cloud, at, values);
+  } else if (field->size == 2) {
+    is_signed ? copy_integers<std::int16_t>(cloud, at, values)
+              : copy_integers<std::uint16_t>(cloud, at, values);
+  } else if (field->size == 4) {
+    is_signed ? copy_integers<std::int32_t>(cloud, at, values)
+              : copy_integers<std::uint32_t>(cloud, at, values);
+  } else {
+    if (!is_signed) refuse("is unsigned and of 8 bytes: at most 4");
+    copy_integers<std::int64_t>(cloud, at, values);
+  }
+  return values;
+}
 
 RawCloud make_cloud(const std::vector<float>& xyz) {
   if (xyz.size() % 3 != 0) {

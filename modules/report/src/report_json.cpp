@@ -181,8 +181,11 @@ std::string report_json(const Report& report) {
     if (report.info) json["info"] = info_json(*report.info);
     json["clusters"] = Json::array();
     for (const ClusterEntry& cluster : report.clusters) {
-      json["clusters"].push_back(
-          {{"id", cluster.id}, {"points", cluster.points}, {"volumes", volumes_json(cluster)}});
+      Json entry{{"id", cluster.id}};
+      if (cluster.class_value) entry["class"] = *cluster.class_value;
+      entry["points"] = cluster.points;
+      entry["volumes"] = volumes_json(cluster);
+      json["clusters"].push_back(std::move(entry));
     }
     if (report.seconds) {
       json["seconds"] = {{"read", microseconds_exact(report.seconds->read)},
@@ -205,6 +208,7 @@ std::string frame_json(const FrameReport& report) {
   json["clusters"] = Json::array();
   for (const ClusterEntry& cluster : report.clusters) {
     Json entry{{"id", cluster.id}, {"track", nullptr}};
+    if (cluster.class_value) entry["class"] = *cluster.class_value;
     if (const TrackEntry* track = cluster.track ? &*cluster.track : nullptr; track != nullptr) {
       entry["track"] = track->id;
       entry["age"] = track->age;

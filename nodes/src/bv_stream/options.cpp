@@ -108,6 +108,7 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, const std::str
   if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
   options.source = t.source;
   read_replay(line, t, options);
+  if (const auto& field = options.config.pipeline.cluster.class_field) options.replay.class_field = field->name;
   for (const std::string& sink : line.given("--sink") ? t.sinks : std::vector<std::string>{"jsonl:-"})
     options.sinks.push_back(parse_with("--sink", sink, parse_sink));
   if (line.given("--stats")) options.stats = t.stats;

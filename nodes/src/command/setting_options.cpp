@@ -122,7 +122,7 @@ void SettingOptions::refuse_useless(const PipelineConfig& config) const {
   const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
   refuse("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
-  for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized"})
+  for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized", "--class"})
     refuse(option, clusters, "--cluster");
   for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
     refuse(option, ground, "--ground");

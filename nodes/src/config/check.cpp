@@ -40,6 +40,8 @@ void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problem
         to_text(c.cluster.min_points) + " is not 1 where the tolerance grows with the range");
   if (c.cluster.tolerance_per_metre > 0 && c.cluster.tolerance == 0)
     add("cluster.tolerance", "0 does not grow: all points are one object");
+  if (c.cluster.class_field && c.cluster.tolerance == 0)
+    add("cluster.class_field", "means nothing where cluster.tolerance is 0: all points are one object");
   if (c.cluster.least_size() > c.cluster.max_size) {
     add("cluster.max_size",
         to_text(c.cluster.max_size) + " is below cluster.min_size, " + to_text(c.cluster.least_size()));
@@ -118,6 +120,10 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfi
     if (!padding.empty()) return "padding: " + padding;
   }
   return {};
+}
+
+std::string problem_of(const Setting& /*setting*/, const FieldName& field) {
+  return field.name.empty() ? "a field without a name" : "";
 }
 
 std::vector<ConfigProblem> problems_of(const StreamConfig& config) {

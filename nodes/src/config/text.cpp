@@ -100,6 +100,9 @@ std::string to_text(const std::vector<RegionConfig>& regions) {
 std::string to_text(GroundMethod method) {
   return find_name(kGroundMethods, method);
 }
+std::string to_text(const FieldName& field) {
+  return in_quotes(field.name);
+}
 std::string to_text(Oversized rule) {
   return find_name(kOversized, rule);
 }
@@ -151,6 +154,9 @@ void read_text(std::string_view text, std::vector<RegionConfig>& regions) {
 }
 void read_text(std::string_view text, GroundMethod& method) {
   method = read_name(kGroundMethods, text);
+}
+void read_text(std::string_view text, FieldName& field) {
+  field.name = text;
 }
 void read_text(std::string_view text, Oversized& rule) {
   rule = read_name(kOversized, text);

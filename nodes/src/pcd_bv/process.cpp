@@ -137,6 +137,8 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
   Frame frame;
   frame.points = loaded.xyz();
+  if (const auto& field = options.pipeline.cluster.class_field)
+    frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(loaded.cloud(), field->name));
   FrameResult result;
   pipeline.process(frame, result);
   report.points = result.points;

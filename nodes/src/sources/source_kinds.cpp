@@ -8,6 +8,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
+#include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
@@ -32,9 +33,12 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
         ": no time in its name, nor in others: whole numbers below 1e15 count frames");
   const std::size_t length = files.size();
   return make_replay(
-      length, std::move(files), options, [fields = options.bin_fields](std::size_t, Frame& frame) {
+      length, std::move(files), options,
+      [fields = options.bin_fields, classes = options.class_field](std::size_t, Frame& frame) {
         const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, Serial{}, fields));
         frame.points = cloud->xyz();
+        if (!classes.empty())
+          frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(*cloud, classes));
         frame.note = cloud->note;
         frame.owner = cloud;
       });

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/class_clusters.h"
 #include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
 #include "stages/ground.h"
@@ -71,7 +71,7 @@ struct FramePipeline::State {
 
   PointView filter(const Prepared& now, const Frame& frame, FrameResult& result);
   PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
-  void find_clusters(const Prepared& now, const PointView& points, FrameResult& result);
+  void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
 
   mutable std::mutex mutex;
@@ -80,6 +80,7 @@ struct FramePipeline::State {
   Parts<FilterPart> parts;
   GroundZones zones;
   EuclideanClusterer clusterer;
+  ClassClusterer class_clusterer;
   std::vector<PointView> views;
   TrackedVolumes tracks;
 };
@@ -129,18 +130,23 @@ void take_all(const ClusterConfig& config, const PointView& points, FrameResult&
     all.indices.assign(points.indices, points.indices + points.count);
 }
 
-void FramePipeline::State::find_clusters(const Prepared& now, const PointView& points, FrameResult& result) {
+void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame, const PointView& points,
+                                         FrameResult& result) {
   const ClusterConfig& config = now.config.cluster;
-  if (config.tolerance > 0) {
-    const ClusterSettings settings{static_cast<float>(config.tolerance),
-                                   config.least_size(),
-                                   config.max_size,
-                                   config.min_points,
-                                   static_cast<float>(config.tolerance_per_metre),
-                                   config.oversized};
+  result.class_of.clear();
+  const ClusterSettings settings{
+      static_cast<float>(config.tolerance),           config.least_size(), config.max_size, config.min_points,
+      static_cast<float>(config.tolerance_per_metre), config.oversized};
+  if (config.tolerance == 0) {
+    take_all(config, points, result);
+  } else if (!config.class_field) {
     clusterer.extract(points, settings, result.clusters, now.execution.parallel);
   } else {
-    take_all(config, points, result);
+    if (frame.classes == nullptr)
+      throw std::invalid_argument("the frame has no classes, but cluster.class_field is '" +
+                                  config.class_field->name + "'");
+    class_clusterer.extract(points, *frame.classes, settings, {}, result.clusters, result.class_of,
+                            now.execution.parallel);
   }
   result.counts.small = result.clusters.small_points;
   result.counts.large = result.clusters.large_points;
@@ -203,7 +209,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   result.ms.filter = watch.lap();
   points = state_->remove_ground(*now, points, result);
   result.ms.ground = watch.lap();
-  state_->find_clusters(*now, points, result);
+  state_->find_clusters(*now, frame, points, result);
   result.ms.cluster = watch.lap();
   state_->fit(*now, frame.points, result);
   result.ms.fit = watch.lap();

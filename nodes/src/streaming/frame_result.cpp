@@ -73,6 +73,7 @@ std::vector<ClusterEntry> entries_of(const FrameResult& result) {
   for (std::size_t id = 0; id < entries.size(); ++id) {
     entries[id].id = id;
     entries[id].points = result.clusters.cluster_size(id);
+    if (!result.class_of.empty()) entries[id].class_value = result.class_of[id];
     if (!result.tracks.empty()) entries[id].track = result.tracks[id];
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
       VolumeEntry& volume = entries[id].volumes.emplace_back();

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pcl_bv/kernels/point_view.h"
 
@@ -39,6 +40,8 @@ struct Frame {
   double decode_ms = 0;      ///< What reading it cost, if somebody measured it.
   std::string file;          ///< Where it comes from; empty if not from a file.
   std::string note;          ///< What its source noticed and did not refuse, for people; mostly empty.
+  /// The class of each point, by point number, where somebody has told them apart; else null.
+  std::shared_ptr<const std::vector<std::int64_t>> classes;
   std::optional<Pose> pose;  ///< Of the sensor in a fixed frame, if it is known.
 
   /// From when its latency counts. Replays at a pace: when it was due. A live source whose stamps are the

@@ -38,6 +38,7 @@ struct FrameResult {
   /// Largest first; if none were asked for, all points left are one. That one has no index list if points
   /// did not have to be told apart, as without ground: see points_of().
   Clusters clusters;
+  std::vector<std::int64_t> class_of;  ///< Of each cluster, if they are told apart by class; else empty.
   std::shared_ptr<const PointSource> filtered;  ///< Instead of `kept`, for big clouds without index lists.
 
   /// For each cluster its track, none until the track is born; empty without tracking.

@@ -56,6 +56,7 @@ struct ReplayOptions {
   bool from_name = false;      ///< Stamps by stamp_in_name() instead; without one, a name is a FrameError.
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
   std::size_t loops = 1;       ///< How often; at least once.
+  std::string class_field{};   ///< An integer field of the clouds for Frame::classes; if empty, there are none.
   std::string frame_id{};      ///< Of all frames; if empty, what the recording says.
 
   /// A file of the sensor's poses, if not empty. A line has 12 numbers, the upper rows of the frame's matrix

@@ -60,6 +60,10 @@ struct GroundConfig {
   std::optional<double> max_slope_degrees;
 };
 
+struct FieldName {
+  std::string name;
+};
+
 struct ClusterConfig {
   double tolerance = 0.5;  ///< Points nearer to each other are one object, metres; 0: all points are one.
   /// Points; smaller objects are dropped. If not given 10, and 0 where all points are one.
@@ -71,6 +75,8 @@ struct ClusterConfig {
   /// By how much the tolerance grows with the distance from the origin (ClusterSettings).
   double tolerance_per_metre = 0;
   Oversized oversized = Oversized::drop;  ///< What becomes of objects above max_size.
+  /// Field of the clouds, of integers, whose values are the points' classes: objects are of one class each.
+  std::optional<FieldName> class_field{};
 
   std::size_t least_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
 };

@@ -77,6 +77,9 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"cluster.oversized", "drop, keep, split",
           "Objects above --max-size: drop, keep, split (half the tolerance)", {}, {}, "--oversized", "RULE"},
         c.cluster.oversized);
+  visit(S{"cluster.class_field", "name of a field",
+          "Points of different values of this integer field are different objects", {}, "none", "--class", "FIELD"},
+        c.cluster.class_field);
   visit(S{"volumes", "methods", "Methods with commas, or all", {},
           "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
   visit(S{"growth", "sequential, stationary, deferred",
@@ -120,6 +123,7 @@ std::string to_text(
     const std::vector<RegionConfig>& regions);  ///< As the setting's unit shows it, without [].
 std::string to_text(GroundMethod method);
 std::string to_text(Oversized rule);
+std::string to_text(const FieldName& field);
 std::string to_text(SphereGrowth growth);
 std::string to_text(QueuePolicy policy);
 std::string to_text(const std::optional<Eigen::Vector3d>& point);
@@ -140,6 +144,7 @@ void read_text(std::string_view text,
 void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One of that file's name.
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, Oversized& rule);
+void read_text(std::string_view text, FieldName& field);
 void read_text(std::string_view text, SphereGrowth& growth);
 void read_text(std::string_view text, QueuePolicy& policy);
 void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point);
@@ -156,6 +161,7 @@ std::string problem_of(const Setting& setting, const Eigen::Vector3d& direction)
 std::string problem_of(const Setting& setting, const std::string& instruction_set);
 std::string problem_of(const Setting& setting, const std::vector<std::string>& methods);
 std::string problem_of(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
+std::string problem_of(const Setting& setting, const FieldName& field);
 std::string problem_of(const Setting& setting, const std::vector<RegionConfig>& regions);
 template <typename Choice>
 std::string problem_of(const Setting& /*setting*/, Choice /*any*/) {

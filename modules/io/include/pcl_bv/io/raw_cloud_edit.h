@@ -23,6 +23,11 @@ RawCloud make_cloud(const std::vector<float>& xyz);
 /// space, is "_" (padding) or that of a coordinate (x, y, z).
 void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<std::uint32_t>& values);
 
+/// The values of an integer field, of one element a point, one for each point; where fields share the name, of the
+/// first. Throws std::runtime_error if there is no such field (the message lists those there are), if it is floating
+/// point or has several elements, or if it is unsigned and of 8 bytes.
+std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view name);
+
 /// Brings `packed_xyz` in line with `data`, as every reader does last: filled if fields x, y and z that
 /// xyz() can view exist but do not lie side by side in that order, else empty.
 void update_packed_xyz(RawCloud& cloud);

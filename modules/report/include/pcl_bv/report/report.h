@@ -51,7 +51,8 @@ struct ClusterEntry {
   std::size_t id = 0;
   std::size_t points = 0;  ///< Valid points.
   std::vector<VolumeEntry> volumes;
-  std::optional<TrackEntry> track{};  ///< None without tracking, and until the track is born.
+  std::optional<std::int64_t> class_value{};  ///< None unless points are told apart by class.
+  std::optional<TrackEntry> track{};          ///< None without tracking, and until the track is born.
 };
 
 /// Wall-clock time of each stage.
