@@ -78,7 +78,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
           "Objects above --max-size: drop, keep, split (half the tolerance)", {}, {}, "--oversized", "RULE"},
         c.cluster.oversized);
   visit(S{"cluster.class_field", "name of a field",
-          "Points of different values of this integer field are different objects", {}, "none", "--class", "FIELD"},
+          "Integer field whose values are classes: an object has one", {}, "none", "--class", "FIELD"},
         c.cluster.class_field);
   visit(S{"volumes", "methods", "Methods with commas, or all", {},
           "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
