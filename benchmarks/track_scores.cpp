@@ -35,8 +35,19 @@ Pose pose_of(const std::array<double, 12>& rows) {
   return pose;
 }
 
+PipelineConfig config_of(bool steady) {
+  PipelineConfig config;
+  config.volumes = {"obb-lshape"};
+  config.track.enabled = true;
+  config.track.smooth = config.track.grow = steady;
+  return config;
+}
+
 // One way to run the pipeline, and what came of it.
 struct Contest {
+  Contest(const char* row, bool with_poses, bool steadied)
+      : name(row), poses(with_poses), steady(steadied), pipeline(config_of(steadied)) {}
+
   const char* name;
   bool poses, steady;
   FramePipeline pipeline;
@@ -46,14 +57,6 @@ struct Contest {
   double milliseconds = 0;
   std::size_t frames = 0;
 };
-
-PipelineConfig config_of(bool steady) {
-  PipelineConfig config;
-  config.volumes = {"obb-lshape"};
-  config.track.enabled = true;
-  config.track.smooth = config.track.grow = steady;
-  return config;
-}
 
 // The objects that are asked for, and their places in the lists.
 struct Truth {
@@ -159,15 +162,8 @@ int run(int argc, char** argv) {
   };
   std::vector<Contest> contests;
   for (const bool poses : {true, false}) {
-    contests.push_back(
-        {poses ? "poses" : "no poses", poses, false, FramePipeline(config_of(false)), {}, {}, {}});
-    contests.push_back({poses ? "poses, steady" : "no poses, steady",
-                        poses,
-                        true,
-                        FramePipeline(config_of(true)),
-                        {},
-                        {},
-                        {}});
+    contests.emplace_back(poses ? "poses" : "no poses", poses, false);
+    contests.emplace_back(poses ? "poses, steady" : "no poses, steady", poses, true);
   }
   const std::size_t first = argument(4, 1);
   for (std::size_t seed = first; seed < first + argument(1, 3); ++seed) {

@@ -176,6 +176,29 @@ TEST_F(PcdBv, PointsOfDifferentClassesShareNoCluster) {
   EXPECT_EQ(wrong.err, "pcd_bv: " + at("kinds.pcd") + ": field 'x' is floating point, not an integer\n");
 }
 
+TEST_F(PcdBv, AFileOfSettingsSaysWhatIsSpecialAboutAClass) {
+  std::string text =
+      "VERSION 0.7\nFIELDS x y z kind\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 30\nHEIGHT 1\n"
+      "POINTS 30\nDATA ascii\n";
+  for (int i = 0; i < 30; ++i)
+    text += std::to_string(0.1 * i) + " 0 0 " + std::to_string(i / 10) + "\n";
+  std::ofstream(at("kinds.pcd")) << text;
+  std::ofstream(at("kinds.yaml")) << "cluster:\n  tolerance: 0.15\n  class_field: kind\n  classes:\n"
+                                     "  - {value: 1, drop: true}\n  - {value: 2, volumes: [sphere]}\n"
+                                     "filter: {range_min: 0}\nground: {method: none}\nvolumes: [aabb]\n";
+  const Json report = run({"--format", "jsonl", "--config", at("kinds.yaml"), at("kinds.pcd")}).json();
+  ASSERT_EQ(report["clusters"].size(), 2u) << report;
+  EXPECT_EQ(report["clusters"][0]["volumes"][0]["shape"], "aabb");
+  EXPECT_EQ(report["clusters"][1]["class"], 2);
+  ASSERT_EQ(report["clusters"][1]["volumes"].size(), 1u);
+  EXPECT_EQ(report["clusters"][1]["volumes"][0]["shape"], "sphere");
+  EXPECT_EQ(report["counts"]["class"], 10);
+  const Result printed = run({"--config", at("kinds.yaml"), "--print-config"});
+  std::ofstream(at("printed.yaml")) << printed.out;
+  EXPECT_EQ(run({"--config", at("printed.yaml"), "--print-config"}).out, printed.out);
+  EXPECT_THAT(printed.out, testing::HasSubstr("{value: 2, drop: false, volumes: [sphere]}"));
+}
+
 TEST_F(PcdBv, ClusterOptionsThatMeanNothingAreWrongUse) {
   const auto refused = [&](std::vector<std::string> options, const std::string& line) {
     options.push_back("synth:sphere");

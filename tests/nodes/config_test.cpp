@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "pcl_bv/nodes/settings.h"
@@ -12,6 +13,8 @@ namespace pcl_bv {
 namespace {
 
 using testing::HasSubstr;
+
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
 std::string error_of(const std::string& yaml) {
   try {
@@ -97,6 +100,53 @@ TEST(StreamConfig, AClassFieldReadsBackAndNeedsClusters) {
       config.validate(),
       (std::vector<std::string>{
           "cluster.class_field: means nothing where cluster.tolerance is 0: all points are one object"}));
+}
+
+TEST(StreamConfig, ClassesReadBackAsTheyArePrinted) {
+  StreamConfig config;
+  ClusterConfig& cluster = config.pipeline.cluster;
+  cluster.class_field = FieldName{"label"};
+  cluster.classes = {{-3, true}, {7, false, 0.3, std::size_t{4}, kUnlimited, {"obb", "sphere"}}, {9}};
+  const std::string printed = to_yaml(config);
+  EXPECT_THAT(printed, HasSubstr("classes: [{value: -3, drop: true}, {value: 7, drop: false, tolerance: 0.3, "
+                                 "min_size: 4, max_size: unlimited, volumes: [obb, sphere]}, {value: 9, "
+                                 "drop: false}]"));
+  const StreamConfig read = parse_stream_config(printed, "");
+  EXPECT_EQ(to_yaml(read), printed);
+  ASSERT_EQ(read.pipeline.cluster.classes.size(), 3U);
+  EXPECT_TRUE(read.pipeline.cluster.classes[0].drop);
+  EXPECT_EQ(read.pipeline.cluster.classes[1].value, 7);
+  EXPECT_EQ(read.pipeline.cluster.classes[1].max_size, kUnlimited);
+  EXPECT_EQ(read.pipeline.cluster.classes[1].volumes, (std::vector<std::string>{"obb", "sphere"}));
+  EXPECT_FALSE(read.pipeline.cluster.classes[2].tolerance);
+}
+
+TEST(StreamConfig, AClassThatIsNotAllowedIsNamedWithItsLine) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"- {drop: true}", "line 4: cluster.classes: a class without its value"},
+      {"- {value: car}", "line 4: cluster.classes: value: 'car' is not a whole number"},
+      {"- value: 1\n    colour: red", "line 5: cluster.classes: unknown key 'colour' of a class"},
+      {"- {value: 1, value: 2}", "line 4: cluster.classes: value: is there twice"},
+      {"- {value: 1}\n  - {value: 2, tolerance: wide}",
+       "line 5: cluster.classes: tolerance: 'wide' is not a number"},
+      {"- 4", "line 4: cluster.classes: '4' is not a class, {value: 4, tolerance: 0.5}"},
+      {"- {value: 1, volumes: aabb}", "cluster.classes: volumes: 'aabb' is not a list of methods"},
+      {"- {value: 1}\n  - {value: 1}", "cluster.classes: class 1 is there twice"},
+      {"- {value: 1, tolerance: 0}", "cluster.classes: class 1: tolerance: 0 is not above 0"},
+      {"- {value: 1, tolerance: 1e-50}", "class 1: tolerance: 1e-50 is 0 as a float"},
+      {"- {value: 1, max_size: 0}", "class 1: max_size: 0 is not a whole number of at least 1"},
+      {"- {value: 1, max_size: 5}", "class 1: max_size, 5, is below min_size, 10"},
+      {"- {value: 1, volumes: [box]}", "class 1: volumes: 'box' is no method; known are aabb"},
+  };
+  for (const auto& [rows, expected] : cases) {
+    const std::string error = error_of("cluster:\n  class_field: label\n  classes:\n  " + std::string(rows));
+    EXPECT_THAT(error, HasSubstr("robot.yaml: line ")) << rows;
+    EXPECT_THAT(error, HasSubstr(expected)) << rows;
+  }
+  EXPECT_EQ(error_of("cluster: {classes: [{value: 1}]}"),
+            "robot.yaml: line 1: cluster.classes: means nothing without cluster.class_field");
+  EXPECT_EQ(error_of("cluster: {class_field: label, classes: {value: 1}}"),
+            "robot.yaml: line 1: cluster.classes: what is there is not a list of classes");
 }
 
 TEST(StreamConfig, FilesOfAnyNameReadBackAsTheyArePrinted) {

@@ -77,6 +77,96 @@ TEST(Pipeline, CountsNoiseOnce) {
   EXPECT_EQ(result.counts.noise, 0U);
 }
 
+// Three rows of ten points, metres apart, of the classes 1, 2 and 3.
+struct Rows {
+  Rows() {
+    for (int row = 0; row < 3; ++row) {
+      for (int i = 0; i < 10; ++i) {
+        xyz.insert(xyz.end(), {5 + 0.2F * static_cast<float>(i), 10 * static_cast<float>(row), 0});
+        classes.push_back(row + 1);
+      }
+    }
+  }
+  Frame frame() const {
+    Frame made = frame_of(xyz, 0);
+    made.classes = std::make_shared<const std::vector<std::int64_t>>(classes);
+    return made;
+  }
+  std::vector<float> xyz;
+  std::vector<std::int64_t> classes;
+};
+
+PipelineConfig classes_config(std::vector<ClassConfig> classes) {
+  PipelineConfig config;
+  config.ground.method = GroundMethod::none;
+  config.cluster.min_size = 1;
+  config.cluster.class_field = FieldName{"label"};
+  config.cluster.classes = std::move(classes);
+  config.volumes = {"aabb", "obb"};
+  return config;
+}
+
+TEST(Pipeline, ClassesHaveSettingsOfTheirOwn) {
+  ClassConfig fine{2}, dropped{3};
+  fine.tolerance = 0.1;
+  dropped.drop = true;
+  FramePipeline pipeline(classes_config({fine, dropped}));
+  FrameResult result;
+  pipeline.process(Rows().frame(), result);
+  ASSERT_EQ(result.class_of.size(), 11U);
+  EXPECT_EQ(result.class_of[0], 1);
+  EXPECT_EQ(result.clusters.cluster_size(0), 10U);
+  for (std::size_t i = 1; i < 11; ++i)
+    EXPECT_EQ(result.class_of[i], 2);
+  EXPECT_EQ(result.counts.of_class, 10U);
+}
+
+TEST(Pipeline, ClassesHaveVolumesOfTheirOwn) {
+  ClassConfig own{2};
+  own.volumes = {"sphere", "obb"};
+  PipelineConfig config = classes_config({own});
+  config.track.enabled = true;
+  config.track.birth = 1;
+  FramePipeline pipeline(config);
+  FrameResult result;
+  for (int pass = 0; pass < 2; ++pass) {  // what another frame left must not show
+    Rows rows;
+    if (pass == 0) rows.classes.assign(30, 1);
+    pipeline.process(rows.frame(), result);
+  }
+  std::vector<std::string> found;
+  for (const ClusterEntry& entry : entries_of(result)) {
+    std::string line = std::to_string(entry.class_value.value()) + ":";
+    for (const VolumeEntry& volume : entry.volumes) {
+      EXPECT_FALSE(empty(volume.volume)) << volume.method;
+      line += " " + std::string(volume.method);
+    }
+    found.push_back(line);
+    EXPECT_TRUE(entry.track);
+  }
+  EXPECT_EQ(found, (std::vector<std::string>{"1: aabb obb-min", "2: obb-min sphere-exact", "3: aabb obb-min"}));
+  for (std::size_t m = 0; m < 3; ++m)
+    EXPECT_EQ(result.has(1, m), !empty(result.volume(1, m)));
+}
+
+TEST(Pipeline, VolumesOfAClassAreThoseOfTheClassAlone) {
+  ClassConfig own{2};
+  own.volumes = {"sphere", "dop26", "obb"};
+  const Rows rows;
+  FramePipeline pipeline(classes_config({own}));
+  FrameResult all, alone;
+  pipeline.process(rows.frame(), all);
+  PipelineConfig config = classes_config({});
+  config.volumes = own.volumes;
+  pipeline.set_config(config);
+  pipeline.process(rows.frame(), alone);
+  for (std::size_t m = 0; m < 3; ++m) {
+    const auto same = std::find(all.methods.begin(), all.methods.end(), alone.methods[m]);
+    ASSERT_NE(same, all.methods.end());
+    EXPECT_TRUE(alone.volume(1, m) == all.volume(1, static_cast<std::size_t>(same - all.methods.begin())));
+  }
+}
+
 TEST(Pipeline, WithoutAPointGivesAnEmptyResultWithTheHeader) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const std::vector<float>& xyz :

@@ -48,11 +48,11 @@ std::size_t significant_digits(std::string_view number) {
 
 TEST(ReportJson, IsTheDocumentedText) {
   Report report = report_of({{"aabb", Aabb({0, -1, 0.5}, {1, 2, 3}), 0}});
-  report.counts = {1, 2, 3, 4, 5, 7, 6};
+  report.counts = {1, 2, 3, 4, 5, 7, 6, 8};
   report.seconds = Seconds{0.25, 0, 1e-6};
   EXPECT_EQ(report_json(report),
             R"({"schema":1,"file":"a.pcd","points":12,)"
-            R"("counts":{"nonfinite":1,"range":2,"ground":3,"small":4,"large":5,"noise":7,"inside":6},)"
+            R"("counts":{"nonfinite":1,"range":2,"ground":3,"small":4,"large":5,"noise":7,"inside":6,"class":8},)"
             R"("clusters":[{"id":0,"points":12,"volumes":[)"
             R"({"shape":"aabb","method":"aabb","volume":7.5,"min":[0,-1,0.5],"max":[1,2,3],"outside":0}]}],)"
             R"("seconds":{"read":0.25,"segment":0,"fit":1e-06}})");

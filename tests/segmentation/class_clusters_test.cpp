@@ -90,6 +90,14 @@ TEST(ClassClusters, OfADroppedClassThereAreNone) {
   EXPECT_EQ(found.clusters.cluster_size(0), 2U);
   EXPECT_EQ(found.class_of, std::vector<std::int64_t>{1});
   EXPECT_EQ(found.clusters.small_points, 0U);
+  EXPECT_EQ(found.clusters.class_points, 2U);
+}
+
+TEST(ClassClusters, OfADroppedClassCountValidPointsOnly) {
+  Cloud<float> cloud = kRow;
+  cloud[3][0] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(by_class(cloud, {1, 1, 2, 2}, {1}, {{2, {1}, true}}).clusters.class_points, 1U);
+  EXPECT_EQ(by_class(cloud, {1, 1, 2, 2}, {1}).clusters.class_points, 0U);
 }
 
 TEST(ClassClusters, CountEachClassBySettingsOfItsOwn) {

@@ -163,9 +163,9 @@ Json volumes_json(const ClusterEntry& cluster) {
 }
 
 Json counts_json(const Counts& counts) {
-  return {{"nonfinite", counts.nonfinite}, {"range", counts.range}, {"ground", counts.ground},
-          {"small", counts.small},         {"large", counts.large}, {"noise", counts.noise},
-          {"inside", counts.inside}};
+  return {{"nonfinite", counts.nonfinite}, {"range", counts.range},   {"ground", counts.ground},
+          {"small", counts.small},         {"large", counts.large},   {"noise", counts.noise},
+          {"inside", counts.inside},       {"class", counts.of_class}};
 }
 
 }  // namespace

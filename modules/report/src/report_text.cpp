@@ -138,6 +138,7 @@ std::string header(const Report& report) {
   add(report.counts.small, " in small clusters");
   add(report.counts.large, " in large clusters");
   add(report.counts.noise, " in no cluster");
+  add(report.counts.of_class, " of dropped classes");
   if (report.clusters.empty()) text += ", no clusters";
   if (report.seconds) {
     text += "; read " + format("%.*f", 1, report.seconds->read * 1e3);

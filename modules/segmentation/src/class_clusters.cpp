@@ -27,6 +27,13 @@ std::int64_t class_of_point(const std::vector<std::int64_t>& classes, std::size_
                               std::to_string(classes.size()));
 }
 
+std::size_t count_valid(const PointView& points) {
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < points.count; ++i)
+    valid += is_valid(load_point(points, i)) ? 1 : 0;
+  return valid;
+}
+
 }  // namespace
 
 // The place of the class among the groups, a new one if need be.
@@ -66,10 +73,13 @@ void ClassClusterer::extract(const PointView& points, const std::vector<std::int
   for (const Group& group : groups_) {
     const auto settings = std::find_if(own.begin(), own.end(),
                                        [&](const ClassSettings& one) { return one.value == group.value; });
-    if (settings != own.end() && settings->drop) continue;
     PointView part = points;
     part.indices = numbers_.data() + (group.end - group.count);
     part.count = group.count;
+    if (settings != own.end() && settings->drop) {
+      all_.class_points += count_valid(part);
+      continue;
+    }
     clusterer_.extract(part, settings == own.end() ? others : settings->clusters, found_, policy);
     for (std::size_t i = 0; i < found_.size(); ++i)
       append(found_, i, all_);
@@ -81,6 +91,7 @@ void ClassClusterer::extract(const PointView& points, const std::vector<std::int
   clusters.small_points = all_.small_points;
   clusters.large_points = all_.large_points;
   clusters.noise_points = all_.noise_points;
+  clusters.class_points = all_.class_points;
   write_sorted(all_, std::numeric_limits<std::size_t>::max(), order_, clusters);
   class_of.clear();
   for (const std::size_t i : order_)

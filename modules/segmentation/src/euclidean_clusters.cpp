@@ -168,7 +168,7 @@ void EuclideanClusterer::extract(const PointView& points, const ClusterSettings&
   clusters.offsets.assign(1, 0);
   clusters.small_points = 0;
   clusters.large_points = 0;
-  clusters.noise_points = 0;
+  clusters.noise_points = clusters.class_points = 0;
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
   scratch_->append(points, settings, policy, clusters);
   if (settings.oversized != Oversized::split) return;

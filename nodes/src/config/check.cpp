@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "config/rows.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/nodes/settings.h"
 
@@ -18,6 +19,29 @@ std::string known_methods() {
   for (const Method& method : methods())
     names += (names.empty() ? "" : ", ") + std::string(method.name);
   return names;
+}
+
+template <ConfigRow Row>
+std::string problem_of_row(const Row& row) {
+  std::string problem;
+  visit_row(row, [&](const Setting& field, const auto& value) {
+    const std::string what = problem_of(field, value);
+    if (problem.empty() && !what.empty()) problem = std::string(field.key) + ": " + what;
+  });
+  return problem;
+}
+
+void check_classes(const ClusterConfig& all, std::vector<ConfigProblem>& problems) {
+  const auto add = [&](const std::string& what) { problems.push_back({"cluster.classes", what}); };
+  if (!all.classes.empty() && !all.class_field) add("means nothing without cluster.class_field");
+  for (const ClassConfig& own : all.classes) {
+    const std::string name = "class " + std::to_string(own.value) + ": ";
+    if (own.tolerance && *own.tolerance > 0 && static_cast<float>(*own.tolerance) == 0)
+      add(name + "tolerance: " + to_text(*own.tolerance) + " is 0 as a float, which points are");
+    const std::size_t least = own.min_size.value_or(all.least_size()),
+                      most = own.max_size.value_or(all.max_size);
+    if (least > most) add(name + "max_size, " + to_text(most) + ", is below min_size, " + to_text(least));
+  }
 }
 
 void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problems) {
@@ -46,6 +70,7 @@ void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problem
     add("cluster.max_size",
         to_text(c.cluster.max_size) + " is below cluster.min_size, " + to_text(c.cluster.least_size()));
   }
+  check_classes(c.cluster, problems);
 }
 
 template <typename Problems>
@@ -116,8 +141,19 @@ std::string problem_of(const Setting& /*setting*/, const std::optional<Eigen::Ve
 std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
   for (const RegionConfig& region : regions) {
     if (region.file.empty() && region.volumes.empty()) return "a region has neither a file nor volumes";
-    const std::string padding = problem_of(Setting{"", "", "", {0, 1e100}}, region.padding);
-    if (!padding.empty()) return "padding: " + padding;
+    const std::string problem = problem_of_row(region);
+    if (!problem.empty()) return problem;
+  }
+  return {};
+}
+
+std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
+  for (auto own = classes.begin(); own != classes.end(); ++own) {
+    const std::string name = "class " + std::to_string(own->value);
+    const auto same = [&](const ClassConfig& other) { return other.value == own->value; };
+    if (std::any_of(classes.begin(), own, same)) return name + " is there twice";
+    const std::string problem = problem_of_row(*own);
+    if (!problem.empty()) return name + ": " + problem;
   }
   return {};
 }

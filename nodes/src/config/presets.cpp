@@ -1,20 +1,32 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "pcl_bv/nodes/stream_config.h"
 
 namespace pcl_bv {
 
-std::vector<const Method*> PipelineConfig::methods() const {
-  if (volumes.empty() && cluster.tolerance > 0) return {find_method("obb-lshape")};
-  if (volumes.empty()) return {find_method("aabb"), find_method("sphere"), find_method("obb")};
+std::vector<const Method*> PipelineConfig::methods_of(const ClassConfig* own) const {
+  const std::vector<std::string>& names = own != nullptr && !own->volumes.empty() ? own->volumes : volumes;
+  if (names.empty() && cluster.tolerance > 0) return {find_method("obb-lshape")};
+  if (names.empty()) return {find_method("aabb"), find_method("sphere"), find_method("obb")};
   std::vector<const Method*> found;
-  for (const std::string& name : volumes) {
+  for (const std::string& name : names) {
     if (const Method* const method = find_method(name)) found.push_back(method);
   }
   return found;
+}
+
+std::vector<const Method*> PipelineConfig::methods() const {
+  std::vector<const Method*> all = methods_of(nullptr);
+  for (const ClassConfig& own : cluster.classes) {
+    for (const Method* const method : methods_of(&own)) {
+      if (std::find(all.begin(), all.end(), method) == all.end()) all.push_back(method);
+    }
+  }
+  return all;
 }
 
 ParallelPolicy PipelineConfig::policy() const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "config/rows.h"
 #include "config/words.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/nodes/settings.h"
@@ -64,6 +65,40 @@ std::string in_quotes(const std::string& name) {
   return text + '"';
 }
 
+// A field of a row; nothing if nothing is said.
+template <typename T>
+std::string text_of_field(const T& value) {
+  return to_text(value);
+}
+template <typename T>
+std::string text_of_field(const std::optional<T>& value) {
+  return value ? to_text(*value) : "";
+}
+std::string text_of_field(const std::filesystem::path& file) {
+  return in_quotes(file.string());
+}
+std::string text_of_field(std::int64_t value) {
+  return std::to_string(value);
+}
+std::string text_of_field(const std::vector<std::string>& names) {
+  return names.empty() ? "" : '[' + to_text(names) + ']';
+}
+
+template <ConfigRow Row>
+std::string text_of_rows(const std::vector<Row>& rows) {
+  std::string list;
+  for (const Row& row : rows) {
+    std::string fields;
+    visit_row(row, [&](const Setting& field, const auto& value) {
+      const std::string text = text_of_field(value);
+      if (text.empty()) return;
+      fields.append(fields.empty() ? "" : ", ").append(field.key).append(": ").append(text);
+    });
+    list.append(list.empty() ? "{" : ", {").append(fields).append("}");
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string to_text(bool value) {
@@ -89,13 +124,10 @@ std::string to_text(const std::vector<std::string>& names) {
   return list;
 }
 std::string to_text(const std::vector<RegionConfig>& regions) {
-  std::string list;
-  for (const RegionConfig& region : regions) {
-    list += list.empty() ? "" : ", ";
-    list += "{file: " + in_quotes(region.file.string()) + ", keep: " + to_text(region.keep) +
-            ", padding: " + to_text(region.padding) + '}';
-  }
-  return list;
+  return text_of_rows(regions);
+}
+std::string to_text(const std::vector<ClassConfig>& classes) {
+  return text_of_rows(classes);
 }
 std::string to_text(GroundMethod method) {
   return find_name(kGroundMethods, method);
@@ -151,6 +183,10 @@ void read_text(std::string_view text, std::vector<std::string>& names) {
 }
 void read_text(std::string_view text, std::vector<RegionConfig>& regions) {
   regions = {{std::filesystem::path(text)}};
+}
+void read_text(std::string_view text, std::vector<ClassConfig>& classes) {
+  classes.assign(1, {});
+  if (!read_whole_text(text, classes[0].value)) refuse(text, "a whole number");
 }
 void read_text(std::string_view text, GroundMethod& method) {
   method = read_name(kGroundMethods, text);

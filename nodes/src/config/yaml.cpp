@@ -11,6 +11,8 @@
 #include <type_traits>
 
 #include "config/check.h"
+#include "config/rows.h"
+#include "config/words.h"
 #include "pcl_bv/nodes/settings.h"
 
 namespace pcl_bv {
@@ -43,6 +45,21 @@ class Reader {
       read(*node, value);
     } catch (const std::invalid_argument& error) {
       fail(name_, line(*node), std::string(setting.key) + ": " + error.what() + in_unit<T>(setting));
+    }
+  }
+
+  template <ConfigRow Row>
+  void operator()(const Setting& setting, std::vector<Row>& rows) {
+    const YAML::Node* const list = take(std::string(setting.key));
+    if (list == nullptr) return;
+    rows.clear();
+    const std::string key = std::string(setting.key) + ": ";
+    constexpr RowWords words = row_words<Row>();
+    if (!list->IsSequence()) fail_at(*list, key + shown(*list) + " is not a list of " + words.many);
+    for (const YAML::Node& element : *list) {
+      if (!element.IsMap())
+        fail_at(element, key + shown(element) + " is not " + words.one + ", " + words.example);
+      read_row(element, key, rows.emplace_back());
     }
   }
 
@@ -87,6 +104,34 @@ class Reader {
     }
   }
 
+  template <ConfigRow Row>
+  void read_row(const YAML::Node& node, const std::string& where, Row& row) const {
+    std::map<std::string, YAML::Node> fields;
+    for (const auto& item : node) {
+      const auto key = item.first.as<std::string>();
+      if (!fields.emplace(key, item.second).second) fail_at(item.first, where + key + ": is there twice");
+    }
+    if (std::is_same_v<Row, ClassConfig> && fields.count("value") == 0)
+      fail_at(node, where + "a class without its value");
+    visit_row(row, [&](const Setting& field, auto& value) {
+      const auto found = fields.find(std::string(field.key));
+      if (found == fields.end()) return;
+      try {
+        read(found->second, value);
+      } catch (const std::invalid_argument& error) {
+        fail_at(found->second, where + found->first + ": " + error.what());
+      }
+      fields.erase(found);
+    });
+    if (fields.empty()) return;
+    const auto& [key, value] = *fields.begin();
+    fail_at(value, where + "unknown key '" + key + "' of " + row_words<Row>().one);
+  }
+
+  [[noreturn]] void fail_at(const YAML::Node& node, const std::string& what) const {
+    fail(name_, line(node), what);
+  }
+
   // The key's node, marked as known.
   const YAML::Node* take(const std::string& key) {
     if (key.find('.') != std::string::npos) sections_.insert(key.substr(0, key.find('.')));
@@ -116,26 +161,9 @@ class Reader {
   static void read(const YAML::Node& node, Eigen::Vector3d& value) {
     read_text(node.IsSequence() ? elements(node, "") : scalar(node), value);
   }
-  static void read(const YAML::Node& node, std::vector<RegionConfig>& regions) {
-    if (!node.IsSequence()) refuse(node, "a list of regions");
-    regions.clear();
-    for (const YAML::Node& element : node) {
-      RegionConfig region;
-      if (!element.IsMap()) refuse(element, "a region, {file: F.json, keep: false, padding: 0}");
-      for (const auto& item : element) {
-        const auto key = item.first.as<std::string>();
-        if (key == "file") {
-          region.file = scalar(item.second);
-        } else if (key == "keep") {
-          read(item.second, region.keep);
-        } else if (key == "padding") {
-          read(item.second, region.padding);
-        } else {
-          throw std::invalid_argument("unknown key '" + key + "' of a region");
-        }
-      }
-      regions.push_back(std::move(region));
-    }
+  static void read(const YAML::Node& node, std::filesystem::path& file) { file = scalar(node); }
+  static void read(const YAML::Node& node, std::int64_t& value) {
+    if (!node.IsScalar() || !read_whole_text(node.Scalar(), value)) refuse(node, "a whole number");
   }
   static void read(const YAML::Node& node, std::vector<std::string>& names) {
     const std::string list = elements(node, "a list of methods");
@@ -144,8 +172,11 @@ class Reader {
   }
 
   [[noreturn]] static void refuse(const YAML::Node& node, const std::string& wanted) {
-    const std::string text = node.IsScalar() ? "'" + node.Scalar() + "'" : "what is there";
-    throw std::invalid_argument(text + " is not " + wanted);
+    throw std::invalid_argument(shown(node) + " is not " + wanted);
+  }
+
+  static std::string shown(const YAML::Node& node) {
+    return node.IsScalar() ? "'" + node.Scalar() + "'" : "what is there";
   }
 
   static std::string scalar(const YAML::Node& node) {
@@ -172,9 +203,9 @@ class Writer {
  public:
   template <typename T>
   void operator()(const Setting& setting, const T& value) {
-    constexpr bool list = std::is_same_v<T, std::vector<std::string>> ||
-                          std::is_same_v<T, std::optional<Eigen::Vector3d>> ||
-                          std::is_same_v<T, std::vector<RegionConfig>>;
+    constexpr bool list =
+        std::is_same_v<T, std::vector<std::string>> || std::is_same_v<T, std::optional<Eigen::Vector3d>> ||
+        std::is_same_v<T, std::vector<RegionConfig>> || std::is_same_v<T, std::vector<ClassConfig>>;
     std::string text = to_text(value);
     if (text == "inf") text = ".inf";
     std::string comment(setting.unit);

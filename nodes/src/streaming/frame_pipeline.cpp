@@ -3,16 +3,18 @@
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "pcl_bv/segmentation/class_clusters.h"
 #include "pcl_bv/segmentation/up.h"
+#include "stages/class_rules.h"
 #include "stages/filter.h"
 #include "stages/ground.h"
 #include "tracked_volumes.h"
@@ -35,6 +37,7 @@ class Watch {
 struct Prepared {
   PipelineConfig config;
   std::vector<const Method*> methods;
+  ClassRules rules;
   MethodOptions options;
   std::shared_ptr<const PointFilter> filter;
   Execution execution{Serial{}, Isa::scalar};  // until the configuration's set is known
@@ -49,6 +52,7 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   if (!problems.empty()) throw std::invalid_argument(problems);
   auto prepared = std::make_shared<Prepared>();
   prepared->methods = config.methods();
+  prepared->rules = ClassRules(config);
   prepared->options = {config.growth, up_direction(config.ground.up)};
   prepared->tells_apart = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
   prepared->execution.isa = parse_isa(config.isa);
@@ -123,7 +127,7 @@ void take_all(const ClusterConfig& config, const PointView& points, FrameResult&
   const bool large = valid > config.max_size && config.oversized != Oversized::keep;
   all.small_points = small ? valid : 0;
   all.large_points = large ? valid : 0;
-  all.noise_points = 0;
+  all.noise_points = all.class_points = 0;
   if (small || large) return;
   all.offsets.push_back(valid);
   if (points.indices != nullptr && points.count == valid)
@@ -134,23 +138,21 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
                                          FrameResult& result) {
   const ClusterConfig& config = now.config.cluster;
   result.class_of.clear();
-  const ClusterSettings settings{
-      static_cast<float>(config.tolerance),           config.least_size(), config.max_size, config.min_points,
-      static_cast<float>(config.tolerance_per_metre), config.oversized};
   if (config.tolerance == 0) {
     take_all(config, points, result);
   } else if (!config.class_field) {
-    clusterer.extract(points, settings, result.clusters, now.execution.parallel);
+    clusterer.extract(points, now.rules.others(), result.clusters, now.execution.parallel);
   } else {
     if (frame.classes == nullptr)
       throw std::invalid_argument("the frame has no classes, but cluster.class_field is '" +
                                   config.class_field->name + "'");
-    class_clusterer.extract(points, *frame.classes, settings, {}, result.clusters, result.class_of,
-                            now.execution.parallel);
+    class_clusterer.extract(points, *frame.classes, now.rules.others(), now.rules.own(), result.clusters,
+                            result.class_of, now.execution.parallel);
   }
   result.counts.small = result.clusters.small_points;
   result.counts.large = result.clusters.large_points;
   result.counts.noise = result.clusters.noise_points;
+  result.counts.of_class = result.clusters.class_points;
 }
 
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {
@@ -161,11 +163,20 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   result.methods.assign(now.methods.begin(), now.methods.end());
   result.volumes.resize(views.size() * methods);
   result.results.resize(result.volumes.size());
+  result.wanted.resize(result.volumes.size());
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
+    const std::vector<const Method*>& wanted = now.rules.methods_of(
+        result.class_of.empty() ? std::nullopt : std::optional(result.class_of[cluster]));
     Supports supports;
-    const Execution shared = share_supports(views[cluster], now.methods, execution, supports);
+    const Execution shared = share_supports(views[cluster], wanted, execution, supports);
     for (std::size_t m = 0; m < methods; ++m) {
       const std::size_t i = cluster * methods + m;
+      result.wanted[i] = std::find(wanted.begin(), wanted.end(), now.methods[m]) != wanted.end();
+      if (result.wanted[i] == 0) {
+        result.volumes[i] = AnyVolume();
+        result.results[i] = EstimationResult();
+        continue;
+      }
       result.results[i] = now.methods[m]->fit(views[cluster], result.volumes[i], shared, now.options);
     }
   };

@@ -64,7 +64,8 @@ std::string ground_remark(const FrameResult& result) {
     return "no ground found" + tried +
            ": try ground.up, ground.sensor_height, ground.max_slope_degrees, or ground.method none";
   if (counts.ground == looked_at)
-    return "all points are taken for ground" + tried + ": try ground.up, ground.distance, or ground.method none";
+    return "all points are taken for ground" + tried +
+           ": try ground.up, ground.distance, or ground.method none";
   return {};
 }
 
@@ -76,6 +77,7 @@ std::vector<ClusterEntry> entries_of(const FrameResult& result) {
     if (!result.class_of.empty()) entries[id].class_value = result.class_of[id];
     if (!result.tracks.empty()) entries[id].track = result.tracks[id];
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
+      if (!result.has(id, m)) continue;
       VolumeEntry& volume = entries[id].volumes.emplace_back();
       volume.method = result.methods[m]->name;
       volume.volume = result.volume(id, m);

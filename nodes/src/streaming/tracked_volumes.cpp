@@ -13,7 +13,8 @@ namespace {
 // Tracks do not depend on what volumes are asked for.
 Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (const Aabb* box = std::get_if<Aabb>(&result.volume(cluster, m))) return *box;
+    const Aabb* const box = std::get_if<Aabb>(&result.volume(cluster, m));
+    if (box != nullptr && result.has(cluster, m)) return *box;
   }
   Aabb box;
   fit_aabb(points, box);

@@ -64,6 +64,15 @@ struct FieldName {
   std::string name;
 };
 
+/// What is special about the objects of one class; what is not said is as for the others.
+struct ClassConfig {
+  std::int64_t value = 0;  ///< Of the class field.
+  bool drop = false;       ///< Its points are in no object.
+  std::optional<double> tolerance{};  ///< Metres, above 0.
+  std::optional<std::size_t> min_size{}, max_size{};
+  std::vector<std::string> volumes{};  ///< Methods.
+};
+
 struct ClusterConfig {
   double tolerance = 0.5;  ///< Points nearer to each other are one object, metres; 0: all points are one.
   /// Points; smaller objects are dropped. If not given 10, and 0 where all points are one.
@@ -77,6 +86,7 @@ struct ClusterConfig {
   Oversized oversized = Oversized::drop;  ///< What becomes of objects above max_size.
   /// Field of the clouds, of integers, whose values are the points' classes: objects are of one class each.
   std::optional<FieldName> class_field{};
+  std::vector<ClassConfig> classes{};  ///< Those that differ from the others; only with `class_field`.
 
   std::size_t least_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
 };
@@ -105,8 +115,11 @@ struct PipelineConfig {
   /// One line for each value that is not allowed: the key as in the configuration file, the value, the range.
   std::vector<std::string> validate() const;
 
-  /// What `volumes` stands for; methods that are unknown are left out.
+  /// What `volumes` stands for, then what only classes have; methods that are unknown are left out.
   std::vector<const Method*> methods() const;
+
+  /// Those of objects of one class; null: of objects of no class, or of one of which nothing is said.
+  std::vector<const Method*> methods_of(const ClassConfig* own) const;
 
   /// What `threads` stands for.
   ParallelPolicy policy() const;

@@ -37,7 +37,7 @@ struct Setting {
 
 /// Calls visit(setting, value) for each: `value` is a bool, double, std::size_t, std::optional of one of the
 /// latter two or of a point, Eigen::Vector3d (a direction), std::string (the instruction set), a list of them
-/// (methods) or of regions, or one of the enums, and const if the configuration is.
+/// (methods) or of rows (regions, classes), or one of the enums, and const if the configuration is.
 // clang-format off: a table
 template <typename Pipeline, typename Visit>
 void visit_pipeline(Pipeline& c, Visit&& visit) {
@@ -80,6 +80,8 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"cluster.class_field", "name of a field",
           "Integer field whose values are classes: an object has one", {}, "none", "--class", "FIELD"},
         c.cluster.class_field);
+  visit(S{"cluster.classes", "[{value: 4, drop: false, tolerance: 0.5 m, min_size: 10, max_size: 999, volumes: [obb]}]",
+          "Classes that differ from the others"}, c.cluster.classes);
   visit(S{"volumes", "methods", "Methods with commas, or all", {},
           "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
   visit(S{"growth", "sequential, stationary, deferred",
@@ -119,8 +121,9 @@ std::string to_text(std::size_t value);
 std::string to_text(const Eigen::Vector3d& direction);
 std::string to_text(const std::string& name);
 std::string to_text(const std::vector<std::string>& names);  ///< Separated by ", ".
-std::string to_text(
-    const std::vector<RegionConfig>& regions);  ///< As the setting's unit shows it, without [].
+/// As the setting's unit shows them, without [] and what is not said.
+std::string to_text(const std::vector<RegionConfig>& regions);
+std::string to_text(const std::vector<ClassConfig>& classes);
 std::string to_text(GroundMethod method);
 std::string to_text(Oversized rule);
 std::string to_text(const FieldName& field);
@@ -142,6 +145,7 @@ void read_text(std::string_view text, std::string& name);
 void read_text(std::string_view text,
                std::vector<std::string>& names);  ///< `all` stands for methods_of_all().
 void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One of that file's name.
+void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One of that value.
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, Oversized& rule);
 void read_text(std::string_view text, FieldName& field);
@@ -163,6 +167,7 @@ std::string problem_of(const Setting& setting, const std::vector<std::string>& m
 std::string problem_of(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
 std::string problem_of(const Setting& setting, const FieldName& field);
 std::string problem_of(const Setting& setting, const std::vector<RegionConfig>& regions);
+std::string problem_of(const Setting& setting, const std::vector<ClassConfig>& classes);
 template <typename Choice>
 std::string problem_of(const Setting& /*setting*/, Choice /*any*/) {
   return {};

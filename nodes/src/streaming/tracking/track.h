@@ -27,10 +27,11 @@ struct Change {
 struct Track {
   MotionFilter motion;  // in the fixed frame
   MotionJudge judge;
-  Eigen::Vector3d low, high;  // faces of the box from the place, along the sensor's axes
-  Eigen::Vector3d expected;   // the place in the sensor's frame
-  Eigen::Vector3d before;     // the place at the last frame, in the fixed frame
-  double unseen = 0;          // seconds since the last sighting
+  // Faces of the box from the place, along the sensor's axes.
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
+  Eigen::Vector3d expected = Eigen::Vector3d::Zero();  // the place in the sensor's frame
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();    // the place at the last frame, in the fixed frame
+  double unseen = 0;                                   // seconds since the last sighting
   std::size_t seen = 0, missed = 0, hidden = 0, age = 0;
   double yaw = 0, yaw_variance = 1;
   bool alive = false, moving = false;

@@ -15,7 +15,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct ClassSettings {
   std::int64_t value = 0;
   ClusterSettings clusters;
-  bool drop = false;  ///< Its points are in no cluster, nor counted as dropped by size.
+  bool drop = false;  ///< Its points are in no cluster, and counted as such: Clusters::class_points.
 };
 
 /// EuclideanClusterer, class by class.

@@ -16,6 +16,7 @@ struct Counts {
   std::size_t large = 0;   ///< In clusters of too many points.
   std::size_t noise = 0;   ///< Neither core of a cluster nor near to one: see ClusterSettings::min_points.
   std::size_t inside = 0;  ///< Dropped for regions: inside of one, or outside of all that are kept.
+  std::size_t of_class = 0;  ///< Of a class that is dropped.
 };
 
 }  // namespace pcl_bv

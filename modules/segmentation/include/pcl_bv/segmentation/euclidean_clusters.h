@@ -50,6 +50,7 @@ struct Clusters {
   std::size_t small_points = 0;         ///< Points in clusters dropped for having fewer than min_size.
   std::size_t large_points = 0;         ///< Points in clusters dropped for having more than max_size.
   std::size_t noise_points = 0;         ///< Points that are neither core nor near to a core point.
+  std::size_t class_points = 0;         ///< Points of classes that are dropped: ClassSettings::drop.
 
   std::size_t size() const { return offsets.size() - 1; }
   std::size_t cluster_size(std::size_t i) const { return offsets[i + 1] - offsets[i]; }
