@@ -12,6 +12,7 @@
 #include "allocations.h"
 #include "flush_to_zero.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/segmentation/class_clusters.h"
 #include "pcl_bv/synth/street.h"
 #include "reference.h"
 
@@ -119,6 +120,36 @@ TEST(ClustersInAStream, TakeNoMemoryInTheSecondPass) {
             clusterer.extract(view_of(frame), settings, clusters, policy);
           }
         }
+      }
+    }
+    EXPECT_EQ(allocations(), before);
+    EXPECT_GT(clusters.size(), 10U);
+  }
+}
+
+TEST(ClustersInAStream, TakeNoMemoryInTheSecondPassWithGrowthSplitsAndClasses) {
+  const std::vector<SynthCloud> frames = sweeps();
+  for (const ParallelPolicy& policy : {ParallelPolicy(Serial{}), ParallelPolicy(Threads{2})}) {
+    EuclideanClusterer clusterer;
+    ClassClusterer class_clusterer;
+    Clusters clusters;
+    std::vector<std::int64_t> classes, class_of;
+    for (std::size_t i = 0; i < 128'000; ++i)
+      classes.push_back(static_cast<std::int64_t>(i / 1000 % 5));
+    ClusterSettings settings{0.3F, 10, 2000};
+    settings.oversized = Oversized::split;
+    ClusterSettings grown = settings;
+    grown.tolerance_per_metre = 0.02F;
+    std::size_t before = 0;
+    for (int pass = 0; pass < 3; ++pass) {
+      if (pass == 1) before = allocations();
+      for (const SynthCloud& frame : frames) {
+        clusterer.extract(view_of(frame), settings, clusters, policy);
+        clusterer.extract(view_of(frame), grown, clusters, policy);
+        const std::size_t own = allocations();
+        const std::vector<ClassSettings> rules = {{1, settings, true}, {2, grown}, {3, {0.2F, 5}}};
+        before += pass > 0 ? allocations() - own : 0;
+        class_clusterer.extract(view_of(frame), classes, settings, rules, clusters, class_of, policy);
       }
     }
     EXPECT_EQ(allocations(), before);
