@@ -25,4 +25,8 @@ struct ClusterPeer {
 /// installed, "nanoflann" (the same search on its tree).
 const std::vector<ClusterPeer>& cluster_peers();
 
+/// Open3D's DBSCAN, on all processors: for each point its cluster, -1 for noise. Only where libopen3d-dev is
+/// installed (PCL_BV_BENCH_OPEN3D).
+std::vector<int> open3d_dbscan(const ClusterCloud& cloud, float tolerance, std::size_t min_points);
+
 }  // namespace pcl_bv::bench

@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -176,7 +177,36 @@ void dbscan(const Scene& scene, float tolerance) {
   }
 }
 
+#ifdef PCL_BV_BENCH_OPEN3D
+// Border points may go with another cluster than ours, which is that of the nearest core point.
+void over_open3d(const Scene& scene, float tolerance, std::size_t min_points) {
+  add_turns(row_name("dbscan-" + std::to_string(min_points) + "-over-open3d", scene, tolerance), 3,
+            [=](benchmark::State& state) {
+              const ClusterCloud::ConstPtr cloud = cloud_of(scene);
+              Ours ours(*cloud, tolerance, Serial{}, min_points);
+              ours();
+              const std::vector<int> theirs = open3d_dbscan(*cloud, tolerance, min_points);
+              const std::size_t clusters = *std::max_element(theirs.begin(), theirs.end()) + 1;
+              std::size_t in_ours = 0;
+              for (const std::vector<int>& cluster : ours.sets())
+                in_ours += cluster.size();
+              const auto in_theirs = static_cast<std::size_t>(
+                  std::count_if(theirs.begin(), theirs.end(), [](int label) { return label >= 0; }));
+              if (clusters != ours.sets().size() || in_theirs != in_ours)
+                throw std::runtime_error("Open3D finds other clusters in " + scene.name);
+              compare(
+                  state, [&] { open3d_dbscan(*cloud, tolerance, min_points); }, ours);
+            });
+}
+#endif
+
 void register_all() {
+#ifdef PCL_BV_BENCH_OPEN3D
+  for (const float r : {0.2F, 0.5F}) {
+    for (const std::size_t min_points : {2U, 20U})
+      over_open3d({"street", 128'000}, r, min_points);
+  }
+#endif
   for (const float r : {0.2F, 0.5F, 100.F})
     dbscan({"street", 128'000}, r);
   for (const float r : {0.1F, 0.2F, 0.5F, 1.F}) {
