@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "posix_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 namespace {

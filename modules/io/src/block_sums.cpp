@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "pcl_bv/kernels/chunks.h"
-#include "posix_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pcl_bv/io/las.h"
-#include "posix_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/read_cloud.h"
-#include "posix_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 namespace {

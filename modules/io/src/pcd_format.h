@@ -9,7 +9,7 @@
 #include <string>
 
 #include "pcl_bv/io/pcd.h"
-#include "posix_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 

@@ -11,7 +11,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/policy.h"
-#include "posix_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 

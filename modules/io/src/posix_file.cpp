@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "posix_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 #include <fcntl.h>
 

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "posix_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 

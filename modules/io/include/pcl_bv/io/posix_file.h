@@ -14,7 +14,7 @@
 
 #include "pcl_bv/io/io_error.h"
 
-namespace pcl_bv {
+namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The system's words for an errno value, starting in lower case: "permission denied".
 std::string system_reason(int error);

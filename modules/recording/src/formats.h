@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "pcl_bv/recording/recording.h"
+
+namespace pcl_bv {
+
+/// A row of the table of formats.
+struct RecordingFormat {
+  std::string_view name;  ///< "MCAP"
+  bool (*knows)(const std::filesystem::path& file,
+                std::string_view start);  ///< `start`: up to 64 bytes of a file.
+  std::unique_ptr<RecordingReader> (*open)(const std::filesystem::path& file);
+};
+
+const std::vector<RecordingFormat>& recording_formats();
+
+}  // namespace pcl_bv

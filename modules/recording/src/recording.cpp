@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/recording/recording.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "formats.h"
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+std::string start_of(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown)) return {};
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(64, '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(stream.gcount()));
+  return start;
+}
+
+const RecordingFormat* format_of(const std::filesystem::path& file) {
+  const std::string start = start_of(file);
+  for (const RecordingFormat& format : recording_formats()) {
+    if (format.knows(file, start)) return &format;
+  }
+  return nullptr;
+}
+
+std::string known_formats() {
+  std::string names;
+  for (const RecordingFormat& format : recording_formats())
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
+  return names;
+}
+
+}  // namespace
+
+bool is_recording(const std::filesystem::path& file) {
+  return format_of(file) != nullptr;
+}
+
+std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(file, unknown)) throw IoError("no such file or folder");
+  const RecordingFormat* const format = format_of(file);
+  if (format == nullptr) throw IoError("no recording that is known: " + known_formats());
+  return format->open(file);
+}
+
+}  // namespace pcl_bv

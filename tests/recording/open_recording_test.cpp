@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/recording/recording.h"
+
+namespace pcl_bv {
+namespace {
+
+std::string error_of(const std::filesystem::path& file) {
+  try {
+    open_recording(file);
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(OpenRecording, SaysWhatIsNoRecording) {
+  EXPECT_EQ(error_of("/no/such/file"), "no such file or folder");
+  EXPECT_THAT(error_of("/dev/null"), testing::StartsWith("no recording that is known: "));
+  EXPECT_FALSE(is_recording("/no/such/file"));
+  EXPECT_FALSE(is_recording("/"));
+}
+
+}  // namespace
+}  // namespace pcl_bv
