@@ -1,5 +1,5 @@
 # What to build. As a subproject: only the libraries whose dependencies are few, nothing to install, no commands.
-set(all_components core pcl segmentation io report recording nodes)
+set(all_components core pcl segmentation io report messages recording nodes)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
 else()
@@ -25,9 +25,9 @@ foreach(component ${PCL_BV_COMPONENTS})
 endforeach()
 # Each component with those that it is built on.
 if("nodes" IN_LIST PCL_BV_COMPONENTS)
-  list(APPEND PCL_BV_COMPONENTS report recording)
+  list(APPEND PCL_BV_COMPONENTS report messages recording)
 endif()
-if("recording" IN_LIST PCL_BV_COMPONENTS)
+if("recording" IN_LIST PCL_BV_COMPONENTS OR "messages" IN_LIST PCL_BV_COMPONENTS)
   list(APPEND PCL_BV_COMPONENTS io)
 endif()
 if("report" IN_LIST PCL_BV_COMPONENTS)

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <optional>
+
+#include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/messages/types.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// The points of a message where they lie: x, y and z side by side, all float32 or all float64, in this
+/// machine's byte order, rows without padding between them. nullopt for other layouts, which raw_cloud_of()
+/// takes. Throws MessageError (serialize.h) for a cloud that does not fit its data, or without x, y and z.
+std::optional<PointView> points_in_place(const msg::PointCloud2& cloud);
+
+/// A copy with all fields, row by row without padding, little-endian. Where x, y and z are neither all
+/// float32 nor all float64 they become float32 if all are integers of 16 bits or float32, else float64: no
+/// value changes. Throws MessageError as points_in_place() does, and for fields that are of no known type,
+/// have no element or reach out of the record. O(points).
+RawCloud raw_cloud_of(const msg::PointCloud2& cloud);
+
+}  // namespace pcl_bv

@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The messages of objects: vision_msgs 4, visualization_msgs of Humble and later, and Foxglove's scenes.
+#pragma once
+
+#include "pcl_bv/messages/types.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+namespace msg {
+
+struct ColorRGBA {
+  float r = 0, g = 0, b = 0, a = 1;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.r, m.g, m.b, m.a);
+  }
+};
+
+struct ObjectHypothesis {
+  std::string class_id;
+  double score = 0;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.class_id, m.score);
+  }
+};
+
+struct ObjectHypothesisWithPose {
+  ObjectHypothesis hypothesis;
+  PoseWithCovariance pose;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.hypothesis, m.pose);
+  }
+};
+
+struct BoundingBox3D {
+  Pose center;
+  Vector3 size;  ///< Whole lengths of the edges.
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.center, m.size);
+  }
+};
+
+struct Detection3D {
+  Header header;
+  std::vector<ObjectHypothesisWithPose> results;
+  BoundingBox3D bbox;
+  std::string id;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.header, m.results, m.bbox, m.id);
+  }
+};
+
+struct Detection3DArray {
+  static constexpr const char* type = "vision_msgs/msg/Detection3DArray";
+  Header header;
+  std::vector<Detection3D> detections;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.header, m.detections);
+  }
+};
+
+struct CompressedImage {
+  Header header;
+  std::string format;
+  Bytes data;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.header, m.format, m.data);
+  }
+};
+
+struct UVCoordinate {
+  float u = 0, v = 0;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.u, m.v);
+  }
+};
+
+struct MeshFile {
+  std::string filename;
+  Bytes data;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.filename, m.data);
+  }
+};
+
+struct Marker {
+  enum : std::int32_t { ARROW = 0, CUBE, SPHERE, CYLINDER, LINE_STRIP, LINE_LIST, TEXT_VIEW_FACING = 9 };
+  enum : std::int32_t { ADD = 0, DELETE = 2, DELETEALL };
+  Header header;
+  std::string ns;
+  std::int32_t id = 0;
+  std::int32_t marker_type = ARROW;  ///< ROS: `type`.
+  std::int32_t action = ADD;
+  Pose pose;
+  Vector3 scale;
+  ColorRGBA color;
+  Duration lifetime;
+  bool frame_locked = false;
+  std::vector<Point> points;
+  std::vector<ColorRGBA> colors;
+  std::string texture_resource;
+  CompressedImage texture;
+  std::vector<UVCoordinate> uv_coordinates;
+  std::string text;
+  std::string mesh_resource;
+  MeshFile mesh_file;
+  bool mesh_use_embedded_materials = false;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.header, m.ns, m.id, m.marker_type, m.action, m.pose, m.scale, m.color, m.lifetime, m.frame_locked,
+          m.points, m.colors);
+    if constexpr (!Visit::ros1) visit(m.texture_resource, m.texture, m.uv_coordinates);
+    visit(m.text, m.mesh_resource);
+    if constexpr (!Visit::ros1) visit(m.mesh_file);
+    visit(m.mesh_use_embedded_materials);
+  }
+};
+
+struct MarkerArray {
+  static constexpr const char* type = "visualization_msgs/msg/MarkerArray";
+  std::vector<Marker> markers;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.markers);
+  }
+};
+
+struct SceneColor {
+  double r = 0, g = 0, b = 0, a = 1;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.r, m.g, m.b, m.a);
+  }
+};
+
+/// foxglove_msgs' CubePrimitive and SpherePrimitive: whole lengths along the pose's axes.
+struct SolidPrimitive {
+  Pose pose;
+  Vector3 size;
+  SceneColor color;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.pose, m.size, m.color);
+  }
+};
+
+struct CylinderPrimitive {
+  Pose pose;
+  Vector3 size;  ///< z along the axis.
+  double bottom_scale = 1, top_scale = 1;
+  SceneColor color;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.pose, m.size, m.bottom_scale, m.top_scale, m.color);
+  }
+};
+
+struct ArrowPrimitive {
+  Pose pose;  ///< Along x.
+  double shaft_length = 0, shaft_diameter = 0, head_length = 0, head_diameter = 0;
+  SceneColor color;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.pose, m.shaft_length, m.shaft_diameter, m.head_length, m.head_diameter, m.color);
+  }
+};
+
+struct LinePrimitive {
+  enum : std::uint8_t { LINE_STRIP = 0, LINE_LOOP, LINE_LIST };
+  std::uint8_t line_type = LINE_LIST;  ///< Foxglove: `type`.
+  Pose pose;
+  double thickness = 1;
+  bool scale_invariant = false;  ///< Whether `thickness` is of pixels.
+  std::vector<Point> points;
+  SceneColor color;
+  std::vector<SceneColor> colors;
+  std::vector<std::uint32_t> indices;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.line_type, m.pose, m.thickness, m.scale_invariant, m.points, m.color, m.colors, m.indices);
+  }
+};
+
+struct TriangleListPrimitive {
+  Pose pose;
+  std::vector<Point> points;
+  SceneColor color;
+  std::vector<SceneColor> colors;
+  std::vector<std::uint32_t> indices;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.pose, m.points, m.color, m.colors, m.indices);
+  }
+};
+
+struct TextPrimitive {
+  Pose pose;
+  bool billboard = true;
+  double font_size = 0;
+  bool scale_invariant = false;
+  SceneColor color;
+  std::string text;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.pose, m.billboard, m.font_size, m.scale_invariant, m.color, m.text);
+  }
+};
+
+struct ModelPrimitive {
+  Pose pose;
+  Vector3 scale;
+  SceneColor color;
+  bool override_color = false;
+  std::string url, media_type;
+  Bytes data;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.pose, m.scale, m.color, m.override_color, m.url, m.media_type, m.data);
+  }
+};
+
+struct SceneEntityDeletion {
+  enum : std::uint8_t { MATCHING_ID = 0, ALL };
+  Time timestamp;
+  std::uint8_t deletion_type = MATCHING_ID;  ///< Foxglove: `type`.
+  std::string id;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.timestamp, m.deletion_type, m.id);
+  }
+};
+
+struct SceneEntity {
+  Time timestamp;
+  std::string frame_id, id;
+  Duration lifetime;
+  bool frame_locked = false;
+  std::vector<KeyValue> metadata;
+  std::vector<ArrowPrimitive> arrows;
+  std::vector<SolidPrimitive> cubes, spheres;
+  std::vector<CylinderPrimitive> cylinders;
+  std::vector<LinePrimitive> lines;
+  std::vector<TriangleListPrimitive> triangles;
+  std::vector<TextPrimitive> texts;
+  std::vector<ModelPrimitive> models;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.timestamp, m.frame_id, m.id, m.lifetime, m.frame_locked, m.metadata, m.arrows, m.cubes, m.spheres,
+          m.cylinders, m.lines, m.triangles, m.texts, m.models);
+  }
+};
+
+struct SceneUpdate {
+  static constexpr const char* type = "foxglove_msgs/msg/SceneUpdate";
+  std::vector<SceneEntityDeletion> deletions;
+  std::vector<SceneEntity> entities;
+  template <class Self, class Visit>
+  static void fields(Self& m, Visit& visit) {
+    visit(m.deletions, m.entities);
+  }
+};
+
+}  // namespace msg
+}  // namespace pcl_bv

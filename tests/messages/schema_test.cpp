@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/messages/schema.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pcl_bv/messages/results.h"
+
+namespace pcl_bv {
+namespace {
+
+TEST(Schemas, HoldEachTypeThatTheyNameOnce) {
+  const std::string line(80, '=');
+  EXPECT_EQ(schema_of(msg::Header::type), "builtin_interfaces/Time stamp\nstring frame_id\n" + line +
+                                              "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
+  const std::string markers = schema_of(msg::MarkerArray::type);
+  for (const char* name : {"visualization_msgs/Marker", "std_msgs/Header", "geometry_msgs/Point"}) {
+    const std::string head = "MSG: " + std::string(name) + "\n";
+    ASSERT_NE(markers.find(head), std::string::npos) << name;
+    EXPECT_EQ(markers.find(head), markers.rfind(head)) << name;
+  }
+}
+
+TEST(Schemas, AreThereForEveryMessage) {
+  for (const char* type : {msg::PointCloud2::type, msg::Detection3DArray::type, msg::MarkerArray::type,
+                           msg::SceneUpdate::type, msg::DiagnosticArray::type, msg::TFMessage::type})
+    EXPECT_GT(schema_of(type).size(), 100U) << type;
+}
+
+TEST(Schemas, OfUnknownTypesAreRefused) {
+  EXPECT_THROW(schema_of("std_msgs/msg/String"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace pcl_bv
