@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,5 +22,10 @@ struct RecordingFormat {
 };
 
 const std::vector<RecordingFormat>& recording_formats();
+
+std::unique_ptr<RecordingReader> open_mcap(const std::filesystem::path& file);
+
+/// "sensor_msgs/PointCloud2", as ROS 1 has it, with ROS 2's "/msg/".
+std::string ros2_type(std::string_view type);
 
 }  // namespace pcl_bv

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "codecs.h"
+
+#include <libdeflate.h>
+#include <lz4frame.h>
+#include <zstd.h>
+
+#include <cstring>
+#include <new>
+#include <string>
+
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv {
+namespace {
+
+// The fastest: recording must not hold up a stream.
+constexpr int kZstdLevel = 1;
+constexpr std::size_t kLargeAnyway = 256U << 20U;
+
+[[noreturn]] void refuse(const char* library, const std::string& what) {
+  throw IoError(std::string(library) + ": " + what);
+}
+
+void check_expected(std::size_t size, std::size_t expected) {
+  if (expected > kLargeAnyway && expected / 1000 > size)
+    throw IoError(std::to_string(size) + " bytes do not stand for " + std::to_string(expected));
+}
+
+void unpack_lz4(LZ4F_dctx* context, const std::byte* data, std::size_t size, std::vector<std::byte>& to) {
+  LZ4F_resetDecompressionContext(context);
+  std::size_t read = 0, written = 0, hint = 1;
+  while (hint != 0) {
+    std::size_t source = size - read, room = to.size() - written;
+    hint = LZ4F_decompress(context, to.data() + written, &room, data + read, &source, nullptr);
+    if (LZ4F_isError(hint) != 0) refuse("lz4", LZ4F_getErrorName(hint));
+    if (hint != 0 && source == 0 && room == 0) break;  // no room, or no data any more
+    read += source;
+    written += room;
+  }
+  if (hint != 0 || written != to.size() || read != size)
+    refuse("lz4", "not a frame of " + std::to_string(to.size()) + " bytes");
+}
+
+}  // namespace
+
+std::string_view name_of(Compression compression) {
+  if (compression == Compression::none) return "";
+  return compression == Compression::lz4 ? "lz4" : "zstd";
+}
+
+struct Compressor::Contexts {
+  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), ZSTD_freeCCtx};
+};
+Compressor::Compressor() : contexts_(std::make_unique<Contexts>()) {}
+Compressor::~Compressor() = default;
+
+void Compressor::compress(Compression compression, const std::byte* data, std::size_t size,
+                          std::vector<std::byte>& to) {
+  if (compression == Compression::none) {
+    to.assign(data, data + size);
+  } else if (compression == Compression::zstd) {
+    to.resize(ZSTD_compressBound(size));
+    const std::size_t made =
+        ZSTD_compressCCtx(contexts_->zstd.get(), to.data(), to.size(), data, size, kZstdLevel);
+    if (ZSTD_isError(made) != 0) refuse("zstd", ZSTD_getErrorName(made));
+    to.resize(made);
+  } else {
+    to.resize(LZ4F_compressFrameBound(size, nullptr));
+    const std::size_t made = LZ4F_compressFrame(to.data(), to.size(), data, size, nullptr);
+    if (LZ4F_isError(made) != 0) refuse("lz4", LZ4F_getErrorName(made));
+    to.resize(made);
+  }
+}
+
+struct Decompressor::Contexts {
+  Contexts() {
+    if (LZ4F_isError(LZ4F_createDecompressionContext(&lz4, LZ4F_VERSION)) != 0) throw std::bad_alloc();
+  }
+  ~Contexts() { LZ4F_freeDecompressionContext(lz4); }
+  Contexts(const Contexts&) = delete;
+  Contexts& operator=(const Contexts&) = delete;
+
+  LZ4F_dctx* lz4 = nullptr;
+  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd{ZSTD_createDCtx(), ZSTD_freeDCtx};
+};
+Decompressor::Decompressor() : contexts_(std::make_unique<Contexts>()) {}
+Decompressor::~Decompressor() = default;
+
+void Decompressor::decompress(Compression compression, const std::byte* data, std::size_t size,
+                              std::size_t expected, std::vector<std::byte>& to) {
+  if (compression == Compression::none) {
+    if (size != expected) refuse("chunk", std::to_string(size) + " bytes, not " + std::to_string(expected));
+    to.assign(data, data + size);
+    return;
+  }
+  check_expected(size, expected);
+  to.resize(expected);
+  if (compression == Compression::lz4) return unpack_lz4(contexts_->lz4, data, size, to);
+  const std::size_t made = ZSTD_decompressDCtx(contexts_->zstd.get(), to.data(), expected, data, size);
+  if (ZSTD_isError(made) != 0) refuse("zstd", ZSTD_getErrorName(made));
+  if (made != expected) refuse("zstd", std::to_string(made) + " bytes, not " + std::to_string(expected));
+}
+
+std::uint32_t crc32_of(const std::byte* data, std::size_t size, std::uint32_t crc) {
+  return libdeflate_crc32(crc, data, size);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "pcl_bv/recording/recording.h"
+
+namespace pcl_bv {
+
+/// A message as it is sent, and as it comes back.
+struct Sent {
+  std::string topic;
+  std::int64_t log_time = 0, publish_time = 0;
+  std::string data;
+  auto operator<=>(const Sent&) const = default;
+};
+inline std::ostream& operator<<(std::ostream& stream, const Sent& sent) {
+  return stream << sent.topic << " at " << sent.log_time << ", " << sent.data.size() << " bytes";
+}
+
+inline std::vector<Sent> all_of(RecordingReader& reader) {
+  std::vector<Sent> found;
+  RecordedMessage message;
+  while (reader.next(message)) {
+    found.push_back({reader.topics()[message.topic].name, message.log_time_ns, message.publish_time_ns,
+                     std::string(reinterpret_cast<const char*>(message.data), message.size)});
+  }
+  return found;
+}
+
+/// A test with a folder that is removed after it.
+class RecordingFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("pcl_bv_recordings_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path at(const std::string& name) const { return folder_ / name; }
+  void put(const std::string& name, const std::string& bytes) const {
+    std::ofstream(at(name), std::ios::binary) << bytes;
+  }
+  std::string bytes_of(const std::string& name) const {
+    std::ifstream stream(at(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace pcl_bv
