@@ -107,7 +107,8 @@ void place_member(const World& world, std::uint64_t seed, double seconds, std::s
   SplitMix64 own({seed, 12, group, member});
   const Model model = row.make(own);
   const bool backward = row.motion == stands ? row.left > 0 : row.speed < 0;
-  const double behind = static_cast<double>(member / 2) * apart, beside = member % 2 == 0 ? 0 : 0.7;
+  const std::size_t row_of_two = member / 2;
+  const double behind = static_cast<double>(row_of_two) * apart, beside = member % 2 == 0 ? 0 : 0.7;
   const auto at = [&](double time) {
     const double along = start + way_of(row, seed, time) - behind;
     return stand(world, row, {{along, row.left + (row.left < 0 ? -beside : beside)}, backward}, model);

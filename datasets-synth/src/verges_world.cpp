@@ -16,7 +16,7 @@ constexpr double kBend = 60;          // metres from one bend of the road to the
 constexpr double kCurvature = 0.045;  // 1/m: 30 degrees a second at 11.6 m/s
 constexpr double kClothoid = 4;       // metres over which a bend begins and ends
 constexpr double kSample = 0.25;      // metres
-constexpr double kRoadReach = 200;        // metres of road on either side
+constexpr double kRoadReach = 200;    // metres of road on either side
 constexpr double kStretch = 40;       // metres of road with the same side
 constexpr double kBlend = 3;          // metres over which sides change
 constexpr double kKerb = 4;           // metres from the middle
@@ -107,9 +107,9 @@ RoadPlace Road::place_of(double x, double y, double guess, int steps) const {
 double driven(std::uint64_t seed, double seconds) {
   constexpr double kRound = 18;
   double way = 0;
-  for (double begin = 0; begin < seconds; begin += kRound) {
+  for (std::int64_t round = 0; kRound * static_cast<double>(round) < seconds; ++round) {
+    const double begin = kRound * static_cast<double>(round);
     const double top = 8 + 4 * number(seed, 2, std::llround(begin));
-    const auto round = std::llround(begin / kRound);
     const double slow = round % 2 == 0 ? 0 : 3;
     const double before = round % 2 == 0 ? 3 : 0;
     const double t = std::min(seconds - begin, kRound);
@@ -245,10 +245,12 @@ double Terrain::cast(Vec3 origin, Vec3 direction) const {
     return p.z - height(p.x, p.y);
   };
   double range = 0, last = 0;
-  for (double clearance = above(0); clearance > 0; clearance = above(range)) {
+  double clearance = above(0);
+  while (clearance > 0) {
     last = range;
     range += std::max(0.1, clearance / speed);
     if (range > 100 || (direction.z > 0 && clearance > 12)) return std::numeric_limits<double>::infinity();
+    clearance = above(range);
   }
   double under = range;
   for (int i = 0; i < 24; ++i) {

@@ -47,7 +47,7 @@ void copy_integers(const RawCloud& cloud, std::size_t offset, std::vector<std::i
   for (std::int64_t& value : values) {
     T stored;
     std::memcpy(&stored, from, sizeof stored);
-    value = static_cast<std::int64_t>(stored);
+    value = std::int64_t{stored};  // NOLINT(bugprone-signed-char-misuse): a number of 8 bits, no character
     from += cloud.point_step;
   }
 }

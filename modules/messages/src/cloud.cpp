@@ -58,7 +58,7 @@ PointField checked_field(const msg::PointField& field, std::uint32_t point_step)
     refuse(name + "of datatype " + std::to_string(field.datatype) + ", not 1 to 8");
   const auto [type, size] = kDatatypes[field.datatype - 1];
   const bool named = !field.name.empty() && field.name.find_first_of(" \t\n\v\f\r") == std::string::npos;
-  const PointField checked{named ? field.name : "_", type, size, std::max(field.count, 1U), field.offset};
+  PointField checked{named ? field.name : "_", type, size, std::max(field.count, 1U), field.offset};
   if (field.offset > point_step || std::uint64_t{checked.count} * size > point_step - field.offset)
     refuse(name + "that reaches beyond the point_step of " + std::to_string(point_step));
   return checked;

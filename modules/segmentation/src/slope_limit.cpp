@@ -31,7 +31,7 @@ class SlopeLimit {
     for (std::size_t aside = 1; aside <= max_aside; aside *= 2)
       limit_by(ring, ring, 0, aside);
     const float square = ring_width / width_of(ring);  // so many sectors are as wide as a ring
-    const auto aside = std::clamp<std::size_t>(static_cast<std::size_t>(square + 0.5F), 1, max_aside);
+    const auto aside = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(square)), 1, max_aside);
     const auto reach = static_cast<std::size_t>(1 / square) + 1;
     if (most > 0) limit_by(ring, at(1), 1, 0);
     for (std::size_t steps = 1; steps <= std::min(most, reach); ++steps)

@@ -141,7 +141,7 @@ std::string problem_of(const Setting& /*setting*/, const std::optional<Eigen::Ve
 std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
   for (const RegionConfig& region : regions) {
     if (region.file.empty() && region.volumes.empty()) return "a region has neither a file nor volumes";
-    const std::string problem = problem_of_row(region);
+    std::string problem = problem_of_row(region);
     if (!problem.empty()) return problem;
   }
   return {};
@@ -149,11 +149,11 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfi
 
 std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
   for (auto own = classes.begin(); own != classes.end(); ++own) {
-    const std::string name = "class " + std::to_string(own->value);
+    std::string name = "class " + std::to_string(own->value);
     const auto same = [&](const ClassConfig& other) { return other.value == own->value; };
     if (std::any_of(classes.begin(), own, same)) return name + " is there twice";
     const std::string problem = problem_of_row(*own);
-    if (!problem.empty()) return name + ": " + problem;
+    if (!problem.empty()) return name.append(": ").append(problem);
   }
   return {};
 }

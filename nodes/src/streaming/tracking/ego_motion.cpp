@@ -78,7 +78,10 @@ std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vect
 
 // The shift that most pairs vote for; motion.yaw is given.
 void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, PlanarMotion& motion) {
-  votes_.assign(kBins * kBins, 0);
+  const auto bin = [](int x, int y) {
+    return std::size_t{kBins} * static_cast<std::size_t>(y) + static_cast<std::size_t>(x);
+  };
+  votes_.assign(bin(0, kBins), 0);
   for (const Aabb& box : expected) {
     if (!small(box)) continue;
     const Eigen::Vector2d at = PlanarMotion{motion.yaw} * place_of(box);
@@ -87,7 +90,7 @@ void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>&
       const auto x = static_cast<int>(std::lround(std::clamp(shift.x(), -99.0, 99.0))) + kBins / 2;
       const auto y = static_cast<int>(std::lround(std::clamp(shift.y(), -99.0, 99.0))) + kBins / 2;
       if (x < 0 || y < 0 || x >= kBins || y >= kBins || !alike(box, seen[b])) return;
-      ++votes_[static_cast<std::size_t>(kBins * y + x)];
+      ++votes_[bin(x, y)];
     });
   }
   unsigned most = 0;
@@ -95,7 +98,7 @@ void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>&
     for (int x = 1; x < kBins - 1; ++x) {
       unsigned sum = 0;
       for (int i = 0; i < 9; ++i)
-        sum += votes_[static_cast<std::size_t>(kBins * (y + i / 3 - 1) + x + i % 3 - 1)];
+        sum += votes_[bin(x + i % 3 - 1, y + i / 3 - 1)];
       if (sum <= most) continue;
       most = sum;
       motion.shift = kBin * Eigen::Vector2d(x - kBins / 2, y - kBins / 2);
@@ -109,7 +112,7 @@ bool EgoMotion::estimate(const std::vector<Aabb>& expected, const std::vector<Aa
   if (few < kFewest || seen.size() < kFewest) return false;
   grid_.fill(seen, kReach);
   if (pairs_.capacity() < expected.size()) pairs_.reserve(4 * expected.size());
-  votes_.reserve(kBins * kBins);
+  votes_.reserve(std::size_t{kBins} * kBins);
   const auto settle = [&](PlanarMotion& from) {
     for (const double radius : {2.0, 1.5, 1.0, 0.7, 0.5, kAgree, kAgree})
       refine(expected, seen, from, radius);
