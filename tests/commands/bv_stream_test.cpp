@@ -118,6 +118,31 @@ TEST_F(BvStream, ReadsTheRoadWithVergesMadeOrFromItsFolderWithPosesAlike) {
   EXPECT_NE(refused.err.find("-16, -32, -64 or -128"), std::string::npos) << refused.err;
 }
 
+TEST_F(BvStream, ReadsItsOwnRecordingToTheSameClusters) {
+  const std::string file = at("out.mcap");
+  const Result made = stream({"--source", "synth:street-sequence:4", "--rate", "max", "--track", "--sink",
+                              "mcap:" + file + ",points", "--sink", "jsonl:-"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Result read = stream({"--source", file, "--rate", "max", "--track"});
+  ASSERT_EQ(read.status, 0) << read.err;
+  const std::vector<Json> expected = results(made.out), found = results(read.out);
+  ASSERT_EQ(expected.size(), 4U);
+  ASSERT_EQ(found.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const char* key : {"seq", "stamp_ns", "frame_id", "points", "counts", "clusters"})
+      EXPECT_EQ(found[i][key], expected[i][key]) << key;
+  }
+  const Result topic = stream({"--source", file, "--topic", "/bv/scene"});
+  EXPECT_EQ(topic.status, 2);
+  EXPECT_EQ(topic.err, "bv_stream: --source: topic /bv/scene is of foxglove_msgs/msg/SceneUpdate (cdr), not of "
+                       "clouds; those with clouds: /bv/points\n");
+  const Result useless = stream({"--source", "synth:street-sequence:1", "--topic", "/points"});
+  EXPECT_EQ(useless.status, 2);
+  EXPECT_EQ(useless.err, "bv_stream: --topic: only useful with a recording\n");
+  const Result same = stream({"--source", file, "--sink", "mcap:" + file});
+  EXPECT_EQ(same.status, 2) << same.err;
+}
+
 TEST_F(BvStream, GivesTheSameForEveryNumberOfThreadsOnOneProcessorAndAgain) {
   const std::vector<std::string> common = {"--source", "synth:street-sequence:2", "--rate", "max", "--track"};
   const auto with = [&](const char* threads) {

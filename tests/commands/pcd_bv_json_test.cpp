@@ -118,7 +118,7 @@ TEST_F(PcdBv, JsonHasTheDocumentedKeysInTheirOrder) {
   using testing::ElementsAre;
   EXPECT_THAT(keys(report), ElementsAre("schema", "file", "points", "counts", "clusters", "seconds"));
   EXPECT_THAT(keys(report["counts"]),
-              ElementsAre("nonfinite", "range", "ground", "small", "large", "noise", "inside"));
+              ElementsAre("nonfinite", "range", "ground", "small", "large", "noise", "inside", "class"));
   EXPECT_THAT(keys(report["seconds"]), ElementsAre("read", "segment", "fit"));
   EXPECT_THAT(keys(report["clusters"][0]), ElementsAre("id", "points", "volumes"));
   const Json& volumes = report["clusters"][0]["volumes"];

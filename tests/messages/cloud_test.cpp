@@ -40,7 +40,7 @@ Made cloud_of(std::uint32_t width, std::uint32_t height = 1, std::uint32_t paddi
   cloud.height = height;
   cloud.point_step = 16;
   cloud.row_step = 16 * width + padding;
-  cloud.point_fields = {{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"intensity", 12, 7, 1}};
+  cloud.fields = {{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"intensity", 12, 7, 1}};
   made.bytes.resize(std::size_t{cloud.row_step} * height);
   for (std::uint32_t i = 0; i < width * height; ++i) {
     const std::size_t at = i / width * cloud.row_step + i % width * 16;
@@ -108,7 +108,7 @@ void expect_type(std::uint8_t datatype, T value, ScalarType becomes, bool swap) 
   made.cloud.width = 1;
   made.cloud.point_step = 24;
   made.cloud.is_bigendian = swap;
-  made.cloud.point_fields = {
+  made.cloud.fields = {
       {"z", 16, PointField::INT16, 1}, {"x", 1, datatype, 1}, {"y", 9, PointField::FLOAT32, 1}};
   made.cloud.data = {made.bytes.data(), made.bytes.size()};
   EXPECT_FALSE(points_in_place(made.cloud));
@@ -141,7 +141,7 @@ TEST(CloudMessage, OfDoublesIsViewedWhereItLies) {
     put(made, i / 3 * 29 + 5 + i % 3 * 8, 0.1 * static_cast<double>(i));
   made.cloud.width = 2;
   made.cloud.point_step = 29;
-  made.cloud.point_fields = {{"x", 5, 8, 1}, {"y", 13, 8, 0}, {"z", 21, 8, 1}};
+  made.cloud.fields = {{"x", 5, 8, 1}, {"y", 13, 8, 0}, {"z", 21, 8, 1}};
   made.cloud.data = {made.bytes.data(), made.bytes.size()};
   const auto view = points_in_place(made.cloud);
   ASSERT_TRUE(view);
@@ -175,17 +175,17 @@ TEST(CloudMessage, ThatDoesNotFitItsDataIsRefused) {
   EXPECT_EQ(error_of([](Made& m) { m.cloud.point_step = 0; }), "the cloud has 4 x 2 points of 0 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.row_step = 63; }),
             "the cloud has rows of 63 bytes for 4 x 2 points of 16 bytes");
-  EXPECT_EQ(error_of([](Made& m) { m.cloud.point_fields.erase(m.cloud.point_fields.begin() + 1); }),
+  EXPECT_EQ(error_of([](Made& m) { m.cloud.fields.erase(m.cloud.fields.begin() + 1); }),
             "the cloud has no field y");
-  EXPECT_EQ(error_of([](Made& m) { m.cloud.point_fields[2].offset = 13; }),
+  EXPECT_EQ(error_of([](Made& m) { m.cloud.fields[2].offset = 13; }),
             "the cloud has a field 'z' that reaches beyond the point_step of 16");
-  EXPECT_EQ(error_of([](Made& m) { m.cloud.point_fields[0].datatype = 9; }),
+  EXPECT_EQ(error_of([](Made& m) { m.cloud.fields[0].datatype = 9; }),
             "the cloud has a field 'x' of datatype 9, not 1 to 8");
 }
 
 TEST(CloudMessage, WithFieldsLongerThanItsRecordsIsNotCopied) {
   Made made = cloud_of(4);
-  made.cloud.point_fields.insert(made.cloud.point_fields.end(), 5, {"a", 0, PointField::UINT8, 16});
+  made.cloud.fields.insert(made.cloud.fields.end(), 5, {"a", 0, PointField::UINT8, 16});
   EXPECT_TRUE(points_in_place(made.cloud));
   EXPECT_THROW(raw_cloud_of(made.cloud), MessageError);
 }
@@ -201,8 +201,8 @@ TEST(CloudMessage, OfNoPointsIsEmpty) {
 
 TEST(CloudMessage, KeepsItsOtherFields) {
   Made made = cloud_of(3);
-  made.cloud.point_fields[3] = {"two words", 12, PointField::UINT16, 2};
-  made.cloud.point_fields.push_back({"label", 12, PointField::UINT16, 1});
+  made.cloud.fields[3] = {"two words", 12, PointField::UINT16, 2};
+  made.cloud.fields.push_back({"label", 12, PointField::UINT16, 1});
   put(made, 16 + 12, std::uint16_t{500});
   const RawCloud raw = raw_cloud_of(made.cloud);
   EXPECT_EQ(raw.fields[3].name, "_");

@@ -13,9 +13,9 @@ namespace {
 
 TEST(Schemas, HoldEachTypeThatTheyNameOnce) {
   const std::string line(80, '=');
-  EXPECT_EQ(schema_of(msg::Header::type), "builtin_interfaces/Time stamp\nstring frame_id\n" + line +
+  EXPECT_EQ(schema_of(msg::Header::ros_type), "builtin_interfaces/Time stamp\nstring frame_id\n" + line +
                                               "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
-  const std::string markers = schema_of(msg::MarkerArray::type);
+  const std::string markers = schema_of(msg::MarkerArray::ros_type);
   for (const char* name : {"visualization_msgs/Marker", "std_msgs/Header", "geometry_msgs/Point"}) {
     const std::string head = "MSG: " + std::string(name) + "\n";
     ASSERT_NE(markers.find(head), std::string::npos) << name;
@@ -24,8 +24,8 @@ TEST(Schemas, HoldEachTypeThatTheyNameOnce) {
 }
 
 TEST(Schemas, AreThereForEveryMessage) {
-  for (const char* type : {msg::PointCloud2::type, msg::Detection3DArray::type, msg::MarkerArray::type,
-                           msg::SceneUpdate::type, msg::DiagnosticArray::type, msg::TFMessage::type})
+  for (const char* type : {msg::PointCloud2::ros_type, msg::Detection3DArray::ros_type, msg::MarkerArray::ros_type,
+                           msg::SceneUpdate::ros_type, msg::DiagnosticArray::ros_type, msg::TFMessage::ros_type})
     EXPECT_GT(schema_of(type).size(), 100U) << type;
 }
 

@@ -34,7 +34,7 @@ msg::MarkerArray markers() {
   marker.header = {{-7, 999'999'999}, "map"};
   marker.ns = "sphere-exact";
   marker.id = -3;
-  marker.marker_type = msg::Marker::LINE_LIST;
+  marker.type = msg::Marker::LINE_LIST;
   marker.pose = {{1, -2, 0.1}, {0, 0, 0.6, 0.8}};
   marker.scale = {0.5, 1e-300, 7};
   marker.color = {0.25F, 0.5F, 0.75F, 1};

@@ -44,7 +44,7 @@ std::size_t checked_size(const msg::PointCloud2& cloud) {
 }
 
 const msg::PointField& field_named(const msg::PointCloud2& cloud, const char* name) {
-  const auto& fields = cloud.point_fields;
+  const auto& fields = cloud.fields;
   const auto found = std::find_if(fields.begin(), fields.end(),
                                   [&](const msg::PointField& field) { return field.name == name; });
   if (found == fields.end()) refuse(std::string("has no field ") + name);
@@ -109,7 +109,7 @@ std::uint32_t coordinate_size(const std::vector<Move>& moves) {
 
 std::vector<Move> moves_of(const msg::PointCloud2& cloud) {
   std::vector<Move> moves;
-  for (const msg::PointField& field : cloud.point_fields) {
+  for (const msg::PointField& field : cloud.fields) {
     const PointField from = checked_field(field, cloud.point_step);
     if (is_coordinate(from) && from.count != 1) refuse("has several " + from.name + " a point");
     moves.push_back({from, from});

@@ -29,14 +29,17 @@ output not written; 2 wrong use or a bad configuration.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {
-  std::string source, rate, stamps, frame_id, poses, bin_fields, loop, stats, report;
+  std::string source, topic, rate, stamps, frame_id, poses, bin_fields, loop, stats, report;
   std::vector<std::string> sinks;
 };
 
 void declare_frames(CommandLine& line, Texts& t) {
   line.option("--source", t.source, "SOURCE", source_syntax());
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
-  line.option("--rate", t.rate, "HZ", "Frames a second, recorded (by their stamps) or max (10)");
+  line.option("--topic", t.topic, "NAME", "The topic of a recording, where several have clouds");
+  line.option(
+      "--rate", t.rate, "HZ",
+      "Frames a second, recorded (by their stamps) or max\n(10; recorded where the source is a recording)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
   line.option("--stamps", t.stamps, "RULE",
               "Times of the frames: by rate, or name: by the number in it\n"
@@ -46,7 +49,9 @@ void declare_frames(CommandLine& line, Texts& t) {
 }
 
 void declare_results(CommandLine& line, Texts& t) {
-  line.option("--sink", t.sinks, "SINK", sink_syntax() + ";\nrepeatable (jsonl on standard output)");
+  std::string sinks = sink_syntax();
+  sinks.replace(sinks.find(" vtp:"), 1, "\n");
+  line.option("--sink", t.sinks, "SINK", sinks + ";\nrepeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
   line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
 }
@@ -86,7 +91,9 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
 
 void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options) {
   ReplayOptions& replay = options.replay;
-  options.rate = t.rate == "max" ? Rate::max : t.rate == "recorded" ? Rate::recorded : Rate::fixed;
+  const FrameTimes times = source_kind(t.source).times;
+  const bool recorded = line.given("--rate") ? t.rate == "recorded" : times == FrameTimes::messages;
+  options.rate = t.rate == "max" ? Rate::max : recorded ? Rate::recorded : Rate::fixed;
   if (line.given("--rate") && options.rate == Rate::fixed)
     replay.rate_hz =
         number("--rate", t.rate, kLeastRate, kGreatestRate, "a rate from 0.001 to 1000000, recorded or max");
@@ -95,7 +102,10 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
     refuse_value("--stamps", t.stamps, "is not rate or name");
   replay.from_name = line.given("--stamps")
                          ? t.stamps == "name"
-                         : options.rate == Rate::recorded && source_kind(t.source).has_names;
+                         : times == FrameTimes::messages || (recorded && times == FrameTimes::names);
+  replay.topic = t.topic;
+  if (line.given("--topic") && times != FrameTimes::messages)
+    throw UsageError("--topic: only useful with a recording");
   if (line.given("--bin-fields")) replay.bin_fields = parse_bin_fields(t.bin_fields);
   replay.frame_id = t.frame_id;
   replay.poses = t.poses;
@@ -108,7 +118,8 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, const std::str
   if (!line.given("--source")) throw UsageError("no --source; bv_stream --help lists the options");
   options.source = t.source;
   read_replay(line, t, options);
-  if (const auto& field = options.config.pipeline.cluster.class_field) options.replay.class_field = field->name;
+  if (const auto& field = options.config.pipeline.cluster.class_field)
+    options.replay.class_field = field->name;
   for (const std::string& sink : line.given("--sink") ? t.sinks : std::vector<std::string>{"jsonl:-"})
     options.sinks.push_back(parse_with("--sink", sink, parse_sink));
   if (line.given("--stats")) options.stats = t.stats;

@@ -58,6 +58,8 @@ class Reader {
       try {
         const Next next = source.next(frame, kPatience);
         more = next != Next::end;
+        for (const std::string& remark : source.take_remarks())
+          complain(options_.source + ": " + remark);
         if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
         if (error.frame.header.stamp_ns >= 0) due(error.frame);  // it takes its time, too

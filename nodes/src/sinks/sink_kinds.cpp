@@ -29,6 +29,7 @@ class FunctionSink : public FrameSink {
 const std::vector<SinkKind>& sink_kinds() {
   static const std::vector<SinkKind> kinds{{"jsonl", "FILE", "", open_jsonl},
                                            {"csv", "FILE", "", open_csv},
+                                           {"mcap", "FILE[,points]", "", open_mcap_sink},
                                            {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
                                            {"image", "FOLDER", ".png", open_image},
                                            {"labels", "FOLDER", ".pcd", open_labels}};

@@ -13,5 +13,6 @@ std::unique_ptr<FrameSink> open_csv(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_vtp(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_image(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_labels(const SinkDescription& description);
+std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description);
 
 }  // namespace pcl_bv

@@ -10,6 +10,7 @@
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/recording/recording.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
 #include "pcl_bv/synth/verges.h"
@@ -84,9 +85,12 @@ std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOpt
 
 const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds{
-      {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]", false,
-       [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
-      {"A folder of clouds, one file", true, [](const std::string&) { return true; }, open_folder}};
+      {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]",
+       FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
+      {"a recording (.mcap)", FrameTimes::messages,
+       [](const std::string& name) { return is_recording(name); }, open_recorded},
+      {"A folder of clouds, one file", FrameTimes::names, [](const std::string&) { return true; },
+       open_folder}};
   return kinds;
 }
 

@@ -47,7 +47,7 @@ struct FrameResult {
   /// Of the volumes of each cluster, in the order asked for; where classes have volumes of their own, of all.
   std::vector<const Method*> methods;
   std::vector<AnyVolume> volumes;    ///< Cluster by cluster, in each as `methods` says.
-  std::vector<std::uint8_t> wanted;  ///< Of `volumes`: 0 where the cluster's class has others; it is empty then.
+  std::vector<std::uint8_t> wanted;  ///< Of `volumes`: 0 where the class has others, and it is empty; if empty, all are.
   std::vector<EstimationResult>
       results;  ///< What the fits of `volumes` said; those that failed left them empty.
   StageTimes ms;
@@ -56,7 +56,7 @@ struct FrameResult {
     return volumes[cluster * methods.size() + method];
   }
   bool has(std::size_t cluster, std::size_t method) const {
-    return wanted[cluster * methods.size() + method] != 0;
+    return wanted.empty() || wanted[cluster * methods.size() + method] != 0;
   }
 
   /// What passed the filter, and what is in a cluster, as views of `cloud`, the frame's points, and of the

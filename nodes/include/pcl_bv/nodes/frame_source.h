@@ -46,6 +46,9 @@ class FrameSource {
   /// longer. Throws FrameError for a frame that cannot be read; the next call gives the one after it. After
   /// the end, and after any other exception, it is not called again.
   virtual Next next(Frame& frame, std::chrono::milliseconds patience) = 0;
+
+  /// What was noticed of the source as a whole since the last call, and not refused: a line each, for people.
+  virtual std::vector<std::string> take_remarks() { return {}; }
 };
 
 inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
@@ -53,7 +56,9 @@ inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
 /// How recordings become frames.
 struct ReplayOptions {
   double rate_hz = 10;         ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
-  bool from_name = false;      ///< Stamps by stamp_in_name() instead; without one, a name is a FrameError.
+  /// Stamps that frames have themselves: of files by stamp_in_name(), where a name without one is a FrameError;
+  /// of messages those of their headers, and where they are 0 of when they were recorded.
+  bool from_name = false;
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
   std::size_t loops = 1;       ///< How often; at least once.
   std::string class_field{};   ///< An integer field of the clouds for Frame::classes; if empty, there are none.
@@ -64,12 +69,20 @@ struct ReplayOptions {
   /// lines as frames; or `seconds x y z qx qy qz qw` (TUM), where frames are between two lines at most 0.5 s
   /// apart, interpolated, or have no pose. Lines that begin with # and empty ones are skipped.
   std::filesystem::path poses{};
+  std::string topic{};  ///< Of a recording; if empty, the only one with clouds.
+};
+
+/// Where the times of a source's frames can come from, beside the rate.
+enum class FrameTimes : std::uint8_t {
+  none,
+  names,    ///< Of files, where they are asked for.
+  messages  ///< Of a recording, unless others are asked for.
 };
 
 /// A row of the table of sources.
 struct SourceKind {
   std::string_view syntax;
-  bool has_names;  ///< Whether its frames have files' names.
+  FrameTimes times;
   bool (*takes)(const std::string& name);
   std::unique_ptr<FrameSource> (*open)(const std::string& name, const ReplayOptions& options);
 };
@@ -81,10 +94,10 @@ const SourceKind& source_kind(const std::string& name);
 /// All that can be opened, for help.
 std::string source_syntax();
 
-/// A folder of clouds in natural order, one file, or `synth:street-sequence[:FRAMES[:SEED]]`, whose frames
-/// are made when they are asked for. Throws IoError if there is no cloud or no poses can be read,
-/// std::invalid_argument for a rate out of range, for names none of which has a stamp, and for an unknown
-/// sequence.
+/// A folder of clouds in natural order, one file, a recording (open_recording(): sensor_msgs/msg/PointCloud2), or
+/// `synth:street-sequence[:FRAMES[:SEED]]`, whose frames are made when they are asked for. Throws IoError if there
+/// is no cloud or no poses can be read, std::invalid_argument for a rate out of range, for names none of which has a
+/// stamp, for a topic that is not there or not said where there are several, and for an unknown sequence.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
 
 /// What the function gives, until it returns false. It may wait as long as it likes: each call is in a thread

@@ -12,7 +12,7 @@ namespace msg {
 struct ColorRGBA {
   float r = 0, g = 0, b = 0, a = 1;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.r, m.g, m.b, m.a);
   }
 };
@@ -21,7 +21,7 @@ struct ObjectHypothesis {
   std::string class_id;
   double score = 0;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.class_id, m.score);
   }
 };
@@ -30,7 +30,7 @@ struct ObjectHypothesisWithPose {
   ObjectHypothesis hypothesis;
   PoseWithCovariance pose;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.hypothesis, m.pose);
   }
 };
@@ -39,7 +39,7 @@ struct BoundingBox3D {
   Pose center;
   Vector3 size;  ///< Whole lengths of the edges.
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.center, m.size);
   }
 };
@@ -50,17 +50,17 @@ struct Detection3D {
   BoundingBox3D bbox;
   std::string id;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.header, m.results, m.bbox, m.id);
   }
 };
 
 struct Detection3DArray {
-  static constexpr const char* type = "vision_msgs/msg/Detection3DArray";
+  static constexpr const char* ros_type = "vision_msgs/msg/Detection3DArray";
   Header header;
   std::vector<Detection3D> detections;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.header, m.detections);
   }
 };
@@ -70,7 +70,7 @@ struct CompressedImage {
   std::string format;
   Bytes data;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.header, m.format, m.data);
   }
 };
@@ -78,7 +78,7 @@ struct CompressedImage {
 struct UVCoordinate {
   float u = 0, v = 0;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.u, m.v);
   }
 };
@@ -87,7 +87,7 @@ struct MeshFile {
   std::string filename;
   Bytes data;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.filename, m.data);
   }
 };
@@ -98,7 +98,7 @@ struct Marker {
   Header header;
   std::string ns;
   std::int32_t id = 0;
-  std::int32_t marker_type = ARROW;  ///< ROS: `type`.
+  std::int32_t type = ARROW;
   std::int32_t action = ADD;
   Pose pose;
   Vector3 scale;
@@ -115,8 +115,8 @@ struct Marker {
   MeshFile mesh_file;
   bool mesh_use_embedded_materials = false;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
-    visit(m.header, m.ns, m.id, m.marker_type, m.action, m.pose, m.scale, m.color, m.lifetime, m.frame_locked,
+  static void each_field(Self& m, Visit& visit) {
+    visit(m.header, m.ns, m.id, m.type, m.action, m.pose, m.scale, m.color, m.lifetime, m.frame_locked,
           m.points, m.colors);
     if constexpr (!Visit::ros1) visit(m.texture_resource, m.texture, m.uv_coordinates);
     visit(m.text, m.mesh_resource);
@@ -126,10 +126,10 @@ struct Marker {
 };
 
 struct MarkerArray {
-  static constexpr const char* type = "visualization_msgs/msg/MarkerArray";
+  static constexpr const char* ros_type = "visualization_msgs/msg/MarkerArray";
   std::vector<Marker> markers;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.markers);
   }
 };
@@ -137,7 +137,7 @@ struct MarkerArray {
 struct SceneColor {
   double r = 0, g = 0, b = 0, a = 1;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.r, m.g, m.b, m.a);
   }
 };
@@ -148,7 +148,7 @@ struct SolidPrimitive {
   Vector3 size;
   SceneColor color;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.pose, m.size, m.color);
   }
 };
@@ -159,7 +159,7 @@ struct CylinderPrimitive {
   double bottom_scale = 1, top_scale = 1;
   SceneColor color;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.pose, m.size, m.bottom_scale, m.top_scale, m.color);
   }
 };
@@ -169,14 +169,14 @@ struct ArrowPrimitive {
   double shaft_length = 0, shaft_diameter = 0, head_length = 0, head_diameter = 0;
   SceneColor color;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.pose, m.shaft_length, m.shaft_diameter, m.head_length, m.head_diameter, m.color);
   }
 };
 
 struct LinePrimitive {
   enum : std::uint8_t { LINE_STRIP = 0, LINE_LOOP, LINE_LIST };
-  std::uint8_t line_type = LINE_LIST;  ///< Foxglove: `type`.
+  std::uint8_t type = LINE_LIST;
   Pose pose;
   double thickness = 1;
   bool scale_invariant = false;  ///< Whether `thickness` is of pixels.
@@ -185,8 +185,8 @@ struct LinePrimitive {
   std::vector<SceneColor> colors;
   std::vector<std::uint32_t> indices;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
-    visit(m.line_type, m.pose, m.thickness, m.scale_invariant, m.points, m.color, m.colors, m.indices);
+  static void each_field(Self& m, Visit& visit) {
+    visit(m.type, m.pose, m.thickness, m.scale_invariant, m.points, m.color, m.colors, m.indices);
   }
 };
 
@@ -197,7 +197,7 @@ struct TriangleListPrimitive {
   std::vector<SceneColor> colors;
   std::vector<std::uint32_t> indices;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.pose, m.points, m.color, m.colors, m.indices);
   }
 };
@@ -210,7 +210,7 @@ struct TextPrimitive {
   SceneColor color;
   std::string text;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.pose, m.billboard, m.font_size, m.scale_invariant, m.color, m.text);
   }
 };
@@ -223,7 +223,7 @@ struct ModelPrimitive {
   std::string url, media_type;
   Bytes data;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.pose, m.scale, m.color, m.override_color, m.url, m.media_type, m.data);
   }
 };
@@ -231,11 +231,11 @@ struct ModelPrimitive {
 struct SceneEntityDeletion {
   enum : std::uint8_t { MATCHING_ID = 0, ALL };
   Time timestamp;
-  std::uint8_t deletion_type = MATCHING_ID;  ///< Foxglove: `type`.
+  std::uint8_t type = MATCHING_ID;
   std::string id;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
-    visit(m.timestamp, m.deletion_type, m.id);
+  static void each_field(Self& m, Visit& visit) {
+    visit(m.timestamp, m.type, m.id);
   }
 };
 
@@ -253,18 +253,18 @@ struct SceneEntity {
   std::vector<TextPrimitive> texts;
   std::vector<ModelPrimitive> models;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.timestamp, m.frame_id, m.id, m.lifetime, m.frame_locked, m.metadata, m.arrows, m.cubes, m.spheres,
           m.cylinders, m.lines, m.triangles, m.texts, m.models);
   }
 };
 
 struct SceneUpdate {
-  static constexpr const char* type = "foxglove_msgs/msg/SceneUpdate";
+  static constexpr const char* ros_type = "foxglove_msgs/msg/SceneUpdate";
   std::vector<SceneEntityDeletion> deletions;
   std::vector<SceneEntity> entities;
   template <class Self, class Visit>
-  static void fields(Self& m, Visit& visit) {
+  static void each_field(Self& m, Visit& visit) {
     visit(m.deletions, m.entities);
   }
 };

@@ -60,7 +60,7 @@ class MessageWriter {
       align(sizeof(T));
       put(&value, sizeof(T));
     } else {
-      T::fields(value, *this);
+      T::each_field(value, *this);
     }
   }
   void write(const std::string& text) {
@@ -143,7 +143,7 @@ class MessageReader {
       if (swap_) std::reverse(bytes, bytes + sizeof(T));
       std::memcpy(&value, bytes, sizeof(T));
     } else {
-      T::fields(value, *this);
+      T::each_field(value, *this);
     }
   }
   std::uint32_t read_length() {

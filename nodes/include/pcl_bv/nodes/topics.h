@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Results as messages. The templates fill any types with ROS's field names: those of pcl_bv/messages, those
+// of ROS 1 and those that ROS 2's rosidl makes. Poses are in the frame of the points.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/volumes/any_volume.h"
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// A volume as viewers draw it.
+struct DrawnVolume {
+  enum class Kind : std::uint8_t {
+    cube,
+    sphere,    ///< Or an ellipsoid: the sizes are its diameters.
+    cylinder,  ///< About z.
+    lines      ///< The edges, where viewers know no such shape.
+  };
+  Kind kind = Kind::lines;
+  std::array<double, 3> position{};
+  std::array<double, 4> orientation{0, 0, 0, 1};  ///< x, y, z, w.
+  std::array<double, 3> size{};                   ///< Whole lengths along its axes; 1 of lines.
+  std::vector<std::array<double, 3>> ends;        ///< Of lines, two each, in the frame of the points.
+};
+
+/// An empty volume has no edges.
+DrawnVolume drawn(const AnyVolume& volume);
+
+/// The box of a cluster: its first volume that is a box, else the box around its first volume.
+DrawnVolume box_of(const FrameResult& result, std::size_t cluster);
+
+/// Red, green, blue and alpha in 0..1: objects keep theirs while they are tracked.
+std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster);
+
+/// Of a cluster, as viewers know it again: its track's, or, until it has one, its number in the frame.
+std::string object_id(const FrameResult& result, std::size_t cluster);
+
+namespace topics {
+
+/// Into time or duration types of ROS 1 (nsec) and ROS 2 (nanosec).
+template <class Time, class = void>
+struct HasNanosec : std::false_type {};
+template <class Time>
+struct HasNanosec<Time, std::void_t<decltype(std::declval<Time&>().nanosec)>> : std::true_type {};
+
+template <class Time>
+void set_time(std::int64_t nanoseconds, Time& time) {
+  constexpr std::int64_t second = 1'000'000'000;
+  std::int64_t whole = nanoseconds / second, rest = nanoseconds % second;
+  if (rest < 0) {
+    --whole;
+    rest += second;
+  }
+  time.sec = static_cast<decltype(time.sec)>(whole);
+  if constexpr (HasNanosec<Time>::value) {
+    time.nanosec = static_cast<decltype(time.nanosec)>(rest);
+  } else {
+    time.nsec = static_cast<decltype(time.nsec)>(rest);
+  }
+}
+
+template <class Header>
+void set_header(const Frame& frame, Header& header) {
+  set_time(frame.header.stamp_ns, header.stamp);
+  header.frame_id = frame.header.frame_id;
+}
+
+template <class Point>
+void set_point(const std::array<double, 3>& from, Point& to) {
+  to.x = from[0];
+  to.y = from[1];
+  to.z = from[2];
+}
+
+template <class Pose>
+void set_pose(const DrawnVolume& from, Pose& pose) {
+  set_point(from.position, pose.position);
+  pose.orientation.x = from.orientation[0];
+  pose.orientation.y = from.orientation[1];
+  pose.orientation.z = from.orientation[2];
+  pose.orientation.w = from.orientation[3];
+}
+
+template <class Colour>
+void set_colour(const std::array<float, 4>& from, Colour& to) {
+  to.r = from[0];
+  to.g = from[1];
+  to.b = from[2];
+  to.a = from[3];
+}
+
+}  // namespace topics
+
+/// vision_msgs/Detection3DArray: a box for each cluster, its track as the id (empty until it has one). One
+/// result of the class (empty without classes), of score 1 and the box's pose, with the covariance of the
+/// track's place.
+template <class Array>
+void fill_detections(const Frame& frame, const FrameResult& result, Array& array) {
+  topics::set_header(frame, array.header);
+  array.detections.clear();
+  for (std::size_t i = 0; i < result.clusters.size(); ++i) {
+    array.detections.emplace_back();
+    auto& detection = array.detections.back();
+    topics::set_header(frame, detection.header);
+    const DrawnVolume box = box_of(result, i);
+    topics::set_pose(box, detection.bbox.center);
+    topics::set_point(box.size, detection.bbox.size);
+    detection.results.resize(1);
+    auto& hypothesis = detection.results.front();
+    if (!result.class_of.empty()) hypothesis.hypothesis.class_id = std::to_string(result.class_of[i]);
+    hypothesis.hypothesis.score = 1;
+    topics::set_pose(box, hypothesis.pose.pose);
+    if (result.tracks.empty() || !result.tracks[i]) continue;
+    const TrackEntry& track = *result.tracks[i];
+    detection.id = std::to_string(track.id);
+    for (std::size_t axis = 0; axis < 3; ++axis) {  // the upper triangle of 6 x 6, row by row
+      constexpr std::size_t diagonal[] = {0, 6, 11};
+      hypothesis.pose.covariance[7 * axis] = track.covariance[diagonal[axis]];
+    }
+  }
+}
+
+/// Which markers and entities are shown, so that those of ended objects can be deleted.
+class ShownObjects {
+ public:
+  /// What `now` has is shown from here on; returns what was, and is not any more.
+  std::set<std::pair<std::string, std::int32_t>> replace(std::set<std::pair<std::string, std::int32_t>> now);
+
+ private:
+  std::set<std::pair<std::string, std::int32_t>> shown_;
+};
+
+/// visualization_msgs/MarkerArray: a namespace for each method, ids as object_id(); those of `shown` that
+/// have ended are deleted. Markers last `lifetime_ns`. Volumes that are empty have none.
+template <class Array>
+void fill_markers(const Frame& frame, const FrameResult& result, std::int64_t lifetime_ns,
+                  ShownObjects& shown, Array& array) {
+  using Marker = typename std::decay<decltype(array.markers.front())>::type;
+  array.markers.clear();
+  std::set<std::pair<std::string, std::int32_t>> now;
+  const auto add = [&](const std::string& ns, std::int32_t id) -> Marker& {
+    array.markers.emplace_back();
+    Marker& marker = array.markers.back();
+    topics::set_header(frame, marker.header);
+    marker.ns = ns;
+    marker.id = id;
+    marker.pose.orientation.w = 1;
+    return marker;
+  };
+  for (std::size_t i = 0; i < result.clusters.size(); ++i) {
+    const bool tracked = !result.tracks.empty() && result.tracks[i];
+    // Clusters without a track get numbers that tracks do not reach.
+    const auto id =
+        tracked ? static_cast<std::int32_t>(result.tracks[i]->id) : -1 - static_cast<std::int32_t>(i);
+    for (std::size_t m = 0; m < result.methods.size(); ++m) {
+      if (!result.has(i, m) || empty(result.volume(i, m))) continue;
+      const DrawnVolume volume = drawn(result.volume(i, m));
+      Marker& marker = add(std::string(result.methods[m]->name), id);
+      now.emplace(marker.ns, id);
+      topics::set_pose(volume, marker.pose);
+      topics::set_point(volume.size, marker.scale);
+      topics::set_colour(colour_of(result, i), marker.color);
+      topics::set_time(lifetime_ns, marker.lifetime);
+      switch (volume.kind) {
+        case DrawnVolume::Kind::cube:
+          marker.type = Marker::CUBE;
+          break;
+        case DrawnVolume::Kind::sphere:
+          marker.type = Marker::SPHERE;
+          break;
+        case DrawnVolume::Kind::cylinder:
+          marker.type = Marker::CYLINDER;
+          break;
+        case DrawnVolume::Kind::lines:
+          marker.type = Marker::LINE_LIST;
+          marker.scale.x = 0.03;
+          break;
+      }
+      marker.points.resize(volume.ends.size());
+      for (std::size_t k = 0; k < volume.ends.size(); ++k)
+        topics::set_point(volume.ends[k], marker.points[k]);
+    }
+  }
+  for (const auto& ended : shown.replace(std::move(now)))
+    add(ended.first, ended.second).action = Marker::DELETE;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Results as the messages that recordings and viewers get beside objects and markers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pcl_bv/messages/results.h"
+#include "pcl_bv/nodes/topics.h"
+
+namespace pcl_bv {
+
+/// foxglove_msgs/SceneUpdate: an entity for each object, of all its volumes, with its number as a text and
+/// what is known of it as metadata. Each takes the place of the last of its id; those of `shown` that have
+/// ended are deleted.
+void fill_scene(const Frame& frame, const FrameResult& result, std::int64_t lifetime_ns, ShownObjects& shown,
+                msg::SceneUpdate& scene);
+
+/// sensor_msgs/PointCloud2: x, y, z as float32 and `label` as labels_of() has it, of all points; the
+/// message's data are `bytes`.
+void fill_points(const Frame& frame, const FrameResult& result, std::vector<std::byte>& bytes,
+                 msg::PointCloud2& cloud);
+
+}  // namespace pcl_bv

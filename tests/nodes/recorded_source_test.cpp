@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+
+#include "folder.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/messages/schema.h"
+#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/nodes/frame_source.h"
+#include "pcl_bv/recording/mcap_writer.h"
+
+namespace pcl_bv {
+namespace {
+
+// Points (i, number, 0) with a class of 7 each.
+msg::PointCloud2 cloud_of(std::size_t number, std::vector<std::byte>& bytes) {
+  msg::PointCloud2 cloud;
+  cloud.header = {msg::time_of(static_cast<std::int64_t>(number) * 50'000'000 + 1'000'000'000), "velodyne"};
+  cloud.width = static_cast<std::uint32_t>(number + 1);
+  cloud.point_step = 14;
+  cloud.fields = {{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"class", 12, 4, 1}};
+  bytes.assign(std::size_t{14} * cloud.width, std::byte{0});
+  for (std::size_t i = 0; i < cloud.width; ++i) {
+    const float xyz[] = {static_cast<float>(i), static_cast<float>(number), 0};
+    std::memcpy(bytes.data() + 14 * i, xyz, sizeof xyz);
+    bytes[14 * i + 12] = std::byte{7};
+  }
+  cloud.data = {bytes.data(), bytes.size()};
+  return cloud;
+}
+
+class RecordedSource : public Folder {
+ protected:
+  std::string file() const { return (path_ / "a.mcap").string(); }
+
+  // `clouds` of each of these topics, and one topic of something else.
+  void record(const std::vector<std::string>& topics, std::size_t clouds = 3,
+              const std::function<void(std::size_t, msg::PointCloud2&)>& spoil = {}) {
+    McapWriter writer(file(), {Compression::zstd, 1});
+    writer.add_topic({"/tf", msg::TFMessage::ros_type, schema_of(msg::TFMessage::ros_type), {}});
+    std::vector<std::byte> data, bytes;
+    for (const std::string& topic : topics)
+      writer.add_topic({topic, msg::PointCloud2::ros_type, schema_of(msg::PointCloud2::ros_type), {}});
+    for (std::size_t i = 0; i < clouds; ++i) {
+      msg::PointCloud2 cloud = cloud_of(i, data);
+      if (spoil) spoil(i, cloud);
+      bytes.clear();
+      write_cdr(cloud, bytes);
+      for (std::size_t t = 0; t < topics.size(); ++t)
+        writer.write(t + 1, 77'000'000 + static_cast<std::int64_t>(i), 0, bytes.data(), bytes.size());
+    }
+    writer.close();
+  }
+
+  std::string refusal(const ReplayOptions& options) const {
+    try {
+      open_source(file(), options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    } catch (const IoError& error) {
+      return std::string("unreadable: ") + error.what();
+    }
+    return "none";
+  }
+};
+
+ReplayOptions as_recorded() {
+  ReplayOptions options;
+  options.from_name = true;
+  return options;
+}
+
+std::vector<Frame> frames_of(FrameSource& source) {
+  std::vector<Frame> frames;
+  for (Frame frame; source.next(frame, std::chrono::milliseconds(1000)) == Next::frame;)
+    frames.push_back(frame);
+  return frames;
+}
+
+TEST_F(RecordedSource, GivesCloudsWithTheirOwnTimesAndFrames) {
+  record({"/points"});
+  const auto source = open_source(file(), as_recorded());
+  const std::vector<Frame> frames = frames_of(*source);
+  ASSERT_EQ(frames.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(frames[i].header.seq, i);
+    EXPECT_EQ(frames[i].header.stamp_ns, static_cast<std::int64_t>(i) * 50'000'000 + 1'000'000'000);
+    EXPECT_EQ(frames[i].header.frame_id, "velodyne");
+    ASSERT_EQ(frames[i].points.count, i + 1);
+    EXPECT_EQ(load_point(frames[i].points, i).x, static_cast<double>(i));
+    EXPECT_EQ(load_point(frames[i].points, i).y, static_cast<double>(i));
+    EXPECT_EQ(frames[i].file, file());
+  }
+  EXPECT_THAT(source->take_remarks(), testing::IsEmpty());
+}
+
+TEST_F(RecordedSource, GivesTheTimesOfTheRateWhereTheyAreAskedFor) {
+  record({"/points"});
+  ReplayOptions options;
+  options.rate_hz = 4;
+  options.frame_id = "roof";
+  options.loops = 2;
+  const std::vector<Frame> frames = frames_of(*open_source(file(), options));
+  ASSERT_EQ(frames.size(), 6U);
+  EXPECT_EQ(frames[5].header.stamp_ns, 1'250'000'000);
+  EXPECT_EQ(frames[5].header.frame_id, "roof");
+  EXPECT_EQ(frames[5].points.count, 3U);
+}
+
+TEST_F(RecordedSource, WithoutAStampTakesWhenItWasRecorded) {
+  record({"/points"}, 1, [](std::size_t, msg::PointCloud2& cloud) { cloud.header.stamp = {}; });
+  EXPECT_EQ(frames_of(*open_source(file(), as_recorded()))[0].header.stamp_ns, 77'000'000);
+}
+
+TEST_F(RecordedSource, OfSeveralTopicsWantsOneNamed) {
+  record({"/front", "/rear"});
+  EXPECT_EQ(refusal({}), "several topics have clouds: /front, /rear; say which with --topic");
+  ReplayOptions options = as_recorded();
+  options.topic = "/rear";
+  EXPECT_EQ(frames_of(*open_source(file(), options)).size(), 3U);
+  options.topic = "/left";
+  EXPECT_EQ(refusal(options), "no topic /left; those with clouds: /front, /rear");
+  options.topic = "/tf";
+  EXPECT_EQ(refusal(options),
+            "topic /tf is of tf2_msgs/msg/TFMessage (cdr), not of clouds; those with clouds: /front, /rear");
+}
+
+TEST_F(RecordedSource, WithoutCloudsSaysWhatIsThere) {
+  record({});
+  EXPECT_EQ(refusal({}), "unreadable: " + file() + ": no topic of sensor_msgs/msg/PointCloud2; topics: /tf");
+}
+
+TEST_F(RecordedSource, GoesOnAfterACloudThatDoesNotFitItsData) {
+  record({"/points"}, 3, [](std::size_t i, msg::PointCloud2& cloud) {
+    if (i == 1) cloud.width = 99;
+  });
+  const auto source = open_source(file(), as_recorded());
+  Frame frame;
+  const std::chrono::milliseconds patience(1000);
+  EXPECT_EQ(source->next(frame, patience), Next::frame);
+  try {
+    source->next(frame, patience);
+    FAIL();
+  } catch (const FrameError& error) {
+    EXPECT_EQ(error.reason, "the cloud announces 99 x 1 points of 14 bytes, but has 28 bytes");
+    EXPECT_EQ(error.frame.header.seq, 1U);
+  }
+  EXPECT_EQ(source->next(frame, patience), Next::frame);
+  EXPECT_EQ(frame.points.count, 3U);
+  EXPECT_EQ(source->next(frame, patience), Next::end);
+}
+
+TEST_F(RecordedSource, ReadsClasses) {
+  record({"/points"});
+  ReplayOptions options = as_recorded();
+  options.class_field = "class";
+  const std::vector<Frame> frames = frames_of(*open_source(file(), options));
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(*frames[1].classes, (std::vector<std::int64_t>{7, 7}));
+}
+
+TEST_F(RecordedSource, TakesPosesByFrame) {
+  record({"/points"});
+  write("two.txt", "1 0 0 5 0 1 0 0 0 0 1 0\n1 0 0 6 0 1 0 0 0 0 1 0\n");
+  write("three.txt", "1 0 0 5 0 1 0 0 0 0 1 0\n1 0 0 6 0 1 0 0 0 0 1 0\n1 0 0 7 0 1 0 0 0 0 1 0\n");
+  ReplayOptions options = as_recorded();
+  options.poses = path_ / "three.txt";
+  const std::vector<Frame> frames = frames_of(*open_source(file(), options));
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[2].pose->translation().x(), 7);
+  options.poses = path_ / "two.txt";
+  EXPECT_THAT(refusal(options), testing::StartsWith("unreadable: "));
+}
+
+TEST_F(RecordedSource, SaysWhatIsDamaged) {
+  record({"/points"}, 5);
+  std::string bytes = read("a.mcap");
+  bytes.resize(bytes.size() - 10);
+  write("a.mcap", bytes);
+  const auto source = open_source(file(), as_recorded());
+  EXPECT_EQ(frames_of(*source).size(), 5U);
+  EXPECT_THAT(source->take_remarks(),
+              testing::ElementsAre("without an index (it is cut): all of it was looked through"));
+  EXPECT_TRUE(source->take_remarks().empty());
+}
+
+}  // namespace
+}  // namespace pcl_bv

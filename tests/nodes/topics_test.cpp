@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/topics.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "frames.h"
+#include "pcl_bv/nodes/frame_pipeline.h"
+#include "topics/scene.h"
+
+namespace pcl_bv {
+namespace {
+
+// Frames of a street, with every shape and tracks.
+struct Street {
+  Street() : xyz(street(4)) {
+    config.volumes = {"sphere", "obb-lshape", "aabb", "dop26", "cylinder", "ellipsoid", "capsule"};
+    config.track.enabled = true;
+    config.track.birth = 2;
+    pipeline.set_config(config);
+  }
+  void process(std::size_t number) {
+    frame = frame_of(xyz[number], number);
+    pipeline.process(frame, result);
+  }
+  std::vector<std::vector<float>> xyz;
+  PipelineConfig config;
+  FramePipeline pipeline;
+  Frame frame;
+  FrameResult result;
+};
+
+TEST(Topics, HaveADetectionForEachObjectWithItsTrack) {
+  Street street;
+  for (std::size_t i = 0; i < 3; ++i)
+    street.process(i);
+  msg::Detection3DArray array;
+  fill_detections(street.frame, street.result, array);
+  EXPECT_EQ(array.header.stamp.nanosec, 200'000'000U);
+  EXPECT_EQ(array.header.frame_id, "lidar");
+  ASSERT_EQ(array.detections.size(), street.result.clusters.size());
+  std::size_t tracked = 0;
+  for (std::size_t i = 0; i < array.detections.size(); ++i) {
+    const msg::Detection3D& detection = array.detections[i];
+    const Obb& box = std::get<Obb>(street.result.volume(i, 1));  // the first method that is a box
+    EXPECT_EQ(detection.bbox.center.position.x, box.center().x());
+    EXPECT_EQ(detection.bbox.size.z, 2 * box.half_extents().z());
+    EXPECT_EQ(detection.bbox.center.orientation.w, box.quaternion().w());
+    ASSERT_EQ(detection.results.size(), 1U);
+    const bool has_track = street.result.tracks[i].has_value();
+    EXPECT_EQ(detection.id, has_track ? std::to_string(street.result.tracks[i]->id) : "");
+    if (!has_track) continue;
+    EXPECT_EQ(detection.results[0].pose.covariance[0], street.result.tracks[i]->covariance[0]);
+    ++tracked;
+  }
+  EXPECT_GT(tracked, 5U);
+}
+
+TEST(Topics, HaveAMarkerForEachVolumeAndDeleteWhatEnds) {
+  Street street;
+  ShownObjects shown;
+  msg::MarkerArray array;
+  std::set<std::pair<std::string, std::int32_t>> alive;
+  for (std::size_t number = 0; number < 4; ++number) {
+    street.process(number);
+    fill_markers(street.frame, street.result, 300'000'000, shown, array);
+    std::size_t added = 0;
+    for (const msg::Marker& marker : array.markers) {
+      const std::pair key(marker.ns, marker.id);
+      if (marker.action == msg::Marker::DELETE) {
+        EXPECT_EQ(alive.erase(key), 1U);
+        continue;
+      }
+      alive.insert(key);
+      ++added;
+      EXPECT_EQ(marker.lifetime.nanosec, 300'000'000U);
+      EXPECT_EQ(marker.type == msg::Marker::LINE_LIST, !marker.points.empty()) << marker.ns;
+      EXPECT_EQ(marker.points.size() % 2, 0U);
+    }
+    EXPECT_EQ(added, 7 * street.result.clusters.size());
+    EXPECT_EQ(alive.size(), added);  // all that is shown is of this frame
+  }
+}
+
+TEST(Topics, HaveAnEntityForEachObjectAndDeleteWhatEnds) {
+  Street street;
+  ShownObjects shown;
+  msg::SceneUpdate scene;
+  std::set<std::string> alive;
+  for (std::size_t number = 0; number < 4; ++number) {
+    street.process(number);
+    fill_scene(street.frame, street.result, 300'000'000, shown, scene);
+    for (const msg::SceneEntityDeletion& deletion : scene.deletions)
+      EXPECT_EQ(alive.erase(deletion.id), 1U);
+    for (const msg::SceneEntity& entity : scene.entities) {
+      alive.insert(entity.id);
+      EXPECT_EQ(entity.cubes.size(), 2U);
+      EXPECT_EQ(entity.spheres.size(), 2U);  // and the ellipsoid
+      EXPECT_EQ(entity.cylinders.size(), 1U);
+      EXPECT_EQ(entity.lines.size(), 2U);
+      EXPECT_EQ(entity.texts.size(), 1U);
+    }
+    EXPECT_EQ(alive.size(), street.result.clusters.size());
+  }
+}
+
+TEST(Topics, HoldThePointsWithTheirLabels) {
+  Street street;
+  street.process(0);
+  std::vector<std::byte> bytes;
+  msg::PointCloud2 cloud;
+  fill_points(street.frame, street.result, bytes, cloud);
+  const std::vector<std::uint32_t> labels = labels_of(street.frame, street.result);
+  ASSERT_EQ(cloud.width, street.frame.points.count);
+  ASSERT_EQ(bytes.size(), std::size_t{16} * cloud.width);
+  for (std::size_t i = 0; i < cloud.width; ++i) {
+    EXPECT_EQ(std::memcmp(bytes.data() + 16 * i, &street.xyz[0][3 * i], 12), 0);
+    EXPECT_EQ(std::memcmp(bytes.data() + 16 * i + 12, &labels[i], 4), 0);
+  }
+}
+
+TEST(DrawnVolumes, AreWhereTheVolumesAre) {
+  const Eigen::Matrix3d axes = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.3).normalized().toRotationMatrix();
+  const Cylinder cylinder({1, 2, 3}, axes.col(0), 0.5, 2);
+  const DrawnVolume shown = drawn(AnyVolume(cylinder));
+  EXPECT_EQ(shown.kind, DrawnVolume::Kind::cylinder);
+  const Eigen::Quaterniond turn(shown.orientation[3], shown.orientation[0], shown.orientation[1],
+                                shown.orientation[2]);
+  EXPECT_LT((turn * Eigen::Vector3d::UnitZ() - cylinder.axis()).norm(), 1e-12);
+  EXPECT_EQ(shown.size, (std::array<double, 3>{1, 1, 4}));
+  EXPECT_TRUE(drawn(AnyVolume(Sphere())).ends.empty());
+}
+
+// As roscpp's messages are: time with nsec, a type for each field.
+struct RosTime {
+  std::uint32_t sec = 0, nsec = 0;
+};
+struct RosHeader {
+  std::uint32_t seq = 0;
+  RosTime stamp;
+  std::string frame_id;
+};
+struct RosMarker {
+  enum { CUBE = 1, SPHERE = 2, CYLINDER = 3, LINE_LIST = 5, DELETE = 2 };
+  RosHeader header;
+  std::string ns;
+  std::int32_t id = 0, type = 0, action = 0;
+  msg::Pose pose;
+  msg::Vector3 scale;
+  msg::ColorRGBA color;
+  RosTime lifetime;
+  std::vector<msg::Point> points;
+};
+struct RosMarkerArray {
+  std::vector<RosMarker> markers;
+};
+
+TEST(Topics, FillTypesWithRos1Times) {
+  Street street;
+  street.process(3);
+  ShownObjects shown;
+  RosMarkerArray array;
+  fill_markers(street.frame, street.result, 1'500'000'000, shown, array);
+  ASSERT_FALSE(array.markers.empty());
+  EXPECT_EQ(array.markers[0].header.stamp.nsec, 300'000'000U);
+  EXPECT_EQ(array.markers[0].lifetime.sec, 1U);
+}
+
+}  // namespace
+}  // namespace pcl_bv
