@@ -11,7 +11,12 @@ const std::vector<RecordingFormat>& recording_formats() {
   static const std::vector<RecordingFormat> formats{
       {"MCAP",
        [](const std::filesystem::path&, std::string_view start) { return start.starts_with(mcap::kMagic); },
-       open_mcap}};
+       open_mcap},
+      {"ROS 1 bag",
+       [](const std::filesystem::path&, std::string_view start) {
+         return start.starts_with("#ROSBAG V2.0\n");
+       },
+       open_bag}};
   return formats;
 }
 

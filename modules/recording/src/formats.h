@@ -23,6 +23,7 @@ struct RecordingFormat {
 
 const std::vector<RecordingFormat>& recording_formats();
 
+std::unique_ptr<RecordingReader> open_bag(const std::filesystem::path& file);
 std::unique_ptr<RecordingReader> open_mcap(const std::filesystem::path& file);
 
 /// "sensor_msgs/PointCloud2", as ROS 1 has it, with ROS 2's "/msg/".

@@ -143,7 +143,7 @@ class Scan {
       Fields fields(times.data(), times.size());
       part.first_time = fields.number<std::uint64_t>();
       part.last_time = fields.number<std::uint64_t>();
-      Fields records = load_part(file_, part, buffers_);
+      Fields records = load_part(file_, part, decompressor_, raw_, unpacked_);
       while (records.left() > 0) {
         const Record record = take_record(records);
         note(record, index_);
@@ -164,22 +164,24 @@ class Scan {
 
   const InputFile& file_;
   Index index_;
-  PartBuffers buffers_;
+  Decompressor decompressor_;
+  std::vector<std::byte> raw_, unpacked_;
   bool loose_ = false;  // whether the last part is of messages that this one follows
 };
 
 }  // namespace
 
-Fields load_part(const InputFile& file, const Part& part, PartBuffers& buffers) {
-  buffers.raw.resize(part.bytes);
-  file.read(part.offset, buffers.raw.data(), buffers.raw.size());
-  Fields raw(buffers.raw.data(), buffers.raw.size());
-  if (!part.is_chunk) return raw;
-  const Record record = take_record(raw);
+Fields load_part(const InputFile& file, const Part& part, Decompressor& decompressor,
+                 std::vector<std::byte>& raw, std::vector<std::byte>& unpacked) {
+  raw.resize(part.bytes);
+  file.read(part.offset, raw.data(), raw.size());
+  Fields all(raw.data(), raw.size());
+  if (!part.is_chunk) return all;
+  const Record record = take_record(all);
   if (record.op != Op::chunk) throw IoError("there is no chunk");
   Fields fields = record.fields();
   fields.take(16);  // its times
-  const auto unpacked = fields.number<std::uint64_t>();
+  const auto length = fields.number<std::uint64_t>();
   const auto crc = fields.number<std::uint32_t>();
   const std::string_view name = fields.text();
   const auto size = fields.number<std::uint64_t>();
@@ -188,13 +190,13 @@ Fields load_part(const InputFile& file, const Part& part, PartBuffers& buffers) 
                                          [&](Compression c) { return name_of(c) == name; });
   if (known == std::end(kCompressions)) throw IoError("its compression is " + in_quotes(name));
   if (*known != Compression::none) {
-    buffers.decompressor.decompress(*known, data, size, unpacked, buffers.unpacked);
-    data = buffers.unpacked.data();
-  } else if (size != unpacked) {
-    throw IoError("it has " + std::to_string(size) + " bytes, not " + std::to_string(unpacked));
+    decompressor.decompress(*known, data, size, length, unpacked);
+    data = unpacked.data();
+  } else if (size != length) {
+    throw IoError("it has " + std::to_string(size) + " bytes, not " + std::to_string(length));
   }
-  if (crc != 0 && crc32_of(data, unpacked) != crc) throw IoError("its CRC is another");
-  return {data, static_cast<std::size_t>(unpacked)};
+  if (crc != 0 && crc32_of(data, length) != crc) throw IoError("its CRC is another");
+  return {data, static_cast<std::size_t>(length)};
 }
 
 Index index_of(const InputFile& file) {

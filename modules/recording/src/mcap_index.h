@@ -36,14 +36,9 @@ struct Index {
 /// walking over its records. Throws IoError if it does not begin as MCAP does.
 Index index_of(const InputFile& file);
 
-/// The records of a part: `raw` is what is read, `unpacked` what it stands for where that is something else.
-struct PartBuffers {
-  std::vector<std::byte> raw, unpacked;
-  Decompressor decompressor;
-};
-
-/// Throws IoError for a part that is damaged.
-Fields load_part(const InputFile& file, const Part& part, PartBuffers& buffers);
+/// The records of a part, which look into `raw` or `unpacked`. Throws IoError for a part that is damaged.
+Fields load_part(const InputFile& file, const Part& part, Decompressor& decompressor,
+                 std::vector<std::byte>& raw, std::vector<std::byte>& unpacked);
 
 }  // namespace mcap
 }  // namespace pcl_bv

@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// ROS 1's bags (http://wiki.ros.org/Bags/Format/2.0).
+
+#include <bzlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "chunked_reader.h"
+#include "formats.h"
+#include "pcl_bv/io/posix_file.h"
+
+namespace pcl_bv {
+namespace {
+
+enum class BagOp : std::uint8_t { message = 2, bag_header, index, chunk, chunk_info, connection };
+
+constexpr std::size_t kMagicBytes = 13;
+
+// BagBytes in turn. Throws IoError where they end.
+class BagBytes {
+ public:
+  BagBytes(const std::byte* data, std::size_t size) : data_(data), size_(size) {}
+  std::size_t left() const { return size_; }
+  const std::byte* take(std::size_t size) {
+    if (size > size_) throw IoError("a record ends within a field");
+    const std::byte* const here = data_;
+    data_ += size;
+    size_ -= size;
+    return here;
+  }
+  std::uint32_t length() {
+    std::uint32_t value;
+    std::memcpy(&value, take(4), 4);
+    return value;
+  }
+
+ private:
+  const std::byte* data_;
+  std::size_t size_;
+};
+
+// name=value, each after its length.
+class BagHeader {
+ public:
+  BagHeader(const std::byte* data, std::size_t size) {
+    for (BagBytes bytes(data, size); bytes.left() > 0;) {
+      const std::uint32_t length = bytes.length();
+      const std::string_view field(reinterpret_cast<const char*>(bytes.take(length)), length);
+      const std::size_t equals = std::min(field.find('='), field.size());
+      fields_[field.substr(0, equals)] = field.substr(std::min(equals + 1, field.size()));
+    }
+  }
+
+  template <class T>
+  T number(std::string_view name) const {
+    const std::string_view text = this->text(name);
+    T value{};
+    if (text.size() != sizeof value) throw IoError("a record without its " + std::string(name));
+    std::memcpy(&value, text.data(), sizeof value);
+    return value;
+  }
+  std::string_view text(std::string_view name) const {
+    const auto found = fields_.find(name);
+    return found == fields_.end() ? std::string_view() : found->second;
+  }
+  BagOp op() const { return static_cast<BagOp>(number<std::uint8_t>("op")); }
+
+  // Seconds and nanoseconds, 32 bits each.
+  std::int64_t time(std::string_view name) const {
+    const auto both = number<std::uint64_t>(name);
+    return static_cast<std::int64_t>((both & 0xFFFFFFFFU) * 1'000'000'000U + (both >> 32U));
+  }
+
+ private:
+  std::map<std::string_view, std::string_view> fields_;
+};
+
+struct BagRecord {
+  BagHeader header;
+  const std::byte* data;
+  std::size_t size;
+};
+
+BagRecord take_bag_record(BagBytes& bytes) {
+  const std::uint32_t header_size = bytes.length();
+  const std::byte* const header = bytes.take(header_size);
+  const std::uint32_t size = bytes.length();
+  return {BagHeader(header, header_size), bytes.take(size), size};
+}
+
+void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, std::vector<std::byte>& to) {
+  if (expected / 100'000 > size) throw IoError("bz2: too few bytes");  // its best is 1 : 50 000
+  to.resize(expected);
+  auto made = static_cast<unsigned>(expected);
+  const int status = BZ2_bzBuffToBuffDecompress(reinterpret_cast<char*>(to.data()), &made,
+                                                const_cast<char*>(reinterpret_cast<const char*>(
+                                                    data)),  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+                                                static_cast<unsigned>(size), 0, 0);
+  if (status != BZ_OK || made != expected) throw IoError("bz2: not " + std::to_string(expected) + " bytes");
+}
+
+// Where a record is in the file, and its header; its data are not read.
+struct BagPlace {
+  std::vector<std::byte> header;
+  std::uint64_t data = 0, size = 0;  // of its data
+};
+
+class BagReader final : public ChunkedReader {
+ public:
+  explicit BagReader(const std::filesystem::path& path) : file_(path) {
+    if (!by_index()) scan();
+    start(std::move(found_topics_), std::move(found_parts_));
+  }
+
+ private:
+  // Nothing if it reaches beyond the file.
+  std::optional<BagPlace> place_at(std::uint64_t at) const {
+    const std::uint64_t size = file_.size();
+    if (at + 4 > size) return std::nullopt;
+    std::uint32_t length = 0;
+    file_.read(at, &length, 4);
+    if (length > size - at - 4 || size - at - 4 - length < 4) return std::nullopt;
+    BagPlace place;
+    place.header.resize(length);
+    file_.read(at + 4, place.header.data(), length);
+    std::uint32_t data = 0;
+    file_.read(at + 4 + length, &data, 4);
+    place.data = at + 8 + length;
+    place.size = data;
+    if (data > size - place.data) return std::nullopt;
+    return place;
+  }
+
+  std::vector<std::byte> bytes_of(const BagPlace& place) const {
+    std::vector<std::byte> bytes(place.size);
+    if (!bytes.empty()) file_.read(place.data, bytes.data(), bytes.size());
+    return bytes;
+  }
+
+  void note_connection(const BagHeader& header, const std::byte* data, std::size_t size) {
+    const auto id = header.number<std::uint32_t>("conn");
+    if (topic_of_.count(id) > 0) return;
+    const BagHeader connection(data, size);
+    topic_of_[id] = add_topic(
+        found_topics_, {std::string(header.text("topic")), ros2_type(connection.text("type")), "ros1"});
+  }
+
+  // The connections and the places of the chunks, which stand at the end. False if they do not.
+  bool by_index() {
+    std::string problem = "it was not closed";
+    try {
+      const std::optional<BagPlace> head = place_at(kMagicBytes);
+      const BagHeader header =
+          head ? BagHeader(head->header.data(), head->header.size()) : BagHeader(nullptr, 0);
+      const auto index = header.number<std::uint64_t>("index_pos");
+      const auto chunks = header.number<std::uint32_t>("chunk_count");
+      if (index >= kMagicBytes && index < file_.size() && read_index(index) && found_parts_.size() == chunks)
+        return true;
+      if (index != 0) problem = "it is not whole";
+    } catch (const IoError& error) {
+      problem = error.what();
+    }
+    remark("without an index (" + problem + "): all of it was looked through");
+    found_topics_.clear();
+    topic_of_.clear();
+    found_parts_.clear();
+    return false;
+  }
+
+  bool read_index(std::uint64_t at) {
+    for (; at < file_.size();) {
+      const std::optional<BagPlace> place = place_at(at);
+      if (!place) return false;
+      const BagHeader header(place->header.data(), place->header.size());
+      const std::vector<std::byte> data = bytes_of(*place);
+      if (header.op() == BagOp::connection) note_connection(header, data.data(), data.size());
+      if (header.op() == BagOp::chunk_info) {
+        Part& part = found_parts_.emplace_back();
+        part = {header.number<std::uint64_t>("chunk_pos"), header.time("start_time")};
+        if (part.offset >= file_.size()) return false;
+        for (BagBytes counts(data.data(), data.size()); counts.left() > 0;) {
+          const auto topic = topic_of_.find(counts.length());
+          const std::uint32_t messages = counts.length();
+          if (topic == topic_of_.end()) return false;
+          part.topics.push_back(topic->second);
+          found_topics_[topic->second].messages += messages;
+        }
+      }
+      at = place->data + place->size;
+    }
+    return true;
+  }
+
+  void scan() {
+    std::vector<std::byte> raw, unpacked;
+    Decompressor decompressor;
+    for (std::uint64_t at = kMagicBytes; at < file_.size();) {
+      const std::optional<BagPlace> place = place_at(at);
+      if (!place) {
+        remark("the file ends within a record, at byte " + std::to_string(at));
+        return;
+      }
+      try {
+        const BagHeader header(place->header.data(), place->header.size());
+        if (header.op() == BagOp::connection) {
+          const std::vector<std::byte> data = bytes_of(*place);
+          note_connection(header, data.data(), data.size());
+        } else if (header.op() == BagOp::chunk) {
+          scan_chunk(at, unpack(*place, decompressor, raw, unpacked));
+        }
+      } catch (const IoError& error) {
+        remark("passed over what is at byte " + std::to_string(at) + ": " + error.what());
+      }
+      at = place->data + place->size;
+    }
+  }
+
+  void scan_chunk(std::uint64_t at, BagBytes records) {
+    Part part{at, std::numeric_limits<std::int64_t>::max()};
+    while (records.left() > 0) {
+      const BagRecord record = take_bag_record(records);
+      if (record.header.op() == BagOp::connection) note_connection(record.header, record.data, record.size);
+      if (record.header.op() == BagOp::message)
+        part.first_time_ns = std::min(part.first_time_ns, record.header.time("time"));
+    }
+    found_parts_.push_back(part);
+  }
+
+  BagBytes unpack(const BagPlace& place, Decompressor& decompressor, std::vector<std::byte>& raw,
+                  std::vector<std::byte>& unpacked) const {
+    const BagHeader header(place.header.data(), place.header.size());
+    if (header.op() != BagOp::chunk) throw IoError("there is no chunk");
+    const auto expected = header.number<std::uint32_t>("size");
+    const std::string_view compression = header.text("compression");
+    raw.resize(place.size);
+    if (!raw.empty()) file_.read(place.data, raw.data(), raw.size());
+    if (compression == "none") {
+      if (expected != raw.size())
+        throw IoError("it has " + std::to_string(raw.size()) + " bytes, not " + std::to_string(expected));
+      return {raw.data(), raw.size()};
+    }
+    if (compression == "bz2") {
+      unpack_bz2(raw.data(), raw.size(), expected, unpacked);
+    } else if (compression == "lz4") {
+      decompressor.decompress(Compression::lz4, raw.data(), raw.size(), expected, unpacked);
+    } else {
+      throw IoError("its compression is " + in_quotes(compression));
+    }
+    return {unpacked.data(), unpacked.size()};
+  }
+
+  void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
+    const std::optional<BagPlace> place = place_at(part_offset(part));
+    if (!place) throw IoError("it is cut");
+    BagBytes records = unpack(*place, buffers.decompressor, buffers.raw, buffers.unpacked);
+    while (records.left() > 0) {
+      const BagRecord record = take_bag_record(records);
+      if (record.header.op() != BagOp::message) continue;
+      const auto topic = topic_of_.find(record.header.number<std::uint32_t>("conn"));
+      if (topic == topic_of_.end() || !wanted(topic->second)) continue;
+      const std::int64_t time = record.header.time("time");
+      messages.push_back({topic->second, time, time, record.data, record.size});
+    }
+  }
+
+  InputFile file_;
+  std::vector<RecordedTopic> found_topics_;        // until start()
+  std::vector<Part> found_parts_;                  // until start()
+  std::map<std::uint32_t, std::size_t> topic_of_;  // by connection
+};
+
+}  // namespace
+
+std::unique_ptr<RecordingReader> open_bag(const std::filesystem::path& file) {
+  return std::make_unique<BagReader>(file);
+}
+
+}  // namespace pcl_bv

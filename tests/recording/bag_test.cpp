@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/messages/serialize.h"
+#include "recording_files.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr const char* kPython = "/usr/bin/python3";  // Debian's, which has its modules
+
+std::string hex_of(const std::string& data) {
+  std::string text;
+  for (const char c : data) {
+    char digits[3];
+    std::snprintf(digits, sizeof digits, "%02x", static_cast<unsigned char>(c));
+    text += digits;
+  }
+  return text;
+}
+
+std::string output_of(const std::string& command) {
+  std::string output;
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return {};
+  std::array<char, 4096> buffer;
+  for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    output.append(buffer.data(), n);
+  return ::pclose(pipe) == 0 ? output : "";
+}
+
+class Bag : public RecordingFiles {
+ protected:
+  void SetUp() override {
+    RecordingFiles::SetUp();
+    if (output_of(std::string(kPython) + " -c 'import rosbag, sensor_msgs.msg; print(1)' 2>/dev/null")
+            .empty())
+      GTEST_SKIP() << "python3-rosbag is not installed";
+  }
+
+  // By ROS's own writer; what its own reader finds.
+  nlohmann::json make(const std::string& compression) const {
+    return nlohmann::json::parse(output_of(std::string(kPython) + " " PCL_BV_WRITE_BAG " " +
+                                           at("a.bag").string() + " " + compression));
+  }
+};
+
+nlohmann::json found_in(RecordingReader& reader) {
+  nlohmann::json found = nlohmann::json::array();
+  for (const Sent& sent : all_of(reader)) {
+    std::string type;
+    for (const RecordedTopic& topic : reader.topics()) {
+      if (topic.name == sent.topic) type = topic.type;
+    }
+    type.erase(type.find("/msg"), 4);
+    found.push_back({sent.topic, sent.log_time, type, hex_of(sent.data)});
+  }
+  return found;
+}
+
+TEST_F(Bag, GivesWhatRossOwnReaderGives) {
+  for (const char* compression : {"none", "bz2", "lz4"}) {
+    const nlohmann::json expected = make(compression);
+    ASSERT_EQ(expected.size(), 120U);
+    const auto reader = open_recording(at("a.bag"));
+    const nlohmann::json found = found_in(*reader);
+    ASSERT_EQ(found.size(), 120U);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_EQ(found[i], expected[i]) << compression << ", message " << i;
+    EXPECT_THAT(reader->remarks(), testing::IsEmpty());
+    ASSERT_EQ(reader->topics().size(), 2U);
+    EXPECT_EQ(reader->topics()[0].messages + reader->topics()[1].messages, 120U);
+    EXPECT_EQ(reader->topics()[0].encoding, "ros1");
+  }
+}
+
+TEST_F(Bag, HoldsCloudsThatReadBack) {
+  make("lz4");
+  const auto reader = open_recording(at("a.bag"));
+  std::size_t clouds = 0;
+  for (RecordedMessage message; reader->next(message);) {
+    if (reader->topics()[message.topic].type != msg::PointCloud2::ros_type) continue;
+    msg::PointCloud2 cloud;
+    read_ros1(message.data, message.size, cloud);
+    EXPECT_EQ(cloud.header.frame_id, "velodyne");
+    EXPECT_EQ(cloud.data.size, 12 * cloud.width);
+    std::vector<std::byte> again;
+    write_ros1(cloud, again);
+    again[0] = message.data[0];  // the sequence number, which ROS 2 has none of
+    EXPECT_TRUE(std::equal(again.begin(), again.end(), message.data, message.data + message.size));
+    ++clouds;
+  }
+  EXPECT_EQ(clouds, 80U);
+}
+
+TEST_F(Bag, ThatWasNotClosedOrIsCutHasEveryWholeChunk) {
+  const nlohmann::json expected = make("bz2");
+  const std::string bytes = bytes_of("a.bag");
+  std::size_t before = 0;
+  for (std::size_t size = 13; size < bytes.size(); size += 997) {
+    put("cut.bag", bytes.substr(0, size));
+    const auto reader = open_recording(at("cut.bag"));
+    const nlohmann::json found = found_in(*reader);
+    ASSERT_GE(found.size(), before) << size;
+    for (const auto& message : found)
+      EXPECT_NE(std::find(expected.begin(), expected.end(), message), expected.end());
+    EXPECT_FALSE(reader->remarks().empty());
+    before = found.size();
+  }
+  EXPECT_EQ(before, 120U);
+}
+
+TEST_F(Bag, ADamagedChunkCostsThatChunk) {
+  for (const char* compression : {"bz2", "lz4"}) {
+    const std::size_t all = make(compression).size();
+    std::string bytes = bytes_of("a.bag");
+    const std::size_t chunk = bytes.find("compression=", 2 * 4096);
+    ASSERT_NE(chunk, std::string::npos);
+    for (std::size_t i = 0; i < 40; ++i)
+      bytes[chunk + 100 + i] = '\x55';
+    put("b.bag", bytes);
+    const auto reader = open_recording(at("b.bag"));
+    const std::size_t found = all_of(*reader).size();
+    EXPECT_LT(found, all);
+    EXPECT_GT(found, all / 2);
+    ASSERT_EQ(reader->remarks().size(), 1U);
+    EXPECT_THAT(reader->remarks()[0], testing::StartsWith("passed over the chunk at byte "));
+  }
+}
+
+TEST_F(Bag, DamagedAnywhereIsReadOrRefused) {
+  make("lz4");
+  const std::string bytes = bytes_of("a.bag");
+  std::mt19937 random(1);
+  for (int i = 0; i < 500; ++i) {
+    std::string damaged = bytes;
+    for (int k = 0; k < 4; ++k)
+      damaged[random() % damaged.size()] = static_cast<char>(random());
+    put("b.bag", damaged);
+    try {
+      const auto reader = open_recording(at("b.bag"));
+      EXPECT_LE(all_of(*reader).size(), 120U);
+    } catch (const IoError&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
