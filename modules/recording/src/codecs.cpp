@@ -7,6 +7,7 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <new>
 #include <string>
@@ -102,6 +103,22 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
   const std::size_t made = ZSTD_decompressDCtx(contexts_->zstd.get(), to.data(), expected, data, size);
   if (ZSTD_isError(made) != 0) refuse("zstd", ZSTD_getErrorName(made));
   if (made != expected) refuse("zstd", std::to_string(made) + " bytes, not " + std::to_string(expected));
+}
+
+void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to) {
+  ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
+  ZSTD_inBuffer in{data, size, 0};
+  std::size_t made = 0, rest = 1;
+  while (in.pos < in.size || rest != 0) {
+    to.resize(std::max({2 * made, 4 * size, std::size_t{1} << 16U}));
+    ZSTD_outBuffer out{to.data(), to.size(), made};
+    const std::size_t before = in.pos;
+    rest = ZSTD_decompressStream(contexts_->zstd.get(), &out, &in);
+    if (ZSTD_isError(rest) != 0) refuse("zstd", ZSTD_getErrorName(rest));
+    if (in.pos == before && out.pos == made) refuse("zstd", "the frame is cut");
+    made = out.pos;
+  }
+  to.resize(made);
 }
 
 std::uint32_t crc32_of(const std::byte* data, std::size_t size, std::uint32_t crc) {

@@ -39,6 +39,9 @@ class Decompressor {
   void decompress(Compression compression, const std::byte* data, std::size_t size, std::size_t expected,
                   std::vector<std::byte>& to);
 
+  /// Frames of zstd whose length nobody said. Throws IoError if they are damaged or cut.
+  void decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to);
+
  private:
   struct Contexts;
   std::unique_ptr<Contexts> contexts_;

@@ -8,15 +8,19 @@
 namespace pcl_bv {
 
 const std::vector<RecordingFormat>& recording_formats() {
+  using Path = std::filesystem::path;
+  using Start = std::string_view;
   static const std::vector<RecordingFormat> formats{
-      {"MCAP",
-       [](const std::filesystem::path&, std::string_view start) { return start.starts_with(mcap::kMagic); },
-       open_mcap},
-      {"ROS 1 bag",
-       [](const std::filesystem::path&, std::string_view start) {
-         return start.starts_with("#ROSBAG V2.0\n");
+      {"MCAP", [](const Path&, Start start) { return start.starts_with(mcap::kMagic); }, open_mcap},
+      {"ROS 1 bag", [](const Path&, Start start) { return start.starts_with("#ROSBAG V2.0\n"); }, open_bag},
+      {"rosbag2's .db3", [](const Path&, Start start) { return start.starts_with("SQLite format 3"); },
+       open_db3},
+      {"its .zstd",
+       [](const Path& file, Start start) {
+         return file.extension() == ".zstd" && start.starts_with("\x28\xB5\x2F\xFD");
        },
-       open_bag}};
+       open_zstd_file},
+      {"its folder", [](const Path& file, Start) { return is_rosbag2_folder(file); }, open_rosbag2_folder}};
   return formats;
 }
 

@@ -23,6 +23,11 @@ struct RecordingFormat {
 
 const std::vector<RecordingFormat>& recording_formats();
 
+std::unique_ptr<RecordingReader> open_db3(const std::filesystem::path& file);
+bool is_rosbag2_folder(const std::filesystem::path& folder);
+std::unique_ptr<RecordingReader> open_rosbag2_folder(const std::filesystem::path& folder);
+/// A file of another format that is compressed whole.
+std::unique_ptr<RecordingReader> open_zstd_file(const std::filesystem::path& file);
 std::unique_ptr<RecordingReader> open_bag(const std::filesystem::path& file);
 std::unique_ptr<RecordingReader> open_mcap(const std::filesystem::path& file);
 

@@ -87,7 +87,7 @@ const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds{
       {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]",
        FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
-      {"a recording (.mcap, .bag)", FrameTimes::messages,
+      {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,
        [](const std::string& name) { return is_recording(name); }, open_recorded},
       {"A folder of clouds, one file", FrameTimes::names, [](const std::string&) { return true; },
        open_folder}};

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// rosbag2's folders: metadata.yaml and files one after the other, and files that are compressed whole.
+
+#include <unistd.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+
+#include "chunked_reader.h"
+#include "formats.h"
+#include "pcl_bv/io/posix_file.h"
+
+namespace pcl_bv {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As one, each from its beginning to its end: a recorder begins a file where it ends the last one.
+class JoinedReader final : public RecordingReader {
+ public:
+  explicit JoinedReader(std::vector<fs::path> files) : files_(std::move(files)) {
+    for (const fs::path& file : files_) {
+      Member& member = members_.emplace_back();
+      member.reader = open_named(file);
+      for (const RecordedTopic& topic : member.reader->topics())
+        member.topics.push_back(add_topic(topics_, topic));
+    }
+  }
+
+  const std::vector<RecordedTopic>& topics() const override { return topics_; }
+
+  void select(const std::vector<std::size_t>& topics) override {
+    for (const std::size_t topic : topics)
+      static_cast<void>(topics_.at(topic));
+    for (Member& member : members_) {
+      std::vector<std::size_t> own;
+      for (std::size_t i = 0; i < member.topics.size(); ++i) {
+        if (std::find(topics.begin(), topics.end(), member.topics[i]) != topics.end()) own.push_back(i);
+      }
+      member.reader->select(own);
+    }
+    at_ = 0;
+  }
+
+  bool next(RecordedMessage& message) override {
+    for (; at_ < members_.size(); ++at_) {
+      const bool more = members_[at_].reader->next(message);
+      pass_on_remarks();
+      if (!more) continue;
+      message.topic = members_[at_].topics[message.topic];
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Member {
+    std::unique_ptr<RecordingReader> reader;
+    std::vector<std::size_t> topics;  // of the reader's, their places in ours
+    std::size_t remarks = 0;
+  };
+
+  static std::unique_ptr<RecordingReader> open_named(const fs::path& file) {
+    try {
+      return open_recording(file);
+    } catch (const IoError& error) {
+      throw IoError(file.filename().string() + ": " + error.what());
+    }
+  }
+
+  void pass_on_remarks() {
+    Member& member = members_[at_];
+    for (const std::vector<std::string>& all = member.reader->remarks(); member.remarks < all.size();)
+      remark(files_[at_].filename().string() + ": " + all[member.remarks++]);
+  }
+
+  std::vector<fs::path> files_;
+  std::vector<Member> members_;
+  std::vector<RecordedTopic> topics_;
+  std::size_t at_ = 0;
+};
+
+std::vector<fs::path> files_of(const fs::path& folder) {
+  const fs::path metadata = folder / "metadata.yaml";
+  std::vector<fs::path> files;
+  try {
+    const YAML::Node root = YAML::LoadFile(metadata.string());
+    for (const YAML::Node& file : root["rosbag2_bagfile_information"]["relative_file_paths"])
+      files.push_back(folder /
+                      fs::path(file.as<std::string>()).filename());  // older ones have the folder, too
+  } catch (const YAML::Exception& error) {
+    throw IoError("metadata.yaml: " + std::string(error.what()));
+  }
+  if (files.empty()) throw IoError("metadata.yaml names no files");
+  return files;
+}
+
+// The files of rosbag2 in a folder without metadata.yaml, as after a crash: NAME_0.db3, NAME_1.db3, ...
+std::vector<fs::path> parts_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code unknown;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, unknown)) {
+    if (entry.path().extension() == ".db3") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    const std::string x = a.string(), y = b.string();
+    return x.size() != y.size() ? x.size() < y.size() : x < y;
+  });
+  return files;
+}
+
+// A file in the folder for temporary ones that nobody else sees, gone with the process.
+class Temporary {
+ public:
+  explicit Temporary(const std::vector<std::byte>& bytes)
+      : path_((fs::temp_directory_path() / "pcl_bv_XXXXXX").string()) {
+    const int descriptor = ::mkstemp(path_.data());
+    if (descriptor < 0) throw IoError(path_ + ": " + system_reason(errno));
+    for (std::size_t done = 0; done < bytes.size();) {
+      const ssize_t wrote = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+      if (wrote < 0) {
+        const int error = errno;
+        ::close(descriptor);
+        ::unlink(path_.c_str());
+        throw IoError(path_ + ": " + system_reason(error));
+      }
+      done += static_cast<std::size_t>(wrote);
+    }
+    ::close(descriptor);
+  }
+  ~Temporary() { ::unlink(path_.c_str()); }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+bool is_rosbag2_folder(const fs::path& folder) {
+  std::error_code unknown;
+  return fs::is_directory(folder, unknown) &&
+         (fs::is_regular_file(folder / "metadata.yaml", unknown) || !parts_in(folder).empty());
+}
+
+std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
+  std::error_code unknown;
+  const bool listed = fs::is_regular_file(folder / "metadata.yaml", unknown);
+  return std::make_unique<JoinedReader>(listed ? files_of(folder) : parts_in(folder));
+}
+
+// SQLite wants a file; the name of the temporary one may go as soon as it is open.
+std::unique_ptr<RecordingReader> open_zstd_file(const fs::path& file) {
+  std::vector<std::byte> unpacked;
+  {
+    const InputFile input(file);
+    std::vector<std::byte> packed(input.size());
+    input.read(0, packed.data(), packed.size());
+    Decompressor().decompress_zstd(packed.data(), packed.size(), unpacked);
+  }
+  const Temporary temporary(unpacked);
+  return open_recording(temporary.path());
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/recording/mcap_writer.h"
+#include "recording_files.h"
+
+namespace pcl_bv {
+namespace {
+
+// Files as rosbag2 makes them, by the programs sqlite3 and zstd.
+class Rosbag2 : public RecordingFiles {
+ protected:
+  void SetUp() override {
+    RecordingFiles::SetUp();
+    if (std::system("which sqlite3 zstd > /dev/null") != 0)
+      GTEST_SKIP() << "sqlite3 or zstd is not installed";
+  }
+
+  void shell(const std::string& command) const {
+    ASSERT_EQ(std::system(("cd '" + at("").string() + "' && " + command).c_str()), 0) << command;
+  }
+
+  // Two topics; times that go back now and then.
+  std::vector<Sent> make(const std::string& name, std::size_t messages, std::int64_t begin) const {
+    std::mt19937 random(static_cast<unsigned>(begin));
+    std::string sql =
+        "CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);"
+        "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+        "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
+        "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT "
+        "NULL, "
+        "data BLOB NOT NULL);"
+        "CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
+        "INSERT INTO topics VALUES(1,'/points','sensor_msgs/msg/PointCloud2','cdr','');"
+        "INSERT INTO topics VALUES(4,'/it''s','std_msgs/msg/String','cdr','');";
+    std::vector<Sent> sent;
+    for (std::size_t i = 0; i < messages; ++i) {
+      const std::int64_t time = begin + static_cast<std::int64_t>(10 * i + random() % 40);
+      std::string data =
+          std::string("\0\1\0\0", 4) + std::string(random() % 50, static_cast<char>('a' + i % 26));
+      std::string hex;
+      for (const char c : data) {
+        char digits[3];
+        std::snprintf(digits, sizeof digits, "%02X", static_cast<unsigned char>(c));
+        hex += digits;
+      }
+      const bool points = random() % 2 == 0;
+      sql += "INSERT INTO messages(topic_id,timestamp,data) VALUES(" + std::string(points ? "1" : "4") + "," +
+             std::to_string(time) + ",X'" + hex + "');\n";
+      sent.push_back({points ? "/points" : "/it's", time, time, data});
+    }
+    put("make.sql", sql);
+    shell("rm -f " + name + " && sqlite3 " + name + " < make.sql");
+    std::stable_sort(sent.begin(), sent.end(),
+                     [](const Sent& a, const Sent& b) { return a.log_time < b.log_time; });
+    return sent;
+  }
+};
+
+TEST_F(Rosbag2, AFileGivesItsMessagesInTheOrderOfTheTimes) {
+  std::vector<Sent> sent = make("a#%?.db3", 200, 1'700'000'000'000'000'000);
+  const auto reader = open_recording(at("a#%?.db3"));
+  EXPECT_EQ(all_of(*reader), sent);
+  ASSERT_EQ(reader->topics().size(), 2U);
+  EXPECT_EQ(reader->topics()[0].type, "sensor_msgs/msg/PointCloud2");
+  EXPECT_EQ(reader->topics()[0].encoding, "cdr");
+  EXPECT_EQ(reader->topics()[0].messages + reader->topics()[1].messages, 200U);
+  reader->select({1});
+  std::erase_if(sent, [](const Sent& one) { return one.topic == "/points"; });
+  EXPECT_EQ(all_of(*reader), sent);
+  reader->select({});
+  EXPECT_TRUE(all_of(*reader).empty());
+  EXPECT_THROW(reader->select({2}), std::out_of_range);
+}
+
+TEST_F(Rosbag2, AFolderIsOneRecordingWithAndWithoutItsMetadata) {
+  shell("mkdir bag");
+  std::vector<Sent> sent;
+  for (int part : {0, 1, 2, 10}) {
+    const std::vector<Sent> more =
+        make("bag/bag_" + std::to_string(part) + ".db3", 30, 1'000'000 * (part + 1));
+    sent.insert(sent.end(), more.begin(), more.end());
+  }
+  EXPECT_EQ(all_of(*open_recording(at("bag"))), sent);
+  put("bag/metadata.yaml",
+      "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  relative_file_paths:\n"
+      "    - bag_0.db3\n    - bag/bag_2.db3\n    - bag_10.db3\n");
+  const auto reader = open_recording(at("bag"));
+  sent.erase(sent.begin() + 30, sent.begin() + 60);
+  EXPECT_EQ(all_of(*reader), sent);
+  EXPECT_EQ(reader->topics().size(), 2U);
+  reader->select({0});
+  std::erase_if(sent, [](const Sent& one) { return one.topic != "/points"; });
+  EXPECT_EQ(all_of(*reader), sent);
+}
+
+TEST_F(Rosbag2, AFileThatIsCompressedWholeIsUnpacked) {
+  const std::vector<Sent> sent = make("a.db3", 50, 1000);
+  shell("zstd -q --rm a.db3 -o a.db3.zstd");
+  EXPECT_EQ(all_of(*open_recording(at("a.db3.zstd"))), sent);
+  shell("head -c 300 a.db3.zstd > b.db3.zstd");
+  EXPECT_THROW(open_recording(at("b.db3.zstd")), IoError);
+}
+
+TEST_F(Rosbag2, MessagesThatAreCompressedAreUnpacked) {
+  std::vector<Sent> sent = make("a.db3", 3, 1000);
+  for (std::size_t i = 0; i < 3; ++i) {
+    put("m", sent[i].data);
+    shell(
+        "zstd -q -f m -o m.zst && sqlite3 a.db3 \"UPDATE messages SET data = readfile('m.zst') WHERE "
+        "timestamp = " +
+        std::to_string(sent[i].log_time) + "\"");
+  }
+  EXPECT_EQ(all_of(*open_recording(at("a.db3"))), sent);
+  shell("sqlite3 a.db3 \"UPDATE messages SET data = X'28B52FFD0000' WHERE timestamp = " +
+        std::to_string(sent[1].log_time) + "\"");
+  const auto reader = open_recording(at("a.db3"));
+  EXPECT_EQ(all_of(*reader), (std::vector<Sent>{sent[0], sent[2]}));
+  EXPECT_THAT(reader->remarks(), testing::ElementsAre(testing::StartsWith("zstd: ")));
+}
+
+TEST_F(Rosbag2, AFolderOfMcapFilesIsOneRecording) {
+  shell("mkdir bag");
+  for (const char* name : {"bag/b.mcap", "bag/a.mcap"}) {
+    McapWriter writer(at(name));
+    writer.add_topic({"/points", "sensor_msgs/msg/PointCloud2", "", {}});
+    writer.write(0, name[4], 0, nullptr, 0);
+    writer.close();
+  }
+  put("bag/metadata.yaml",
+      "rosbag2_bagfile_information:\n  storage_identifier: mcap\n  relative_file_paths: [a.mcap, b.mcap]\n");
+  const auto reader = open_recording(at("bag"));
+  EXPECT_EQ(all_of(*reader), (std::vector<Sent>{{"/points", 'a', 0, ""}, {"/points", 'b', 0, ""}}));
+  EXPECT_EQ(reader->topics()[0].messages, 2U);
+}
+
+TEST_F(Rosbag2, SaysWhatIsWrongWithAFolder) {
+  shell("mkdir bag");
+  const auto error = [&] {
+    try {
+      open_recording(at("bag"));
+    } catch (const IoError& failure) {
+      return std::string(failure.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_THAT(error(), testing::StartsWith("no recording that is known"));
+  put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [gone.db3]}\n");
+  EXPECT_EQ(error(), "gone.db3: no such file or folder");
+  put("bag/metadata.yaml", "a: b: c\n");
+  EXPECT_THAT(error(), testing::StartsWith("metadata.yaml: "));
+  put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: []}\n");
+  EXPECT_EQ(error(), "metadata.yaml names no files");
+}
+
+TEST_F(Rosbag2, DamagedAnywhereIsReadOrRefused) {
+  make("a.db3", 40, 1000);
+  const std::string bytes = bytes_of("a.db3");
+  std::mt19937 random(3);
+  for (int i = 0; i < 300; ++i) {
+    std::string damaged = bytes;
+    for (int k = 0; k < 8; ++k)
+      damaged[random() % damaged.size()] = static_cast<char>(random());
+    put("b.db3", damaged);
+    try {
+      const auto reader = open_recording(at("b.db3"));
+      EXPECT_LT(all_of(*reader).size(), 10'000U);
+    } catch (const IoError&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
