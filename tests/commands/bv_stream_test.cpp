@@ -134,8 +134,15 @@ TEST_F(BvStream, ReadsItsOwnRecordingToTheSameClusters) {
   }
   const Result topic = stream({"--source", file, "--topic", "/bv/scene"});
   EXPECT_EQ(topic.status, 2);
-  EXPECT_EQ(topic.err, "bv_stream: --source: topic /bv/scene is of foxglove_msgs/msg/SceneUpdate (cdr), not of "
-                       "clouds; those with clouds: /bv/points\n");
+  EXPECT_EQ(topic.err,
+            "bv_stream: --source: topic /bv/scene is of foxglove_msgs/msg/SceneUpdate (cdr), not of "
+            "clouds; those with clouds: /bv/points\n");
+  const Result clouds = run({"--format", "jsonl", "--volume", "aabb", file});
+  ASSERT_EQ(clouds.status, 0) << clouds.err;
+  const std::vector<Json> inputs = results(clouds.out);
+  ASSERT_EQ(inputs.size(), 4U);
+  EXPECT_EQ(inputs[3]["file"], file + "#3");
+  EXPECT_EQ(inputs[3]["points"], expected[3]["points"]);
   const Result useless = stream({"--source", "synth:street-sequence:1", "--topic", "/points"});
   EXPECT_EQ(useless.status, 2);
   EXPECT_EQ(useless.err, "bv_stream: --topic: only useful with a recording\n");

@@ -3,9 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/recording/recording.h"
+#include "recording_files.h"
 
 namespace pcl_bv {
 namespace {
@@ -24,6 +26,14 @@ TEST(OpenRecording, SaysWhatIsNoRecording) {
   EXPECT_THAT(error_of("/dev/null"), testing::StartsWith("no recording that is known: "));
   EXPECT_FALSE(is_recording("/no/such/file"));
   EXPECT_FALSE(is_recording("/"));
+}
+
+class OpenRecordingFiles : public RecordingFiles {};
+
+TEST_F(OpenRecordingFiles, DoesNotWaitForAPipe) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  EXPECT_FALSE(is_recording(at("pipe")));
+  EXPECT_THAT(error_of(at("pipe")), testing::StartsWith("no recording that is known"));
 }
 
 }  // namespace

@@ -154,8 +154,10 @@ TEST_F(Rosbag2, SaysWhatIsWrongWithAFolder) {
   EXPECT_THAT(error(), testing::StartsWith("no recording that is known"));
   put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [gone.db3]}\n");
   EXPECT_EQ(error(), "gone.db3: no such file or folder");
-  put("bag/metadata.yaml", "a: b: c\n");
+  put("bag/metadata.yaml", "rosbag2_bagfile_information: b: c\n");
   EXPECT_THAT(error(), testing::StartsWith("metadata.yaml: "));
+  put("bag/metadata.yaml", "colours: [red]\n");  // of another kind
+  EXPECT_THAT(error(), testing::StartsWith("no recording that is known"));
   put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: []}\n");
   EXPECT_EQ(error(), "metadata.yaml names no files");
 }

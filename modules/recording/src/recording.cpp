@@ -12,9 +12,10 @@
 namespace pcl_bv {
 namespace {
 
+// Of a regular file only: a pipe would wait, or lose what is read from it.
 std::string start_of(const std::filesystem::path& file) {
   std::error_code unknown;
-  if (std::filesystem::is_directory(file, unknown)) return {};
+  if (!std::filesystem::is_regular_file(file, unknown)) return {};
   std::ifstream stream(file, std::ios::binary);
   std::string start(64, '\0');
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
 #include <stdexcept>
 
 #include "chunked_reader.h"
@@ -99,6 +100,14 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
+// Others have files of this name, too.
+bool has_metadata(const fs::path& folder) {
+  std::ifstream stream(folder / "metadata.yaml", std::ios::binary);
+  std::string start(1000, ' ');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start.find("rosbag2_bagfile_information") != std::string::npos;
+}
+
 // The files of rosbag2 in a folder without metadata.yaml, as after a crash: NAME_0.db3, NAME_1.db3, ...
 std::vector<fs::path> parts_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -146,14 +155,11 @@ class Temporary {
 
 bool is_rosbag2_folder(const fs::path& folder) {
   std::error_code unknown;
-  return fs::is_directory(folder, unknown) &&
-         (fs::is_regular_file(folder / "metadata.yaml", unknown) || !parts_in(folder).empty());
+  return fs::is_directory(folder, unknown) && (has_metadata(folder) || !parts_in(folder).empty());
 }
 
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
-  std::error_code unknown;
-  const bool listed = fs::is_regular_file(folder / "metadata.yaml", unknown);
-  return std::make_unique<JoinedReader>(listed ? files_of(folder) : parts_in(folder));
+  return std::make_unique<JoinedReader>(has_metadata(folder) ? files_of(folder) : parts_in(folder));
 }
 
 // SQLite wants a file; the name of the temporary one may go as soon as it is open.

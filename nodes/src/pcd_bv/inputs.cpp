@@ -13,6 +13,7 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/recording/recording.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/synth/synth.h"
 
@@ -27,7 +28,30 @@ bool is_folder(const std::string& path) {
   return !is_synth(path) && fs::is_directory(path, unknown);
 }
 
-std::vector<Job> expand(const std::string& argument) {
+std::vector<Job> expand_recording(const std::string& argument, const std::string& topic) {
+  const auto clouds = std::make_shared<RecordedClouds>(argument, topic);
+  const std::size_t count = clouds->count();
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < count; ++i) {
+    Job& job = jobs.emplace_back();
+    job.input = argument + '#' + std::to_string(i);
+    job.recording = clouds;
+    job.number = i;
+  }
+  for (const std::string& remark : clouds->remarks())
+    complain(argument + ": " + remark);
+  if (jobs.empty()) return {{argument, "no cloud in this recording"}};
+  return jobs;
+}
+
+std::vector<Job> expand(const std::string& argument, const std::string& topic) {
+  try {
+    if (!is_synth(argument) && is_recording(argument)) return expand_recording(argument, topic);
+  } catch (const IoError& error) {
+    return {{argument, error.what()}};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(argument + ": " + error.what());
+  }
   if (!is_folder(argument)) return {{argument}};
   try {
     std::vector<Job> jobs;
@@ -43,6 +67,10 @@ std::vector<Job> expand(const std::string& argument) {
 }
 
 std::string stem(const std::string& input) {
+  const std::size_t number = input.rfind('#');  // of a recording: FILE.mcap#3 becomes FILE-3
+  if (!is_synth(input) && number != std::string::npos &&
+      input.find_first_not_of("0123456789", number + 1) == std::string::npos)
+    return fs::path(input.substr(0, number)).stem().string() + '-' + input.substr(number + 1);
   if (!is_synth(input)) return fs::path(input).stem().string();
   std::string name = input.substr(synth_prefix.size());
   std::replace(name.begin(), name.end(), ':', '-');
@@ -58,7 +86,7 @@ bool is_synth(const std::string& input) {
 std::vector<Job> plan_jobs(const Options& options) {
   std::vector<Job> jobs;
   for (const std::string& argument : options.inputs) {
-    for (Job& job : expand(argument)) {
+    for (Job& job : expand(argument, options.topic)) {
       job.bin_fields = options.bin_fields;
       jobs.push_back(std::move(job));
     }
@@ -76,11 +104,14 @@ std::vector<Job> plan_jobs(const Options& options) {
   const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;
   const char* mesh_extension = vtp ? ".vtp" : ".ply";
   OutputClaims claims;
+  for (const std::string& argument : options.inputs) {
+    if (!is_synth(argument)) claims.add_input(argument);
+  }
   if (!options.config_file.empty()) claims.add_input(options.config_file);
   for (const RegionConfig& region : options.pipeline.filter.regions)
     claims.add_input(region.file);
   for (const Job& job : jobs) {
-    if (!is_synth(job.input)) claims.add_input(job.input);
+    if (!is_synth(job.input) && !job.recording) claims.add_input(job.input);
   }
   if (options.output) claims.claim(*options.output);
   for (Job& job : jobs) {
@@ -99,6 +130,7 @@ RawCloud load_cloud(const Job& job, const ParallelPolicy& policy) {
     const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
+  if (job.recording) return job.recording->load(job.number);
   return read_cloud(job.input, policy, job.bin_fields);
 }
 

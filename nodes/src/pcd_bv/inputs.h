@@ -6,21 +6,25 @@
 
 #include <filesystem>
 #include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "options.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/nodes/recorded_clouds.h"
 #include "pcl_bv/parallel/policy.h"
 
 namespace pcl_bv {
 
 /// One cloud to be done.
 struct Job {
-  std::string input;                   ///< A file, or synth:NAME[:POINTS[:SEED]].
+  std::string input;                   ///< A file, synth:NAME[:POINTS[:SEED]], or RECORDING#NUMBER.
   std::optional<std::string> error{};  ///< Why there is nothing to load, for a folder without clouds.
   std::optional<std::filesystem::path> labels{}, mesh{}, image{};
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
+  std::shared_ptr<RecordedClouds> recording{};  ///< Whose cloud `number` it is; `input` is FILE#number.
+  std::size_t number = 0;
 };
 
 /// Whether an input is a generated cloud, not a file.

@@ -57,7 +57,7 @@ std::vector<double> load_all(const PointView& points) {
 
 LoadedCloud::LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy,
                          const OriginOption& origin) {
-  if (!hold && !job.error && !is_synth(job.input)) file_ = CloudFile::open(job.input, job.bin_fields);
+  if (!hold && !job.error && !job.recording && !is_synth(job.input)) file_ = CloudFile::open(job.input, job.bin_fields);
   if (!file_) held_ = load_cloud(job, policy);
   xyz_ = file_ ? file_->xyz() : held_.xyz();
   if (!origin.asked) return;

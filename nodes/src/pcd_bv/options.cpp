@@ -40,14 +40,16 @@ constexpr Names<ViewFrom, 4> kViews{
 /// The command line as texts, before the values are looked at.
 struct Texts {
   std::vector<std::string> inputs;
-  std::string format, output, labels, mesh, image, view, bin_fields, origin;
+  std::string format, output, labels, mesh, image, view, bin_fields, topic, origin;
   bool check = false, info = false, timings = false, progress = false;
 };
 
 void declare(CommandLine& line, Texts& texts) {
   line.option("INPUT", texts.inputs, "",
-              ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]]");
+              ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]],\n"
+              "recordings (.mcap, .bag, .db3 or its folder)");
   line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
+  line.option("--topic", texts.topic, "NAME", "The topic of recordings, where several have clouds");
   line.option("--origin", texts.origin, "X,Y,Z",
               "Subtract this, or auto: whole numbers in the middle of each cloud");
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
@@ -129,6 +131,7 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   Options options;
   options.inputs = texts.inputs;
   options.pipeline = std::move(config);
+  options.topic = texts.topic;
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
   if (line.given("--origin")) options.origin = parse_origin(texts.origin);
   read_outputs(line, texts, options);

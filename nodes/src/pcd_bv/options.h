@@ -27,6 +27,7 @@ struct OriginOption {
 struct Options {
   std::vector<std::string> inputs;
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
+  std::string topic;           ///< Of recordings.
   OriginOption origin;
   PipelineConfig pipeline;
   std::string config_file;  ///< Of --config, empty without it.

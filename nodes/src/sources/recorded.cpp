@@ -3,52 +3,18 @@
 
 // The clouds of a recording.
 
-#include <algorithm>
+#include <cmath>
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/nodes/recorded_clouds.h"
 #include "pcl_bv/recording/recording.h"
 #include "sources.h"
 
 namespace pcl_bv {
 namespace {
-
-bool has_clouds(const RecordedTopic& topic) {
-  return topic.type == msg::PointCloud2::ros_type && (topic.encoding == "cdr" || topic.encoding == "ros1");
-}
-
-std::string list_of(const std::vector<RecordedTopic>& topics, bool (*which)(const RecordedTopic&)) {
-  std::string list;
-  for (const RecordedTopic& topic : topics) {
-    if (which(topic)) list += (list.empty() ? "" : ", ") + topic.name;
-  }
-  return list.empty() ? "none" : list;
-}
-
-// The topic that is asked for, or the only one with clouds.
-std::size_t find_topic(const std::vector<RecordedTopic>& topics, const std::string& name) {
-  const std::string clouds = list_of(topics, has_clouds);
-  const auto number = [&](auto found) { return static_cast<std::size_t>(found - topics.begin()); };
-  if (!name.empty()) {
-    const auto found = std::find_if(topics.begin(), topics.end(),
-                                    [&](const RecordedTopic& topic) { return topic.name == name; });
-    if (found == topics.end())
-      throw std::invalid_argument("no topic " + name + "; those with clouds: " + clouds);
-    if (!has_clouds(*found))
-      throw std::invalid_argument("topic " + name + " is of " + found->type + " (" + found->encoding +
-                                  "), not of clouds; those with clouds: " + clouds);
-    return number(found);
-  }
-  const auto count = std::count_if(topics.begin(), topics.end(), has_clouds);
-  if (count > 1)
-    throw std::invalid_argument("several topics have clouds: " + clouds + "; say which with --topic");
-  if (count == 0)
-    throw IoError("no topic of " + std::string(msg::PointCloud2::ros_type) +
-                  "; topics: " + list_of(topics, [](const RecordedTopic&) { return true; }));
-  return number(std::find_if(topics.begin(), topics.end(), has_clouds));
-}
 
 // What a frame's points look at.
 struct Held {
@@ -62,7 +28,7 @@ class Recorded final : public FrameSource {
       : name_(name),
         options_(options),
         reader_(open_recording(name)),
-        topic_(find_topic(reader_->topics(), options.topic)) {
+        topic_(cloud_topic(reader_->topics(), options.topic)) {
     reader_->select({topic_});
     if (!options_.poses.empty()) poses_ = Poses(options_.poses, count());
   }
