@@ -11,6 +11,7 @@
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/recording/recording.h"
+#include "pcl_bv/recording/velodyne.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
 #include "pcl_bv/synth/verges.h"
@@ -87,6 +88,8 @@ const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds{
       {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]",
        FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
+      {"packets of a Velodyne (.pcap, .pcapng)", FrameTimes::messages,
+       [](const std::string& name) { return is_capture(name); }, open_packets},
       {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,
        [](const std::string& name) { return is_recording(name); }, open_recorded},
       {"A folder of clouds, one file", FrameTimes::names, [](const std::string&) { return true; },

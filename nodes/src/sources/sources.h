@@ -30,6 +30,7 @@ std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::fi
                                          const ReplayOptions& options,
                                          std::function<void(std::size_t place, Frame&)> load);
 
+std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 std::unique_ptr<FrameSource> open_recorded(const std::string& name, const ReplayOptions& options);
 
 }  // namespace pcl_bv

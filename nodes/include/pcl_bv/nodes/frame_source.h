@@ -94,7 +94,8 @@ const SourceKind& source_kind(const std::string& name);
 /// All that can be opened, for help.
 std::string source_syntax();
 
-/// A folder of clouds in natural order, one file, a recording (open_recording(): sensor_msgs/msg/PointCloud2), or
+/// A folder of clouds in natural order, one file, a recording (open_recording(): sensor_msgs/msg/PointCloud2), a
+/// capture of a Velodyne's packets (VelodyneReader), or
 /// `synth:street-sequence[:FRAMES[:SEED]]`, whose frames are made when they are asked for. Throws IoError if there
 /// is no cloud or no poses can be read, std::invalid_argument for a rate out of range, for names none of which has a
 /// stamp, for a topic that is not there or not said where there are several, and for an unknown sequence.

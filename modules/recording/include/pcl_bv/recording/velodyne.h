@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace [[gnu::visibility("default")]] pcl_bv {
+
+/// A return, in metres in the sensor's frame: z up, y where the azimuth is 0, x where it is 90 degrees.
+struct VelodynePoint {
+  float x = 0, y = 0, z = 0;
+  float intensity = 0;        ///< 0 to 255.
+  std::uint32_t ring = 0;     ///< From the lowest beam up.
+  std::uint32_t time_ns = 0;  ///< Since the sweep's stamp.
+};
+
+/// A revolution.
+struct VelodyneSweep {
+  std::int64_t stamp_ns = 0;  ///< When its first packet was captured, nanoseconds since 1970.
+  std::vector<VelodynePoint> points;
+};
+
+/// Whether it is a capture of packets (.pcap, .pcapng), by its first bytes.
+bool is_capture(const std::filesystem::path& file);
+
+/// Sweeps in the packets of a VLP-16, HDL-32E or VLP-32C, of single and dual returns (of two that are the
+/// same one), by revolution; the first and the last are what there is of them. Azimuths as PCL's grabbers
+/// have them: one for each block, between two for the second firing of a VLP-16. Sources: the sensors'
+/// manuals (63-9243, 63-9113, 63-9325).
+class VelodyneReader {
+ public:
+  /// Throws IoError if it is no capture, or has no packet of such a sensor.
+  explicit VelodyneReader(const std::filesystem::path& file);
+  ~VelodyneReader();
+  VelodyneReader(const VelodyneReader&) = delete;
+  VelodyneReader& operator=(const VelodyneReader&) = delete;
+
+  std::string_view model() const;  ///< "VLP-16"
+
+  /// From the beginning again.
+  void rewind();
+
+  /// False at the end. Throws IoError where the file cannot be read any more.
+  bool next(VelodyneSweep& sweep);
+
+  /// What was not whole so far, a line each.
+  std::vector<std::string> remarks() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A sensor's packets, a frame a revolution.
+
+#include <cmath>
+
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/recording/velodyne.h"
+#include "sources.h"
+
+namespace pcl_bv {
+namespace {
+
+class Packets final : public FrameSource {
+ public:
+  Packets(const std::string& name, const ReplayOptions& options)
+      : name_(name), options_(options), reader_(name) {
+    if (!options_.class_field.empty()) throw std::invalid_argument("packets have no field of classes");
+    if (!options_.topic.empty()) throw std::invalid_argument("packets have no topics");
+    if (!options_.poses.empty()) poses_ = Poses(options_.poses, count());
+  }
+
+  Next next(Frame& frame, std::chrono::milliseconds) override {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto sweep = std::make_shared<VelodyneSweep>();
+    while (!reader_.next(*sweep)) {
+      if (++loop_ >= options_.loops || place_ == 0) return Next::end;
+      reader_.rewind();
+      place_ = 0;
+    }
+    frame = Frame();
+    frame.file = name_;
+    frame.header.seq = seq_;
+    frame.header.stamp_ns = options_.from_name
+                                ? sweep->stamp_ns
+                                : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
+    frame.header.frame_id = options_.frame_id.empty() ? "velodyne" : options_.frame_id;
+    frame.pose = poses_.at(place_++, frame.header.stamp_ns);
+    ++seq_;
+    if (!sweep->points.empty())
+      frame.points = PointView::of(&sweep->points.front().x, sizeof(VelodynePoint), sweep->points.size());
+    frame.owner = sweep;
+    frame.decode_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return Next::frame;
+  }
+
+  std::vector<std::string> take_remarks() override {
+    const std::vector<std::string> all = reader_.remarks();
+    if (all.size() <= remarks_) return {};
+    std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(remarks_), all.end());
+    remarks_ = all.size();
+    return fresh;
+  }
+
+ private:
+  std::size_t count() {
+    std::size_t sweeps = 0;
+    for (VelodyneSweep sweep; reader_.next(sweep);)
+      ++sweeps;
+    reader_.rewind();
+    return sweeps;
+  }
+
+  std::string name_;
+  ReplayOptions options_;
+  VelodyneReader reader_;
+  Poses poses_;
+  std::uint64_t seq_ = 0;
+  std::size_t place_ = 0, loop_ = 0, remarks_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options) {
+  try {
+    return std::make_unique<Packets>(name, options);
+  } catch (const IoError& error) {
+    throw IoError(name + ": " + error.what());
+  }
+}
+
+}  // namespace pcl_bv

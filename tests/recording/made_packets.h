@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Captures as a Velodyne would give.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl_bv {
+
+inline std::string bytes_of(std::uint64_t value, std::size_t size, bool big = false) {
+  std::string text;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t byte = big ? size - 1 - i : i;
+    text += static_cast<char>(value >> (8 * byte) & 0xFFU);
+  }
+  return text;
+}
+
+// Blocks a `step` of hundredths of a degree apart from `azimuth` on; laser i returns at 1000 + i steps, or at
+// `second` more in every other block of a dual one.
+inline std::string packet(unsigned azimuth, unsigned step, std::uint8_t mode, std::uint8_t factory,
+                          unsigned second = 0) {
+  std::string payload;
+  for (unsigned block = 0; block < 12; ++block) {
+    const bool dual = mode == 0x39;
+    payload += bytes_of(0xEEFF, 2) + bytes_of((azimuth + step * (dual ? block / 2 : block)) % 36'000, 2);
+    for (unsigned laser = 0; laser < 32; ++laser)
+      payload += bytes_of(1000 + laser + (dual && block % 2 == 1 ? second : 0), 2) + bytes_of(laser, 1);
+  }
+  return payload + bytes_of(0, 4) + bytes_of(mode, 1) + bytes_of(factory, 1);
+}
+
+inline std::string udp(const std::string& payload) {
+  const std::string head = bytes_of(2368, 2, true) + bytes_of(2368, 2, true) +
+                           bytes_of(payload.size() + 8, 2, true) + bytes_of(0, 2);
+  const std::size_t all = 20 + head.size() + payload.size();
+  return bytes_of(0x45, 1) + bytes_of(0, 1) + bytes_of(all, 2, true) + bytes_of(0, 2) + bytes_of(0, 2) +
+         bytes_of(64, 1) + bytes_of(17, 1) + bytes_of(0, 10) + head + payload;
+}
+
+// How packets are wrapped: by the number of the link.
+inline std::string linked(unsigned link, const std::string& ip) {
+  if (link == 1) return std::string(12, 'm') + bytes_of(0x0800, 2, true) + ip;
+  if (link == 10'001)
+    return std::string(12, 'm') + bytes_of(0x81000001, 4, true) + bytes_of(0x0800, 2, true) + ip;
+  if (link == 113) return std::string(14, 'm') + bytes_of(0x0800, 2, true) + ip;
+  if (link == 276) return bytes_of(0x0800, 2, true) + std::string(18, 'm') + ip;
+  if (link == 0) return bytes_of(2, 4) + ip;
+  return ip;
+}
+
+inline std::string pcap(const std::vector<std::string>& payloads, unsigned link = 1, bool big = false,
+                        bool nano = false) {
+  std::string file = bytes_of(nano ? 0xA1B23C4D : 0xA1B2C3D4, 4, big) + bytes_of(2, 2, big) +
+                     bytes_of(4, 2, big) + bytes_of(0, 8) + bytes_of(65'535, 4, big) +
+                     bytes_of(link % 10'000, 4, big);
+  unsigned microseconds = 0;
+  for (const std::string& payload : payloads) {
+    const std::string frame = linked(link, udp(payload));
+    file += bytes_of(100, 4, big) + bytes_of(nano ? microseconds * 1000 : microseconds, 4, big) +
+            bytes_of(frame.size(), 4, big) + bytes_of(frame.size(), 4, big) + frame;
+    microseconds += 1327;
+  }
+  return file;
+}
+
+}  // namespace pcl_bv
