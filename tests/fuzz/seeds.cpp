@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../recording/made_packets.h"
 #include "pcl_bv/io/pcd.h"
+#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/recording/mcap_writer.h"
 #include "sample_clouds.h"
 #include "sample_plys.h"
 
@@ -71,17 +74,70 @@ void write_claims(const fs::path& folder) {
   }
 }
 
+// A cloud as a message of both encodings, recordings of it, and a packet.
+void write_recordings(const fs::path& folder) {
+  const std::string points(48, '\x3f');
+  msg::PointCloud2 cloud;
+  cloud.width = 3;
+  cloud.point_step = 16;
+  cloud.row_step = 48;
+  cloud.fields = {{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"ring", 12, 4, 1}};
+  cloud.data = {reinterpret_cast<const std::byte*>(points.data()), points.size()};
+  std::vector<std::byte> bytes, ros1;
+  write_cdr(cloud, bytes);
+  write_ros1(cloud, ros1);
+  const auto text = [](const std::vector<std::byte>& from) {
+    return std::string(reinterpret_cast<const char*>(from.data()), from.size());
+  };
+  write(folder / "cloud" / "cdr", text(bytes));
+  write(folder / "cloud" / "ros1", text(ros1));
+  for (const Compression compression : {Compression::none, Compression::lz4, Compression::zstd}) {
+    McapWriter writer(folder / "mcap" / std::to_string(static_cast<int>(compression)), {compression, 200});
+    writer.add_topic({"/points", msg::PointCloud2::ros_type, "uint8 x\n", {}});
+    for (int i = 0; i < 3; ++i)
+      writer.write(0, 10 * i, 10 * i, bytes.data(), bytes.size());
+    writer.attach("a", "text/plain", "b", 5);
+    writer.close();
+  }
+  const auto field = [](const std::string& name, const std::string& value) {
+    const std::string all = name + '=' + value;
+    return std::string(1, static_cast<char>(all.size())) + std::string(3, '\0') + all;
+  };
+  const auto number = [](std::size_t value, std::size_t size) {
+    std::string all;
+    for (std::size_t i = 0; i < size; ++i)
+      all += static_cast<char>(value >> (8 * i));
+    return all;
+  };
+  const auto record = [&](const std::string& header, const std::string& data) {
+    return number(header.size(), 4) + header + number(data.size(), 4) + data;
+  };
+  const std::string inside =
+      record(field("op", "\x07") + field("conn", number(0, 4)) + field("topic", "/p"), field("type", "a/B")) +
+      record(field("op", "\x02") + field("conn", number(0, 4)) + field("time", number(7, 8)), "data");
+  write(
+      folder / "bag" / "none",
+      "#ROSBAG V2.0\n" +
+          record(field("op", "\x03") + field("index_pos", number(0, 8)) + field("chunk_count", number(1, 4)),
+                 "") +
+          record(field("op", "\x05") + field("compression", "none") + field("size", number(inside.size(), 4)),
+                 inside));
+  write(folder / "packets" / "vlp16", pcap({packet(9000, 40, 0x37, 0x22)}));
+  write(folder / "packets" / "hdl32", pcap({packet(35'900, 40, 0x39, 0x21, 3)}, 113, true));
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text"})
+  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "cloud"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
   write_plys(folder);
   write_claims(folder);
+  write_recordings(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));
   write(folder / "number" / "some", "-12.3456789e-01");
   write(folder / "text" / "rows",

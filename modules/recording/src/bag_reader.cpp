@@ -95,7 +95,9 @@ BagRecord take_bag_record(BagBytes& bytes) {
 }
 
 void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, std::vector<std::byte>& to) {
-  if (expected / 100'000 > size) throw IoError("bz2: too few bytes");  // its best is 1 : 50 000
+  // Its best is 1 : 20 000, but of more than 8 MiB nobody has so much of the same.
+  if (expected > std::max<std::size_t>(8U << 20U, 1000 * size))
+    throw IoError("bz2: " + std::to_string(size) + " bytes for " + std::to_string(expected));
   to.resize(expected);
   auto made = static_cast<unsigned>(expected);
   const int status = BZ2_bzBuffToBuffDecompress(reinterpret_cast<char*>(to.data()), &made,

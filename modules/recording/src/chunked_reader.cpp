@@ -3,6 +3,8 @@
 
 #include "chunked_reader.h"
 
+#include "formats.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -103,6 +105,14 @@ std::size_t add_topic(std::vector<RecordedTopic>& topics, const RecordedTopic& t
   }
   found->messages += topic.messages;
   return static_cast<std::size_t>(found - topics.begin());
+}
+
+std::string ros2_type(std::string_view type) {
+  std::string name(type);
+  const std::size_t slash = name.find('/');
+  if (slash != std::string::npos && name.find('/', slash + 1) == std::string::npos)
+    name.insert(slash, "/msg");
+  return name;
 }
 
 }  // namespace pcl_bv

@@ -19,15 +19,14 @@ namespace {
 
 // The fastest: recording must not hold up a stream.
 constexpr int kZstdLevel = 1;
-constexpr std::size_t kLargeAnyway = 256U << 20U;
-
 [[noreturn]] void refuse(const char* library, const std::string& what) {
   throw IoError(std::string(library) + ": " + what);
 }
 
-void check_expected(std::size_t size, std::size_t expected) {
-  if (expected > kLargeAnyway && expected / 1000 > size)
-    throw IoError(std::to_string(size) + " bytes do not stand for " + std::to_string(expected));
+// A byte of lz4 stands for at most 255.
+void check_lz4(std::size_t size, std::size_t expected) {
+  if (expected / 256 > size)
+    refuse("lz4", std::to_string(size) + " bytes do not stand for " + std::to_string(expected));
 }
 
 void unpack_lz4(LZ4F_dctx* context, const std::byte* data, std::size_t size, std::vector<std::byte>& to) {
@@ -97,15 +96,24 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
     to.assign(data, data + size);
     return;
   }
-  check_expected(size, expected);
+  if (compression == Compression::lz4) {
+    check_lz4(size, expected);
+    to.resize(expected);
+    return unpack_lz4(contexts_->lz4, data, size, to);
+  }
+  if (expected / 64 > size) {  // more than what is usual: as much memory as comes out
+    decompress_zstd(data, size, to, expected);
+    if (to.size() != expected) refuse("zstd", "not " + std::to_string(expected) + " bytes");
+    return;
+  }
   to.resize(expected);
-  if (compression == Compression::lz4) return unpack_lz4(contexts_->lz4, data, size, to);
   const std::size_t made = ZSTD_decompressDCtx(contexts_->zstd.get(), to.data(), expected, data, size);
   if (ZSTD_isError(made) != 0) refuse("zstd", ZSTD_getErrorName(made));
   if (made != expected) refuse("zstd", std::to_string(made) + " bytes, not " + std::to_string(expected));
 }
 
-void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to) {
+void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
+                                   std::size_t most) {
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
   ZSTD_inBuffer in{data, size, 0};
   std::size_t made = 0, rest = 1;
@@ -117,6 +125,7 @@ void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std:
     if (ZSTD_isError(rest) != 0) refuse("zstd", ZSTD_getErrorName(rest));
     if (in.pos == before && out.pos == made) refuse("zstd", "the frame is cut");
     made = out.pos;
+    if (made > most) refuse("zstd", "more than " + std::to_string(most) + " bytes");
   }
   to.resize(made);
 }

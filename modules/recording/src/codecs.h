@@ -31,7 +31,7 @@ class Compressor {
 };
 
 /// Makes `to` the `expected` bytes that `data` stands for. Throws IoError, in words, if it does not stand for
-/// just as many, or if they are more than 256 MiB and a thousand times the data.
+/// just as many; what is announced takes no more memory than comes of it.
 class Decompressor {
  public:
   Decompressor();
@@ -39,8 +39,9 @@ class Decompressor {
   void decompress(Compression compression, const std::byte* data, std::size_t size, std::size_t expected,
                   std::vector<std::byte>& to);
 
-  /// Frames of zstd whose length nobody said. Throws IoError if they are damaged or cut.
-  void decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to);
+  /// Frames of zstd whose length nobody said. Throws IoError if they are damaged, cut, or more than `most`.
+  void decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
+                       std::size_t most = SIZE_MAX);
 
  private:
   struct Contexts;

@@ -24,12 +24,4 @@ const std::vector<RecordingFormat>& recording_formats() {
   return formats;
 }
 
-std::string ros2_type(std::string_view type) {
-  std::string name(type);
-  const std::size_t slash = name.find('/');
-  if (slash != std::string::npos && name.find('/', slash + 1) == std::string::npos)
-    name.insert(slash, "/msg");
-  return name;
-}
-
 }  // namespace pcl_bv

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cmath>
+#include <cstdlib>
+
+#include "memory_file.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/recording/velodyne.h"
+
+// Any bytes as a capture: every point is finite and within 262 m.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static pcl_bv::MemoryFile file;
+  file.assign({reinterpret_cast<const char*>(data), size});
+  try {
+    pcl_bv::VelodyneReader reader(file.path());
+    for (pcl_bv::VelodyneSweep sweep; reader.next(sweep);) {
+      for (const pcl_bv::VelodynePoint& p : sweep.points) {
+        if (!(std::hypot(p.x, p.y, p.z) < 263)) std::abort();
+      }
+    }
+  } catch (const pcl_bv::IoError& error) {
+    if (*error.what() == 0) std::abort();
+  }
+  return 0;
+}
