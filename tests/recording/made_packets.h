@@ -14,7 +14,7 @@ inline std::string bytes_of(std::uint64_t value, std::size_t size, bool big = fa
   std::string text;
   for (std::size_t i = 0; i < size; ++i) {
     const std::size_t byte = big ? size - 1 - i : i;
-    text += static_cast<char>(value >> (8 * byte) & 0xFFU);
+    text += static_cast<char>(byte < 8 ? value >> (8 * byte) & 0xFFU : 0);
   }
   return text;
 }
