@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <random>
+#include <thread>
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/recording/mcap_writer.h"
+#include "pcl_bv/recording/rosbag2_writer.h"
 #include "recording_files.h"
 
 namespace pcl_bv {
@@ -139,6 +142,54 @@ TEST_F(Rosbag2, AFolderOfMcapFilesIsOneRecording) {
   const auto reader = open_recording(at("bag"));
   EXPECT_EQ(all_of(*reader), (std::vector<Sent>{{"/points", 'a', 0, ""}, {"/points", 'b', 0, ""}}));
   EXPECT_EQ(reader->topics()[0].messages, 2U);
+}
+
+TEST_F(Rosbag2, WhatIsWrittenIsReadBackByOursAndBySqlite) {
+  std::vector<Sent> sent;
+  {
+    Rosbag2Writer writer(at("out"));
+    const std::size_t points = writer.add_topic(
+        {"/points", "sensor_msgs/msg/PointCloud2", "", {{"offered_qos_profiles", "- depth: 10"}}});
+    const std::size_t other = writer.add_topic({"/it's", "std_msgs/msg/String", "", {}});
+    for (int i = 0; i < 50; ++i) {
+      const std::string data(static_cast<std::size_t>(i), '\0');
+      const std::int64_t time = 1000 + 10 * i - (i % 3) * 15;
+      writer.write(i % 2 == 0 ? points : other, time, time, reinterpret_cast<const std::byte*>(data.data()),
+                   data.size());
+      sent.push_back({i % 2 == 0 ? "/points" : "/it's", time, time, data});
+    }
+    writer.attach("config.yaml", "application/yaml", "threads: 1\n", 5);
+    EXPECT_THROW(writer.write(2, 0, 0, nullptr, 0), std::out_of_range);
+    writer.close();
+  }
+  std::stable_sort(sent.begin(), sent.end(),
+                   [](const Sent& a, const Sent& b) { return a.log_time < b.log_time; });
+  const auto reader = open_recording(at("out"));
+  EXPECT_EQ(all_of(*reader), sent);
+  EXPECT_EQ(bytes_of("out/config.yaml"), "threads: 1\n");
+  EXPECT_FALSE(std::filesystem::exists(at("out/out_0.db3-wal")));
+  shell(
+      "sqlite3 out/out_0.db3 \"PRAGMA integrity_check; SELECT count(*), sum(length(data)) FROM messages; "
+      "SELECT schema_version, ros_distro FROM schema; SELECT offered_qos_profiles FROM topics WHERE id = 1\" "
+      "> said");
+  EXPECT_EQ(bytes_of("said"), "ok\n50|1225\n3|humble\n- depth: 10\n");
+  const std::string metadata = bytes_of("out/metadata.yaml");
+  for (const char* part : {"version: 5", "storage_identifier: sqlite3", "message_count: 50",
+                           "nanoseconds_since_epoch: 990", "nanoseconds: 490", "- out_0.db3"})
+    EXPECT_THAT(metadata, testing::HasSubstr(part));
+  EXPECT_THROW(Rosbag2Writer("/proc/none"), IoError);
+}
+
+TEST_F(Rosbag2, OfARecorderThatWasKilledIsReadUpToItsLastTransaction) {
+  const std::string copy = at("copy").string();
+  Rosbag2Writer writer(at("out"));
+  writer.add_topic({"/points", "sensor_msgs/msg/PointCloud2", "", {}});
+  writer.write(0, 1, 1, nullptr, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  writer.write(0, 2, 2, nullptr, 0);  // ends a transaction
+  writer.write(0, 3, 3, nullptr, 0);
+  shell("cp -r out copy");  // what is there if it ends now
+  EXPECT_EQ(all_of(*open_recording(at("copy"))).size(), 2U);
 }
 
 TEST_F(Rosbag2, SaysWhatIsWrongWithAFolder) {

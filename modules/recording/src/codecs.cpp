@@ -115,6 +115,8 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
 void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
                                    std::size_t most) {
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
+  // A few bytes may ask for a window of 128 MiB; level 19 asks for 8.
+  ZSTD_DCtx_setParameter(contexts_->zstd.get(), ZSTD_d_windowLogMax, size < (1U << 20U) ? 23 : 27);
   ZSTD_inBuffer in{data, size, 0};
   std::size_t made = 0, rest = 1;
   while (in.pos < in.size || rest != 0) {

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "codecs.h"
 #include "mcap_records.h"
@@ -50,7 +51,7 @@ class McapWriter::State {
     append(start);
   }
 
-  std::size_t add_topic(const McapTopic& topic) {
+  std::size_t add_topic(const WrittenTopic& topic) {
     if (channels_.size() == std::numeric_limits<std::uint16_t>::max())
       throw std::length_error("a recording of more than 65535 topics");
     const auto id = static_cast<std::uint16_t>(channels_.size());
@@ -249,7 +250,7 @@ McapWriter::~McapWriter() {
   }
 }
 
-std::size_t McapWriter::add_topic(const McapTopic& topic) {
+std::size_t McapWriter::add_topic(const WrittenTopic& topic) {
   return state_->add_topic(topic);
 }
 

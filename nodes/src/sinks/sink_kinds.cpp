@@ -30,6 +30,7 @@ const std::vector<SinkKind>& sink_kinds() {
   static const std::vector<SinkKind> kinds{{"jsonl", "FILE", "", open_jsonl},
                                            {"csv", "FILE", "", open_csv},
                                            {"mcap", "FILE[,points]", "", open_mcap_sink},
+                                           {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink},
                                            {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
                                            {"image", "FOLDER", ".png", open_image},
                                            {"labels", "FOLDER", ".pcd", open_labels}};

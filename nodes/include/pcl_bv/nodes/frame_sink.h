@@ -52,7 +52,7 @@ struct SinkKind {
   std::unique_ptr<FrameSink> (*open)(const SinkDescription&);
 };
 
-/// jsonl, csv, mcap, vtp, image, labels.
+/// jsonl, csv, mcap, rosbag2, vtp, image, labels.
 const std::vector<SinkKind>& sink_kinds();
 
 /// "jsonl:FILE, csv:FILE, ...": all of them, for help and errors.

@@ -7,6 +7,7 @@
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/recording/mcap_writer.h"
+#include "pcl_bv/recording/rosbag2_writer.h"
 #include "sinks.h"
 #include "topics/scene.h"
 
@@ -23,10 +24,10 @@ constexpr const char* kQos =
     "liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n  "
     "avoid_ros_namespace_conventions: false";
 
-class McapSink final : public FrameSink {
+class RecordingSink final : public FrameSink {
  public:
-  explicit McapSink(const SinkDescription& description)
-      : writer_(description.place), points_(description.points) {
+  RecordingSink(std::unique_ptr<RecordingWriter> writer, bool points)
+      : writer_(std::move(writer)), points_(points) {
     objects_topic_ = add("/bv/objects", msg::Detection3DArray::ros_type);
     markers_topic_ = add("/bv/markers", msg::MarkerArray::ros_type);
     scene_topic_ = add("/bv/scene", msg::SceneUpdate::ros_type);
@@ -54,18 +55,18 @@ class McapSink final : public FrameSink {
   }
 
   void write_lost(const Frame&, const std::string&) override { ++lost_; }
-  void close() override { writer_.close(); }
+  void close() override { writer_->close(); }
 
  private:
   std::size_t add(const char* name, const char* type) {
-    return writer_.add_topic({name, type, schema_of(type), {{"offered_qos_profiles", kQos}}});
+    return writer_->add_topic({name, type, schema_of(type), {{"offered_qos_profiles", kQos}}});
   }
 
   template <class Message>
   void send(std::size_t topic, const Frame& frame, const Message& message) {
     bytes_.clear();
     write_cdr(message, bytes_);
-    writer_.write(topic, frame.header.stamp_ns, frame.header.stamp_ns, bytes_.data(), bytes_.size());
+    writer_->write(topic, frame.header.stamp_ns, frame.header.stamp_ns, bytes_.data(), bytes_.size());
   }
 
   // As they are for the first frame, and again when they change.
@@ -74,7 +75,7 @@ class McapSink final : public FrameSink {
     noted_ = result.config;
     StreamConfig config;
     config.pipeline = *result.config;
-    writer_.attach("config.yaml", "application/yaml", to_yaml(config), stamp_ns);
+    writer_->attach("config.yaml", "application/yaml", to_yaml(config), stamp_ns);
   }
 
   // Three periods: who misses a frame still sees its objects.
@@ -117,7 +118,7 @@ class McapSink final : public FrameSink {
     slowest_ms_ = 0;
   }
 
-  McapWriter writer_;
+  std::unique_ptr<RecordingWriter> writer_;
   bool points_;
   std::size_t objects_topic_ = 0, markers_topic_ = 0, scene_topic_ = 0, diagnostics_topic_ = 0,
               points_topic_ = 0;
@@ -137,7 +138,12 @@ class McapSink final : public FrameSink {
 }  // namespace
 
 std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description) {
-  return std::make_unique<McapSink>(description);
+  return std::make_unique<RecordingSink>(std::make_unique<McapWriter>(description.place), description.points);
+}
+
+std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkDescription& description) {
+  return std::make_unique<RecordingSink>(std::make_unique<Rosbag2Writer>(description.place),
+                                         description.points);
 }
 
 }  // namespace pcl_bv
