@@ -66,7 +66,7 @@ TEST(Topics, HaveAMarkerForEachVolumeAndDeleteWhatEnds) {
   std::set<std::pair<std::string, std::int32_t>> alive;
   for (std::size_t number = 0; number < 4; ++number) {
     street.process(number);
-    fill_markers(street.frame, street.result, 300'000'000, shown, array);
+    fill_markers(street.frame, street.result, drawn(street.result), 300'000'000, shown, array);
     std::size_t added = 0;
     for (const msg::Marker& marker : array.markers) {
       const std::pair key(marker.ns, marker.id);
@@ -92,7 +92,7 @@ TEST(Topics, HaveAnEntityForEachObjectAndDeleteWhatEnds) {
   std::set<std::string> alive;
   for (std::size_t number = 0; number < 4; ++number) {
     street.process(number);
-    fill_scene(street.frame, street.result, 300'000'000, shown, scene);
+    fill_scene(street.frame, street.result, drawn(street.result), 300'000'000, shown, scene);
     for (const msg::SceneEntityDeletion& deletion : scene.deletions)
       EXPECT_EQ(alive.erase(deletion.id), 1U);
     for (const msg::SceneEntity& entity : scene.entities) {
@@ -163,7 +163,7 @@ TEST(Topics, FillTypesWithRos1Times) {
   street.process(3);
   ShownObjects shown;
   RosMarkerArray array;
-  fill_markers(street.frame, street.result, 1'500'000'000, shown, array);
+  fill_markers(street.frame, street.result, drawn(street.result), 1'500'000'000, shown, array);
   ASSERT_FALSE(array.markers.empty());
   EXPECT_EQ(array.markers[0].header.stamp.nsec, 300'000'000U);
   EXPECT_EQ(array.markers[0].lifetime.sec, 1U);

@@ -46,9 +46,10 @@ class RecordingSink final : public FrameSink {
     const std::int64_t lifetime = lifetime_of(frame.header.stamp_ns);
     fill_detections(frame, result, objects_);
     send(objects_topic_, frame, objects_);
-    fill_markers(frame, result, lifetime, shown_markers_, markers_);
+    const std::vector<DrawnVolume> volumes = drawn(result);
+    fill_markers(frame, result, volumes, lifetime, shown_markers_, markers_);
     send(markers_topic_, frame, markers_);
-    fill_scene(frame, result, lifetime, shown_entities_, scene_);
+    fill_scene(frame, result, volumes, lifetime, shown_entities_, scene_);
     send(scene_topic_, frame, scene_);
     if (frame.pose) send_pose(frame);
     diagnose(frame, result);

@@ -78,6 +78,16 @@ DrawnVolume drawn(const AnyVolume& volume) {
   return empty(volume) ? DrawnVolume() : std::visit(Draw{}, volume);
 }
 
+std::vector<DrawnVolume> drawn(const FrameResult& result) {
+  std::vector<DrawnVolume> volumes;
+  volumes.reserve(result.volumes.size());
+  for (std::size_t i = 0; i < result.clusters.size(); ++i) {
+    for (std::size_t m = 0; m < result.methods.size(); ++m)
+      volumes.push_back(result.has(i, m) ? drawn(result.volume(i, m)) : DrawnVolume());
+  }
+  return volumes;
+}
+
 DrawnVolume box_of(const FrameResult& result, std::size_t cluster) {
   const AnyVolume* first = nullptr;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {

@@ -65,8 +65,8 @@ void add_facts(const FrameResult& result, std::size_t cluster, msg::SceneEntity&
 
 }  // namespace
 
-void fill_scene(const Frame& frame, const FrameResult& result, std::int64_t lifetime_ns, ShownObjects& shown,
-                msg::SceneUpdate& scene) {
+void fill_scene(const Frame& frame, const FrameResult& result, const std::vector<DrawnVolume>& volumes,
+                std::int64_t lifetime_ns, ShownObjects& shown, msg::SceneUpdate& scene) {
   scene.entities.clear();
   scene.deletions.clear();
   std::set<std::pair<std::string, std::int32_t>> now;
@@ -82,7 +82,7 @@ void fill_scene(const Frame& frame, const FrameResult& result, std::int64_t life
     const msg::SceneColor colour = scene_colour(result, i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
       if (result.has(i, m) && !empty(result.volume(i, m)))
-        add_volume(drawn(result.volume(i, m)), colour, entity);
+        add_volume(volumes[i * result.methods.size() + m], colour, entity);
     }
     add_facts(result, i, entity);
     msg::TextPrimitive& text = entity.texts.emplace_back();

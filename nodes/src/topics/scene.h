@@ -15,8 +15,8 @@ namespace pcl_bv {
 /// foxglove_msgs/SceneUpdate: an entity for each object, of all its volumes, with its number as a text and
 /// what is known of it as metadata. Each takes the place of the last of its id; those of `shown` that have
 /// ended are deleted.
-void fill_scene(const Frame& frame, const FrameResult& result, std::int64_t lifetime_ns, ShownObjects& shown,
-                msg::SceneUpdate& scene);
+void fill_scene(const Frame& frame, const FrameResult& result, const std::vector<DrawnVolume>& volumes,
+                std::int64_t lifetime_ns, ShownObjects& shown, msg::SceneUpdate& scene);
 
 /// sensor_msgs/PointCloud2: x, y, z as float32 and `label` as labels_of() has it, of all points; the
 /// message's data are `bytes`.

@@ -38,6 +38,10 @@ struct DrawnVolume {
 /// An empty volume has no edges.
 DrawnVolume drawn(const AnyVolume& volume);
 
+/// Those of a result, as FrameResult::volumes has them; of what is not there without edges. Once for all
+/// messages: the edges of a k-DOP cost as much as its fit.
+std::vector<DrawnVolume> drawn(const FrameResult& result);
+
 /// The box of a cluster: its first volume that is a box, else the box around its first volume.
 DrawnVolume box_of(const FrameResult& result, std::size_t cluster);
 
@@ -143,10 +147,11 @@ class ShownObjects {
 };
 
 /// visualization_msgs/MarkerArray: a namespace for each method, ids as object_id(); those of `shown` that
-/// have ended are deleted. Markers last `lifetime_ns`. Volumes that are empty have none.
+/// have ended are deleted. Markers last `lifetime_ns`. Volumes that are empty have none. `volumes`:
+/// drawn(result).
 template <class Array>
-void fill_markers(const Frame& frame, const FrameResult& result, std::int64_t lifetime_ns,
-                  ShownObjects& shown, Array& array) {
+void fill_markers(const Frame& frame, const FrameResult& result, const std::vector<DrawnVolume>& volumes,
+                  std::int64_t lifetime_ns, ShownObjects& shown, Array& array) {
   using Marker = typename std::decay<decltype(array.markers.front())>::type;
   array.markers.clear();
   std::set<std::pair<std::string, std::int32_t>> now;
@@ -166,7 +171,7 @@ void fill_markers(const Frame& frame, const FrameResult& result, std::int64_t li
         tracked ? static_cast<std::int32_t>(result.tracks[i]->id) : -1 - static_cast<std::int32_t>(i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
       if (!result.has(i, m) || empty(result.volume(i, m))) continue;
-      const DrawnVolume volume = drawn(result.volume(i, m));
+      const DrawnVolume& volume = volumes[i * result.methods.size() + m];
       Marker& marker = add(std::string(result.methods[m]->name), id);
       now.emplace(marker.ns, id);
       topics::set_pose(volume, marker.pose);
