@@ -103,7 +103,8 @@ class Rosbag2Writer::State {
     if (size > static_cast<std::size_t>(std::numeric_limits<int>::max()))
       throw IoError("a message of 2 GiB or more");
     begin();
-    sqlite3_bind_int64(message_, 1, static_cast<sqlite3_int64>(number + 1));
+    const std::size_t id = number + 1;
+    sqlite3_bind_int64(message_, 1, static_cast<sqlite3_int64>(id));
     sqlite3_bind_int64(message_, 2, time);
     sqlite3_bind_blob(message_, 3, size == 0 ? "" : static_cast<const void*>(data), static_cast<int>(size),
                       SQLITE_STATIC);

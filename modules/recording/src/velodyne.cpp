@@ -87,9 +87,11 @@ bool is_capture(const std::filesystem::path& file) {
 struct VelodyneReader::State {
   explicit State(const std::filesystem::path& path) : file(path) {
     packets.emplace(file);
-    for (Payload packet; model == nullptr && packets->next(packet);)
-      model = model_of(packet);
-    if (model == nullptr) throw IoError("no packet of a VLP-16, HDL-32E or VLP-32C");
+    const Model* found = nullptr;
+    for (Payload packet; found == nullptr && packets->next(packet);)
+      found = model_of(packet);
+    if (found == nullptr) throw IoError("no packet of a VLP-16, HDL-32E or VLP-32C");
+    model = found;
     std::array<double, kLasers> sorted = model->degrees;
     std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(model->beams));
     for (std::size_t i = 0; i < model->beams; ++i) {
@@ -116,6 +118,7 @@ struct VelodyneReader::State {
     const int first = azimuth(packet, 0), second = azimuth(packet, step);
     const double half = (second < first ? second + 36'000 - first : second - first) / 2.0;
     for (std::size_t block = 0; block < kBlocks; block += step) {
+      const std::size_t firing = block / step;
       for (std::size_t laser = 0; laser < kLasers; ++laser) {
         double at = azimuth(packet, block);
         if (laser >= model->beams) at += half;
@@ -124,7 +127,7 @@ struct VelodyneReader::State {
         last_azimuth = at;
         if (sweep.points.empty()) sweep.stamp_ns = packet.time_ns;
         const double time = static_cast<double>(packet.time_ns - sweep.stamp_ns) +
-                            static_cast<double>(block / step) * model->block_ns +
+                            static_cast<double>(firing) * model->block_ns +
                             static_cast<double>(laser) * model->laser_ns;
         const std::byte* const one = returned(packet, block, laser);
         add_point(one, laser, at, time);
@@ -160,7 +163,7 @@ struct VelodyneReader::State {
 
   std::filesystem::path file;
   std::optional<PacketFile> packets;
-  const Model* model = nullptr;
+  const Model* model = kModels;
   std::array<std::uint32_t, kLasers> ring{};
   std::array<double, kLasers> sine{}, cosine{};
   VelodyneSweep sweep;
@@ -182,7 +185,8 @@ void VelodyneReader::rewind() {
 bool VelodyneReader::next(VelodyneSweep& sweep) {
   State& state = *state_;
   for (Payload packet; state.whole.empty() && state.packets->next(packet);) {
-    if (model_of(packet) == state.model) state.add(packet);
+    const Model* const model = model_of(packet);
+    if (model != nullptr && model == state.model) state.add(packet);
   }
   if (state.whole.empty()) state.end_sweep();
   if (state.whole.empty()) return false;

@@ -34,12 +34,13 @@ std::vector<Job> expand_recording(const std::string& argument, const std::string
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < count; ++i) {
     Job& job = jobs.emplace_back();
-    job.input = argument + '#' + std::to_string(i);
+    job.input = argument;
+    job.input.append("#").append(std::to_string(i));
     job.recording = clouds;
     job.number = i;
   }
   for (const std::string& remark : clouds->remarks())
-    complain(argument + ": " + remark);
+    complain(std::string(argument).append(": ").append(remark));
   if (jobs.empty()) return {{argument, "no cloud in this recording"}};
   return jobs;
 }
