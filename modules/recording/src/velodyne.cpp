@@ -60,6 +60,24 @@ constexpr Model kModels[] = {
      {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
       1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
 
+// Azimuths are hundredths of a degree.
+constexpr std::size_t kTurn = 36'000;
+struct Turn {
+  double sine, cosine;
+};
+
+const std::vector<Turn>& turns() {
+  static const auto all = [] {
+    std::vector<Turn> made(kTurn);
+    for (std::size_t i = 0; i < kTurn; ++i) {
+      const double angle = static_cast<double>(i) / 100 * kDegree;
+      made[i] = {std::sin(angle), std::cos(angle)};
+    }
+    return made;
+  }();
+  return all;
+}
+
 std::uint16_t word(const std::byte* at) {
   std::uint16_t value;
   std::memcpy(&value, at, 2);
@@ -99,6 +117,7 @@ struct VelodyneReader::State {
                                            sorted.begin());
       sine[i] = std::sin(model->degrees[i] * kDegree);
       cosine[i] = std::cos(model->degrees[i] * kDegree);
+      aside[i] = static_cast<std::size_t>(std::lround(100 * model->aside[i]) + static_cast<long>(kTurn));
     }
     rewind();
   }
@@ -153,12 +172,12 @@ struct VelodyneReader::State {
     const double distance = word(at) * model->metres;
     if (distance == 0) return;  // no return
     const std::size_t beam = laser % model->beams;
-    const double angle = (std::floor(hundredths) / 100 + model->aside[beam]) * kDegree;
+    const Turn& turn = turns()[(static_cast<std::size_t>(hundredths) + aside[beam]) % kTurn];
     const double level = distance * cosine[beam];
-    sweep.points.push_back(
-        {static_cast<float>(level * std::sin(angle)), static_cast<float>(level * std::cos(angle)),
-         static_cast<float>(distance * sine[beam]), static_cast<float>(std::to_integer<int>(at[2])),
-         ring[beam], static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9))});
+    sweep.points.push_back({static_cast<float>(level * turn.sine), static_cast<float>(level * turn.cosine),
+                            static_cast<float>(distance * sine[beam]),
+                            static_cast<float>(std::to_integer<int>(at[2])), ring[beam],
+                            static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9))});
   }
 
   std::filesystem::path file;
@@ -166,6 +185,7 @@ struct VelodyneReader::State {
   const Model* model = kModels;
   std::array<std::uint32_t, kLasers> ring{};
   std::array<double, kLasers> sine{}, cosine{};
+  std::array<std::size_t, kLasers> aside{};  // hundredths of a degree, a turn more
   VelodyneSweep sweep;
   std::vector<VelodyneSweep> whole;
   double last_azimuth = 0;
