@@ -6,21 +6,13 @@
 #include <cmath>
 
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/io/raw_cloud_edit.h"
-#include "pcl_bv/messages/cloud.h"
-#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/nodes/cloud_message.h"
 #include "pcl_bv/nodes/recorded_clouds.h"
 #include "pcl_bv/recording/recording.h"
 #include "sources.h"
 
 namespace pcl_bv {
 namespace {
-
-// What a frame's points look at.
-struct Held {
-  std::vector<std::byte> bytes;
-  RawCloud copy;
-};
 
 class Recorded final : public FrameSource {
  public:
@@ -76,31 +68,12 @@ class Recorded final : public FrameSource {
   }
 
   void read(const RecordedMessage& message, Frame& frame) {
-    const auto held = std::make_shared<Held>();
-    held->bytes.assign(message.data, message.data + message.size);
-    msg::PointCloud2 cloud;
-    if (reader_->topics()[topic_].encoding == "cdr") {
-      read_cdr(held->bytes.data(), held->bytes.size(), cloud);
-    } else {
-      read_ros1(held->bytes.data(), held->bytes.size(), cloud);
-    }
-    set_header(cloud.header, frame);
-    const std::optional<PointView> in_place = points_in_place(cloud);
-    if (!in_place || !options_.class_field.empty()) held->copy = raw_cloud_of(cloud);
-    frame.points = in_place ? *in_place : held->copy.xyz();
-    if (!options_.class_field.empty())
-      frame.classes =
-          std::make_shared<std::vector<std::int64_t>>(integers_of(held->copy, options_.class_field));
-    frame.owner = held;
-  }
-
-  // Without a stamp of the sensor: when it was recorded.
-  void set_header(const msg::Header& header, Frame& frame) const {
-    const std::int64_t stamp = msg::nanoseconds_of(header.stamp);
-    if (stamp != 0) frame.header.stamp_ns = stamp;
+    const auto bytes = std::make_shared<std::vector<std::byte>>(message.data, message.data + message.size);
+    const bool ros1 = reader_->topics()[topic_].encoding != "cdr";
+    read_cloud_message({bytes->data(), bytes->size(), bytes, ros1}, options_.class_field, frame);
     if (!options_.from_name)
       frame.header.stamp_ns = std::llround(1e9 * static_cast<double>(frame.header.seq) / options_.rate_hz);
-    frame.header.frame_id = options_.frame_id.empty() ? header.frame_id : options_.frame_id;
+    if (!options_.frame_id.empty()) frame.header.frame_id = options_.frame_id;
   }
 
   std::string name_;

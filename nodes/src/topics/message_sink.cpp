@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/message_sink.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/nodes/settings.h"
+#include "topics/scene.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+class MessageSink final : public FrameSink {
+ public:
+  MessageSink(std::unique_ptr<MessageCarrier> carrier, const MessageTopics& topics)
+      : carrier_(std::move(carrier)), sends_poses_(topics.poses) {
+    objects_topic_ = carrier_->add_topic(topics.prefix + "/objects", msg::Detection3DArray::ros_type);
+    markers_topic_ = carrier_->add_topic(topics.prefix + "/markers", msg::MarkerArray::ros_type);
+    if (topics.scene) scene_topic_ = carrier_->add_topic(topics.prefix + "/scene", msg::SceneUpdate::ros_type);
+    diagnostics_topic_ = carrier_->add_topic("/diagnostics", msg::DiagnosticArray::ros_type);
+    if (topics.points) points_topic_ = carrier_->add_topic(topics.prefix + "/points", msg::PointCloud2::ros_type);
+  }
+
+  void write(const Frame& original, const FrameResult& result) override {
+    Frame frame = original;
+    if (frame.header.frame_id.empty()) frame.header.frame_id = "lidar";
+    note_settings(result, frame.header.stamp_ns);
+    if (wanted(points_topic_)) {
+      fill_points(frame, result, cloud_bytes_, cloud_);
+      send(*points_topic_, frame, cloud_);
+    }
+    const std::int64_t lifetime = lifetime_of(frame.header.stamp_ns);
+    if (wanted(objects_topic_)) {
+      fill_detections(frame, result, objects_);
+      send(*objects_topic_, frame, objects_);
+    }
+    draw(frame, result, lifetime);
+    if (frame.pose && sends_poses_) send_pose(frame);
+    diagnose(frame, result);
+  }
+
+  void write_lost(const Frame&, const std::string&) override { ++lost_; }
+  void close() override { carrier_->close(); }
+
+ private:
+  using Topic = std::optional<std::size_t>;
+
+  bool wanted(Topic topic) const { return topic && carrier_->wanted(*topic); }
+
+  template <class Message>
+  void send(std::size_t topic, const Frame& frame, const Message& message) {
+    bytes_.clear();
+    write_cdr(message, bytes_);
+    carrier_->send(topic, frame.header.stamp_ns, bytes_);
+  }
+
+  void draw(const Frame& frame, const FrameResult& result, std::int64_t lifetime) {
+    const bool markers = wanted(markers_topic_), scene = wanted(scene_topic_);
+    if (!markers && !scene) return;
+    const std::vector<DrawnVolume> volumes = drawn(result);
+    if (markers) {
+      fill_markers(frame, result, volumes, lifetime, shown_markers_, markers_);
+      send(*markers_topic_, frame, markers_);
+    }
+    if (scene) {
+      fill_scene(frame, result, volumes, lifetime, shown_entities_, scene_);
+      send(*scene_topic_, frame, scene_);
+    }
+  }
+
+  // As they are for the first frame, and again when they change.
+  void note_settings(const FrameResult& result, std::int64_t stamp_ns) {
+    if (noted_ == result.config) return;
+    noted_ = result.config;
+    StreamConfig config;
+    config.pipeline = *result.config;
+    carrier_->settings(to_yaml(config), stamp_ns);
+  }
+
+  // Three periods: who misses a frame still sees its objects.
+  std::int64_t lifetime_of(std::int64_t stamp_ns) {
+    const std::int64_t step = stamp_ns - std::exchange(last_stamp_ns_, stamp_ns);
+    if (frames_++ > 0 && step > 0) period_ns_ = std::min(step, 2 * kSecond);
+    return 3 * period_ns_;
+  }
+
+  void send_pose(const Frame& frame) {
+    if (!pose_topic_) pose_topic_ = carrier_->add_topic("/tf", msg::TFMessage::ros_type);
+    const Eigen::Quaterniond turn(frame.pose->linear());
+    const Eigen::Vector3d at = frame.pose->translation();
+    msg::TransformStamped transform;
+    topics::set_time(frame.header.stamp_ns, transform.header.stamp);
+    transform.header.frame_id = "map";
+    transform.child_frame_id = frame.header.frame_id;
+    transform.transform = {{at.x(), at.y(), at.z()}, {turn.x(), turn.y(), turn.z(), turn.w()}};
+    send(*pose_topic_, frame, msg::TFMessage{{transform}});
+  }
+
+  // Once a second of the stream's time.
+  void diagnose(const Frame& frame, const FrameResult& result) {
+    slowest_ms_ = std::max(slowest_ms_, result.ms.total);
+    const std::int64_t since = frame.header.stamp_ns - diagnosed_ns_;
+    if (frames_ > 1 && since >= 0 && since < kSecond) return;
+    diagnosed_ns_ = frame.header.stamp_ns;
+    msg::DiagnosticArray array;
+    topics::set_header(frame, array.header);
+    msg::DiagnosticStatus status;
+    status.level = lost_ > 0 ? msg::DiagnosticStatus::WARN : msg::DiagnosticStatus::OK;
+    status.name = "pcl_bv";
+    status.message = lost_ > 0 ? "frames were lost" : "running";
+    status.values = {{"frames", std::to_string(frames_)},
+                     {"lost", std::to_string(lost_)},
+                     {"objects", std::to_string(result.clusters.size())},
+                     {"slowest_ms", to_text(slowest_ms_)}};
+    array.status = {status};
+    send(*diagnostics_topic_, frame, array);
+    slowest_ms_ = 0;
+  }
+
+  std::unique_ptr<MessageCarrier> carrier_;
+  bool sends_poses_;
+  Topic objects_topic_, markers_topic_, scene_topic_, diagnostics_topic_, points_topic_, pose_topic_;
+  std::shared_ptr<const PipelineConfig> noted_;
+  msg::Detection3DArray objects_;
+  msg::MarkerArray markers_;
+  msg::SceneUpdate scene_;
+  msg::PointCloud2 cloud_;
+  std::vector<std::byte> cloud_bytes_, bytes_;
+  ShownObjects shown_markers_, shown_entities_;
+  std::uint64_t frames_ = 0, lost_ = 0;
+  std::int64_t last_stamp_ns_ = 0, period_ns_ = kSecond / 10, diagnosed_ns_ = 0;
+  double slowest_ms_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageCarrier> carrier, const MessageTopics& topics) {
+  if (carrier == nullptr) throw std::invalid_argument("make_message_sink: no carrier");
+  return std::make_unique<MessageSink>(std::move(carrier), topics);
+}
+
+}  // namespace pcl_bv
