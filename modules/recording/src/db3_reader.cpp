@@ -7,8 +7,8 @@
 
 #include <cstring>
 #include <map>
+#include <memory>
 #include <stdexcept>
-#include <utility>
 
 #include "chunked_reader.h"
 #include "formats.h"
@@ -23,17 +23,17 @@ class Database {
   // disc that is read-only, the file alone.
   explicit Database(const std::filesystem::path& file) {
     if (open(file, "mode=ro") && works()) return;
-    close();
     if (!open(file, "mode=ro&immutable=1") || !works()) fail();
   }
-  ~Database() { close(); }
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
 
-  [[noreturn]] void fail() const { throw IoError(std::string("SQLite: ") + sqlite3_errmsg(database_)); }
-  sqlite3* get() const { return database_; }
+  [[noreturn]] void fail() const { throw IoError(std::string("SQLite: ") + sqlite3_errmsg(get())); }
+  sqlite3* get() const { return database_.get(); }
 
  private:
+  struct Close {
+    void operator()(sqlite3* database) const { sqlite3_close(database); }
+  };
+
   bool open(const std::filesystem::path& file, const char* options) {
     std::string uri = "file:";
     for (const char c : file.string()) {
@@ -42,15 +42,17 @@ class Database {
         std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned>(c));
       uri += code;
     }
-    return sqlite3_open_v2((uri + '?' + options).c_str(), &database_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI,
-                           nullptr) == SQLITE_OK;
+    sqlite3* database = nullptr;  // given even where opening fails, for the reason
+    const int status = sqlite3_open_v2((uri + '?' + options).c_str(), &database,
+                                       SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    database_.reset(database);
+    return status == SQLITE_OK;
   }
   bool works() const {
-    return sqlite3_exec(database_, "SELECT count(*) FROM topics", nullptr, nullptr, nullptr) == SQLITE_OK;
+    return sqlite3_exec(get(), "SELECT count(*) FROM topics", nullptr, nullptr, nullptr) == SQLITE_OK;
   }
-  void close() { sqlite3_close(std::exchange(database_, nullptr)); }
 
-  sqlite3* database_ = nullptr;
+  std::unique_ptr<sqlite3, Close> database_;
 };
 
 // Rows of a query. Throws IoError where the file is damaged.
