@@ -133,4 +133,4 @@ PipelineConfig whole_cloud_config();
 /// them, in its optical frame: z forward, y down). Throws std::invalid_argument for another name.
 void apply_preset(std::string_view name, PipelineConfig& config);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv
