@@ -110,9 +110,11 @@ TEST(Topics, HaveAnEntityForEachObjectAndDeleteWhatEnds) {
 TEST(Topics, HoldThePointsWithTheirLabels) {
   Street street;
   street.process(0);
-  std::vector<std::byte> bytes;
-  msg::PointCloud2 cloud;
-  fill_points(street.frame, street.result, bytes, cloud);
+  struct : msg::PointCloud2 {
+    std::vector<std::uint8_t> data;  // its own, as ROS has it
+  } cloud;
+  fill_points(street.frame, street.result, cloud);
+  const std::vector<std::uint8_t>& bytes = cloud.data;
   const std::vector<std::uint32_t> labels = labels_of(street.frame, street.result);
   ASSERT_EQ(cloud.width, street.frame.points.count);
   ASSERT_EQ(bytes.size(), std::size_t{16} * cloud.width);

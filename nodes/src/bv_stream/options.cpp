@@ -50,7 +50,7 @@ void declare_frames(CommandLine& line, Texts& t) {
 
 void declare_results(CommandLine& line, Texts& t) {
   std::string sinks = sink_syntax();
-  sinks.replace(sinks.find(" vtp:"), 1, "\n");
+  sinks.replace(sinks.find(" dds:"), 1, "\n");
   line.option("--sink", t.sinks, "SINK", sinks + ";\nrepeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
   line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
@@ -82,6 +82,7 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
     throw IoError(options.source + ": " + error.what());
   }
   for (const SinkDescription& sink : options.sinks) {
+    if (sink.kind->live) continue;
     const std::string_view files = sink.kind->files;
     claims.claim(files.empty() ? sink.place : sink.place / ("frame000000" + std::string(files)));
     if (files == ".pcd") claims.refuse_input(sink.place);  // its clouds would be read for the source's
@@ -92,6 +93,14 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
 void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options) {
   ReplayOptions& replay = options.replay;
   const FrameTimes times = source_kind(t.source).times;
+  replay.frame_id = t.frame_id;
+  replay.poses = t.poses;
+  if (times == FrameTimes::live) {
+    for (const char* option : {"--rate", "--loop", "--stamps", "--topic", "--bin-fields"})
+      if (line.given(option)) throw UsageError(std::string(option) + ": not with a live source");
+    options.rate = Rate::live;
+    return;
+  }
   const bool recorded = line.given("--rate") ? t.rate == "recorded" : times == FrameTimes::messages;
   options.rate = t.rate == "max" ? Rate::max : recorded ? Rate::recorded : Rate::fixed;
   if (line.given("--rate") && options.rate == Rate::fixed)
@@ -107,8 +116,6 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
   if (line.given("--topic") && times != FrameTimes::messages)
     throw UsageError("--topic: only useful with a recording");
   if (line.given("--bin-fields")) replay.bin_fields = parse_bin_fields(t.bin_fields);
-  replay.frame_id = t.frame_id;
-  replay.poses = t.poses;
 }
 
 StreamOptions to_options(const CommandLine& line, const Texts& t, const std::string& config_file,

@@ -21,7 +21,8 @@ namespace pcl_bv {
 enum class Rate : std::uint8_t {
   fixed,     ///< ReplayOptions::rate_hz.
   recorded,  ///< As the stamps say.
-  max        ///< As soon as there is room for it.
+  max,       ///< As soon as there is room for it.
+  live       ///< As it comes.
 };
 
 struct StreamOptions {

@@ -62,7 +62,7 @@ class Reader {
           complain(options_.source + ": " + remark);
         if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
-        if (error.frame.header.stamp_ns >= 0) due(error.frame);  // it takes its time, too
+        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it takes its time, too
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
         runner_.report_unreadable({}, std::string("the source ends: ") + error.what());
@@ -97,7 +97,7 @@ class Reader {
   }
 
   void hand_over(Frame frame) {
-    if (options_.rate != Rate::max) {
+    if (paced()) {
       frame.taken = due(frame);
       while (wanted() && Clock::now() < frame.taken)
         std::this_thread::sleep_until(std::min(frame.taken, Clock::now() + kPatience));
@@ -106,8 +106,10 @@ class Reader {
     without_pose += !options_.replay.poses.empty() && !frame.pose;
     const Clock::time_point next = frame.taken + in_time(step_ - 2e-3 * frame.decode_ms);
     runner_.push(std::move(frame));
-    if (options_.rate != Rate::max) leave_the_worker_alone(next);
+    if (paced()) leave_the_worker_alone(next);
   }
+
+  bool paced() const { return options_.rate == Rate::fixed || options_.rate == Rate::recorded; }
 
   // Reading the next file takes a core and caches from the frame in work, as no live sensor does.
   void leave_the_worker_alone(Clock::time_point until) {
@@ -189,7 +191,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   FramePipeline pipeline(options.config.pipeline);  // reads its files before outputs are opened
   SinkGroup sinks(complain);
   for (const SinkDescription& sink : options.sinks)
-    sinks.add(sink);
+    parse_with("--sink", sink.place.string(), [&](const auto&) { sinks.add(sink); });
   Progress progress;
   RunnerConfig config = options.config.runner;
   config.policy = resolved(config.policy, options.rate != Rate::max);

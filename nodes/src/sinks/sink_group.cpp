@@ -87,6 +87,8 @@ void SinkGroup::write(const Frame& frame, const FrameResult& result) {
   each([&](Member& member) {
     const auto begin = std::chrono::steady_clock::now();
     member.sink->write(frame, result);
+    for (const std::string& remark : member.sink->take_remarks())
+      say_(member.name + ": " + remark);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     const std::lock_guard lock(member.mutex);
     member.ms.add(took.count());

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pcl_bv/nodes/message_sink.h"
 #include "sinks.h"
 
 namespace pcl_bv {
@@ -26,11 +27,21 @@ class FunctionSink : public FrameSink {
 
 }  // namespace
 
+// A labelled cloud is only made where somebody reads it; scenes are Foxglove's, who shows markers, too.
+std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
+  MessageTopics topics;
+  topics.prefix = description.place.string();
+  topics.points = true;
+  topics.scene = topics.poses = false;
+  return make_message_sink(middleware("dds").carrier(), topics);
+}
+
 const std::vector<SinkKind>& sink_kinds() {
   static const std::vector<SinkKind> kinds{{"jsonl", "FILE", "", open_jsonl},
                                            {"csv", "FILE", "", open_csv},
                                            {"mcap", "FILE[,points]", "", open_mcap_sink},
                                            {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink},
+                                           {"dds", "PREFIX", "", open_dds_sink, true},
                                            {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
                                            {"image", "FOLDER", ".png", open_image},
                                            {"labels", "FOLDER", ".pcd", open_labels}};
@@ -53,8 +64,8 @@ SinkDescription parse_sink(const std::string& description) {
     std::string place = description.substr(std::min(colon + 1, description.size()));
     const bool points = kind.place.ends_with("[,points]") && place.ends_with(kPoints);
     if (points) place.resize(place.size() - kPoints.size());
-    const bool folder_is_named = kind.files.empty() || place != "-";
-    if (!place.empty() && folder_is_named) return {&kind, place, points};
+    const bool may_be_printed = kind.files.empty() && !kind.live;
+    if (!place.empty() && (may_be_printed || place != "-")) return {&kind, place, points};
   }
   throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
 }

@@ -15,5 +15,6 @@ std::unique_ptr<FrameSink> open_image(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_labels(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkDescription& description);
+std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description);
 
 }  // namespace pcl_bv

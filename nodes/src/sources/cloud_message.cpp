@@ -18,13 +18,18 @@ void read_cloud_message(const CloudMessage& message, const std::string& class_fi
   } else {
     read_cdr(message.data, message.size, cloud);
   }
+  read_cloud_message(cloud, message.owner, class_field, frame);
+}
+
+void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<const void>& owner,
+                        const std::string& class_field, Frame& frame) {
   frame.header.frame_id = cloud.header.frame_id;
   if (const std::int64_t stamp = msg::nanoseconds_of(cloud.header.stamp); stamp != 0)
     frame.header.stamp_ns = stamp;
   const std::optional<PointView> in_place = points_in_place(cloud);
   if (in_place) {
     frame.points = *in_place;
-    frame.owner = message.owner;
+    frame.owner = owner;
   }
   if (in_place && class_field.empty()) return;
   const auto copy = std::make_shared<RawCloud>(raw_cloud_of(cloud));

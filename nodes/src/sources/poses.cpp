@@ -73,7 +73,7 @@ std::optional<Pose> camera_beside(const std::filesystem::path& poses) {
 
 }  // namespace
 
-Poses::Poses(const std::filesystem::path& file, std::size_t frames) {
+Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frames) {
   std::ifstream stream(file);
   std::size_t line_number = 0, columns = 0;
   const auto fail = [&](const std::string& what) {
@@ -100,8 +100,10 @@ Poses::Poses(const std::filesystem::path& file, std::size_t frames) {
   }
   line_number = 0;
   if (poses_.empty()) fail("no poses");
-  if (!by_stamp_ && poses_.size() != frames)
-    fail(std::to_string(poses_.size()) + " poses of " + std::to_string(frames) + " frames");
+  if (by_stamp_) return;
+  if (!frames) fail("poses by frame, but of a live source nobody knows the first one: by time they have 8 numbers");
+  if (poses_.size() != *frames)
+    fail(std::to_string(poses_.size()) + " poses of " + std::to_string(*frames) + " frames");
 }
 
 std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {

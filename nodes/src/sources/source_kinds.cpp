@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of sources: files of clouds, and made frames.
+// The table of sources: files of clouds, made frames, and topics.
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/nodes/message_source.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/recording/velodyne.h"
 #include "pcl_bv/synth/street.h"
@@ -20,7 +21,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::string_view kSynth = "synth:";
+constexpr std::string_view kSynth = "synth:", kDds = "dds:";
 
 std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOptions& options) {
   std::error_code unknown;
@@ -84,10 +85,17 @@ std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOpt
 
 }  // namespace
 
+std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options) {
+  const std::string topic = name.substr(kDds.size());
+  return make_message_source(middleware("dds").receiver(topic, "sensor_msgs/msg/PointCloud2"), name, options);
+}
+
 const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds{
       {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]",
        FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
+      {"dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)", FrameTimes::live,
+       [](const std::string& name) { return name.starts_with(kDds); }, open_dds},
       {"packets of a Velodyne (.pcap, .pcapng)", FrameTimes::messages,
        [](const std::string& name) { return is_capture(name); }, open_packets},
       {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,

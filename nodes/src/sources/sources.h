@@ -4,6 +4,8 @@
 // What recordings share.
 #pragma once
 
+#include <optional>
+
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {
@@ -14,8 +16,8 @@ class Poses {
   Poses() = default;
 
   /// Throws IoError, naming the file and the line, for what it cannot read, and where frames are numbered and
-  /// there are not as many as `frames`.
-  Poses(const std::filesystem::path& file, std::size_t frames);
+  /// there are not as many as `frames`, or nobody knows how many.
+  Poses(const std::filesystem::path& file, std::optional<std::size_t> frames);
 
   std::optional<Pose> at(std::size_t number, std::int64_t stamp_ns) const;
 
@@ -31,6 +33,7 @@ std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::fi
                                          std::function<void(std::size_t place, Frame&)> load);
 
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
+std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options);
 std::unique_ptr<FrameSource> open_recorded(const std::string& name, const ReplayOptions& options);
 
 }  // namespace pcl_bv

@@ -3,8 +3,8 @@
 
 #include "pcl_bv/nodes/message_sink.h"
 
-#include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "pcl_bv/messages/serialize.h"
@@ -13,8 +13,6 @@
 
 namespace pcl_bv {
 namespace {
-
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 class MessageSink final : public FrameSink {
  public:
@@ -32,20 +30,29 @@ class MessageSink final : public FrameSink {
     if (frame.header.frame_id.empty()) frame.header.frame_id = "lidar";
     note_settings(result, frame.header.stamp_ns);
     if (wanted(points_topic_)) {
-      fill_points(frame, result, cloud_bytes_, cloud_);
+      topics::set_labelled(frame, result, cloud_);
+      cloud_bytes_.resize(std::size_t{16} * cloud_.width);
+      write_labelled_points(frame, result, cloud_bytes_.data());
+      cloud_.data = {cloud_bytes_.data(), cloud_bytes_.size()};
       send(*points_topic_, frame, cloud_);
     }
-    const std::int64_t lifetime = lifetime_of(frame.header.stamp_ns);
+    const std::int64_t lifetime = lifetime_.next(frame.header.stamp_ns);
     if (wanted(objects_topic_)) {
       fill_detections(frame, result, objects_);
       send(*objects_topic_, frame, objects_);
     }
     draw(frame, result, lifetime);
     if (frame.pose && sends_poses_) send_pose(frame);
-    diagnose(frame, result);
+    const bool due = health_.heeds(frame, result);
+    if (due && wanted(diagnostics_topic_)) {
+      msg::DiagnosticArray array;
+      health_.fill(frame, array);
+      send(*diagnostics_topic_, frame, array);
+    }
   }
 
-  void write_lost(const Frame&, const std::string&) override { ++lost_; }
+  void write_lost(const Frame&, const std::string&) override { health_.lost(); }
+  std::vector<std::string> take_remarks() override { return carrier_->take_remarks(); }
   void close() override { carrier_->close(); }
 
  private:
@@ -83,13 +90,6 @@ class MessageSink final : public FrameSink {
     carrier_->settings(to_yaml(config), stamp_ns);
   }
 
-  // Three periods: who misses a frame still sees its objects.
-  std::int64_t lifetime_of(std::int64_t stamp_ns) {
-    const std::int64_t step = stamp_ns - std::exchange(last_stamp_ns_, stamp_ns);
-    if (frames_++ > 0 && step > 0) period_ns_ = std::min(step, 2 * kSecond);
-    return 3 * period_ns_;
-  }
-
   void send_pose(const Frame& frame) {
     if (!pose_topic_) pose_topic_ = carrier_->add_topic("/tf", msg::TFMessage::ros_type);
     const Eigen::Quaterniond turn(frame.pose->linear());
@@ -102,27 +102,6 @@ class MessageSink final : public FrameSink {
     send(*pose_topic_, frame, msg::TFMessage{{transform}});
   }
 
-  // Once a second of the stream's time.
-  void diagnose(const Frame& frame, const FrameResult& result) {
-    slowest_ms_ = std::max(slowest_ms_, result.ms.total);
-    const std::int64_t since = frame.header.stamp_ns - diagnosed_ns_;
-    if (frames_ > 1 && since >= 0 && since < kSecond) return;
-    diagnosed_ns_ = frame.header.stamp_ns;
-    msg::DiagnosticArray array;
-    topics::set_header(frame, array.header);
-    msg::DiagnosticStatus status;
-    status.level = lost_ > 0 ? msg::DiagnosticStatus::WARN : msg::DiagnosticStatus::OK;
-    status.name = "pcl_bv";
-    status.message = lost_ > 0 ? "frames were lost" : "running";
-    status.values = {{"frames", std::to_string(frames_)},
-                     {"lost", std::to_string(lost_)},
-                     {"objects", std::to_string(result.clusters.size())},
-                     {"slowest_ms", to_text(slowest_ms_)}};
-    array.status = {status};
-    send(*diagnostics_topic_, frame, array);
-    slowest_ms_ = 0;
-  }
-
   std::unique_ptr<MessageCarrier> carrier_;
   bool sends_poses_;
   Topic objects_topic_, markers_topic_, scene_topic_, diagnostics_topic_, points_topic_, pose_topic_;
@@ -133,9 +112,8 @@ class MessageSink final : public FrameSink {
   msg::PointCloud2 cloud_;
   std::vector<std::byte> cloud_bytes_, bytes_;
   ShownObjects shown_markers_, shown_entities_;
-  std::uint64_t frames_ = 0, lost_ = 0;
-  std::int64_t last_stamp_ns_ = 0, period_ns_ = kSecond / 10, diagnosed_ns_ = 0;
-  double slowest_ms_ = 0;
+  MarkerLifetime lifetime_;
+  StreamHealth health_;
 };
 
 }  // namespace

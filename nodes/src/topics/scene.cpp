@@ -4,10 +4,6 @@
 #include "topics/scene.h"
 
 #include <cstdio>
-#include <cstring>
-
-#include "pcl_bv/kernels/chunks.h"
-#include "pcl_bv/kernels/point_source.h"
 
 namespace pcl_bv {
 namespace {
@@ -98,34 +94,6 @@ void fill_scene(const Frame& frame, const FrameResult& result, const std::vector
     topics::set_time(frame.header.stamp_ns, deletion.timestamp);
     deletion.id = id;
   }
-}
-
-void fill_points(const Frame& frame, const FrameResult& result, std::vector<std::byte>& bytes,
-                 msg::PointCloud2& cloud) {
-  topics::set_header(frame, cloud.header);
-  const std::vector<std::uint32_t> labels = labels_of(frame, result);
-  cloud.fields = {{"x", 0, msg::PointField::FLOAT32, 1},
-                  {"y", 4, msg::PointField::FLOAT32, 1},
-                  {"z", 8, msg::PointField::FLOAT32, 1},
-                  {"label", 12, msg::PointField::UINT32, 1}};
-  cloud.height = 1;
-  cloud.width = static_cast<std::uint32_t>(frame.points.count);
-  cloud.point_step = 16;
-  cloud.row_step = 16 * cloud.width;
-  bytes.resize(std::size_t{16} * cloud.width);
-  std::byte* to = bytes.data();
-  for (std::size_t chunk = 0; chunk < chunk_count(frame.points.count); ++chunk) {
-    const LoadedPoints loaded = load_chunk(frame.points, chunk);
-    const PointView& part = loaded.view();
-    for (std::size_t i = 0; i < part.count; ++i, to += 16) {
-      const Coordinates p = load_point(part, i);
-      const float xyz[] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-      std::memcpy(to, xyz, sizeof xyz);
-      std::memcpy(to + 12, &labels[part.index(i)], 4);
-    }
-  }
-  cloud.data = {bytes.data(), bytes.size()};
-  cloud.is_dense = result.counts.nonfinite == 0;
 }
 
 }  // namespace pcl_bv

@@ -18,9 +18,4 @@ namespace pcl_bv {
 void fill_scene(const Frame& frame, const FrameResult& result, const std::vector<DrawnVolume>& volumes,
                 std::int64_t lifetime_ns, ShownObjects& shown, msg::SceneUpdate& scene);
 
-/// sensor_msgs/PointCloud2: x, y, z as float32 and `label` as labels_of() has it, of all points; the
-/// message's data are `bytes`.
-void fill_points(const Frame& frame, const FrameResult& result, std::vector<std::byte>& bytes,
-                 msg::PointCloud2& cloud);
-
 }  // namespace pcl_bv

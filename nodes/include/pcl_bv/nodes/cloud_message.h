@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "pcl_bv/messages/types.h"
 #include "pcl_bv/nodes/frame.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -23,5 +24,9 @@ struct CloudMessage {
 /// they lie if they can be viewed there (points_in_place()), else they are copied. With `class_field` classes are that
 /// integer field. Throws MessageError for what is no such cloud.
 void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame);
+
+/// The same of a message that is read already; `owner` keeps its data.
+void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<const void>& owner,
+                        const std::string& class_field, Frame& frame);
 
 }  // namespace pcl_bv

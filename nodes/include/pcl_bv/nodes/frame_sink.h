@@ -38,6 +38,9 @@ class FrameSink {
   /// A frame that was lost, and why.
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
+  /// What was noticed and harms no frame, since the last call: a line each, for people.
+  virtual std::vector<std::string> take_remarks() { return {}; }
+
   /// The end; nothing is written afterwards. Throws IoError if what was written is not all there.
   virtual void close() {}
 };
@@ -50,9 +53,10 @@ struct SinkKind {
   std::string_view place;  ///< What stands after it, as --help says: "FOLDER[,points]".
   std::string_view files;  ///< How the names of its files end, where the place is their folder; else empty.
   std::unique_ptr<FrameSink> (*open)(const SinkDescription&);
+  bool live = false;  ///< Sent to whoever listens: the place is no file.
 };
 
-/// jsonl, csv, mcap, rosbag2, vtp, image, labels.
+/// jsonl, csv, mcap, rosbag2, dds, vtp, image, labels.
 const std::vector<SinkKind>& sink_kinds();
 
 /// "jsonl:FILE, csv:FILE, ...": all of them, for help and errors.
@@ -60,7 +64,7 @@ std::string sink_syntax();
 
 struct SinkDescription {
   const SinkKind* kind = nullptr;
-  std::filesystem::path place;  ///< "-" is standard output.
+  std::filesystem::path place;  ///< "-" is standard output; of dds the topics' prefix.
   bool points = false;          ///< The frame's points, too.
 };
 

@@ -76,7 +76,8 @@ struct ReplayOptions {
 enum class FrameTimes : std::uint8_t {
   none,
   names,    ///< Of files, where they are asked for.
-  messages  ///< Of a recording, unless others are asked for.
+  messages,  ///< Of a recording, unless others are asked for.
+  live       ///< Of messages as they come; no others.
 };
 
 /// A row of the table of sources.
@@ -95,10 +96,11 @@ const SourceKind& source_kind(const std::string& name);
 std::string source_syntax();
 
 /// A folder of clouds in natural order, one file, a recording (open_recording(): sensor_msgs/msg/PointCloud2), a
-/// capture of a Velodyne's packets (VelodyneReader), or
+/// capture of a Velodyne's packets (VelodyneReader), `dds:TOPIC` (middleware()), which never ends, or
 /// `synth:street-sequence[:FRAMES[:SEED]]`, whose frames are made when they are asked for. Throws IoError if there
 /// is no cloud or no poses can be read, std::invalid_argument for a rate out of range, for names none of which has a
 /// stamp, for a topic that is not there or not said where there are several, and for an unknown sequence.
+/// Further ones as Middleware::receiver() does.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
 
 /// What the function gives, until it returns false. It may wait as long as it likes: each call is in a thread

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -201,5 +202,86 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
   for (const auto& ended : shown.replace(std::move(now)))
     add(ended.first, ended.second).action = Marker::DELETE;
 }
+
+/// How long markers last: three periods of the stream, so that who misses a frame still sees its objects.
+class MarkerLifetime {
+ public:
+  /// Of the next frame, nanoseconds; 300 ms of the first.
+  std::int64_t next(std::int64_t stamp_ns);
+
+ private:
+  bool first_ = true;
+  std::int64_t last_stamp_ns_ = 0, period_ns_ = 100'000'000;
+};
+
+/// 16 bytes a point: x, y and z as float32 and `label` as uint32, as labels_of() has it.
+void write_labelled_points(const Frame& frame, const FrameResult& result, std::byte* to);
+
+namespace topics {
+
+/// Of labelled points all but their data.
+template <class Cloud>
+void set_labelled(const Frame& frame, const FrameResult& result, Cloud& cloud) {
+  using Field = typename std::decay<decltype(cloud.fields.front())>::type;
+  set_header(frame, cloud.header);
+  cloud.fields.resize(4);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    cloud.fields[i].name = std::array<const char*, 4>{"x", "y", "z", "label"}[i];
+    cloud.fields[i].offset = 4 * i;
+    cloud.fields[i].datatype = i < 3 ? Field::FLOAT32 : Field::UINT32;
+    cloud.fields[i].count = 1;
+  }
+  cloud.height = 1;
+  cloud.width = static_cast<std::uint32_t>(frame.points.count);
+  cloud.point_step = 16;
+  cloud.row_step = 16 * cloud.width;
+  cloud.is_bigendian = false;
+  cloud.is_dense = result.counts.nonfinite == 0;
+}
+
+}  // namespace topics
+
+/// sensor_msgs/PointCloud2 of all points, as write_labelled_points().
+template <class Cloud>
+void fill_points(const Frame& frame, const FrameResult& result, Cloud& cloud) {
+  topics::set_labelled(frame, result, cloud);
+  cloud.data.resize(std::size_t{16} * cloud.width);
+  write_labelled_points(frame, result, reinterpret_cast<std::byte*>(cloud.data.data()));
+}
+
+/// What a stream says of itself once a second of its time.
+class StreamHealth {
+ public:
+  void lost() { ++lost_; }
+
+  /// Of each frame; whether it is time to say it.
+  bool heeds(const Frame& frame, const FrameResult& result);
+
+  /// diagnostic_msgs/DiagnosticArray: frames, lost ones, objects of the last and the slowest since the last time.
+  template <class Array>
+  void fill(const Frame& frame, Array& array) {
+    using Status = typename std::decay<decltype(array.status.front())>::type;
+    topics::set_header(frame, array.header);
+    array.status.resize(1);
+    Status& status = array.status.front();
+    status.level = lost_ > 0 ? Status::WARN : Status::OK;
+    status.name = "pcl_bv";
+    status.message = lost_ > 0 ? "frames were lost" : "running";
+    const std::array<std::pair<const char*, std::string>, 4> values = take_values();
+    status.values.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      status.values[i].key = values[i].first;
+      status.values[i].value = values[i].second;
+    }
+  }
+
+ private:
+  std::array<std::pair<const char*, std::string>, 4> take_values();
+
+  std::uint64_t frames_ = 0, lost_ = 0;
+  std::size_t objects_ = 0;
+  std::int64_t said_ns_ = 0;
+  double slowest_ms_ = 0;
+};
 
 }  // namespace pcl_bv

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "endpoints.h"
+#include "pcl_bv/nodes/middleware.h"
+
+namespace pcl_bv::dds {
+namespace {
+
+class Dds final : public Middleware {
+ public:
+  std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) override {
+    return make_receiver(topic, type);
+  }
+  std::unique_ptr<MessageCarrier> carrier() override { return make_carrier(); }
+};
+
+}  // namespace
+}  // namespace pcl_bv::dds
+
+extern "C" [[gnu::visibility("default")]] const char* pcl_bv_middleware_version() {
+  return PCL_BV_VERSION;
+}
+
+extern "C" [[gnu::visibility("default")]] pcl_bv::Middleware* pcl_bv_middleware() {
+  static pcl_bv::dds::Dds module;
+  return &module;
+}

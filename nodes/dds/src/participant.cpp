@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "participant.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv::dds {
+namespace {
+
+// Clouds of megabytes are lost by the hundred in a socket's default 212 kB. A reader that is stuck must not slow its
+// writer down: what it has not acknowledged is kept, five messages of each topic, instead of waiting for it at 500 kB.
+constexpr const char* kBuffers =
+    "<Internal><SocketReceiveBufferSize max=\"8MB\"/><Watermarks><WhcHigh>256MB</WhcHigh></Watermarks></Internal>";
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+dds_domainid_t domain_of_environment() {
+  const std::string text = environment("ROS_DOMAIN_ID");
+  if (text.empty()) return 0;
+  unsigned id = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+  if (error != std::errc() || end != text.data() + text.size() || id > 232)
+    throw std::invalid_argument("ROS_DOMAIN_ID: " + in_quotes(text) + " is not a whole number from 0 to 232");
+  return id;
+}
+
+std::string peers_of(const std::string& text) {
+  std::string peers;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    const std::string peer = text.substr(begin, end - begin);
+    if (peer.find_first_of("<>&\"' ") != std::string::npos)
+      throw std::invalid_argument("ROS_STATIC_PEERS: " + in_quotes(peer) + " is no address");
+    if (!peer.empty()) peers += "<Peer Address=\"" + peer + "\"/>";
+    begin = end + 1;
+  }
+  return peers;
+}
+
+// As rmw_cyclonedds reads the environment. On the loopback, which mostly knows no multicast, others are looked for on the
+// ports of the first 32 participants.
+std::string profile() {
+  const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
+  for (const char* known : {"", "SUBNET", "SYSTEM_DEFAULT", "LOCALHOST", "OFF"}) {
+    if (range == known) break;
+    if (std::string_view(known) == "OFF")
+      throw std::invalid_argument("ROS_AUTOMATIC_DISCOVERY_RANGE: " + in_quotes(range) +
+                                  " is not SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT");
+  }
+  const bool here = range == "LOCALHOST" || environment("ROS_LOCALHOST_ONLY") == "1";
+  std::string peers = range == "SYSTEM_DEFAULT" ? "" : peers_of(environment("ROS_STATIC_PEERS"));
+  if (here) peers += "<Peer Address=\"127.0.0.1\"/>";
+  std::string general = "<MaxMessageSize>65500B</MaxMessageSize>";
+  if (here) general += "<Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>";
+  if (range == "OFF") general += "<AllowMulticast>false</AllowMulticast>";
+  std::string discovery;
+  if (!peers.empty() && range != "OFF") {
+    discovery = "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
+                "<Peers>" + peers + "</Peers></Discovery>";
+  }
+  return "<General>" + general + "</General>" + discovery + kBuffers;
+}
+
+bool is_word(std::string_view word) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  if (word.empty() || !letter(word.front())) return false;
+  for (const char c : word)
+    if (!letter(c) && !(c >= '0' && c <= '9')) return false;
+  return true;
+}
+
+}  // namespace
+
+Entity::Entity(dds_entity_t entity, const std::string& what) : entity_(entity) {
+  if (entity < 0) throw IoError(what + ": " + dds_strretcode(entity));
+}
+Entity::Entity(Entity&& other) noexcept : entity_(std::exchange(other.entity_, 0)) {}
+Entity& Entity::operator=(Entity&& other) noexcept {
+  std::swap(entity_, other.entity_);
+  return *this;
+}
+Entity::~Entity() {
+  if (entity_ > 0) dds_delete(entity_);
+}
+
+Participant::Log::Log() {
+  dds_set_log_sink(note, this);
+}
+Participant::Log::~Log() {
+  dds_set_log_sink(nullptr, nullptr);
+}
+
+void Participant::Log::note(void* log, const dds_log_data_t* data) {
+  Log& self = *static_cast<Log*>(log);
+  std::string_view text(data->message, data->size);
+  while (text.ends_with('\n'))
+    text.remove_suffix(1);
+  // It is so on nearly every machine, and others are found without.
+  if (text.find("\"lo\" is not multicast-capable") != std::string_view::npos) return;
+  const std::lock_guard lock(self.mutex_);
+  if (self.lines_.size() < 100) self.lines_.emplace_back(text);
+}
+
+std::vector<std::string> Participant::Log::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(lines_, {});
+}
+
+std::string Participant::Log::last() const {
+  const std::lock_guard lock(mutex_);
+  return lines_.empty() ? "" : ": " + lines_.back();
+}
+
+Participant::Participant() {
+  const dds_domainid_t id = domain_of_environment();
+  const std::string what = "DDS domain " + std::to_string(id);
+  if (environment("CYCLONEDDS_URI").empty()) {
+    const dds_entity_t domain = dds_create_domain(id, profile().c_str());
+    // Who has made the domain before us in this process has chosen for us.
+    if (domain != DDS_RETCODE_PRECONDITION_NOT_MET) {
+      if (domain < 0) throw IoError(what + ": " + dds_strretcode(domain) + log_.last());
+      domain_ = Entity(domain, what);
+    }
+  }
+  const Qos qos = make_qos();
+  constexpr std::string_view node = "enclave=/;";  // what a ROS participant without nodes says of itself
+  dds_qset_userdata(qos.get(), node.data(), node.size());
+  const dds_entity_t participant = dds_create_participant(id, qos.get(), nullptr);
+  if (participant < 0) throw IoError(what + ": " + dds_strretcode(participant) + log_.last());
+  participant_ = Entity(participant, what);
+}
+
+std::shared_ptr<Participant> Participant::shared() {
+  static std::mutex mutex;
+  static std::weak_ptr<Participant> existing;
+  const auto remove = [](const Participant* last) {  // before the next one is made
+    const std::lock_guard lock(mutex);
+    delete last;
+  };
+  const std::lock_guard lock(mutex);
+  std::shared_ptr<Participant> participant = existing.lock();
+  if (participant == nullptr) existing = participant = std::shared_ptr<Participant>(new Participant(), remove);
+  return participant;
+}
+
+std::vector<std::string> Participant::take_log() {
+  return log_.take();
+}
+
+std::string dds_topic(const std::string& topic) {
+  const std::string_view name = std::string_view(topic).substr(topic.starts_with('/') ? 1 : 0);
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('/', begin), name.size());
+    if (!is_word(name.substr(begin, end - begin)))
+      throw std::invalid_argument(in_quotes(topic) + " is no name of a topic, as /points or /lidar/points");
+    begin = end + 1;
+  }
+  return "rt/" + std::string(name);
+}
+
+std::string dds_type(const std::string& type) {
+  std::string name;
+  std::size_t begin = 0;
+  for (std::size_t slash = type.find('/'); slash != std::string::npos; slash = type.find('/', begin)) {
+    name += type.substr(begin, slash - begin) + "::";
+    begin = slash + 1;
+  }
+  return name + "dds_::" + type.substr(begin) + '_';
+}
+
+Qos make_qos() {
+  return {dds_create_qos(), dds_delete_qos};
+}
+
+}  // namespace pcl_bv::dds

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A domain of the process's own on the loopback, and commands that run beside the test.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace pcl_bv::test {
+
+/// Tests that run at the same time do not see one another.
+inline unsigned own_domain() {
+  static const unsigned domain = [] {
+    const unsigned id = 1 + static_cast<unsigned>(getpid()) % 200;
+    setenv("ROS_DOMAIN_ID", std::to_string(id).c_str(), 1);
+    setenv("ROS_LOCALHOST_ONLY", "1", 1);
+    return id;
+  }();
+  return domain;
+}
+
+/// Until it holds, at most 30 s.
+inline bool wait_for(const std::function<bool()>& holds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline std::size_t lines_of(const std::filesystem::path& file) {
+  const std::string text = text_of(file);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// bv_stream in the background; killed at the end.
+class Background {
+ public:
+  Background(std::filesystem::path errors, std::vector<std::string> arguments) : errors_(std::move(errors)) {
+    own_domain();
+    arguments.insert(arguments.begin(), PCL_BV_BIN_DIR "/bv_stream");
+    std::vector<char*> list;
+    for (std::string& argument : arguments)
+      list.push_back(argument.data());
+    list.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 2, errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    EXPECT_EQ(posix_spawn(&process_, list.front(), &actions, nullptr, list.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  ~Background() { end(SIGKILL); }
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  void send(int signal) const { kill(process_, signal); }
+  bool ended() const {
+    siginfo_t info{};
+    return process_ <= 0 || (waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+                             info.si_pid == process_);
+  }
+
+  /// Its exit status, 128 + signal if it was killed; -1 if it has been waited for.
+  int wait() {
+    if (process_ <= 0) return -1;
+    int status = 0;
+    waitpid(std::exchange(process_, 0), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  int end(int signal) {
+    if (process_ > 0) kill(process_, signal);
+    return wait();
+  }
+  std::string errors() const { return text_of(errors_); }
+
+ private:
+  std::filesystem::path errors_;
+  pid_t process_ = 0;
+};
+
+class DdsTest : public testing::Test {
+ protected:
+  DdsTest() {
+    own_domain();
+    std::filesystem::create_directories(folder_);
+  }
+  ~DdsTest() override { std::filesystem::remove_all(folder_); }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+ private:
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("pcl_bv_dds_" + std::to_string(getpid()));
+};
+
+}  // namespace pcl_bv::test

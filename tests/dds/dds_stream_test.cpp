@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// bv_stream between the topics of ROS 2.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "background.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/messages/results.h"
+#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/nodes/middleware.h"
+
+namespace pcl_bv::test {
+namespace {
+
+using testing::HasSubstr;
+using Bytes = std::vector<std::byte>;
+
+constexpr const char* kCloud = "sensor_msgs/msg/PointCloud2";
+
+Bytes cloud_of(const std::vector<float>& xyz, bool big_endian = false) {
+  msg::PointCloud2 cloud;
+  cloud.header.frame_id = "lidar";
+  cloud.header.stamp = {17, 5};
+  cloud.is_bigendian = big_endian;
+  for (const char* name : {"x", "y", "z"})
+    cloud.fields.push_back({name, static_cast<std::uint32_t>(4 * cloud.fields.size()), msg::PointField::FLOAT32, 1});
+  cloud.point_step = 12;
+  cloud.width = static_cast<std::uint32_t>(xyz.size() / 3);
+  cloud.row_step = 12 * cloud.width;
+  cloud.data = {reinterpret_cast<const std::byte*>(xyz.data()), 4 * xyz.size()};
+  Bytes bytes;
+  write_cdr(cloud, bytes);
+  return bytes;
+}
+
+// A cube of 1000 points, 1 m wide, 10 m ahead.
+Bytes cube() {
+  std::vector<float> xyz;
+  for (int i = 0; i < 1000; ++i)
+    for (const float value : {10 + 0.1F * static_cast<float>(i % 10), 0.1F * static_cast<float>(i / 10 % 10),
+                              0.1F * static_cast<float>(i / 100)})
+      xyz.push_back(value);
+  return cloud_of(xyz);
+}
+
+class Dds : public DdsTest {
+ protected:
+  /// Of one topic to bv_stream and back from it.
+  struct Talk {
+    explicit Talk(const std::string& prefix)
+        : carrier(middleware("dds").carrier()), points(carrier->add_topic(prefix + "/points", kCloud)) {}
+    void publish(const Bytes& cloud) const { carrier->send(points, 0, cloud); }
+    bool heard() const {
+      return wait_for([&] { return carrier->wanted(points); });
+    }
+    std::unique_ptr<MessageCarrier> carrier;
+    std::size_t points;
+  };
+};
+
+TEST_F(Dds, EveryCloudOfOneProcessReachesTheOther) {
+  Background to(at("to.err"), {"--source", "dds:/a/points", "--sink", "jsonl:" + at("to.jsonl"), "--stats", at("to.json")});
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  Background from(at("from.err"), {"--source", "synth:street-sequence:30", "--rate", "10", "--sink", "dds:/a", "--sink",
+                                   "jsonl:" + at("from.jsonl")});
+  EXPECT_EQ(from.wait(), 0);
+  EXPECT_TRUE(wait_for([&] { return lines_of(at("to.jsonl")) >= 29; }));
+  EXPECT_EQ(to.end(SIGINT), 0);
+  EXPECT_EQ(from.errors(), "");
+  const nlohmann::json stats = nlohmann::json::parse(text_of(at("to.json")));
+  EXPECT_GE(stats["frames"]["processed"], 29);  // the first may go before the reader is known
+  EXPECT_EQ(stats["frames"]["dropped"]["error"], 0);
+}
+
+// Volumes are those of the same clouds without a network.
+TEST_F(Dds, AnswersACloudWithItsObjects) {
+  Background node(at("err"), {"--source", "dds:/points", "--sink", "dds:/bv", "--volume", "aabb", "--ground", "none"});
+  Talk talk("");
+  const auto markers = middleware("dds").receiver("/bv/markers", "visualization_msgs/msg/MarkerArray");
+  ASSERT_TRUE(talk.heard());
+  ReceivedMessage message;
+  ASSERT_TRUE(wait_for([&] {
+    talk.publish(cube());
+    return markers->next(message, std::chrono::milliseconds(100));
+  })) << node.errors();
+  msg::MarkerArray array;
+  read_cdr(message.data, message.size, array);
+  ASSERT_EQ(array.markers.size(), 1U);
+  const msg::Marker& marker = array.markers.front();
+  EXPECT_EQ(marker.header.frame_id, "lidar");
+  EXPECT_EQ(marker.header.stamp.sec, 17);
+  EXPECT_EQ(marker.header.stamp.nanosec, 5U);
+  EXPECT_NEAR(marker.pose.position.x, 10.45, 1e-6);
+  EXPECT_NEAR(marker.scale.x, 0.9, 1e-6);
+  EXPECT_EQ(node.end(SIGINT), 0);
+  EXPECT_EQ(node.errors(), "");
+}
+
+TEST_F(Dds, AStoppedReaderHoldsNothingUp) {
+  Background reader(at("reader.err"), {"--source", "dds:/a/points", "--sink", "jsonl:" + at("reader.jsonl")});
+  Background from(at("from.err"), {"--source", "synth:street-sequence:40", "--rate", "10", "--sink", "dds:/a", "--sink",
+                                   "jsonl:" + at("from.jsonl"), "--stats", at("from.json")});
+  ASSERT_TRUE(wait_for([&] { return lines_of(at("reader.jsonl")) > 0; }));
+  reader.send(SIGSTOP);
+  EXPECT_EQ(from.wait(), 0);
+  reader.send(SIGCONT);
+  EXPECT_EQ(from.errors(), "");
+  const nlohmann::json stats = nlohmann::json::parse(text_of(at("from.json")));
+  EXPECT_EQ(stats["frames"]["processed"], 40);
+}
+
+TEST_F(Dds, EitherSideMayDieAndComeBack) {
+  const std::vector<std::string> reading{"--source", "dds:/a/points", "--sink", "jsonl:" + at("b.jsonl")};
+  const std::vector<std::string> writing{"--source", "synth:street-sequence", "--rate", "10", "--loop", "100", "--sink", "dds:/a"};
+  const auto comes_through = [&] {
+    const std::size_t before = lines_of(at("b.jsonl"));
+    return wait_for([&] { return lines_of(at("b.jsonl")) > before; });
+  };
+  Background reader(at("b.err"), reading), writer(at("a.err"), writing);
+  ASSERT_TRUE(comes_through());
+  EXPECT_EQ(writer.end(SIGKILL), 128 + SIGKILL);
+  Background second_writer(at("a2.err"), writing);
+  EXPECT_TRUE(comes_through());
+  EXPECT_EQ(reader.end(SIGKILL), 128 + SIGKILL);
+  std::filesystem::remove(at("b.jsonl"));
+  Background second_reader(at("b2.err"), reading);
+  EXPECT_TRUE(comes_through());
+  EXPECT_EQ(second_reader.end(SIGINT), 0);
+  EXPECT_EQ(second_writer.end(SIGINT), 0);
+  EXPECT_EQ(second_writer.errors(), "");
+}
+
+TEST_F(Dds, WhatIsNoCloudIsACountedError) {
+  Background node(at("err"), {"--source", "dds:/points", "--sink", "jsonl:" + at("out"), "--stats", at("stats"), "--ground", "none"});
+  Talk talk("");
+  ASSERT_TRUE(talk.heard());
+  const Bytes good = cube();
+  // Whether the node listens yet is only known from what it does.
+  ASSERT_TRUE(wait_for([&] {
+    talk.publish(good);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return lines_of(at("out")) > 0;
+  })) << node.errors();
+  const auto fails = [&](const Bytes& bad, const std::string& why) {
+    const std::size_t before = lines_of(at("err"));
+    EXPECT_TRUE(wait_for([&] {
+      talk.publish(bad);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return lines_of(at("err")) > before;
+    })) << why;
+    EXPECT_THAT(node.errors(), HasSubstr(why));
+  };
+  fails(Bytes(good.begin(), good.end() - 5000), "ends");
+  fails(Bytes(good.begin(), good.begin() + 6), "ends");
+  Bytes other_encoding = good;
+  other_encoding[1] = std::byte{9};
+  fails(other_encoding, "encapsulation");
+  Bytes endless = good;
+  std::memset(endless.data() + 12, 0xff, 4);  // the length of frame_id
+  fails(endless, "ends");
+  const std::size_t lines = lines_of(at("out"));
+  const float nan = std::nanf("");
+  for (const Bytes& fine : {cloud_of({}), cloud_of({nan, nan, nan}), good}) {
+    const std::size_t before = lines_of(at("out"));
+    EXPECT_TRUE(wait_for([&] {
+      talk.publish(fine);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return lines_of(at("out")) > before;
+    }));
+  }
+  EXPECT_GE(lines_of(at("out")), lines + 3);
+  EXPECT_EQ(node.end(SIGINT), 0);
+  const nlohmann::json stats = nlohmann::json::parse(text_of(at("stats")));
+  EXPECT_GE(stats["frames"]["dropped"]["error"], 4);
+}
+
+TEST_F(Dds, SaysThatATopicHasAnotherType) {
+  Background node(at("err"), {"--source", "dds:/points", "--sink", "jsonl:" + at("out")});
+  const auto carrier = middleware("dds").carrier();
+  carrier->add_topic("/points", "sensor_msgs/msg/Image");
+  EXPECT_TRUE(wait_for([&] { return lines_of(at("err")) > 0; }));
+  EXPECT_THAT(node.errors(), HasSubstr("dds:/points: also published as sensor_msgs::msg::dds_::Image_, which is not read"));
+  EXPECT_EQ(node.end(SIGTERM), 0);
+}
+
+int status_of(const std::string& errors, const std::vector<std::string>& arguments) {
+  Background node(errors, arguments);
+  return node.wait();
+}
+
+TEST_F(Dds, RefusesWhatIsNoTopicAndNoDomain) {
+  for (const std::string topic : {"/a//b", "/9a", "", "/", "/a/", "/a b", "a-b"}) {
+    EXPECT_EQ(status_of(at("err"), {"--source", "dds:" + topic}), 2) << topic;
+    EXPECT_THAT(text_of(at("err")), HasSubstr("is no name of a topic")) << topic;
+    EXPECT_EQ(lines_of(at("err")), 1U);
+  }
+  EXPECT_EQ(status_of(at("err"), {"--source", "synth:street-sequence:1", "--sink", "dds:a-b"}), 2);
+  EXPECT_THAT(text_of(at("err")), HasSubstr("is no name of a topic"));
+  EXPECT_EQ(status_of(at("err"), {"--source", "dds:/points", "--rate", "10"}), 2);
+  EXPECT_THAT(text_of(at("err")), HasSubstr("--rate: not with a live source"));
+  const std::string own = std::to_string(own_domain());
+  setenv("ROS_DOMAIN_ID", "233", 1);
+  EXPECT_EQ(status_of(at("err"), {"--source", "dds:/points"}), 2);
+  EXPECT_THAT(text_of(at("err")), HasSubstr("ROS_DOMAIN_ID: '233' is not a whole number from 0 to 232"));
+  setenv("ROS_DOMAIN_ID", own.c_str(), 1);
+}
+
+TEST_F(Dds, WithoutANetworkIsOneLine) {
+  setenv("CYCLONEDDS_URI", "<General><Interfaces><NetworkInterface name=\"none0\"/></Interfaces></General>", 1);
+  EXPECT_EQ(status_of(at("err"), {"--source", "dds:/points"}), 1);
+  unsetenv("CYCLONEDDS_URI");
+  EXPECT_EQ(lines_of(at("err")), 1U) << text_of(at("err"));
+  EXPECT_THAT(text_of(at("err")), HasSubstr("none0"));
+}
+
+}  // namespace
+}  // namespace pcl_bv::test

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What we write is what Cyclone DDS writes of the same types, made by its own compiler from ROS's definitions.
+
+#include <dds/dds.h>
+#include <ros2.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+
+#include "background.h"
+#include "pcl_bv/messages/results.h"
+#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/nodes/middleware.h"
+
+namespace pcl_bv::test {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+std::mt19937& dice() {
+  static std::mt19937 engine(20261124);
+  return engine;
+}
+
+// Any text, length or number; strings of every length modulo 8, so that all that follows is shifted by it.
+struct Random {
+  static constexpr bool ros1 = false;
+  template <class... Fields>
+  void operator()(Fields&... fields) {
+    (set(fields), ...);
+  }
+
+ private:
+  template <class T>
+  void set(T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+      value = dice()() % 2 == 1;
+    } else if constexpr (std::is_floating_point_v<T>) {
+      value = static_cast<T>(dice()()) / 7;
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      value = static_cast<T>(dice()());
+    } else {
+      T::each_field(value, *this);
+    }
+  }
+  void set(std::string& text) { text.assign(dice()() % 11, static_cast<char>('a' + dice()() % 26)); }
+  void set(msg::Bytes& bytes) { bytes = {kBytes, dice()() % sizeof kBytes}; }
+  template <class T, std::size_t n>
+  void set(std::array<T, n>& values) {
+    for (T& value : values)
+      set(value);
+  }
+  template <class T>
+  void set(std::vector<T>& values) {
+    values.resize(dice()() % 4);
+    for (T& value : values)
+      set(value);
+  }
+
+  static constexpr std::byte kBytes[40] = {std::byte{1}, std::byte{2}, std::byte{3}};
+};
+
+// Without the two bits that count the padding after the last field.
+Bytes unpadded(const std::byte* data, std::size_t size) {
+  Bytes bytes(data, data + size);
+  bytes.resize(size - (std::to_integer<std::size_t>(bytes[3]) & 3));
+  bytes[3] = std::byte{0};
+  return bytes;
+}
+
+template <class Message>
+class DdsTypes : public DdsTest {};
+
+struct Cloud {
+  using Message = msg::PointCloud2;
+  static const dds_topic_descriptor_t& type() { return sensor_msgs_msg_dds__PointCloud2__desc; }
+};
+struct Markers {
+  using Message = msg::MarkerArray;
+  static const dds_topic_descriptor_t& type() { return visualization_msgs_msg_dds__MarkerArray__desc; }
+};
+struct Detections {
+  using Message = msg::Detection3DArray;
+  static const dds_topic_descriptor_t& type() { return vision_msgs_msg_dds__Detection3DArray__desc; }
+};
+struct Diagnostics {
+  using Message = msg::DiagnosticArray;
+  static const dds_topic_descriptor_t& type() { return diagnostic_msgs_msg_dds__DiagnosticArray__desc; }
+};
+using Kinds = testing::Types<Cloud, Markers, Detections, Diagnostics>;
+TYPED_TEST_SUITE(DdsTypes, Kinds);
+
+// Cyclone reads our bytes into its structures and writes those again, which we receive.
+TYPED_TEST(DdsTypes, AreTheBytesThatCycloneMakesOfTheirFields) {
+  const std::string type = TypeParam::Message::ros_type;
+  Middleware& dds = middleware("dds");
+  const auto carrier = dds.carrier();
+  const std::size_t out = carrier->add_topic("/out", type);
+  const auto back = dds.receiver("/back", type);
+
+  const dds_entity_t participant = dds_create_participant(own_domain(), nullptr, nullptr);
+  ASSERT_GT(participant, 0);
+  const std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(dds_create_qos(), dds_delete_qos);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+  const dds_entity_t reader = dds_create_reader(
+      participant, dds_create_topic(participant, &TypeParam::type(), "rt/out", nullptr, nullptr), qos.get(), nullptr);
+  const dds_entity_t writer = dds_create_writer(
+      participant, dds_create_topic(participant, &TypeParam::type(), "rt/back", nullptr, nullptr), qos.get(), nullptr);
+  ASSERT_GT(reader, 0);
+  ASSERT_GT(writer, 0);
+  dds_publication_matched_status_t matched{};
+  ASSERT_TRUE(wait_for([&] {
+    dds_get_publication_matched_status(writer, &matched);
+    return carrier->wanted(out) && matched.current_count > 0;
+  }));
+
+  for (int round = 0; round < 200; ++round) {
+    typename TypeParam::Message message;
+    Random random;
+    random(message);
+    Bytes sent;
+    write_cdr(message, sent);
+    carrier->send(out, 0, sent);
+    void* sample = nullptr;
+    dds_sample_info_t info;
+    ASSERT_TRUE(wait_for([&] { return dds_take(reader, &sample, &info, 1, 1) > 0; })) << "round " << round;
+    ASSERT_TRUE(info.valid_data);
+    ASSERT_EQ(dds_write(writer, sample), DDS_RETCODE_OK);
+    dds_return_loan(reader, &sample, 1);
+    ReceivedMessage received;
+    ASSERT_TRUE(back->next(received, std::chrono::seconds(30)));
+    ASSERT_EQ(unpadded(received.data, received.size), sent) << "round " << round;
+  }
+  EXPECT_TRUE(carrier->take_remarks().empty());
+  dds_delete(participant);
+}
+
+}  // namespace
+}  // namespace pcl_bv::test
