@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <map>
@@ -86,9 +87,12 @@ TEST_F(PcdBvSignals, AtAnyMomentLeaveWholeResultsOfTheFirstInputsAndNoTemporaryF
     };
     return run(arguments, surroundings);
   };
-  const auto begin = Clock::now();
-  EXPECT_EQ(with("all", {"jsonl", "", 0}, -1).status, 0);
-  const double whole = std::chrono::duration<double>(Clock::now() - begin).count();
+  double whole = 1e9;  // the fastest: beside other tests a slow one would have most signals come too late
+  for (const char* number : {"first", "second", "third"}) {
+    const auto begin = Clock::now();
+    EXPECT_EQ(with(number, {"jsonl", "", 0}, -1).status, 0);
+    whole = std::min(whole, std::chrono::duration<double>(Clock::now() - begin).count());
+  }
   std::mt19937 random(7);
   int interrupted = 0;
   for (int i = 0; i < kRuns; ++i) {
