@@ -10,7 +10,7 @@
 #include <memory>
 #include <random>
 
-#include "background.h"
+#include "dds_test.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/middleware.h"

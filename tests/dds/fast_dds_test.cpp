@@ -19,7 +19,7 @@
 #include <memory>
 #include <set>
 
-#include "background.h"
+#include "dds_test.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
 
@@ -146,7 +146,7 @@ std::vector<Bytes> take(dds::DataReader* reader) {
 class FastDdsPeer : public DdsTest {};
 
 TEST_F(FastDdsPeer, GetsTheObjectsOfItsClouds) {
-  Background node(at("err"), {"--source", "dds:/points", "--sink", "dds:/bv", "--volume", "aabb", "--ground", "none"});
+  BvStream node(at("err"), {"--source", "dds:/points", "--sink", "dds:/bv", "--volume", "aabb", "--ground", "none"});
   FastDds peer;
   dds::DataWriter* const clouds = peer.writer("rt/points", "sensor_msgs::msg::dds_::PointCloud2_");
   dds::DataReader* const markers = peer.reader("rt/bv/markers", "visualization_msgs::msg::dds_::MarkerArray_");

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A domain of the process's own on the loopback, and commands that run beside the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -24,17 +22,6 @@
 #include <vector>
 
 namespace pcl_bv::test {
-
-/// Tests that run at the same time do not see one another.
-inline unsigned own_domain() {
-  static const unsigned domain = [] {
-    const unsigned id = 1 + static_cast<unsigned>(getpid()) % 200;
-    setenv("ROS_DOMAIN_ID", std::to_string(id).c_str(), 1);
-    setenv("ROS_LOCALHOST_ONLY", "1", 1);
-    return id;
-  }();
-  return domain;
-}
 
 /// Until it holds, at most 30 s.
 inline bool wait_for(const std::function<bool()>& holds) {
@@ -56,20 +43,19 @@ inline std::size_t lines_of(const std::filesystem::path& file) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// bv_stream in the background; killed at the end.
+/// A command that runs beside the test, found in PATH or given by its path; killed at the end.
 class Background {
  public:
-  Background(std::filesystem::path errors, std::vector<std::string> arguments) : errors_(std::move(errors)) {
-    own_domain();
-    arguments.insert(arguments.begin(), PCL_BV_BIN_DIR "/bv_stream");
+  /// What it prints on standard error goes to the file `errors`, the rest to the test's output.
+  Background(std::filesystem::path errors, std::vector<std::string> command) : errors_(std::move(errors)) {
     std::vector<char*> list;
-    for (std::string& argument : arguments)
-      list.push_back(argument.data());
+    for (std::string& word : command)
+      list.push_back(word.data());
     list.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 2, errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    EXPECT_EQ(posix_spawn(&process_, list.front(), &actions, nullptr, list.data(), environ), 0);
+    EXPECT_EQ(posix_spawnp(&process_, list.front(), &actions, nullptr, list.data(), environ), 0) << list.front();
     posix_spawn_file_actions_destroy(&actions);
   }
   ~Background() { end(SIGKILL); }
@@ -99,20 +85,6 @@ class Background {
  private:
   std::filesystem::path errors_;
   pid_t process_ = 0;
-};
-
-class DdsTest : public testing::Test {
- protected:
-  DdsTest() {
-    own_domain();
-    std::filesystem::create_directories(folder_);
-  }
-  ~DdsTest() override { std::filesystem::remove_all(folder_); }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-
- private:
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("pcl_bv_dds_" + std::to_string(getpid()));
 };
 
 }  // namespace pcl_bv::test
