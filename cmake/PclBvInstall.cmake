@@ -10,3 +10,4 @@ install(FILES ${PROJECT_BINARY_DIR}/pcl_bvConfig.cmake ${PROJECT_BINARY_DIR}/pcl
 foreach(component ${libraries})
   install(EXPORT pcl_bv_${component} FILE pcl_bv_${component}.cmake NAMESPACE pcl_bv:: DESTINATION ${package_dir})
 endforeach()
+install(FILES ${PROJECT_SOURCE_DIR}/package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/pcl_bv)

@@ -1,0 +1,38 @@
+# Ros1::roscpp with the messages of clouds, markers and diagnostics, and Ros1::nodelet. Nodelet's own package is not asked:
+# on Debian that runs ament's Python, which need not be there.
+foreach(package roscpp sensor_msgs visualization_msgs diagnostic_msgs)
+  find_package(${package} QUIET)
+  if(NOT ${package}_FOUND)
+    list(APPEND missing ${package})
+  endif()
+endforeach()
+set(headers)
+foreach(header nodelet/nodelet.h pluginlib/class_list_macros.hpp class_loader/class_loader.hpp rcpputils/shared_library.hpp
+               rcutils/shared_library.h)
+  get_filename_component(package ${header} DIRECTORY)
+  find_path(ros1_${package}_headers ${header} HINTS ${roscpp_INCLUDE_DIRS} PATH_SUFFIXES ${package})
+  mark_as_advanced(ros1_${package}_headers)
+  if(ros1_${package}_headers)
+    list(APPEND headers ${ros1_${package}_headers})
+  elseif(NOT package MATCHES "^rc") # only what Debian's class_loader is built on
+    list(APPEND missing ${package})
+  endif()
+endforeach()
+find_library(ros1_nodelet_library nodeletlib HINTS ${roscpp_DIR}/../../../lib)
+find_library(ros1_class_loader_library class_loader HINTS ${roscpp_DIR}/../../../lib)
+mark_as_advanced(ros1_nodelet_library ros1_class_loader_library)
+
+include(FindPackageHandleStandardArgs)
+list(JOIN missing ", " missing)
+find_package_handle_standard_args(Ros1 REQUIRED_VARS roscpp_FOUND ros1_nodelet_library ros1_class_loader_library
+                                  REASON_FAILURE_MESSAGE "missing: ${missing}")
+if(Ros1_FOUND AND NOT missing AND NOT TARGET Ros1::roscpp)
+  add_library(Ros1::roscpp INTERFACE IMPORTED GLOBAL)
+  foreach(package roscpp sensor_msgs visualization_msgs diagnostic_msgs)
+    target_include_directories(Ros1::roscpp INTERFACE ${${package}_INCLUDE_DIRS})
+  endforeach()
+  target_link_libraries(Ros1::roscpp INTERFACE ${roscpp_LIBRARIES})
+  add_library(Ros1::nodelet INTERFACE IMPORTED GLOBAL)
+  target_include_directories(Ros1::nodelet INTERFACE ${headers})
+  target_link_libraries(Ros1::nodelet INTERFACE Ros1::roscpp ${ros1_nodelet_library} ${ros1_class_loader_library})
+endif()

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cluster_volumes.h"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/console.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <exception>
+#include <utility>
+
+#include "parameters.h"
+#include "pcl_bv/nodes/cloud_message.h"
+
+namespace pcl_bv {
+namespace {
+
+// All but the data, which stay where they are.
+msg::PointCloud2 view_of(const sensor_msgs::PointCloud2& cloud) {
+  msg::PointCloud2 view;
+  view.header.stamp = {static_cast<std::int32_t>(cloud.header.stamp.sec), cloud.header.stamp.nsec};
+  view.header.frame_id = cloud.header.frame_id;
+  view.height = cloud.height;
+  view.width = cloud.width;
+  for (const sensor_msgs::PointField& field : cloud.fields)
+    view.fields.push_back({field.name, field.offset, field.datatype, field.count});
+  view.is_bigendian = cloud.is_bigendian != 0;
+  view.point_step = cloud.point_step;
+  view.row_step = cloud.row_step;
+  view.data = {reinterpret_cast<const std::byte*>(cloud.data.data()), cloud.data.size()};
+  view.is_dense = cloud.is_dense != 0;
+  return view;
+}
+
+}  // namespace
+
+ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
+    : name_(parameters.getNamespace()), topics_(topics) {
+  const StreamConfig config = config_of(parameters);
+  if (const auto& field = config.pipeline.cluster.class_field) class_field_ = field->name;
+  pipeline_ = FramePipeline(config.pipeline);
+  runner_ = std::make_unique<StreamRunner>(callbacks(), config.runner);
+  const std::lock_guard lock(connecting_);
+  const auto changed = [this](const ros::SingleSubscriberPublisher&) { listen_while_wanted(); };
+  markers_ = topics_.advertise<visualization_msgs::MarkerArray>("markers", 5, changed, changed);
+  labels_ = topics_.advertise<sensor_msgs::PointCloud2>("labels", 2, changed, changed);
+  diagnostics_ = topics_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 5);
+}
+
+ClusterVolumes::~ClusterVolumes() {
+  markers_.shutdown();
+  labels_.shutdown();
+  points_.shutdown();
+  runner_.reset();
+}
+
+StreamRunner::Callbacks ClusterVolumes::callbacks() {
+  StreamRunner::Callbacks calls;
+  calls.process = [this](const Frame& frame, FrameResult& result) { pipeline_.process(frame, result); };
+  calls.on_result = [this](const Frame& frame, const FrameResult& result) { publish(frame, result); };
+  calls.on_lost = [this](const Frame&, Loss loss, const std::string& reason) {
+    health_.lost();
+    if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": a cloud is lost: " << reason);
+  };
+  calls.on_silence = [this](double seconds) {
+    if (listens_) ROS_WARN_STREAM(name_ << ": no cloud for " << seconds << " s");
+  };
+  return calls;
+}
+
+void ClusterVolumes::listen_while_wanted() {
+  const std::lock_guard lock(connecting_);
+  const bool wanted = markers_.getNumSubscribers() + labels_.getNumSubscribers() > 0;
+  if (wanted == listens_) return;
+  listens_ = wanted;
+  if (wanted) {
+    points_ = topics_.subscribe("points", 2, &ClusterVolumes::receive, this, ros::TransportHints().tcpNoDelay());
+  } else {
+    points_.shutdown();
+  }
+}
+
+void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
+  Frame frame;
+  frame.taken = std::chrono::steady_clock::now();
+  frame.header.seq = cloud->header.seq;
+  frame.header.stamp_ns = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  try {
+    const std::shared_ptr<const void> owner(cloud.get(), [cloud](const void*) {});
+    read_cloud_message(view_of(*cloud), owner, class_field_, frame);
+  } catch (const std::exception& error) {
+    runner_->report_unreadable(std::move(frame), error.what());
+    return;
+  }
+  runner_->push(std::move(frame));
+}
+
+// Messages are handed over, so that nodelets in the same manager get them without a copy.
+void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
+  if (labels_.getNumSubscribers() > 0) {
+    const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
+    fill_points(frame, result, *cloud);
+    labels_.publish(cloud);
+  }
+  const std::int64_t lifetime = lifetime_.next(frame.header.stamp_ns);
+  if (markers_.getNumSubscribers() > 0) {
+    const auto markers = boost::make_shared<visualization_msgs::MarkerArray>();
+    fill_markers(frame, result, drawn(result), lifetime, shown_, *markers);
+    markers_.publish(markers);
+  }
+  if (!health_.heeds(frame, result)) return;
+  const auto array = boost::make_shared<diagnostic_msgs::DiagnosticArray>();
+  health_.fill(frame, *array);
+  array->status.front().name = name_ + ": objects in clouds";
+  diagnostics_.publish(array);
+}
+
+}  // namespace pcl_bv

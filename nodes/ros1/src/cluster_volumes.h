@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/nodes/stream_runner.h"
+#include "pcl_bv/nodes/topics.h"
+
+namespace pcl_bv {
+
+/// Clouds on `points`, their objects on `markers` (visualization_msgs/MarkerArray), the points with the numbers of their
+/// objects on `labels`, and once a second how it goes on `/diagnostics`. Listens to clouds only while somebody listens to
+/// markers or labels. A cloud that cannot be read is counted and said at most every ten seconds.
+class ClusterVolumes {
+ public:
+  /// Throws ConfigError for parameters as config_of(), IoError for a file of regions that cannot be read.
+  ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters);
+  ~ClusterVolumes();
+  ClusterVolumes(const ClusterVolumes&) = delete;
+  ClusterVolumes& operator=(const ClusterVolumes&) = delete;
+
+ private:
+  void listen_while_wanted();
+  void receive(const sensor_msgs::PointCloud2ConstPtr& cloud);
+  void publish(const Frame& frame, const FrameResult& result);
+  StreamRunner::Callbacks callbacks();
+
+  std::string name_, class_field_;
+  ros::NodeHandle topics_;
+  FramePipeline pipeline_;
+  std::mutex connecting_;
+  std::atomic<bool> listens_{false};
+  ros::Publisher markers_, labels_, diagnostics_;
+  ros::Subscriber points_;
+  ShownObjects shown_;
+  MarkerLifetime lifetime_;
+  StreamHealth health_;
+  std::unique_ptr<StreamRunner> runner_;
+};
+
+}  // namespace pcl_bv

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <exception>
+#include <memory>
+
+#include "cluster_volumes.h"
+
+namespace pcl_bv {
+
+class ClusterVolumesNodelet : public nodelet::Nodelet {
+ private:
+  // The manager lives on after an exception and says that the nodelet is not loaded, but not why.
+  void onInit() override {
+    try {
+      work_ = std::make_unique<ClusterVolumes>(getNodeHandle(), getPrivateNodeHandle());
+    } catch (const std::exception& error) {
+      NODELET_FATAL_STREAM(error.what());
+      throw;
+    }
+  }
+
+  std::unique_ptr<ClusterVolumes> work_;
+};
+
+}  // namespace pcl_bv
+
+PLUGINLIB_EXPORT_CLASS(pcl_bv::ClusterVolumesNodelet, nodelet::Nodelet)

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "parameters.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace pcl_bv {
+namespace {
+
+// Parameters are the only place where whole numbers have 32 bits: what they cannot hold is in the file.
+YAML::Node yaml_of(XmlRpc::XmlRpcValue& value) {
+  using Value = XmlRpc::XmlRpcValue;
+  YAML::Node node;
+  switch (value.getType()) {
+    case Value::TypeBoolean:
+      return YAML::Node(static_cast<bool>(value));
+    case Value::TypeInt:
+      return YAML::Node(static_cast<int>(value));
+    case Value::TypeDouble:
+      return YAML::Node(static_cast<double>(value));
+    case Value::TypeString:
+      return YAML::Node(static_cast<std::string>(value));
+    case Value::TypeArray:
+      node = YAML::Node(YAML::NodeType::Sequence);
+      for (int i = 0; i < value.size(); ++i)
+        node.push_back(yaml_of(value[i]));
+      return node;
+    case Value::TypeStruct:
+      node = YAML::Node(YAML::NodeType::Map);
+      for (auto& [key, inner] : value)
+        node[key] = yaml_of(inner);
+      return node;
+    default:
+      throw ConfigError("a parameter is neither a number, a text, a list nor a group of others");
+  }
+}
+
+// The lines are those of a text that nobody has seen.
+std::string without_line(std::string problem) {
+  const std::size_t at = problem.find(": line ");
+  if (at != std::string::npos) problem.erase(at, problem.find(':', at + 2) - at);
+  return problem;
+}
+
+}  // namespace
+
+StreamConfig config_of(const ros::NodeHandle& parameters) {
+  const std::string& name = parameters.getNamespace();
+  StreamConfig config;
+  config.pipeline.threads = 0;
+  XmlRpc::XmlRpcValue all;
+  if (!parameters.getParam("", all) || all.getType() != XmlRpc::XmlRpcValue::TypeStruct) return config;
+  YAML::Node tree = yaml_of(all);
+  const auto take = [&](const char* key) {
+    const std::string text = tree[key] && tree[key].IsScalar() ? tree[key].Scalar() : std::string();
+    tree.remove(key);
+    return text;
+  };
+  take("num_worker_threads");  // of a nodelet manager that has only this nodelet
+  try {
+    if (const std::string preset = take("preset"); !preset.empty()) apply_preset(preset, config.pipeline);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(name + ": preset: " + error.what());
+  }
+  if (const std::string file = take("config"); !file.empty()) config = read_stream_config(file, config);
+  try {
+    return tree.size() == 0 ? config : parse_stream_config(YAML::Dump(tree), name, config);
+  } catch (const ConfigError& error) {
+    throw ConfigError(without_line(error.what()));
+  }
+}
+
+}  // namespace pcl_bv
