@@ -46,7 +46,7 @@ inline std::size_t lines_of(const std::filesystem::path& file) {
 /// A command that runs beside the test, found in PATH or given by its path; killed at the end.
 class Background {
  public:
-  /// What it prints on standard error goes to the file `errors`, the rest to the test's output.
+  /// What it prints on standard error goes to the file `errors`; the rest is not kept.
   Background(std::filesystem::path errors, std::vector<std::string> command) : errors_(std::move(errors)) {
     std::vector<char*> list;
     for (std::string& word : command)
@@ -54,6 +54,7 @@ class Background {
     list.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 2, errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     EXPECT_EQ(posix_spawnp(&process_, list.front(), &actions, nullptr, list.data(), environ), 0) << list.front();
     posix_spawn_file_actions_destroy(&actions);

@@ -7,6 +7,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "pcl_bv/nodes/settings.h"
 
 namespace pcl_bv {
 namespace {
@@ -67,6 +70,11 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
     throw ConfigError(name + ": preset: " + error.what());
   }
   if (const std::string file = take("config"); !file.empty()) config = read_stream_config(file, config);
+  if (tree["volumes"] && tree["volumes"].IsScalar()) { // a command line has no lists: _volumes:=aabb,sphere
+    std::vector<std::string> methods;
+    read_text(tree["volumes"].Scalar(), methods);
+    tree["volumes"] = methods;
+  }
   try {
     return tree.size() == 0 ? config : parse_stream_config(YAML::Dump(tree), name, config);
   } catch (const ConfigError& error) {
