@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// See child_process.h.
 #include "child_process.h"
 
 #include <fcntl.h>
@@ -11,6 +10,8 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
+#include <fstream>
 #include <stdexcept>
 
 namespace pcl_bv::bench {
@@ -25,7 +26,7 @@ pid_t spawn(const std::vector<std::string>& command) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t child = 0;
-  const int error = ::posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int error = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw std::runtime_error("cannot start " + command[0]);
   return child;
@@ -43,6 +44,19 @@ ProcessCost run_process(const std::vector<std::string>& command) {
   }
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
   return {time.count(), static_cast<double>(usage.ru_maxrss) / 1024};
+}
+
+RunningProcess::RunningProcess(const std::vector<std::string>& command) : process_(spawn(command)) {}
+
+RunningProcess::~RunningProcess() {
+  ::kill(process_, SIGINT);
+  ::waitpid(process_, nullptr, 0);
+}
+
+double RunningProcess::resident_mib() const {
+  double all = 0, resident = 0;  // pages
+  std::ifstream("/proc/" + std::to_string(process_) + "/statm") >> all >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
 }  // namespace pcl_bv::bench

@@ -245,6 +245,43 @@ def masks(results):
     return Target("mask", "Mask of 300 k points against ten padded volumes", "mask", lines)
 
 
+def recordings(results):
+    lines = []
+    for compression, bound in (("none", 0.8), ("lz4", None), ("zstd", None)):
+        row = results.rows.get(f"over-pread/{compression}")
+        if row:
+            what = f"messages of an MCAP file, {compression}, over plain pread"
+            lines.append(Line(what, "100 clouds of 130 k points", *judge(row["ratio"], ">=", bound)))
+    row = results.rows.get("cloud-in-place/n:130000")
+    if row:
+        reached = judge(row["second_us"] / 1e3, "<=", 0.3, unit=" ms")
+        lines.append(Line("a PointCloud2 to a view", "130 k points", *reached))
+    return Target("recordings", "Recordings from the page cache", "recordings", lines)
+
+
+def live_topics(results):
+    lines = []
+    row = results.rows.get("dds/clouds-to-markers")
+    if row:
+        where = f"{row['sent']} clouds of 2 MB, 20 a second, loopback, threads: 2"
+        lines.append(Line("clouds answered", where, *judge(row["answered"], ">=", 600)))
+        lines.append(Line("cloud to markers, p50", where, *judge(row["p50_ms"], "<=", None, unit=" ms")))
+        lines.append(Line("cloud to markers, p99", where, *judge(row["p99_ms"], "<=", 15, unit=" ms")))
+    return Target("dds", "bv_stream between ROS 2's topics", "dds", lines)
+
+
+def nodelet(results):
+    lines = []
+    for volume, threads in (("aabb", 1), ("aabb", 2), ("obb-lshape", 1), ("obb-lshape", 2)):
+        row = results.rows.get(f"ros1/over-pcl_ros/{volume}/threads:{threads}")
+        if row:
+            where = f"{count(round(row['points']))} points, with {volume}, threads: {threads}"
+            bound = 50 if (volume, threads) != ("obb-lshape", 1) else None
+            lines.append(Line("cloud to the first message", where, *judge(row["ratio"], ">=", bound)))
+    title = "Nodelet against pcl_ros' EuclideanClusterExtraction, which fits no volumes"
+    return Target("nodelet", title, "ros1", lines)
+
+
 def all_targets(results):
     return [
         target(results)
@@ -253,5 +290,6 @@ def all_targets(results):
             *(epos26, exact_over_epos, exact_against_cgal),
             *(clusters_against_pcl, least_box_against_cgal, many_clusters_against_pcl, many_clusters),
             *(two_threads, masks, pipeline, ground_of_sweeps, least_boxes_of_sweeps, binary_file, ascii_file),
+            *(recordings, live_topics, nodelet),
         )
     ]

@@ -11,29 +11,8 @@
 #include <utility>
 
 #include "parameters.h"
-#include "pcl_bv/nodes/cloud_message.h"
 
 namespace pcl_bv {
-namespace {
-
-// All but the data, which stay where they are.
-msg::PointCloud2 view_of(const sensor_msgs::PointCloud2& cloud) {
-  msg::PointCloud2 view;
-  view.header.stamp = {static_cast<std::int32_t>(cloud.header.stamp.sec), cloud.header.stamp.nsec};
-  view.header.frame_id = cloud.header.frame_id;
-  view.height = cloud.height;
-  view.width = cloud.width;
-  for (const sensor_msgs::PointField& field : cloud.fields)
-    view.fields.push_back({field.name, field.offset, field.datatype, field.count});
-  view.is_bigendian = cloud.is_bigendian != 0;
-  view.point_step = cloud.point_step;
-  view.row_step = cloud.row_step;
-  view.data = {reinterpret_cast<const std::byte*>(cloud.data.data()), cloud.data.size()};
-  view.is_dense = cloud.is_dense != 0;
-  return view;
-}
-
-}  // namespace
 
 ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
     : name_(parameters.getNamespace()), topics_(topics) {
@@ -87,8 +66,7 @@ void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
   frame.header.seq = cloud->header.seq;
   frame.header.stamp_ns = static_cast<std::int64_t>(ros::Time::now().toNSec());
   try {
-    const std::shared_ptr<const void> owner(cloud.get(), [cloud](const void*) {});
-    read_cloud_message(view_of(*cloud), owner, class_field_, frame);
+    read_cloud(cloud, class_field_, frame);
   } catch (const std::exception& error) {
     runner_->report_unreadable(std::move(frame), error.what());
     return;

@@ -1,20 +1,22 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results as messages. The templates fill any types with ROS's field names: those of pcl_bv/messages, those
-// of ROS 1 and those that ROS 2's rosidl makes. Poses are in the frame of the points.
+// Clouds from messages, and results as messages. The templates read and fill any types with ROS's field names: those of
+// pcl_bv/messages, those of ROS 1 and those that ROS 2's rosidl makes. Poses are in the frame of the points.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "pcl_bv/nodes/cloud_message.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/volumes/any_volume.h"
@@ -76,6 +78,15 @@ void set_time(std::int64_t nanoseconds, Time& time) {
   }
 }
 
+template <class Time>
+msg::Time time_from(const Time& time) {
+  if constexpr (HasNanosec<Time>::value) {
+    return {static_cast<std::int32_t>(time.sec), time.nanosec};
+  } else {
+    return {static_cast<std::int32_t>(time.sec), time.nsec};
+  }
+}
+
 template <class Header>
 void set_header(const Frame& frame, Header& header) {
   set_time(frame.header.stamp_ns, header.stamp);
@@ -107,6 +118,27 @@ void set_colour(const std::array<float, 4>& from, Colour& to) {
 }
 
 }  // namespace topics
+
+/// A sensor_msgs/PointCloud2 as a frame, as read_cloud_message(). `pointer` owns it (std::shared_ptr, std::unique_ptr or
+/// boost::shared_ptr) and is kept with the frame: its points are not copied where they can be read in it.
+template <class Pointer>
+void read_cloud(Pointer pointer, const std::string& class_field, Frame& frame) {
+  const auto owner = std::make_shared<const Pointer>(std::move(pointer));
+  const auto& cloud = **owner;
+  msg::PointCloud2 view;  // all but the data
+  view.header.stamp = topics::time_from(cloud.header.stamp);
+  view.header.frame_id = cloud.header.frame_id;
+  view.height = cloud.height;
+  view.width = cloud.width;
+  for (const auto& field : cloud.fields)
+    view.fields.push_back({field.name, field.offset, field.datatype, field.count});
+  view.is_bigendian = cloud.is_bigendian != 0;
+  view.point_step = cloud.point_step;
+  view.row_step = cloud.row_step;
+  view.data = {reinterpret_cast<const std::byte*>(cloud.data.data()), cloud.data.size()};
+  view.is_dense = cloud.is_dense != 0;
+  read_cloud_message(view, owner, class_field, frame);
+}
 
 /// vision_msgs/Detection3DArray: a box for each cluster, its track as the id (empty until it has one). One
 /// result of the class (empty without classes), of score 1 and the box's pose, with the covariance of the
