@@ -210,5 +210,30 @@ TEST(CloudMessage, KeepsItsOtherFields) {
   EXPECT_EQ(integers_of(raw, "label")[1], 500);
 }
 
+TEST(IntensityInPlace, IsTheFieldOfThatNameWhereItLies) {
+  Made made = cloud_of(5, 2);
+  const auto intensity = intensity_in_place(made.cloud);
+  ASSERT_TRUE(intensity.has_value());
+  for (std::size_t i = 0; i < 10; ++i)
+    EXPECT_EQ(intensity->at(i), 100 + static_cast<float>(i));
+  made.cloud.fields[3] = {"reflectivity", 12, 2, 1};  // UINT8
+  EXPECT_EQ(intensity_in_place(made.cloud)->size, 1U);
+  EXPECT_EQ(intensity_in_place(made.cloud)->at(0), 0);  // the last byte of 100.F is not the first
+}
+
+TEST(IntensityInPlace, IsNoneWhereItCannotBeReadThere) {
+  const auto without = [](auto change) {
+    Made made = cloud_of(5, 2);
+    change(made.cloud);
+    return !intensity_in_place(made.cloud).has_value();
+  };
+  EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields.pop_back(); }));
+  EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields[3].offset = 13; }));
+  EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields[3].offset = 0xFFFFFFFF; }));
+  EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields[3].datatype = 9; }));
+  EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields[3].count = 2; }));
+  EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.is_bigendian = true; }));
+}
+
 }  // namespace
 }  // namespace pcl_bv

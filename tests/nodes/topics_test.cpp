@@ -124,6 +124,30 @@ TEST(Topics, HoldThePointsWithTheirLabels) {
   }
 }
 
+TEST(Topics, HoldTheIntensityOfPointsWhereItIsKnown) {
+  Street street;
+  street.process(0);
+  std::vector<std::uint16_t> measured(street.frame.points.count);
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    measured[i] = static_cast<std::uint16_t>(7 * i % 50'000);
+  street.frame.intensity = FieldView{reinterpret_cast<const std::byte*>(measured.data()), 2, 'U', 2};
+  struct : msg::PointCloud2 {
+    std::vector<std::uint8_t> data;
+  } cloud;
+  fill_points(street.frame, street.result, cloud);
+  ASSERT_EQ(cloud.fields.size(), 5U);
+  EXPECT_EQ(cloud.fields[4].name, "intensity");
+  ASSERT_EQ(cloud.data.size(), std::size_t{20} * cloud.width);
+  const std::vector<std::uint32_t> labels = labels_of(street.frame, street.result);
+  for (std::size_t i = 0; i < cloud.width; ++i) {
+    float intensity = 0;
+    std::memcpy(&intensity, cloud.data.data() + 20 * i + 16, 4);
+    EXPECT_EQ(intensity, static_cast<float>(measured[i]));
+    EXPECT_EQ(std::memcmp(cloud.data.data() + 20 * i, &street.xyz[0][3 * i], 12), 0);
+    EXPECT_EQ(std::memcmp(cloud.data.data() + 20 * i + 12, &labels[i], 4), 0);
+  }
+}
+
 TEST(DrawnVolumes, AreWhereTheVolumesAre) {
   const Eigen::Matrix3d axes = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.3).normalized().toRotationMatrix();
   const Cylinder cylinder({1, 2, 3}, axes.col(0), 0.5, 2);

@@ -3,6 +3,7 @@
 
 #include "pcl_bv/io/raw_cloud.h"
 
+#include <cstring>
 #include <stdexcept>
 
 #include "fields.h"
@@ -23,6 +24,25 @@ PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t p
                                 std::to_string(point_step) + " bytes");
   if (count > 0 && data == nullptr) throw std::invalid_argument("points without data");
   return count > 0 ? view_at(xyz, data, count, point_step) : PointView();
+}
+
+float FieldView::at(std::size_t record) const {
+  const std::byte* const from = data + record * stride;
+  return with_element_type({{}, type, size}, [from](auto value) {
+    std::memcpy(&value, from, sizeof value);
+    return static_cast<float>(value);
+  });
+}
+
+std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
+                                      std::size_t point_step) {
+  for (const char* name : {"intensity", "intensities", "reflectivity", "i"}) {
+    const PointField* const field = find_field(fields, name);
+    const bool known = field != nullptr && field->count == 1 && (field->type != 'F' || field->size >= 4);
+    if (known && field->offset + field->bytes() <= point_step)
+      return FieldView{records + field->offset, point_step, field->type, field->size};
+  }
+  return std::nullopt;
 }
 
 PointView RawCloud::xyz() const {

@@ -154,6 +154,17 @@ std::optional<PointView> points_in_place(const msg::PointCloud2& cloud) {
   return view;
 }
 
+std::optional<FieldView> intensity_in_place(const msg::PointCloud2& cloud) {
+  if (!points_in_place(cloud) || cloud.is_bigendian) return std::nullopt;
+  std::vector<PointField> fields;
+  for (const msg::PointField& field : cloud.fields) {
+    if (field.datatype < 1 || field.datatype > std::size(kDatatypes)) continue;
+    const auto [type, size] = kDatatypes[field.datatype - 1];
+    fields.push_back({field.name, type, size, std::max(field.count, 1U), field.offset});
+  }
+  return intensity_of(fields, cloud.data.data, cloud.point_step);
+}
+
 RawCloud raw_cloud_of(const msg::PointCloud2& cloud) {
   const std::size_t points = checked_size(cloud);
   for (const char* name : {"x", "y", "z"})

@@ -29,6 +29,7 @@ void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<con
   const std::optional<PointView> in_place = points_in_place(cloud);
   if (in_place) {
     frame.points = *in_place;
+    frame.intensity = intensity_in_place(cloud);
     frame.owner = owner;
   }
   if (in_place && class_field.empty()) return;
@@ -37,6 +38,7 @@ void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<con
     frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(*copy, class_field));
   if (!in_place) {
     frame.points = copy->xyz();
+    frame.intensity = intensity_of(copy->fields, copy->data.data(), copy->point_step);
     frame.owner = copy;
   }
 }

@@ -38,8 +38,11 @@ class Packets final : public FrameSource {
     frame.header.frame_id = options_.frame_id.empty() ? "velodyne" : options_.frame_id;
     frame.pose = poses_.at(place_++, frame.header.stamp_ns);
     ++seq_;
-    if (!sweep->points.empty())
-      frame.points = PointView::of(&sweep->points.front().x, sizeof(VelodynePoint), sweep->points.size());
+    if (!sweep->points.empty()) {
+      const VelodynePoint& first = sweep->points.front();
+      frame.points = PointView::of(&first.x, sizeof(VelodynePoint), sweep->points.size());
+      frame.intensity = FieldView{reinterpret_cast<const std::byte*>(&first.intensity), sizeof(VelodynePoint)};
+    }
     frame.owner = sweep;
     frame.decode_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

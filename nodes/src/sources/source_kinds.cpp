@@ -40,6 +40,7 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
       [fields = options.bin_fields, classes = options.class_field](std::size_t, Frame& frame) {
         const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, Serial{}, fields));
         frame.points = cloud->xyz();
+        frame.intensity = intensity_of(cloud->fields, cloud->data.data(), cloud->point_step);
         if (!classes.empty())
           frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(*cloud, classes));
         frame.note = cloud->note;

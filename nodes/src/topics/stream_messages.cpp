@@ -27,14 +27,18 @@ std::int64_t MarkerLifetime::next(std::int64_t stamp_ns) {
 
 void write_labelled_points(const Frame& frame, const FrameResult& result, std::byte* to) {
   const std::vector<std::uint32_t> labels = labels_of(frame, result);
+  const std::size_t step = frame.intensity ? 20 : 16;
   for (std::size_t chunk = 0; chunk < chunk_count(frame.points.count); ++chunk) {
     const LoadedPoints loaded = load_chunk(frame.points, chunk);
     const PointView& part = loaded.view();
-    for (std::size_t i = 0; i < part.count; ++i, to += 16) {
+    for (std::size_t i = 0; i < part.count; ++i, to += step) {
       const Coordinates p = load_point(part, i);
       const float xyz[] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
       std::memcpy(to, xyz, sizeof xyz);
       std::memcpy(to + 12, &labels[part.index(i)], 4);
+      if (!frame.intensity) continue;
+      const float intensity = frame.intensity->at(part.index(i));
+      std::memcpy(to + 16, &intensity, 4);
     }
   }
 }

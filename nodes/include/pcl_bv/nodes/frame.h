@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/kernels/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -42,6 +43,8 @@ struct Frame {
   std::string note;          ///< What its source noticed and did not refuse, for people; mostly empty.
   /// The class of each point, by point number, where somebody has told them apart; else null.
   std::shared_ptr<const std::vector<std::int64_t>> classes;
+  /// Of each point, by point number, for those who look at it; `owner` keeps it. Not given: the source knows none.
+  std::optional<FieldView> intensity{};
   std::optional<Pose> pose;  ///< Of the sensor in a fixed frame, if it is known.
 
   /// From when its latency counts. Replays at a pace: when it was due. A live source whose stamps are the

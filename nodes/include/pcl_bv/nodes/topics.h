@@ -246,7 +246,8 @@ class MarkerLifetime {
   std::int64_t last_stamp_ns_ = 0, period_ns_ = 100'000'000;
 };
 
-/// 16 bytes a point: x, y and z as float32 and `label` as uint32, as labels_of() has it.
+/// 16 bytes a point: x, y and z as float32 and `label` as uint32, as labels_of() has it; then, where the frame has it,
+/// `intensity` as float32.
 void write_labelled_points(const Frame& frame, const FrameResult& result, std::byte* to);
 
 namespace topics {
@@ -256,17 +257,18 @@ template <class Cloud>
 void set_labelled(const Frame& frame, const FrameResult& result, Cloud& cloud) {
   using Field = typename std::decay<decltype(cloud.fields.front())>::type;
   set_header(frame, cloud.header);
-  cloud.fields.resize(4);
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    cloud.fields[i].name = std::array<const char*, 4>{"x", "y", "z", "label"}[i];
+  const std::uint32_t fields = frame.intensity ? 5 : 4;
+  cloud.fields.resize(fields);
+  for (std::uint32_t i = 0; i < fields; ++i) {
+    cloud.fields[i].name = std::array<const char*, 5>{"x", "y", "z", "label", "intensity"}[i];
     cloud.fields[i].offset = 4 * i;
-    cloud.fields[i].datatype = i < 3 ? Field::FLOAT32 : Field::UINT32;
+    cloud.fields[i].datatype = i == 3 ? Field::UINT32 : Field::FLOAT32;
     cloud.fields[i].count = 1;
   }
   cloud.height = 1;
   cloud.width = static_cast<std::uint32_t>(frame.points.count);
-  cloud.point_step = 16;
-  cloud.row_step = 16 * cloud.width;
+  cloud.point_step = 4 * fields;
+  cloud.row_step = cloud.point_step * cloud.width;
   cloud.is_bigendian = false;
   cloud.is_dense = result.counts.nonfinite == 0;
 }
@@ -277,7 +279,7 @@ void set_labelled(const Frame& frame, const FrameResult& result, Cloud& cloud) {
 template <class Cloud>
 void fill_points(const Frame& frame, const FrameResult& result, Cloud& cloud) {
   topics::set_labelled(frame, result, cloud);
-  cloud.data.resize(std::size_t{16} * cloud.width);
+  cloud.data.resize(std::size_t{cloud.point_step} * cloud.width);
   write_labelled_points(frame, result, reinterpret_cast<std::byte*>(cloud.data.data()));
 }
 

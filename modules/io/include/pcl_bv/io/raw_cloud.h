@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +58,21 @@ struct RawCloud {
 /// std::invalid_argument for anything else, also where they reach beyond the record.
 PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t point_step,
                          const std::vector<PointField>& fields);
+
+/// One number of each record, where it lies.
+struct FieldView {
+  const std::byte* data = nullptr;  ///< Of the first record.
+  std::size_t stride = 0;           ///< Bytes from one record to the next.
+  char type = 'F';                  ///< As PointField has them.
+  std::uint32_t size = 4;
+
+  float at(std::size_t record) const;  ///< Rounded to nearest, where float32 does not hold it.
+};
+
+/// How much light came back to each point, in a unit of the sensor's own: the first field of one element that is called
+/// intensity, intensities, reflectivity or i. nullopt if there is none. The view dies with the records.
+std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
+                                      std::size_t point_step);
 
 /// The first field of this name, or null.
 const PointField* find_field(const RawCloud& cloud, std::string_view name);

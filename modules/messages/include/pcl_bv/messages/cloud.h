@@ -16,6 +16,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// takes. Throws MessageError (serialize.h) for a cloud that does not fit its data, or without x, y and z.
 std::optional<PointView> points_in_place(const msg::PointCloud2& cloud);
 
+/// intensity_of() where it lies in the message; nullopt where there is none, or none that can be read in place.
+std::optional<FieldView> intensity_in_place(const msg::PointCloud2& cloud);
+
 /// A copy with all fields, row by row without padding, little-endian. Where x, y and z are neither all
 /// float32 nor all float64 they become float32 if all are integers of 16 bits or float32, else float64: no
 /// value changes. Throws MessageError as points_in_place() does, and for fields that are of no known type,
