@@ -54,7 +54,7 @@ class Dds : public DdsTest {
   /// Of one topic to bv_stream and back from it.
   struct Talk {
     explicit Talk(const std::string& prefix)
-        : carrier(middleware("dds").carrier()), points(carrier->add_topic(prefix + "/points", kCloud)) {}
+        : carrier(middleware("dds").carrier("")), points(carrier->add_topic({prefix + "/points", kCloud})) {}
     void publish(const Bytes& cloud) const { carrier->send(points, 0, cloud); }
     bool heard() const {
       return wait_for([&] { return carrier->wanted(points); });
@@ -194,8 +194,8 @@ TEST_F(Dds, SaysWhatToTypeWhereTheKernelsBuffersAreSmall) {
 
 TEST_F(Dds, SaysThatATopicHasAnotherType) {
   BvStream node(at("err"), {"--source", "dds:/points", "--sink", "jsonl:" + at("out")});
-  const auto carrier = middleware("dds").carrier();
-  carrier->add_topic("/points", "sensor_msgs/msg/Image");
+  const auto carrier = middleware("dds").carrier("");
+  carrier->add_topic({"/points", "sensor_msgs/msg/Image"});
   EXPECT_TRUE(wait_for([&] { return !node.errors().empty(); }));
   EXPECT_THAT(node.errors(), HasSubstr("dds:/points: also published as sensor_msgs::msg::dds_::Image_, which is not read"));
   EXPECT_EQ(node.end(SIGTERM), 0);

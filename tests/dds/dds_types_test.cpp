@@ -97,8 +97,8 @@ TYPED_TEST_SUITE(DdsTypes, Kinds);
 TYPED_TEST(DdsTypes, AreTheBytesThatCycloneMakesOfTheirFields) {
   const std::string type = TypeParam::Message::ros_type;
   Middleware& dds = middleware("dds");
-  const auto carrier = dds.carrier();
-  const std::size_t out = carrier->add_topic("/out", type);
+  const auto carrier = dds.carrier("");
+  const std::size_t out = carrier->add_topic({"/out", type});
   const auto back = dds.receiver("/back", type);
 
   const dds_entity_t participant = dds_create_participant(own_domain(), nullptr, nullptr);

@@ -44,7 +44,9 @@ Qos writer_qos(const std::string& type) {
 
 class Carrier final : public MessageCarrier {
  public:
-  std::size_t add_topic(const std::string& name, const std::string& type) override {
+  std::size_t add_topic(const MessageTopic& added) override {
+    const auto& [name, type, encoding] = added;
+    if (encoding != "cdr") throw std::invalid_argument(name + ": DDS carries CDR only");
     const ddsi_sertype* known = nullptr;
     Entity topic(create_cdr_topic(participant_->get(), dds_topic(name), dds_type(type), &known), name);
     Entity writer(dds_create_writer(participant_->get(), topic.get(), writer_qos(type).get(), nullptr), name);

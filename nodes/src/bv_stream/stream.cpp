@@ -192,6 +192,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   SinkGroup sinks(complain);
   for (const SinkDescription& sink : options.sinks)
     parse_with("--sink", sink.place.string(), [&](const auto&) { sinks.add(sink); });
+  sinks.offer(remote_settings(pipeline));
   Progress progress;
   RunnerConfig config = options.config.runner;
   config.policy = resolved(config.policy, options.rate != Rate::max);

@@ -23,8 +23,8 @@ constexpr const char* kQos =
 class Recorder final : public MessageCarrier {
  public:
   explicit Recorder(std::unique_ptr<RecordingWriter> writer) : writer_(std::move(writer)) {}
-  std::size_t add_topic(const std::string& name, const std::string& type) override {
-    return writer_->add_topic({name, type, schema_of(type), {{"offered_qos_profiles", kQos}}});
+  std::size_t add_topic(const MessageTopic& topic) override {
+    return writer_->add_topic({topic.name, topic.type, schema_of(topic.type), {{"offered_qos_profiles", kQos}}});
   }
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& cdr) override {
     writer_->write(topic, stamp_ns, stamp_ns, cdr.data(), cdr.size());

@@ -39,6 +39,8 @@ void SinkGroup::add(const SinkDescription& description) {
       standard ? "standard output" : std::string(description.kind->name) + ':' + description.place.string();
   try {
     add(name, make_sink(description));
+    for (const std::string& remark : members_.back()->sink->take_remarks())
+      say_(name + ": " + remark);
   } catch (const IoError& error) {
     throw IoError(name + ": " + error.what());
   }
@@ -81,6 +83,10 @@ void SinkGroup::each(const Do& what) {
     }
   }
   alive_ = std::any_of(members_.begin(), members_.end(), [](const auto& m) { return m->sink != nullptr; });
+}
+
+void SinkGroup::offer(const std::shared_ptr<RemoteSettings>& settings) {
+  each([&](Member& member) { member.sink->offer(settings); });
 }
 
 void SinkGroup::write(const Frame& frame, const FrameResult& result) {

@@ -33,7 +33,13 @@ std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
   topics.prefix = description.place.string();
   topics.points = true;
   topics.scene = topics.poses = false;
-  return make_message_sink(middleware("dds").carrier(), topics);
+  return make_message_sink(middleware("dds").carrier(""), topics);
+}
+
+std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description) {
+  MessageTopics topics;
+  topics.points = topics.frames = true;
+  return make_message_sink(middleware("ws").carrier(description.place.string()), topics);
 }
 
 const std::vector<SinkKind>& sink_kinds() {
@@ -42,6 +48,7 @@ const std::vector<SinkKind>& sink_kinds() {
                                            {"mcap", "FILE[,points]", "", open_mcap_sink},
                                            {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink},
                                            {"dds", "PREFIX", "", open_dds_sink, true},
+                                           {"ws", "[HOST:]PORT", "", open_ws_sink, true},
                                            {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
                                            {"image", "FOLDER", ".png", open_image},
                                            {"labels", "FOLDER", ".pcd", open_labels}};

@@ -16,5 +16,6 @@ std::unique_ptr<FrameSink> open_labels(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description);
+std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description);
 
 }  // namespace pcl_bv

@@ -9,20 +9,24 @@
 
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/settings.h"
+#include "streaming/reports.h"
 #include "topics/scene.h"
 
 namespace pcl_bv {
 namespace {
 
+constexpr const char* kFrameType = "pcl_bv.Frame";
+
 class MessageSink final : public FrameSink {
  public:
   MessageSink(std::unique_ptr<MessageCarrier> carrier, const MessageTopics& topics)
       : carrier_(std::move(carrier)), sends_poses_(topics.poses) {
-    objects_topic_ = carrier_->add_topic(topics.prefix + "/objects", msg::Detection3DArray::ros_type);
-    markers_topic_ = carrier_->add_topic(topics.prefix + "/markers", msg::MarkerArray::ros_type);
-    if (topics.scene) scene_topic_ = carrier_->add_topic(topics.prefix + "/scene", msg::SceneUpdate::ros_type);
-    diagnostics_topic_ = carrier_->add_topic("/diagnostics", msg::DiagnosticArray::ros_type);
-    if (topics.points) points_topic_ = carrier_->add_topic(topics.prefix + "/points", msg::PointCloud2::ros_type);
+    objects_topic_ = carrier_->add_topic({topics.prefix + "/objects", msg::Detection3DArray::ros_type});
+    markers_topic_ = carrier_->add_topic({topics.prefix + "/markers", msg::MarkerArray::ros_type});
+    if (topics.scene) scene_topic_ = carrier_->add_topic({topics.prefix + "/scene", msg::SceneUpdate::ros_type});
+    diagnostics_topic_ = carrier_->add_topic({"/diagnostics", msg::DiagnosticArray::ros_type});
+    if (topics.points) points_topic_ = carrier_->add_topic({topics.prefix + "/points", msg::PointCloud2::ros_type});
+    if (topics.frames) frames_topic_ = carrier_->add_topic({topics.prefix + "/frames", kFrameType, "json"});
   }
 
   void write(const Frame& original, const FrameResult& result) override {
@@ -31,7 +35,7 @@ class MessageSink final : public FrameSink {
     note_settings(result, frame.header.stamp_ns);
     if (wanted(points_topic_)) {
       topics::set_labelled(frame, result, cloud_);
-      cloud_bytes_.resize(std::size_t{16} * cloud_.width);
+      cloud_bytes_.resize(std::size_t{cloud_.point_step} * cloud_.width);
       write_labelled_points(frame, result, cloud_bytes_.data());
       cloud_.data = {cloud_bytes_.data(), cloud_bytes_.size()};
       send(*points_topic_, frame, cloud_);
@@ -42,6 +46,7 @@ class MessageSink final : public FrameSink {
       send(*objects_topic_, frame, objects_);
     }
     draw(frame, result, lifetime);
+    if (wanted(frames_topic_)) send_frame(report_of(frame, result));
     if (frame.pose && sends_poses_) send_pose(frame);
     const bool due = health_.heeds(frame, result);
     if (due && wanted(diagnostics_topic_)) {
@@ -51,7 +56,12 @@ class MessageSink final : public FrameSink {
     }
   }
 
-  void write_lost(const Frame&, const std::string&) override { health_.lost(); }
+  void write_lost(const Frame& frame, const std::string& reason) override {
+    health_.lost();
+    carrier_->notice("frame " + std::to_string(frame.header.seq) + " is lost: " + reason);
+    if (wanted(frames_topic_)) send_frame(report_of_lost(frame, reason));
+  }
+  void offer(std::shared_ptr<RemoteSettings> settings) override { carrier_->offer(std::move(settings)); }
   std::vector<std::string> take_remarks() override { return carrier_->take_remarks(); }
   void close() override { carrier_->close(); }
 
@@ -65,6 +75,13 @@ class MessageSink final : public FrameSink {
     bytes_.clear();
     write_cdr(message, bytes_);
     carrier_->send(topic, frame.header.stamp_ns, bytes_);
+  }
+
+  void send_frame(const FrameReport& report) {
+    const std::string text = frame_json(report);
+    const auto* const first = reinterpret_cast<const std::byte*>(text.data());
+    bytes_.assign(first, first + text.size());
+    carrier_->send(*frames_topic_, report.stamp_ns, bytes_);
   }
 
   void draw(const Frame& frame, const FrameResult& result, std::int64_t lifetime) {
@@ -91,7 +108,7 @@ class MessageSink final : public FrameSink {
   }
 
   void send_pose(const Frame& frame) {
-    if (!pose_topic_) pose_topic_ = carrier_->add_topic("/tf", msg::TFMessage::ros_type);
+    if (!pose_topic_) pose_topic_ = carrier_->add_topic({"/tf", msg::TFMessage::ros_type});
     const Eigen::Quaterniond turn(frame.pose->linear());
     const Eigen::Vector3d at = frame.pose->translation();
     msg::TransformStamped transform;
@@ -104,7 +121,7 @@ class MessageSink final : public FrameSink {
 
   std::unique_ptr<MessageCarrier> carrier_;
   bool sends_poses_;
-  Topic objects_topic_, markers_topic_, scene_topic_, diagnostics_topic_, points_topic_, pose_topic_;
+  Topic objects_topic_, markers_topic_, scene_topic_, diagnostics_topic_, points_topic_, frames_topic_, pose_topic_;
   std::shared_ptr<const PipelineConfig> noted_;
   msg::Detection3DArray objects_;
   msg::MarkerArray markers_;

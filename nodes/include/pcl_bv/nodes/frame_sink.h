@@ -17,6 +17,7 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/nodes/latency.h"
+#include "pcl_bv/nodes/remote_settings.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -38,6 +39,9 @@ class FrameSink {
   /// A frame that was lost, and why.
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
+  /// Before the first frame: settings that those who read the results may see and change.
+  virtual void offer(std::shared_ptr<RemoteSettings> /*settings*/) {}
+
   /// What was noticed and harms no frame, since the last call: a line each, for people.
   virtual std::vector<std::string> take_remarks() { return {}; }
 
@@ -56,7 +60,7 @@ struct SinkKind {
   bool live = false;  ///< Sent to whoever listens: the place is no file.
 };
 
-/// jsonl, csv, mcap, rosbag2, dds, vtp, image, labels.
+/// jsonl, csv, mcap, rosbag2, dds, ws, vtp, image, labels.
 const std::vector<SinkKind>& sink_kinds();
 
 /// "jsonl:FILE, csv:FILE, ...": all of them, for help and errors.
@@ -64,7 +68,7 @@ std::string sink_syntax();
 
 struct SinkDescription {
   const SinkKind* kind = nullptr;
-  std::filesystem::path place;  ///< "-" is standard output; of dds the topics' prefix.
+  std::filesystem::path place;  ///< "-" is standard output; of dds the topics' prefix, of ws [HOST:]PORT.
   bool points = false;          ///< The frame's points, too.
 };
 
@@ -92,6 +96,9 @@ class SinkGroup {
 
   /// Opens it; throws as make_sink(), with its name.
   void add(const SinkDescription& description);
+
+  /// To all that were added so far.
+  void offer(const std::shared_ptr<RemoteSettings>& settings);
 
   void write(const Frame& frame, const FrameResult& result);
   void write_lost(const Frame& frame, const std::string& reason);

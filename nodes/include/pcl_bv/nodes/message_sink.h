@@ -12,9 +12,10 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct MessageTopics {
-  std::string prefix = "/bv";  ///< Before "/objects", "/markers", "/scene" and "/points".
+  std::string prefix = "/bv";  ///< Before "/objects", "/markers", "/scene", "/points" and "/frames".
   bool points = false;         ///< The clouds with labels.
   bool scene = true;           ///< foxglove_msgs/msg/SceneUpdate.
+  bool frames = false;         ///< Each frame, lost ones too, as a line of the sink `jsonl`, on "/frames"; for viewers.
   bool poses = true;           ///< Of the sensor in "map", where they are known, on "/tf".
 };
 
