@@ -1,0 +1,7 @@
+# cmake -DPAGE=page.html -DOUT=page.cpp -P embed.cmake: the page as a function of C++. As numbers: a literal would have to
+# keep clear of what the page says.
+file(READ ${PAGE} bytes HEX)
+string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
+string(REGEX REPLACE "((0x..,){24})" "\\1\n" bytes "${bytes}")
+file(WRITE ${OUT} "#include \"page.h\"\n\nnamespace {\nconst unsigned char page[] = {${bytes}};\n}\n\n"
+  "std::string_view pcl_bv::live_page() { return {reinterpret_cast<const char*>(page), sizeof page}; }\n")

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "access.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <boost/asio/ip/address.hpp>
+#include <charconv>
+#include <stdexcept>
+
+namespace pcl_bv::live {
+namespace {
+
+// "localhost" of "localhost:8765", "::1" of "[::1]:8765".
+std::string_view without_port(std::string_view host) {
+  if (host.starts_with('[')) {
+    const std::size_t end = host.find(']');
+    return end == std::string_view::npos ? host : host.substr(1, end - 1);
+  }
+  return host.substr(0, host.find(':'));
+}
+
+bool is_address(std::string_view host) {
+  boost::system::error_code none;
+  boost::asio::ip::make_address(std::string(host), none);
+  return !none;
+}
+
+bool is_this_machine(std::string_view host) {
+  boost::system::error_code none;
+  const auto address = boost::asio::ip::make_address(std::string(host), none);
+  return host == "localhost" || (!none && address.is_loopback());
+}
+
+}  // namespace
+
+Address parse_address(const std::string& text) {
+  Address address;
+  const std::size_t colon = text.rfind(':');
+  const std::string_view port = std::string_view(text).substr(colon == std::string::npos ? 0 : colon + 1);
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), address.port);
+  if (colon != std::string::npos) address.host = without_port(text.substr(0, colon));
+  if (error != std::errc() || end != port.data() + port.size() || address.host.empty())
+    throw std::invalid_argument("'" + text + "' is not [HOST:]PORT with a port from 0 to 65535");
+  return address;
+}
+
+bool is_our_host(std::string_view header, const Address& server) {
+  const std::string_view host = without_port(header);
+  std::array<char, 256> name{};
+  const bool named = gethostname(name.data(), name.size() - 1) == 0;
+  return is_address(host) || host == "localhost" || host == server.host ||
+         (named && (host == name.data() || host == std::string(name.data()) + ".local"));
+}
+
+bool may_connect(std::string_view origin, std::string_view host_header) {
+  if (origin.empty() || origin == "file://" || origin == "https://app.foxglove.dev") return true;
+  const std::size_t scheme = origin.find("://");
+  if (scheme == std::string_view::npos) return false;  // "null": of a page that hides where it comes from
+  const std::string_view from = origin.substr(scheme + 3);
+  return from == host_header || is_this_machine(without_port(from));
+}
+
+}  // namespace pcl_bv::live

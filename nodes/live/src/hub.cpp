@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "hub.h"
+
+#include <utility>
+
+#include "viewer.h"
+
+namespace pcl_bv::live {
+
+std::vector<MessageTopic> Hub::topics() const {
+  std::vector<MessageTopic> topics;
+  for (const auto& channel : channels_)
+    topics.push_back(channel->topic);
+  return topics;
+}
+
+void Hub::add(std::shared_ptr<Channel> channel) {
+  channels_.push_back(std::move(channel));
+  const std::string text = advertisement(topics(), channels_.size() - 1);
+  for (const auto& viewer : viewers_)
+    viewer->tell(text);
+}
+
+void Hub::publish(std::size_t channel, std::int64_t stamp_ns, const Bytes& message) {
+  const bool later = std::exchange(last_time_ns_, stamp_ns) != stamp_ns;
+  for (const auto& viewer : viewers_) {
+    if (later) viewer->send_time(stamp_ns);
+    viewer->send(channel, stamp_ns, message);
+  }
+}
+
+void Hub::notice(const std::string& line) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - noticed_ < std::chrono::seconds(1)) {
+    ++unsaid_;
+    return;
+  }
+  noticed_ = now;
+  const std::uint64_t others = std::exchange(unsaid_, 0);
+  const std::string text =
+      status(Level::warning, others == 0 ? line : line + "; " + std::to_string(others) + " more before");
+  for (const auto& viewer : viewers_)
+    viewer->tell(text);
+}
+
+void Hub::offer(std::shared_ptr<RemoteSettings> settings) {
+  settings_ = std::move(settings);
+  tell_settings();
+}
+
+void Hub::tell_settings() {
+  if (settings_ == nullptr) return;
+  std::string values = settings_->values();
+  if (values == told_) return;
+  told_ = std::move(values);
+  const std::string text = parameter_values(told_, {}, "");
+  for (const auto& viewer : viewers_)
+    if (viewer->watches_settings()) viewer->tell(text);
+}
+
+std::string Hub::description() const {
+  return settings_ == nullptr ? "[]" : settings_->description();
+}
+
+void Hub::join(const std::shared_ptr<Viewer>& viewer) {
+  viewers_.insert(viewer);
+  viewer->tell(server_info(session_));
+  viewer->tell(advertisement(topics(), 0));
+}
+
+void Hub::leave(const std::shared_ptr<Viewer>& viewer) {
+  viewers_.erase(viewer);
+}
+
+void Hub::finish() {
+  for (const auto& viewer : std::exchange(viewers_, {}))
+    viewer->finish();
+}
+
+void Hub::change(Viewer& viewer, const SetParameters& wanted) {
+  const std::string problem =
+      settings_ == nullptr ? "there are no settings" : settings_->change(wanted.object);
+  if (!problem.empty()) viewer.tell(status(Level::error, problem));
+  if (settings_ == nullptr) return;
+  tell_settings();
+  if (!wanted.id.empty() || !problem.empty())
+    viewer.tell(parameter_values(settings_->values(), wanted.names, wanted.id));
+}
+
+void Hub::handle(Viewer& viewer, const Request& request) {
+  if (const auto* wanted = std::get_if<Subscribe>(&request)) {
+    for (const auto& [subscription, channel] : wanted->subscriptions)
+      viewer.subscribe(subscription, channel);
+  } else if (const auto* unwanted = std::get_if<Unsubscribe>(&request)) {
+    for (const std::uint32_t subscription : unwanted->subscriptions)
+      viewer.unsubscribe(subscription);
+  } else if (const auto* get = std::get_if<GetParameters>(&request)) {
+    viewer.tell(parameter_values(settings_ == nullptr ? "{}" : settings_->values(), get->names, get->id));
+  } else if (const auto* set = std::get_if<SetParameters>(&request)) {
+    change(viewer, *set);
+  } else if (const auto* watch = std::get_if<WatchParameters>(&request)) {
+    viewer.watch_settings(watch->watch);
+  } else {
+    viewer.tell(status(Level::error, std::get<Unknown>(request).why));
+  }
+}
+
+void Hub::remark(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  if (std::exchange(last_remark_, line) != line && remarks_.size() < 100) remarks_.push_back(line);
+}
+
+std::vector<std::string> Hub::take_remarks() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(remarks_, {});
+}
+
+}  // namespace pcl_bv::live

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What all viewers share: channels, settings, who reads what.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "protocol.h"
+
+namespace pcl_bv::live {
+
+class Viewer;
+
+using Bytes = std::shared_ptr<const std::vector<std::byte>>;
+
+/// `readers` from any thread.
+struct Channel {
+  MessageTopic topic;
+  std::atomic<int> readers{0};
+};
+
+/// Used by the server's thread only, but for what says otherwise.
+class Hub {
+ public:
+  explicit Hub(std::string session) : session_(std::move(session)) {}
+
+  void add(std::shared_ptr<Channel> channel);
+  void publish(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
+
+  /// To all viewers, at most one a second; of those in between their number is said.
+  void notice(const std::string& line);
+
+  void offer(std::shared_ptr<RemoteSettings> settings);
+
+  /// Tells those who watch the settings their values, if these are not what was told last.
+  void tell_settings();
+
+  /// RemoteSettings::description(), "[]" where there are none.
+  std::string description() const;
+
+  void join(const std::shared_ptr<Viewer>& viewer);
+  void leave(const std::shared_ptr<Viewer>& viewer);
+  std::size_t viewers() const { return viewers_.size(); }
+  void handle(Viewer& viewer, const Request& request);
+
+  /// Viewers get what waits for them, and then the end.
+  void finish();
+
+  /// For people; from any thread. One like the last is not noted.
+  void remark(const std::string& line);
+  std::vector<std::string> take_remarks();
+
+  const std::vector<std::shared_ptr<Channel>>& channels() const { return channels_; }
+
+ private:
+  void change(Viewer& viewer, const SetParameters& wanted);
+  std::vector<MessageTopic> topics() const;
+
+  std::string session_;
+  std::vector<std::shared_ptr<Channel>> channels_;
+  std::set<std::shared_ptr<Viewer>> viewers_;
+  std::shared_ptr<RemoteSettings> settings_;
+  std::string told_;
+  std::int64_t last_time_ns_ = INT64_MIN;
+  std::chrono::steady_clock::time_point noticed_{};
+  std::uint64_t unsaid_ = 0;
+  std::mutex mutex_;
+  std::vector<std::string> remarks_;
+  std::string last_remark_;
+};
+
+}  // namespace pcl_bv::live

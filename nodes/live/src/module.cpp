@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/io/io_error.h"
+#include "server.h"
+
+namespace pcl_bv::live {
+namespace {
+
+class WebSockets final : public Middleware {
+ public:
+  std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string&) override {
+    throw std::invalid_argument(in_quotes(topic) + ": nothing is received from viewers");
+  }
+  std::unique_ptr<MessageCarrier> carrier(const std::string& place) override {
+    return std::make_unique<Server>(place);
+  }
+};
+
+}  // namespace
+}  // namespace pcl_bv::live
+
+extern "C" [[gnu::visibility("default")]] const char* pcl_bv_middleware_version() {
+  return PCL_BV_VERSION;
+}
+
+extern "C" [[gnu::visibility("default")]] pcl_bv::Middleware* pcl_bv_middleware() {
+  static pcl_bv::live::WebSockets module;
+  return &module;
+}

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "protocol.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "pcl_bv/messages/schema.h"
+
+namespace pcl_bv::live {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// So that plots can be made of its numbers.
+constexpr const char* kFrameSchema = R"({"title":"pcl_bv.Frame","type":"object","properties":{
+"schema":{"type":"integer"},"seq":{"type":"integer"},"stamp_ns":{"type":"integer"},"frame_id":{"type":"string"},
+"file":{"type":"string"},"error":{"type":"string"},"points":{"type":"integer"},
+"counts":{"type":"object","additionalProperties":{"type":"integer"}},
+"clusters":{"type":"array","items":{"type":"object"}},
+"ms":{"type":"object","properties":{"decode":{"type":"number"},"filter":{"type":"number"},"ground":{"type":"number"},
+"cluster":{"type":"number"},"fit":{"type":"number"},"track":{"type":"number"},"total":{"type":"number"}}}}})";
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<std::string> strings_of(const Json& request, const char* key) {
+  std::vector<std::string> texts;
+  for (const Json& text : request.value(key, Json::array()))
+    texts.push_back(text.get<std::string>());
+  return texts;
+}
+
+Request subscribe(const Json& request) {
+  Subscribe wanted;
+  for (const Json& one : request.at("subscriptions"))
+    wanted.subscriptions.emplace_back(one.at("id").get<std::uint32_t>(), one.at("channelId").get<std::size_t>());
+  return wanted;
+}
+
+Request set_parameters(const Json& request) {
+  SetParameters wanted;
+  Json object = Json::object();
+  for (const Json& one : request.at("parameters")) {
+    wanted.names.push_back(one.at("name").get<std::string>());
+    object[wanted.names.back()] = one.value("value", Json("null"));
+  }
+  wanted.object = text_of(object);
+  wanted.id = request.value("id", "");
+  return wanted;
+}
+
+Request request_of(const Json& request) {
+  const auto op = request.at("op").get<std::string>();
+  if (op == "subscribe") return subscribe(request);
+  if (op == "unsubscribe") return Unsubscribe{request.at("subscriptionIds").get<std::vector<std::uint32_t>>()};
+  if (op == "getParameters") return GetParameters{strings_of(request, "parameterNames"), request.value("id", "")};
+  if (op == "setParameters") return set_parameters(request);
+  if (op == "subscribeParameterUpdates") return WatchParameters{true};
+  if (op == "unsubscribeParameterUpdates") return WatchParameters{false};
+  return Unknown{"'" + op + "' is not supported here"};
+}
+
+}  // namespace
+
+std::optional<std::string> known_subprotocol(std::string_view offered) {
+  while (!offered.empty()) {
+    std::string_view name = offered.substr(0, offered.find(','));
+    offered.remove_prefix(std::min(name.size() + 1, offered.size()));
+    while (!name.empty() && name.front() == ' ')
+      name.remove_prefix(1);
+    while (!name.empty() && name.back() == ' ')
+      name.remove_suffix(1);
+    if (name == "foxglove.sdk.v1" || name == "foxglove.websocket.v1") return std::string(name);
+  }
+  return std::nullopt;
+}
+
+std::string server_info(const std::string& session) {
+  return text_of({{"op", "serverInfo"},
+                  {"name", "pcl_bv"},
+                  {"capabilities", {"time", "parameters", "parametersSubscribe"}},
+                  {"supportedEncodings", Json::array()},
+                  {"metadata", Json::object()},
+                  {"sessionId", session}});
+}
+
+std::string advertisement(const std::vector<MessageTopic>& topics, std::size_t first) {
+  Json channels = Json::array();
+  for (std::size_t i = first; i < topics.size(); ++i) {
+    const bool json = topics[i].encoding == "json";
+    channels.push_back({{"id", i},
+                        {"topic", topics[i].name},
+                        {"encoding", topics[i].encoding},
+                        {"schemaName", topics[i].type},
+                        {"schema", json ? kFrameSchema : schema_of(topics[i].type)},
+                        {"schemaEncoding", json ? "jsonschema" : "ros2msg"}});
+  }
+  return text_of({{"op", "advertise"}, {"channels", channels}});
+}
+
+std::string status(Level level, const std::string& message) {
+  return text_of({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}});
+}
+
+std::string parameter_values(const std::string& settings, const std::vector<std::string>& names,
+                             const std::string& id) {
+  Json parameters = Json::array();
+  const Json values = Json::parse(settings);
+  for (const auto& [name, value] : values.items()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) continue;
+    Json parameter{{"name", name}, {"value", value}};
+    if (value.is_number_float()) parameter["type"] = "float64";
+    parameters.push_back(std::move(parameter));
+  }
+  Json json{{"op", "parameterValues"}, {"parameters", std::move(parameters)}};
+  if (!id.empty()) json["id"] = id;
+  return text_of(json);
+}
+
+MessageHead message_head(std::uint32_t subscription, std::int64_t stamp_ns) {
+  MessageHead head{1};
+  for (std::size_t i = 0; i < 4; ++i)
+    head[1 + i] = static_cast<unsigned char>(subscription >> (8 * i));
+  for (std::size_t i = 0; i < 8; ++i)
+    head[5 + i] = static_cast<unsigned char>(static_cast<std::uint64_t>(stamp_ns) >> (8 * i));
+  return head;
+}
+
+std::string time_message(std::int64_t stamp_ns) {
+  const MessageHead head = message_head(0, stamp_ns);
+  return '\2' + std::string(head.begin() + 5, head.end());
+}
+
+Request parse_request(const std::string& text) {
+  const Json request = Json::parse(text, nullptr, false);
+  if (!request.is_object()) return Unknown{"a request is an object of JSON"};
+  try {
+    return request_of(request);
+  } catch (const Json::exception&) {
+    return Unknown{"a request lacks a field, or has one of another type"};
+  }
+}
+
+}  // namespace pcl_bv::live

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "server.h"
+
+#include <pthread.h>
+
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <csignal>
+#include <utility>
+
+#include "pcl_bv/io/io_error.h"
+
+namespace pcl_bv::live {
+namespace {
+
+using tcp = boost::asio::ip::tcp;
+using Error = boost::system::error_code;
+
+std::string now_as_text() {
+  return std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
+}
+
+// Signals are for the threads of the program.
+template <class Run>
+std::thread thread_without_signals(Run&& run) {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::thread thread(std::forward<Run>(run));
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return thread;
+}
+
+}  // namespace
+
+Server::Server(const std::string& place) : address_(parse_address(place)), hub_(now_as_text()) {
+  try {
+    listen();
+  } catch (const boost::system::system_error& error) {
+    throw IoError(error.code().message());
+  }
+  accept();
+  thread_ = thread_without_signals([this] {
+    io_.run();
+    ended_.set_value();
+  });
+}
+
+Server::~Server() {
+  close();
+}
+
+void Server::listen() {
+  const auto found = tcp::resolver(io_).resolve(address_.host, std::to_string(address_.port), tcp::resolver::passive);
+  const tcp::endpoint endpoint = found.begin()->endpoint();
+  acceptor_.open(endpoint.protocol());
+  acceptor_.set_option(tcp::acceptor::reuse_address(true));
+  acceptor_.bind(endpoint);
+  acceptor_.listen();
+  const bool six = endpoint.address().is_v6();
+  const std::string host = address_.host;
+  hub_.remark("http://" + (six && host.find(':') != std::string::npos ? '[' + host + ']' : host) + ':' +
+              std::to_string(acceptor_.local_endpoint().port()) + "/ shows it");
+}
+
+void Server::accept() {
+  acceptor_.async_accept([this](const Error& error, tcp::socket socket) {
+    if (!acceptor_.is_open()) return;
+    if (!error && connections_ < Connection::kMostConnections)
+      std::make_shared<Connection>(std::move(socket), hub_, address_, connections_)->start();
+    if (!error) return accept();
+    // Out of files, mostly: those who are there go on, others wait.
+    const auto pause = std::make_shared<boost::asio::steady_timer>(io_, std::chrono::milliseconds(100));
+    pause->async_wait([this, pause](const Error&) {
+      if (acceptor_.is_open()) accept();
+    });
+  });
+}
+
+template <class Do>
+void Server::in_its_thread(Do&& what) {
+  boost::asio::post(io_, std::forward<Do>(what));
+}
+
+std::size_t Server::add_topic(const MessageTopic& topic) {
+  const auto channel = std::make_shared<Channel>();
+  channel->topic = topic;
+  channels_.push_back(channel);
+  in_its_thread([this, channel] { hub_.add(channel); });
+  return channels_.size() - 1;
+}
+
+bool Server::wanted(std::size_t topic) const {
+  return channels_.at(topic)->readers > 0;
+}
+
+void Server::send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) {
+  if (!wanted(topic)) return;
+  const Bytes copy = std::make_shared<const std::vector<std::byte>>(message);
+  in_its_thread([this, topic, stamp_ns, copy] { hub_.publish(topic, stamp_ns, copy); });
+}
+
+void Server::settings(const std::string&, std::int64_t) {
+  in_its_thread([this] { hub_.tell_settings(); });
+}
+
+void Server::offer(std::shared_ptr<RemoteSettings> settings) {
+  in_its_thread([this, settings = std::move(settings)] { hub_.offer(settings); });
+}
+
+void Server::notice(const std::string& line) {
+  in_its_thread([this, line] { hub_.notice(line); });
+}
+
+std::vector<std::string> Server::take_remarks() {
+  return hub_.take_remarks();
+}
+
+void Server::close() {
+  if (!thread_.joinable()) return;
+  in_its_thread([this] {
+    acceptor_.close();
+    hub_.finish();
+    work_.reset();
+  });
+  // A viewer that does not read keeps nobody waiting for long.
+  if (ended_.get_future().wait_for(std::chrono::seconds(1)) == std::future_status::timeout) io_.stop();
+  thread_.join();
+}
+
+}  // namespace pcl_bv::live

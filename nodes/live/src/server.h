@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <future>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "connection.h"
+
+namespace pcl_bv::live {
+
+/// Viewers on one port, in a thread of its own: who sends waits for nobody.
+class Server final : public MessageCarrier {
+ public:
+  /// Throws std::invalid_argument for what parse_address() does not know, IoError where nobody can listen there.
+  explicit Server(const std::string& place);
+  ~Server() override;
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  std::size_t add_topic(const MessageTopic& topic) override;
+  bool wanted(std::size_t topic) const override;
+  void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) override;
+  void settings(const std::string& yaml, std::int64_t stamp_ns) override;
+  void offer(std::shared_ptr<RemoteSettings> settings) override;
+  void notice(const std::string& line) override;
+  std::vector<std::string> take_remarks() override;
+  void close() override;
+
+ private:
+  void listen();
+  void accept();
+  template <class Do>
+  void in_its_thread(Do&& what);
+
+  Address address_;
+  boost::asio::io_context io_{1};
+  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
+  boost::asio::ip::tcp::acceptor acceptor_{io_};
+  Hub hub_;
+  int connections_ = 0;
+  std::vector<std::shared_ptr<Channel>> channels_;
+  std::promise<void> ended_;
+  std::thread thread_;
+};
+
+}  // namespace pcl_bv::live

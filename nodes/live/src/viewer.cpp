@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "viewer.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace pcl_bv::live {
+
+namespace asio = boost::asio;
+namespace websocket = boost::beast::websocket;
+using Error = boost::system::error_code;
+
+void Viewer::start(const HttpRequest& request, const std::string& subprotocol) {
+  boost::beast::get_lowest_layer(ws_).expires_never();  // from here on the WebSocket has timers of its own
+  ws_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), std::chrono::seconds(30), true});
+  ws_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
+    response.set(boost::beast::http::field::sec_websocket_protocol, subprotocol);
+  }));
+  ws_.read_message_max(kLongestRequest);
+  ws_.auto_fragment(false);
+  ws_.async_accept(request, [self = shared_from_this()](const Error& error) {
+    if (error) return;
+    self->open_ = true;
+    self->hub_.join(self);
+    self->read();
+  });
+}
+
+void Viewer::read() {
+  ws_.async_read(buffer_, [self = shared_from_this()](const Error& error, std::size_t) {
+    if (error) return self->end();
+    self->on_request();
+    self->buffer_.consume(self->buffer_.size());
+    if (!self->closing_) self->read();
+  });
+}
+
+void Viewer::on_request() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - second_ > std::chrono::seconds(1)) {
+    second_ = now;
+    requests_ = 0;
+  }
+  if (++requests_ > kMostRequestsASecond) return close(websocket::close_code::policy_error);
+  if (!ws_.got_text()) return tell(status(Level::error, "clients cannot publish here"));
+  hub_.handle(*this, parse_request(boost::beast::buffers_to_string(buffer_.data())));
+}
+
+void Viewer::tell(const std::string& text) {
+  if (waiting_answers_ >= kMostWaitingAnswers) return end();
+  put({text, nullptr, true, true});
+}
+
+void Viewer::send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message) {
+  const auto found = subscriptions_.find(channel);
+  if (found == subscriptions_.end()) return;
+  const MessageHead head = message_head(found->second, stamp_ns);
+  put({std::string(head.begin(), head.end()), message, false, false});
+}
+
+void Viewer::send_time(std::int64_t stamp_ns) {
+  if (!subscriptions_.empty()) put({time_message(stamp_ns), nullptr, false, false});
+}
+
+void Viewer::subscribe(std::uint32_t subscription, std::size_t channel) {
+  if (channel >= hub_.channels().size())
+    return tell(status(Level::error, "there is no channel " + std::to_string(channel)));
+  if (!subscriptions_.emplace(channel, subscription).second)
+    return tell(status(Level::error, "channel " + std::to_string(channel) + " is subscribed already"));
+  ++hub_.channels()[channel]->readers;
+}
+
+void Viewer::unsubscribe(std::uint32_t subscription) {
+  for (auto it = subscriptions_.begin(); it != subscriptions_.end(); ++it) {
+    if (it->second != subscription) continue;
+    --hub_.channels()[it->first]->readers;
+    subscriptions_.erase(it);
+    return;
+  }
+  tell(status(Level::error, "there is no subscription " + std::to_string(subscription)));
+}
+
+void Viewer::put(Outgoing outgoing) {
+  if (!open_ || closing_) return;
+  if (!outgoing.is_answer && waiting_bytes_ + outgoing.size() > kMostWaitingBytes) make_room();
+  waiting_bytes_ += outgoing.size();
+  waiting_answers_ += outgoing.is_answer;
+  waiting_.push_back(std::move(outgoing));
+  write();
+}
+
+void Viewer::make_room() {
+  const auto first = waiting_.begin() + (writing_ ? 1 : 0);
+  const auto dropped = [this](const Outgoing& outgoing) {
+    if (outgoing.is_answer) return false;
+    waiting_bytes_ -= outgoing.size();
+    dropped_ += outgoing.message != nullptr;
+    return true;
+  };
+  waiting_.erase(std::remove_if(first, waiting_.end(), dropped), waiting_.end());
+}
+
+void Viewer::write() {
+  if (writing_ || waiting_.empty()) return;
+  writing_ = true;
+  const Outgoing& next = waiting_.front();
+  ws_.text(next.is_text);
+  std::array<asio::const_buffer, 2> parts{asio::buffer(next.text)};
+  if (next.message != nullptr) parts[1] = {next.message->data(), next.message->size()};
+  ws_.async_write(parts, [self = shared_from_this()](const Error& error, std::size_t) { self->on_written(error); });
+}
+
+void Viewer::on_written(const Error& error) {
+  writing_ = false;
+  if (error) return end();
+  waiting_bytes_ -= waiting_.front().size();
+  waiting_answers_ -= waiting_.front().is_answer;
+  waiting_.pop_front();
+  if (dropped_ > 0) {
+    tell(status(Level::warning, std::to_string(std::exchange(dropped_, 0)) +
+                                    " messages were dropped: this client reads too slowly"));
+  }
+  if (waiting_.empty() && finishing_) return close(websocket::close_code::going_away);
+  write();
+}
+
+void Viewer::finish() {
+  finishing_ = true;
+  if (waiting_.empty()) close(websocket::close_code::going_away);
+}
+
+void Viewer::close(websocket::close_code code) {
+  if (std::exchange(closing_, true)) return;
+  ws_.async_close(code, [self = shared_from_this()](const Error&) { self->end(); });
+}
+
+// Whatever still waits in the background ends with an error, and then the last reference goes.
+void Viewer::end() {
+  if (!std::exchange(open_, false)) return;
+  closing_ = true;
+  for (const auto& [channel, subscription] : std::exchange(subscriptions_, {}))
+    --hub_.channels()[channel]->readers;
+  boost::beast::get_lowest_layer(ws_).cancel();
+  asio::post(ws_.get_executor(), [self = shared_from_this()] {
+    self->hub_.leave(self);  // not while the hub goes through its viewers
+    boost::beast::get_lowest_layer(self->ws_).close();
+  });
+}
+
+}  // namespace pcl_bv::live

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// One WebSocket: its subscriptions, and what waits to be sent.
+#pragma once
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "hub.h"
+
+namespace pcl_bv::live {
+
+using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+
+class Viewer : public std::enable_shared_from_this<Viewer> {
+ public:
+  static constexpr std::size_t kMostViewers = 32;
+  static constexpr std::size_t kMostWaitingBytes = std::size_t{32} << 20;  ///< Of messages: 16 clouds of 2 MB.
+  static constexpr std::size_t kMostWaitingAnswers = 256;
+  static constexpr std::size_t kLongestRequest = std::size_t{1} << 20;
+  static constexpr int kMostRequestsASecond = 200;
+
+  Viewer(boost::beast::tcp_stream&& stream, Hub& hub) : ws_(std::move(stream)), hub_(hub) {}
+
+  void start(const HttpRequest& request, const std::string& subprotocol);
+
+  /// A text that has to arrive. A client that leaves too many of them unread is cut off.
+  void tell(const std::string& text);
+
+  /// A message, if it is subscribed. Where too much waits already, all messages that wait are dropped for it: a viewer
+  /// that is behind should not fall further behind.
+  void send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
+  void send_time(std::int64_t stamp_ns);
+
+  void subscribe(std::uint32_t subscription, std::size_t channel);
+  void unsubscribe(std::uint32_t subscription);
+  void watch_settings(bool watch) { watches_settings_ = watch; }
+  bool watches_settings() const { return watches_settings_; }
+
+  /// What waits is sent, then the connection is closed.
+  void finish();
+
+ private:
+  struct Outgoing {
+    std::string text;  // the whole of it, or what comes before `message`
+    Bytes message;
+    bool is_text = false;
+    bool is_answer = false;
+    std::size_t size() const { return text.size() + (message == nullptr ? 0 : message->size()); }
+  };
+
+  void read();
+  void on_request();
+  void put(Outgoing outgoing);
+  void make_room();
+  void write();
+  void on_written(const boost::system::error_code& error);
+  void close(boost::beast::websocket::close_code code);
+  void end();
+
+  boost::beast::websocket::stream<boost::beast::tcp_stream> ws_;
+  Hub& hub_;
+  boost::beast::flat_buffer buffer_;
+  std::deque<Outgoing> waiting_;  // the first is on its way if `writing_`
+  std::size_t waiting_bytes_ = 0, waiting_answers_ = 0;
+  std::uint64_t dropped_ = 0;
+  bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;
+  std::map<std::size_t, std::uint32_t> subscriptions_;  // by channel
+  std::chrono::steady_clock::time_point second_{};
+  int requests_ = 0;
+};
+
+}  // namespace pcl_bv::live

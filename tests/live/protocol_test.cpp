@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "protocol.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace pcl_bv::live {
+namespace {
+
+using Json = nlohmann::json;
+using testing::ElementsAre;
+using testing::Pair;
+
+TEST(LiveProtocol, TakesTheFirstNameThatItKnows) {
+  EXPECT_EQ(known_subprotocol("foxglove.websocket.v1"), "foxglove.websocket.v1");
+  EXPECT_EQ(known_subprotocol("x, foxglove.sdk.v1 ,foxglove.websocket.v1"), "foxglove.sdk.v1");
+  for (const char* other : {"", ",", " , ", "foxglove.sdk.v2", "foxglove.sdk.v1x"})
+    EXPECT_EQ(known_subprotocol(other), std::nullopt) << other;
+}
+
+TEST(LiveProtocol, ReadsWhatClientsAskFor) {
+  const auto subscribe = std::get<Subscribe>(
+      parse_request(R"({"op":"subscribe","subscriptions":[{"id":4294967295,"channelId":3},{"id":0,"channelId":0}]})"));
+  EXPECT_THAT(subscribe.subscriptions, ElementsAre(Pair(4294967295U, 3U), Pair(0U, 0U)));
+  EXPECT_THAT(std::get<Unsubscribe>(parse_request(R"({"op":"unsubscribe","subscriptionIds":[7,8]})")).subscriptions,
+              ElementsAre(7U, 8U));
+  const auto get = std::get<GetParameters>(parse_request(R"({"op":"getParameters","parameterNames":["a"],"id":"x"})"));
+  EXPECT_THAT(get.names, ElementsAre("a"));
+  EXPECT_EQ(get.id, "x");
+  const auto set = std::get<SetParameters>(
+      parse_request(R"({"op":"setParameters","parameters":[{"name":"a","value":1.5},{"name":"b"}]})"));
+  EXPECT_EQ(Json::parse(set.object), Json::parse(R"({"a":1.5,"b":"null"})"));
+  EXPECT_TRUE(std::get<WatchParameters>(parse_request(R"({"op":"subscribeParameterUpdates"})")).watch);
+  EXPECT_FALSE(std::get<WatchParameters>(parse_request(R"({"op":"unsubscribeParameterUpdates"})")).watch);
+}
+
+TEST(LiveProtocol, AnythingElseIsSaidToBeUnknown) {
+  const std::string deep(200'000, '[');
+  for (const std::string& text :
+       {std::string(), std::string("null"), std::string("[]"), std::string("{}"), std::string(R"({"op":1})"),
+        std::string(R"({"op":"fly"})"), std::string(R"({"op":"subscribe"})"), std::string("{\"op\":\"\xff\"}"),
+        std::string(R"({"op":"subscribe","subscriptions":[{"id":"1","channelId":0}]})"),
+        std::string(R"({"op":"getParameters","parameterNames":[1]})"),
+        std::string(R"({"op":"setParameters","parameters":[{"value":1}]})"),
+        std::string(R"({"op":"setParameters","parameters":{"name":"x"}})"), deep})
+    EXPECT_TRUE(std::holds_alternative<Unknown>(parse_request(text))) << text.substr(0, 60);
+}
+
+TEST(LiveProtocol, AMessagesHeadHasItsNumbersLittleEndian) {
+  const MessageHead head = message_head(0x01020304, 0x1112131415161718);
+  EXPECT_THAT(head, ElementsAre(1, 4, 3, 2, 1, 0x18, 0x17, 0x16, 0x15, 0x14, 0x13, 0x12, 0x11));
+  EXPECT_EQ(time_message(5), std::string("\2\5\0\0\0\0\0\0\0", 9));
+}
+
+TEST(LiveProtocol, AdvertisesChannelsWithTheirDefinitions) {
+  const std::vector<MessageTopic> topics{{"/a", "sensor_msgs/msg/PointCloud2"}, {"/b", "pcl_bv.Frame", "json"}};
+  const Json channels = Json::parse(advertisement(topics, 0)).at("channels");
+  ASSERT_EQ(channels.size(), 2U);
+  EXPECT_EQ(channels[0]["schemaEncoding"], "ros2msg");
+  EXPECT_THAT(channels[0]["schema"].get<std::string>(), testing::HasSubstr("uint32 point_step"));
+  EXPECT_EQ(channels[1]["id"], 1);
+  EXPECT_EQ(Json::parse(channels[1]["schema"].get<std::string>())["type"], "object");
+  EXPECT_EQ(Json::parse(advertisement(topics, 1)).at("channels").size(), 1U);
+}
+
+}  // namespace
+}  // namespace pcl_bv::live
