@@ -121,6 +121,8 @@ std::vector<Job> plan_jobs(const Options& options) {
     if (options.mesh) claims.claim(job.mesh.emplace(target("--mesh", *options.mesh, job, mesh_extension)));
     if (options.image)
       claims.claim(job.image.emplace(target("--image", *options.image, job, image_extension)));
+    if (options.view_html)
+      claims.claim(job.view_html.emplace(target("--view-html", *options.view_html, job, ".html")));
   }
   return jobs;
 }

@@ -21,7 +21,7 @@ namespace pcl_bv {
 struct Job {
   std::string input;                   ///< A file, synth:NAME[:POINTS[:SEED]], or RECORDING#NUMBER.
   std::optional<std::string> error{};  ///< Why there is nothing to load, for a folder without clouds.
-  std::optional<std::filesystem::path> labels{}, mesh{}, image{};
+  std::optional<std::filesystem::path> labels{}, mesh{}, image{}, view_html{};
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
   std::shared_ptr<RecordedClouds> recording{};  ///< Whose cloud `number` it is; `input` is FILE#number.
   std::size_t number = 0;

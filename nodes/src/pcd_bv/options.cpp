@@ -40,7 +40,7 @@ constexpr Names<ViewFrom, 4> kViews{
 /// The command line as texts, before the values are looked at.
 struct Texts {
   std::vector<std::string> inputs;
-  std::string format, output, labels, mesh, image, view, bin_fields, topic, origin;
+  std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin;
   bool check = false, info = false, timings = false, progress = false;
 };
 
@@ -60,6 +60,8 @@ void declare(CommandLine& line, Texts& texts) {
   line.option("--image", texts.image, "FILE",
               "Draw cloud and volumes as .png or .svg; several inputs: a folder");
   line.option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
+  line.option("--view-html", texts.view_html, "FILE.html",
+              "Write a page that shows cloud and volumes; several inputs: a folder");
   line.flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
   line.flag("--info", texts.info, "Add what the cloud is like: extent, spacing, bad points, fields");
   line.flag("--timings", texts.timings, "Add the seconds of each stage");
@@ -113,8 +115,10 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   options.labels = path_or_none(texts.labels);
   options.mesh = path_or_none(texts.mesh);
   options.image = path_or_none(texts.image);
+  options.view_html = path_or_none(texts.view_html);
   require_extension("--labels", texts.labels, {".pcd"});
   require_extension("--image", texts.image, {".png", ".svg"});
+  require_extension("--view-html", texts.view_html, {".html"});
   require_extension("--mesh", texts.mesh, {".ply", ".vtp"});
   if (line.given("--view"))
     options.view =

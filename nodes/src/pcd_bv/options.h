@@ -32,7 +32,7 @@ struct Options {
   PipelineConfig pipeline;
   std::string config_file;  ///< Of --config, empty without it.
   OutputFormat format = OutputFormat::text;
-  std::optional<std::filesystem::path> output, labels, mesh, image;
+  std::optional<std::filesystem::path> output, labels, mesh, image, view_html;
   ViewFrom view = ViewFrom::iso;
   bool check = false;
   bool info = false;
@@ -44,7 +44,7 @@ struct Options {
 
 /// Whether files are asked for beside the report.
 inline bool writes_files(const Options& options) {
-  return options.labels || options.mesh || options.image;
+  return options.labels || options.mesh || options.image || options.view_html;
 }
 
 /// What the command line asks for: work, or (--help, --version, --print-config) only a text on

@@ -22,6 +22,7 @@
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/report/meshes.h"
+#include "view_html.h"
 
 namespace pcl_bv {
 namespace {
@@ -85,14 +86,20 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
                      write_volumes(*job.mesh, report.clusters, format);
                    }));
   }
-  if (!job.labels && !job.image) return status;
+  if (!job.labels && !job.image && !job.view_html) return status;
   std::vector<std::uint32_t> label;
-  if (job.labels || options.clusters()) label = labels_of(frame, result);
+  const bool shows_ground = job.view_html && result.ground.found;
+  if (job.labels || options.clusters() || shows_ground) label = labels_of(frame, result);
   if (job.image) {
     status = worse(status, write_file(*job.image, [&] {
                      Picture picture = picture_of(frame, result, label);
                      picture.from = options.view;
                      write_picture(*job.image, picture);
+                   }));
+  }
+  if (job.view_html) {
+    status = worse(status, write_file(*job.view_html, [&] {
+                     write_file_atomically(*job.view_html, view_html(frame, result, report, label));
                    }));
   }
   if (job.labels) {
@@ -137,6 +144,8 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
   Frame frame;
   frame.points = loaded.xyz();
+  if (const RawCloud& cloud = loaded.cloud(); cloud.data.size() > 0)
+    frame.intensity = intensity_of(cloud.fields, cloud.data.data(), cloud.point_step);
   if (const auto& field = options.pipeline.cluster.class_field)
     frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(loaded.cloud(), field->name));
   FrameResult result;
