@@ -74,6 +74,13 @@ void write_claims(const fs::path& folder) {
   }
 }
 
+void write_requests(const fs::path& folder) {
+  write(folder / "live" / "subscribe", R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]})");
+  write(folder / "live" / "set", R"({"op":"setParameters","id":"a","parameters":[{"name":"b","value":[0.5,"c",true]}]})");
+  write(folder / "live" / "get", R"({"op":"getParameters","id":"a","parameterNames":["b"]})");
+  write(folder / "live" / "address", "[::1]:8765");
+}
+
 // A cloud as a message of both encodings, recordings of it, and a packet.
 void write_recordings(const fs::path& folder) {
   const std::string points(48, '\x3f');
@@ -131,12 +138,13 @@ void write_recordings(const fs::path& folder) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "cloud"})
+  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "cloud", "live"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
   write_plys(folder);
   write_claims(folder);
+  write_requests(folder);
   write_recordings(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));
   write(folder / "number" / "some", "-12.3456789e-01");

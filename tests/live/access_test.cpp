@@ -40,6 +40,9 @@ TEST(LiveAccess, LetsInOurPageThisMachinesAndFoxgloves) {
                              "https://evil.example/https://app.foxglove.dev", "http://192.168.1.7:8766",
                              "http://localhost.evil.example", "http://127.0.0.1.evil.example", "://localhost@evil"})
     EXPECT_FALSE(may_connect(origin, "192.168.1.7:8765")) << origin;
+  using namespace std::string_view_literals;
+  EXPECT_FALSE(may_connect("http://127.0.0.1\0.evil.example"sv, "localhost"));
+  EXPECT_FALSE(is_our_host("127.0.0.1\0.evil.example"sv, {}));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <array>
 #include <boost/asio/ip/address.hpp>
 #include <charconv>
+#include <optional>
 #include <stdexcept>
 
 namespace pcl_bv::live {
@@ -22,16 +23,17 @@ std::string_view without_port(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
-bool is_address(std::string_view host) {
-  boost::system::error_code none;
-  boost::asio::ip::make_address(std::string(host), none);
-  return !none;
+// Asio reads up to a zero byte, behind which a name could follow.
+std::optional<boost::asio::ip::address> address_of(std::string_view host) {
+  boost::system::error_code error;
+  const auto address = boost::asio::ip::make_address(std::string(host), error);
+  if (error || host.find('\0') != std::string_view::npos) return std::nullopt;
+  return address;
 }
 
 bool is_this_machine(std::string_view host) {
-  boost::system::error_code none;
-  const auto address = boost::asio::ip::make_address(std::string(host), none);
-  return host == "localhost" || (!none && address.is_loopback());
+  const auto address = address_of(host);
+  return host == "localhost" || (address && address->is_loopback());
 }
 
 }  // namespace
@@ -51,7 +53,7 @@ bool is_our_host(std::string_view header, const Address& server) {
   const std::string_view host = without_port(header);
   std::array<char, 256> name{};
   const bool named = gethostname(name.data(), name.size() - 1) == 0;
-  return is_address(host) || host == "localhost" || host == server.host ||
+  return address_of(host) || host == "localhost" || host == server.host ||
          (named && (host == name.data() || host == std::string(name.data()) + ".local"));
 }
 

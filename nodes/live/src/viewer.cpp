@@ -70,13 +70,13 @@ void Viewer::subscribe(std::uint32_t subscription, std::size_t channel) {
     return tell(status(Level::error, "there is no channel " + std::to_string(channel)));
   if (!subscriptions_.emplace(channel, subscription).second)
     return tell(status(Level::error, "channel " + std::to_string(channel) + " is subscribed already"));
-  ++hub_.channels()[channel]->readers;
+  hub_.channels()[channel]->readers += counts_;
 }
 
 void Viewer::unsubscribe(std::uint32_t subscription) {
   for (auto it = subscriptions_.begin(); it != subscriptions_.end(); ++it) {
     if (it->second != subscription) continue;
-    --hub_.channels()[it->first]->readers;
+    hub_.channels()[it->first]->readers -= counts_;
     subscriptions_.erase(it);
     return;
   }
@@ -101,6 +101,14 @@ void Viewer::make_room() {
     return true;
   };
   waiting_.erase(std::remove_if(first, waiting_.end(), dropped), waiting_.end());
+  count_as_reader(false);
+}
+
+void Viewer::count_as_reader(bool reads) {
+  const int change = reads - counts_;
+  counts_ = reads;
+  for (const auto& [channel, subscription] : subscriptions_)
+    hub_.channels()[channel]->readers += change;
 }
 
 void Viewer::write() {
@@ -119,6 +127,7 @@ void Viewer::on_written(const Error& error) {
   waiting_bytes_ -= waiting_.front().size();
   waiting_answers_ -= waiting_.front().is_answer;
   waiting_.pop_front();
+  count_as_reader(true);
   if (dropped_ > 0) {
     tell(status(Level::warning, std::to_string(std::exchange(dropped_, 0)) +
                                     " messages were dropped: this client reads too slowly"));
@@ -141,8 +150,8 @@ void Viewer::close(websocket::close_code code) {
 void Viewer::end() {
   if (!std::exchange(open_, false)) return;
   closing_ = true;
-  for (const auto& [channel, subscription] : std::exchange(subscriptions_, {}))
-    --hub_.channels()[channel]->readers;
+  count_as_reader(false);
+  subscriptions_.clear();
   boost::beast::get_lowest_layer(ws_).cancel();
   asio::post(ws_.get_executor(), [self = shared_from_this()] {
     self->hub_.leave(self);  // not while the hub goes through its viewers

@@ -33,8 +33,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   /// A text that has to arrive. A client that leaves too many of them unread is cut off.
   void tell(const std::string& text);
 
-  /// A message, if it is subscribed. Where too much waits already, all messages that wait are dropped for it: a viewer
-  /// that is behind should not fall further behind.
+  /// A message, if it is subscribed. Where too much waits already, all messages that wait are dropped for it, and it counts
+  /// as no reader until it reads on: a viewer that hangs costs nobody the making of messages.
   void send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
   void send_time(std::int64_t stamp_ns);
 
@@ -59,6 +59,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void on_request();
   void put(Outgoing outgoing);
   void make_room();
+  void count_as_reader(bool reads);
   void write();
   void on_written(const boost::system::error_code& error);
   void close(boost::beast::websocket::close_code code);
@@ -71,6 +72,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   std::size_t waiting_bytes_ = 0, waiting_answers_ = 0;
   std::uint64_t dropped_ = 0;
   bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;
+  bool counts_ = true;  // as a reader of what it has subscribed
   std::map<std::size_t, std::uint32_t> subscriptions_;  // by channel
   std::chrono::steady_clock::time_point second_{};
   int requests_ = 0;

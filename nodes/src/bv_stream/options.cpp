@@ -22,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   bv_stream --source sweeps/ --rate 10 --track --sink vtp:paraview/ --stats stats.json
   bv_stream --print-config > robot.yaml; bv_stream --config robot.yaml --source sweeps/
   bv_stream --source synth:street-sequence:100 --volume aabb,dop26 | jq -c .counts
+  bv_stream --source drive.mcap --track --sink ws:8765      then open http://localhost:8765/
 
 Exit status: 0 done, also after SIGINT, SIGTERM or SIGHUP, which let the frames in the queue be
 done first (a second one ends at once, with 128 + its number); 1 no readable source or poses, or an
@@ -50,7 +51,8 @@ void declare_frames(CommandLine& line, Texts& t) {
 
 void declare_results(CommandLine& line, Texts& t) {
   std::string sinks = sink_syntax();
-  sinks.replace(sinks.find(" dds:"), 1, "\n");
+  for (const char* first_of_a_line : {" dds:", " image:"})
+    sinks.replace(sinks.find(first_of_a_line), 1, "\n");
   line.option("--sink", t.sinks, "SINK", sinks + ";\nrepeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
   line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
