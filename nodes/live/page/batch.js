@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Lines and triangles of a frame, collected into two buffers that WebGL draws at once.
+// A line: 6 float32 (both ends), rgba. A vertex of a triangle: 3 float32, a normal of 4 int8, rgba: 20 bytes.
+
+export const LINE_BYTES = 28;
+export const VERTEX_BYTES = 20;
+
+export class Batch {
+  constructor() {
+    this.lineBytes = new ArrayBuffer(LINE_BYTES * 4096);
+    this.vertexBytes = new ArrayBuffer(VERTEX_BYTES * 4096);
+    this.indices = new Uint32Array(16384);
+    this.clear();
+  }
+
+  clear() {
+    this.lines = 0;
+    this.vertices = 0;
+    this.indexCount = 0;
+    this.renewViews();
+  }
+
+  renewViews() {
+    this.lineFloats = new Float32Array(this.lineBytes);
+    this.lineColours = new Uint32Array(this.lineBytes);
+    this.vertexFloats = new Float32Array(this.vertexBytes);
+    this.vertexWords = new Uint32Array(this.vertexBytes);
+  }
+
+  // `colour`: packed by packColour().
+  line(a, b, colour) {
+    if ((this.lines + 1) * LINE_BYTES > this.lineBytes.byteLength) {
+      this.lineBytes = grown(this.lineBytes);
+      this.renewViews();
+    }
+    const at = (this.lines++ * LINE_BYTES) / 4;
+    this.lineFloats.set(a, at);
+    this.lineFloats.set(b, at + 3);
+    this.lineColours[at + 6] = colour;
+  }
+
+  // The number of the vertex, for triangle().
+  vertex(p, normal, colour) {
+    if ((this.vertices + 1) * VERTEX_BYTES > this.vertexBytes.byteLength) {
+      this.vertexBytes = grown(this.vertexBytes);
+      this.renewViews();
+    }
+    const at = (this.vertices * VERTEX_BYTES) / 4;
+    this.vertexFloats.set(p, at);
+    this.vertexWords[at + 3] = packNormal(normal);
+    this.vertexWords[at + 4] = colour;
+    return this.vertices++;
+  }
+
+  triangle(a, b, c) {
+    if (this.indexCount + 3 > this.indices.length) {
+      const larger = new Uint32Array(2 * this.indices.length);
+      larger.set(this.indices);
+      this.indices = larger;
+    }
+    this.indices[this.indexCount++] = a;
+    this.indices[this.indexCount++] = b;
+    this.indices[this.indexCount++] = c;
+  }
+
+  // A convex polygon, flat.
+  polygon(corners, normal, colour) {
+    const first = this.vertices;
+    for (const corner of corners) this.vertex(corner, normal, colour);
+    for (let k = 2; k < corners.length; ++k) this.triangle(first, first + k - 1, first + k);
+  }
+}
+
+function grown(buffer) {
+  const larger = new ArrayBuffer(2 * buffer.byteLength);
+  new Uint8Array(larger).set(new Uint8Array(buffer));
+  return larger;
+}
+
+function packNormal(n) {
+  const byte = (part) => Math.round(127 * part) & 255;
+  return (byte(n[0]) | (byte(n[1]) << 8) | (byte(n[2]) << 16)) >>> 0;
+}
+
+// Red, green, blue and alpha of 0..1 in a word whose bytes are in this order.
+export function packColour(rgb, alpha) {
+  const byte = (part) => Math.round(255 * Math.min(1, Math.max(0, part)));
+  return (byte(rgb[0]) | (byte(rgb[1]) << 8) | (byte(rgb[2]) << 16) | (byte(alpha) << 24)) >>> 0;
+}

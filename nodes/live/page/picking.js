@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Which volume a ray meets. Each test gives [entry, exit] along the ray or null; volumes are taken larger by `pad`,
+// a few pixels, so that flat and small ones can be met, too.
+import { isDrawable, SHAPES } from "./shapes.js";
+import { add, cross, dot, norm, scale, sub, unit } from "./vectors.js";
+
+// Of half spaces n.p <= d with unit n; p counts from the ray's start.
+function throughPlanes(planes, direction, pad) {
+  let [entry, exit] = [-Infinity, Infinity];
+  for (const { n, d } of planes) {
+    const slope = dot(n, direction);
+    const room = d + pad;
+    if (Math.abs(slope) < 1e-12) {
+      if (room < 0) return null;
+    } else if (slope < 0) {
+      entry = Math.max(entry, room / slope);
+    } else {
+      exit = Math.min(exit, room / slope);
+    }
+  }
+  return entry <= exit ? [entry, exit] : null;
+}
+
+// Both solutions of a t^2 + 2 b t + c <= 0.
+function quadratic(a, b, c) {
+  const root = b * b - a * c;
+  if (root < 0 || a <= 0) return null;
+  return [(-b - Math.sqrt(root)) / a, (-b + Math.sqrt(root)) / a];
+}
+
+function throughSphere(center, radius, direction) {
+  return quadratic(1, -dot(center, direction), dot(center, center) - radius * radius);
+}
+
+function throughEllipsoid(center, axes, radii, direction) {
+  const inside = (p) => axes.map((axis, k) => dot(axis, p) / radii[k]);
+  const [way, start] = [inside(direction), inside(scale(center, -1))];
+  return quadratic(dot(way, way), dot(way, start), dot(start, start) - 1);
+}
+
+// A cylinder without ends; along its axis everything or nothing is inside.
+function throughTube(center, axis, radius, direction) {
+  const [way, start] = [cross(direction, axis), cross(scale(center, -1), axis)];
+  const room = dot(start, start) - radius * radius;
+  if (dot(way, way) < 1e-18) return room <= 0 ? [-Infinity, Infinity] : null;
+  return quadratic(dot(way, way), dot(way, start), room);
+}
+
+const slab = (n, least, most) => [{ n, d: most }, { n: scale(n, -1), d: -least }];
+
+function both(a, b) {
+  if (!a || !b) return null;
+  const [entry, exit] = [Math.max(a[0], b[0]), Math.min(a[1], b[1])];
+  return entry <= exit ? [entry, exit] : null;
+}
+
+// The convex hull of several intervals.
+function union(parts) {
+  const met = parts.filter(Boolean);
+  return met.length === 0 ? null : [Math.min(...met.map((p) => p[0])), Math.max(...met.map((p) => p[1]))];
+}
+
+function throughCylinder(center, axis, radius, half, direction, pad) {
+  const middle = dot(axis, center);
+  return both(throughTube(center, axis, radius + pad, direction),
+    throughPlanes(slab(axis, middle - half, middle + half), direction, pad));
+}
+
+// Tests by shape: volume, start of the ray (absolute), its direction, pad.
+const TESTS = {
+  aabb: (v, from, way, pad) =>
+    throughPlanes([0, 1, 2].flatMap((k) => {
+      const axis = [0, 0, 0];
+      axis[k] = 1;
+      return slab(axis, v.min[k] - from[k], v.max[k] - from[k]);
+    }), way, pad),
+  obb: (v, from, way, pad) =>
+    throughPlanes(v.axes.flatMap((axis, k) => {
+      const middle = dot(axis, sub(v.center, from));
+      return slab(axis, middle - v.half_extents[k], middle + v.half_extents[k]);
+    }), way, pad),
+  kdop: (v, from, way, pad) =>
+    throughPlanes(v.directions.flatMap((n, i) => {
+      const [length, shift] = [norm(n), dot(n, from)];
+      return slab(scale(n, 1 / length), (v.min[i] - shift) / length, (v.max[i] - shift) / length);
+    }), way, pad),
+  hull: (v, from, way, pad) =>
+    throughPlanes(v.planes.map((p) => {
+      const length = norm(p) || 1;
+      return { n: scale(p, 1 / length), d: (p[3] - dot(p, from)) / length };
+    }), way, pad),
+  sphere: (v, from, way, pad) => throughSphere(sub(v.center, from), v.radius + pad, way),
+  ellipsoid: (v, from, way, pad) => throughEllipsoid(sub(v.center, from), v.axes, v.radii.map((r) => r + pad), way),
+  cylinder: (v, from, way, pad) =>
+    throughCylinder(sub(v.center, from), unit(v.axis), v.radius, v.half_height, way, pad),
+  capsule: (v, from, way, pad) => {
+    const [a, b] = [sub(v.a, from), sub(v.b, from)];
+    const ends = [throughSphere(a, v.radius + pad, way), throughSphere(b, v.radius + pad, way)];
+    const axis = unit(sub(b, a));
+    if (norm(axis) === 0) return ends[0];
+    const half = norm(sub(b, a)) / 2;
+    return union([...ends, throughCylinder(scale(add(a, b), 0.5), axis, v.radius, half, way, pad)]);
+  },
+};
+
+// The cluster that a ray meets first; of volumes that it passes at one time the smallest. `from` is absolute,
+// `padAt(distance)` the pad at a distance. Null: none.
+export function pickCluster(clusters, hidden, from, direction, padAt) {
+  const met = [];
+  for (const cluster of clusters) {
+    for (const volume of cluster.volumes) {
+      if (!isDrawable(volume) || hidden.has(volume.method)) continue;
+      const pad = padAt(norm(sub(SHAPES[volume.shape].center(volume), from)));
+      const span = TESTS[volume.shape](volume, from, direction, pad);
+      if (span && span[1] > 0) met.push({ cluster, entry: Math.max(0, span[0]), exit: span[1], size: volume.volume });
+    }
+  }
+  if (met.length === 0) return null;
+  const first = met.reduce((a, b) => (b.entry < a.entry ? b : a));
+  const rivals = met.filter((other) => other.entry <= first.exit);
+  return rivals.reduce((a, b) => (b.size < a.size ? b : a)).cluster;
+}

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// WebGL2 by hand: the points of a frame as they came, lines and faces of a batch. Throws where there is no WebGL2.
+import { LINE_BYTES, VERTEX_BYTES } from "./batch.js";
+import { THEMES } from "./palette.js";
+import { FACE_FRAGMENT, FACE_VERTEX, LINE_FRAGMENT, LINE_VERTEX, POINT_FRAGMENT, POINT_VERTEX } from "./shaders.js";
+
+const COLOURS_WIDE = 1024;
+
+class Program {
+  constructor(gl, vertex, fragment) {
+    this.gl = gl;
+    this.id = gl.createProgram();
+    for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(this.id, shader);
+    }
+    gl.linkProgram(this.id);
+    if (!gl.getProgramParameter(this.id, gl.LINK_STATUS) && !gl.isContextLost()) {
+      const logs = gl.getAttachedShaders(this.id).map((shader) => gl.getShaderInfoLog(shader));
+      throw new Error(`a shader does not compile: ${[...logs, gl.getProgramInfoLog(this.id)].join(" ")}`);
+    }
+    this.places = new Map();
+  }
+
+  place(name) {
+    if (!this.places.has(name)) this.places.set(name, this.gl.getUniformLocation(this.id, name));
+    return this.places.get(name);
+  }
+}
+
+export class Renderer {
+  constructor(canvas) {
+    const gl = canvas.getContext("webgl2", { antialias: false, alpha: false });
+    if (!gl) throw new Error("This browser offers no WebGL2, which the view needs.");
+    this.gl = gl;
+    this.canvas = canvas;
+    this.setUp();
+  }
+
+  // Also after the browser took the context away and gave it back.
+  setUp() {
+    const gl = this.gl;
+    this.pointProgram = new Program(gl, POINT_VERTEX, POINT_FRAGMENT);
+    this.lineProgram = new Program(gl, LINE_VERTEX, LINE_FRAGMENT);
+    this.faceProgram = new Program(gl, FACE_VERTEX, FACE_FRAGMENT);
+    this.pointArray = gl.createVertexArray();
+    this.pointBuffer = gl.createBuffer();
+    this.points = null;
+    this.colours = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.colours);
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+    this.setObjectColours([]);
+    this.volumes = this.newLayer();
+    this.ground = this.newLayer();
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+  }
+
+  // Buffers of one batch.
+  newLayer() {
+    const gl = this.gl;
+    const layer = { lines: 0, indices: 0, buffers: [0, 1, 2].map(() => gl.createBuffer()) };
+    const [lines, vertices, indices] = layer.buffers;
+    layer.lineArray = gl.createVertexArray();
+    gl.bindVertexArray(layer.lineArray);
+    gl.bindBuffer(gl.ARRAY_BUFFER, lines);
+    this.attribute(0, 3, gl.FLOAT, false, LINE_BYTES, 0, 1);
+    this.attribute(1, 3, gl.FLOAT, false, LINE_BYTES, 12, 1);
+    this.attribute(2, 4, gl.UNSIGNED_BYTE, true, LINE_BYTES, 24, 1);
+    layer.faceArray = gl.createVertexArray();
+    gl.bindVertexArray(layer.faceArray);
+    gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
+    this.attribute(0, 3, gl.FLOAT, false, VERTEX_BYTES, 0, 0);
+    this.attribute(1, 3, gl.BYTE, true, VERTEX_BYTES, 12, 0);
+    this.attribute(2, 4, gl.UNSIGNED_BYTE, true, VERTEX_BYTES, 16, 0);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
+    gl.bindVertexArray(null);
+    return layer;
+  }
+
+  attribute(index, size, type, normalised, stride, offset, divisor) {
+    this.gl.enableVertexAttribArray(index);
+    this.gl.vertexAttribPointer(index, size, type, normalised, stride, offset);
+    this.gl.vertexAttribDivisor(index, divisor);
+  }
+
+  // `points` as in messages.js, or null.
+  setPoints(points) {
+    this.points = points;
+    if (!points) return;
+    const gl = this.gl;
+    gl.bindVertexArray(this.pointArray);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.pointBuffer);
+    gl.bufferData(gl.ARRAY_BUFFER, points.bytes, gl.STREAM_DRAW);
+    this.attribute(0, 3, gl.FLOAT, false, points.stride, 0, 0);
+    gl.enableVertexAttribArray(1);
+    gl.vertexAttribIPointer(1, 1, gl.UNSIGNED_INT, points.stride, 12);
+    if (points.intensity) this.attribute(2, 1, gl.FLOAT, false, points.stride, 16, 0);
+    else gl.disableVertexAttribArray(2);
+    gl.bindVertexArray(null);
+  }
+
+  // The colour of each object's points, by its number in the frame.
+  setObjectColours(colours) {
+    const gl = this.gl;
+    const rows = Math.max(1, Math.ceil(colours.length / COLOURS_WIDE));
+    const texels = new Uint8Array(4 * COLOURS_WIDE * rows);
+    colours.forEach((colour, i) => texels.set([...colour.map((part) => Math.round(255 * part)), 255], 4 * i));
+    this.objects = colours.length;
+    gl.bindTexture(gl.TEXTURE_2D, this.colours);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, COLOURS_WIDE, rows, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+  }
+
+  setLayer(layer, batch) {
+    const gl = this.gl;
+    const [lines, vertices, indices] = layer.buffers;
+    layer.lines = batch.lines;
+    layer.indices = batch.indexCount;
+    gl.bindVertexArray(layer.faceArray);
+    gl.bindBuffer(gl.ARRAY_BUFFER, lines);
+    gl.bufferData(gl.ARRAY_BUFFER, new Uint8Array(batch.lineBytes, 0, batch.lines * LINE_BYTES), gl.STREAM_DRAW);
+    gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
+    gl.bufferData(gl.ARRAY_BUFFER, new Uint8Array(batch.vertexBytes, 0, batch.vertices * VERTEX_BYTES), gl.STREAM_DRAW);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, batch.indices.subarray(0, batch.indexCount), gl.STREAM_DRAW);
+    gl.bindVertexArray(null);
+  }
+
+  // `look`: {theme, mode, range, pointSize, lineWidth, origin, faces, grid}; sizes in pixels of the screen.
+  draw(camera, look) {
+    const gl = this.gl;
+    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    gl.clearColor(...THEMES[look.theme].background, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    const matrix = new Float32Array(camera.matrix());
+    if (this.points) this.drawPoints(matrix, camera, look);
+    gl.enable(gl.BLEND);
+    gl.depthMask(false);
+    if (look.grid) this.drawLines(this.ground, matrix, 1);
+    if (look.faces) this.drawFaces(matrix, camera);
+    gl.depthMask(true);
+    this.drawLines(this.volumes, matrix, look.lineWidth);
+    gl.disable(gl.BLEND);
+  }
+
+  drawPoints(matrix, camera, look) {
+    const gl = this.gl;
+    const program = this.pointProgram;
+    const theme = THEMES[look.theme];
+    gl.useProgram(program.id);
+    gl.uniformMatrix4fv(program.place("matrix"), false, matrix);
+    gl.uniform3fv(program.place("shift"), this.points.origin.map((x, k) => x - look.origin[k]));
+    gl.uniform3fv(program.place("up"), camera.up);
+    gl.uniform2fv(program.place("range"), look.range);
+    gl.uniform3fv(program.place("ramp"), theme.ramp);
+    gl.uniform3fv(program.place("plain"), theme.plain);
+    gl.uniform1i(program.place("mode"), { height: 1, intensity: 2 }[look.mode] ?? 0);
+    gl.uniform1i(program.place("objects"), this.objects);
+    gl.uniform1f(program.place("size"), look.pointSize);
+    gl.bindTexture(gl.TEXTURE_2D, this.colours);
+    gl.bindVertexArray(this.pointArray);
+    gl.drawArrays(gl.POINTS, 0, this.points.count);
+  }
+
+  drawLines(layer, matrix, width) {
+    const gl = this.gl;
+    if (layer.lines === 0) return;
+    gl.useProgram(this.lineProgram.id);
+    gl.uniformMatrix4fv(this.lineProgram.place("matrix"), false, matrix);
+    gl.uniform2f(this.lineProgram.place("viewport"), this.canvas.width, this.canvas.height);
+    gl.uniform1f(this.lineProgram.place("width"), width);
+    gl.bindVertexArray(layer.lineArray);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, layer.lines);
+  }
+
+  drawFaces(matrix, camera) {
+    const gl = this.gl;
+    if (this.volumes.indices === 0) return;
+    gl.useProgram(this.faceProgram.id);
+    gl.uniformMatrix4fv(this.faceProgram.place("matrix"), false, matrix);
+    gl.uniform3fv(this.faceProgram.place("eye"), camera.eye());
+    gl.bindVertexArray(this.volumes.faceArray);
+    gl.drawElements(gl.TRIANGLES, this.volumes.indices, gl.UNSIGNED_INT, 0);
+  }
+}

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Settings of the pipeline: what there is from GET /settings, values by Foxglove's parameters. The server checks each
+// value; when it refuses one, its reason stands beside the field and the field shows the value in force.
+import { byId, element } from "./elements.js";
+
+const UNSET = "null";
+const ANSWER_MS = 2000; // the reason may come after the value
+
+export class Settings {
+  // `send(message)`: to the server.
+  constructor(send) {
+    this.send = send;
+    this.fields = new Map(); // of each key {setting, input, note}
+    this.asked = new Map(); // keys of requests on their way, by their id
+    this.lastAsked = { key: null, at: 0 };
+    this.requests = 0;
+  }
+
+  // After each connection: another server may have other settings.
+  async load() {
+    const answer = await fetch("settings");
+    if (!answer.ok) throw new Error(`settings: ${answer.status} ${answer.statusText}`);
+    this.show(await answer.json());
+    const names = [...this.fields.keys()];
+    this.send({ op: "subscribeParameterUpdates", parameterNames: names });
+    this.send({ op: "getParameters", parameterNames: names, id: "all" });
+  }
+
+  show(settings) {
+    this.fields.clear();
+    this.asked.clear();
+    const groups = new Map();
+    for (const setting of settings) {
+      const [group] = setting.key.split(".");
+      if (!groups.has(group)) groups.set(group, []);
+      groups.get(group).push(this.row(setting));
+    }
+    byId("settings").replaceChildren(...[...groups].map(([group, rows]) =>
+      element("fieldset", {}, element("legend", {}, group), ...rows)));
+    byId("settings-section").hidden = settings.length === 0;
+  }
+
+  row(setting) {
+    const input = inputFor(setting);
+    const note = element("small", { className: "note" });
+    note.setAttribute("role", "status");
+    input.id = `setting-${setting.key}`;
+    input.disabled = setting.fixed === true;
+    input.addEventListener("change", () => this.change(setting.key));
+    this.fields.set(setting.key, { setting, input, note });
+    const name = setting.key.slice(setting.key.indexOf(".") + 1).replaceAll("_", " ");
+    const label = element("label", { htmlFor: input.id, title: `${setting.key}: ${setting.about ?? ""}` }, name);
+    const unit = element("span", { className: "unit" }, setting.unit ?? "");
+    const about = element("small", { className: "about" }, aboutText(setting));
+    return element("div", { className: "setting" }, label, input, unit, about, note);
+  }
+
+  change(key) {
+    const { setting, input, note } = this.fields.get(key);
+    note.textContent = "";
+    const id = `set ${++this.requests}`;
+    this.asked.set(id, key);
+    this.lastAsked = { key, at: performance.now() };
+    this.send({ op: "setParameters", parameters: [{ name: key, value: valueOf(setting, input) }], id });
+  }
+
+  // The values in force, asked for, changed here or by others.
+  receive(parameters, id) {
+    this.asked.delete(id);
+    for (const { name, value } of parameters) {
+      const field = this.fields.get(name);
+      if (field && !(field.input === document.activeElement && id === undefined)) write(field, value);
+    }
+  }
+
+  // True: the reason was shown at the field that was changed last, to which it belongs.
+  refuse(reason) {
+    const isRecent = performance.now() - this.lastAsked.at < ANSWER_MS;
+    const key = [...this.asked.values()][0] ?? (isRecent ? this.lastAsked.key : null);
+    if (!this.fields.has(key)) return false;
+    this.fields.get(key).note.textContent = reason;
+    return true;
+  }
+}
+
+function inputFor({ kind, choices, unset }) {
+  if (kind === "bool") return element("input", { type: "checkbox" });
+  if (kind === "choice") return element("select", {}, ...choices.map((choice) => new Option(choice, choice)));
+  const isNumber = kind === "number" || kind === "count";
+  return element("input", {
+    type: "text",
+    inputMode: isNumber ? "decimal" : "text",
+    className: isNumber ? "number" : "words",
+    placeholder: unset ?? "",
+    autocomplete: "off",
+    spellcheck: false,
+  });
+}
+
+function aboutText({ kind, least, most, closed, about, fixed: isFixed }) {
+  const parts = [about ?? ""];
+  if (kind === "number" || kind === "count") {
+    const [low, high] = [least ?? null, most ?? null];
+    if (low !== null && high !== null) parts.push(closed === false ? `above ${low}, up to ${high}` : `${low} to ${high}`);
+    else if (low !== null) parts.push(closed === false ? `above ${low}` : `${low} or more`);
+    else if (high !== null) parts.push(`up to ${high}`);
+  }
+  if (isFixed) parts.push("fixed while it runs");
+  return parts.filter(Boolean).join("; ");
+}
+
+function valueOf({ kind, unset }, input) {
+  if (kind === "bool") return input.checked;
+  const text = input.value.trim();
+  if (text === "" && unset !== undefined) return UNSET;
+  const number = Number(text);
+  return (kind === "number" || kind === "count") && text !== "" && Number.isFinite(number) ? number : text;
+}
+
+function write({ setting, input }, value) {
+  if (setting.kind === "bool") input.checked = value === true;
+  else input.value = value === undefined || value === null || value === UNSET ? "" : String(value);
+}

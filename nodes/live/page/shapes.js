@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Volumes of the JSON as lines and faces. A row of SHAPES for each shape: draw() puts it into a batch, center() is the
+// middle and size() the text of its dimensions. `o` is the origin of the scene: it is subtracted in double precision
+// before anything becomes float32, so that coordinates of UTM size draw as small ones do.
+import { boundOfSlabs, polytope } from "./convex.js";
+import { drawCapsule, drawCylinder, drawEllipsoid } from "./round.js";
+import { add, along, cross, dot, norm, scale, sub, unit } from "./vectors.js";
+
+const CUBE_FACES = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
+
+function drawBox(batch, center, halfAxes, paint) {
+  const corners = Array.from({ length: 8 }, (_, bits) =>
+    halfAxes.reduce((at, axis, k) => along(at, axis, (bits >> k) & 1 ? 1 : -1), center));
+  for (let bits = 0; bits < 8; ++bits) {
+    for (let k = 0; k < 3; ++k) {
+      if (!((bits >> k) & 1)) batch.line(corners[bits], corners[bits | (1 << k)], paint.line);
+    }
+  }
+  if (!paint.face) return;
+  CUBE_FACES.forEach((face, k) => {
+    batch.polygon(face.map((bits) => corners[bits]), unit(halfAxes[k >> 1]), paint.face);
+  });
+}
+
+// Outlines of polygons; an edge between two of them is drawn twice, at the same place.
+function drawPolygons(batch, faces, paint) {
+  for (const { n, corners } of faces) {
+    corners.forEach((corner, k) => batch.line(corner, corners[(k + 1) % corners.length], paint.line));
+    if (paint.face && corners.length > 2) batch.polygon(corners, n, paint.face);
+  }
+}
+
+function slabPlanes({ directions, min, max }, o) {
+  return directions.flatMap((n, i) => [
+    { n, d: max[i] - dot(n, o) },
+    { n: scale(n, -1), d: dot(n, o) - min[i] },
+  ]);
+}
+
+function boundOfKdop(v, o) {
+  const shift = v.directions.map((n) => dot(n, o));
+  return boundOfSlabs(v.directions, v.min.map((x, i) => x - shift[i]), v.max.map((x, i) => x - shift[i]));
+}
+
+function drawKdop(batch, v, o, paint) {
+  const bound = boundOfKdop(v, o);
+  if (!bound) return;
+  const faces = bound.radius > 0 ? polytope(slabPlanes(v, o), bound.center, bound.radius) : [];
+  if (faces.length === 0) batch.line(bound.center, bound.center, paint.line);
+  drawPolygons(batch, faces, paint);
+}
+
+// Faces of a hull are triangles, of a flat side many: edges inside a flat side are left out.
+function drawHull(batch, v, o, paint) {
+  const at = v.vertices.map((p) => sub(p, o));
+  const faces = v.faces.map((face) => ({ face, n: unit(normalOf(face.map((i) => at[i]))) }));
+  if (faces.length === 0) return drawPolygons(batch, flatOutline(at), paint);
+  const normals = new Map();
+  for (const { face, n } of faces) {
+    face.forEach((a, k) => {
+      const b = face[(k + 1) % face.length];
+      const key = a < b ? `${a} ${b}` : `${b} ${a}`;
+      const other = normals.get(key);
+      if (!other) normals.set(key, n);
+      else if (dot(other, n) < 1 - 1e-6) batch.line(at[a], at[b], paint.line);
+    });
+    if (paint.face) batch.polygon(face.map((i) => at[i]), n, paint.face);
+  }
+}
+
+function normalOf([a, b, c]) {
+  return cross(sub(b, a), sub(c, a));
+}
+
+// The polygon, line or point that vertices without faces are.
+function flatOutline(at) {
+  if (at.length === 0) return [];
+  const farthest = (distance) => at.reduce((best, p) => (distance(p) > distance(best) ? p : best));
+  const a = farthest((p) => norm(sub(p, at[0])));
+  const b = farthest((p) => norm(sub(p, a)));
+  const axis = unit(sub(b, a));
+  const fromLine = (p) => norm(cross(axis, sub(p, a)));
+  const c = farthest(fromLine);
+  if (fromLine(c) <= 1e-9 * norm(sub(b, a))) return [{ n: [0, 0, 1], corners: [a, b] }];
+  const n = unit(cross(axis, sub(c, a)));
+  const side = cross(n, axis);
+  const middle = scale(at.reduce(add), 1 / at.length);
+  const turn = (p) => Math.atan2(dot(sub(p, middle), side), dot(sub(p, middle), axis));
+  return [{ n, corners: [...at].sort((p, q) => turn(p) - turn(q)) }];
+}
+
+const meters = (x) => Number(x.toPrecision(4)).toString();
+const product = (sizes) => `${sizes.map(meters).join(" × ")} m`;
+const middleOf = (a, b) => scale(add(a, b), 0.5);
+
+export const SHAPES = {
+  aabb: {
+    center: (v) => middleOf(v.min, v.max),
+    size: (v) => product(sub(v.max, v.min)),
+    draw: (batch, v, o, paint) => {
+      const half = scale(sub(v.max, v.min), 0.5);
+      drawBox(batch, sub(middleOf(v.min, v.max), o), [[half[0], 0, 0], [0, half[1], 0], [0, 0, half[2]]], paint);
+    },
+  },
+  obb: {
+    center: (v) => v.center,
+    size: (v) => product(v.half_extents.map((half) => 2 * half)),
+    draw: (batch, v, o, paint) =>
+      drawBox(batch, sub(v.center, o), v.axes.map((axis, k) => scale(axis, v.half_extents[k])), paint),
+  },
+  kdop: {
+    center: (v) => boundOfKdop(v, [0, 0, 0])?.center ?? [0, 0, 0],
+    size: (v) => product(v.directions.slice(0, 3).map((n, i) => (v.max[i] - v.min[i]) / norm(n))),
+    draw: drawKdop,
+  },
+  sphere: {
+    center: (v) => v.center,
+    size: (v) => `radius ${meters(v.radius)} m`,
+    draw: (batch, v, o, paint) =>
+      drawEllipsoid(batch, sub(v.center, o), [[v.radius, 0, 0], [0, v.radius, 0], [0, 0, v.radius]], paint),
+  },
+  ellipsoid: {
+    center: (v) => v.center,
+    size: (v) => `radii ${product(v.radii)}`,
+    draw: (batch, v, o, paint) =>
+      drawEllipsoid(batch, sub(v.center, o), v.axes.map((axis, k) => scale(axis, v.radii[k])), paint),
+  },
+  cylinder: {
+    center: (v) => v.center,
+    size: (v) => `radius ${meters(v.radius)} m, height ${meters(2 * v.half_height)} m`,
+    draw: (batch, v, o, paint) => {
+      const center = sub(v.center, o);
+      const axis = unit(v.axis);
+      drawCylinder(batch, along(center, axis, -v.half_height), along(center, axis, v.half_height), v.radius, axis, paint);
+    },
+  },
+  capsule: {
+    center: (v) => middleOf(v.a, v.b),
+    size: (v) => `radius ${meters(v.radius)} m, length ${meters(norm(sub(v.b, v.a)) + 2 * v.radius)} m`,
+    draw: (batch, v, o, paint) => drawCapsule(batch, sub(v.a, o), sub(v.b, o), v.radius, paint),
+  },
+  hull: {
+    center: (v) => (v.vertices.length > 0 ? scale(v.vertices.reduce(add), 1 / v.vertices.length) : [0, 0, 0]),
+    size: (v) => `${v.vertices.length} vertices`,
+    draw: drawHull,
+  },
+};
+
+// False for volumes of no points and for those whose fit failed: they have no numbers.
+export function isDrawable(volume) {
+  return !volume.empty && volume.failed === undefined && Object.hasOwn(SHAPES, volume.shape);
+}
+
+export const centerOf = (volume) => SHAPES[volume.shape].center(volume);
+export const sizeOf = (volume) => SHAPES[volume.shape].size(volume);
+export const drawVolume = (batch, volume, origin, paint) => SHAPES[volume.shape].draw(batch, volume, origin, paint);
