@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # cmake -DOUT=page.html -P bundle.cmake: the page in one file. Its modules stand one after the other in one script,
-# without imports and the word `export`, so their top-level names differ. In the order below, each imports only from those
-# above it.
+# without imports and the word `export`, so their top-level names differ; in the order below, each imports only from those
+# above it. Lines of comments and indentation stay behind, too: they are a fifth of 110 kB that nobody reads in a browser.
 cmake_minimum_required(VERSION 3.22)
 set(modules vectors palette convex batch round shapes messages connection history camera shaders renderer scene picking
             elements overlay objects plots settings view controls main)
@@ -24,6 +24,8 @@ foreach(module ${modules})
   list(APPEND above ${module})
   string(REGEX REPLACE "\nimport [^\n]*" "" text "${text}")
   string(REPLACE "\nexport " "\n" text "${text}")
+  string(REGEX REPLACE "\n *//[^\n]*" "" text "${text}")
+  string(REGEX REPLACE "\n +" "\n" text "${text}")
   string(APPEND script "${text}")
 endforeach()
 if(script MATCHES "\n(import|export) |</script")

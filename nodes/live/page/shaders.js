@@ -46,7 +46,7 @@ void main() {
 }`;
 
 export const POINT_FRAGMENT = `#version 300 es
-precision mediump float;
+precision highp float;
 in vec3 colour;
 out vec4 pixel;
 void main() {
@@ -85,7 +85,7 @@ void main() {
 }`;
 
 export const LINE_FRAGMENT = `#version 300 es
-precision mediump float;
+precision highp float;
 in vec4 lineColour;
 in float side;
 uniform float width;
@@ -113,7 +113,7 @@ void main() {
 }`;
 
 export const FACE_FRAGMENT = `#version 300 es
-precision mediump float;
+precision highp float;
 in vec4 faceColour;
 in vec3 faceNormal;
 in vec3 toEye;
