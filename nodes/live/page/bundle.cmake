@@ -6,7 +6,7 @@
 # above it. Lines of comments and indentation stay behind, too: they are a fifth of 110 kB that nobody reads in a browser.
 cmake_minimum_required(VERSION 3.22)
 set(modules vectors palette convex batch round shapes messages connection history camera shaders renderer scene picking
-            elements overlay objects plots settings view controls main)
+            elements notices overlay objects plots settings view controls page main)
 
 # Texts are always quoted: unquoted, CMake would take `;`, `[` and `]` for a list's.
 set(script "")

@@ -12,6 +12,7 @@ const MOST_ROWS = 200;
 // `pick(key)` is called for a click into the list.
 export class ObjectPanel {
   constructor(pick) {
+    this.rows = new Map(); // of the list, by key
     byId("object-rows").addEventListener("click", (event) => {
       const row = event.target.closest("tr");
       if (row) pick(row.dataset.key);
@@ -19,46 +20,79 @@ export class ObjectPanel {
     byId("object-rows").addEventListener("keydown", (event) => {
       if (event.key === "Enter") pick(event.target.closest("tr").dataset.key);
     });
+    byId("copy").addEventListener("click", () => copyText(JSON.stringify(this.cluster)));
   }
 
   // `objects`: of buildVolumes(); `picked`: a key or null.
   show(clusters, objects, picked) {
-    const cluster = clusters.find((candidate) => keyOf(candidate) === picked);
-    this.showPicked(cluster, picked);
-    this.showList(clusters, new Map(objects.map((object) => [object.cluster, cssColour(object.colour)])), picked);
+    this.cluster = clusters.find((candidate) => keyOf(candidate) === picked);
+    this.showPicked(picked);
+    byId("object-count").textContent = countText(clusters.length);
+    if (byId("object-section").open) this.showList(clusters, objects, picked);
   }
 
-  showPicked(cluster, picked) {
+  showPicked(picked) {
     byId("picked-none").hidden = picked !== null;
-    byId("picked-gone").hidden = picked === null || cluster !== undefined;
+    byId("picked-gone").hidden = picked === null || this.cluster !== undefined;
     byId("picked-gone").textContent = `${picked} is not in this frame.`;
-    const rows = cluster ? [...objectRows(cluster), ...cluster.volumes.flatMap(volumeRows)] : [];
+    byId("copy").hidden = this.cluster === undefined;
+    const rows = this.cluster ? [...objectRows(this.cluster), ...this.cluster.volumes.flatMap(volumeRows)] : [];
     byId("picked-rows").replaceChildren(...rows);
   }
 
-  showList(clusters, colours, picked) {
-    byId("object-count").textContent = countText(clusters.length);
-    if (!byId("object-section").open) return;
-    const rows = clusters.slice(0, MOST_ROWS).map((cluster) => listRow(cluster, colours.get(cluster), keyOf(cluster) === picked));
+  // Rows stay the same elements from frame to frame, so that they can be clicked and keep the focus.
+  showList(clusters, objects, picked) {
+    const colours = new Map(objects.map((object) => [object.cluster, cssColour(object.colour)]));
+    const shown = [...clusters].sort(byTrack).slice(0, MOST_ROWS);
+    const rows = shown.map((cluster) => {
+      const key = keyOf(cluster);
+      const row = this.rows.get(key) ?? newRow(key);
+      fillRow(row, cluster, colours.get(cluster), key === picked);
+      return row;
+    });
+    this.rows = new Map(rows.map((row) => [row.dataset.key, row]));
     const body = byId("object-rows");
-    const focused = body.contains(document.activeElement) ? document.activeElement.dataset.key : null;
-    body.replaceChildren(...rows);
-    if (focused !== null) rows.find((row) => row.dataset.key === focused)?.focus();
+    if (body.children.length !== rows.length || rows.some((row, i) => row !== body.children[i])) {
+      const focused = document.activeElement;
+      body.replaceChildren(...rows);
+      if (rows.includes(focused)) focused.focus({ preventScroll: true });
+    }
     byId("object-more").hidden = clusters.length <= MOST_ROWS;
     byId("object-more").textContent = `${clusters.length - MOST_ROWS} more`;
   }
 }
 
-function listRow(cluster, colour, isPicked) {
-  const row = element("tr", { tabIndex: 0, className: isPicked ? "picked" : "" });
-  row.dataset.key = keyOf(cluster);
-  const swatch = element("span", { className: "swatch" });
-  swatch.style.background = colour ?? "transparent";
-  const name = typeof cluster.track === "number" ? String(cluster.track) : `#${cluster.id}`;
-  row.append(element("td", {}, swatch, name), element("td", {}, String(cluster.class ?? "")),
-    element("td", { className: "number" }, countText(cluster.points)),
-    element("td", { className: "number" }, cluster.moving ? fixed(speedOf(cluster), 1) : ""));
+// By track, then what has none in its order.
+function byTrack(a, b) {
+  const order = ({ track, id }) => (typeof track === "number" ? track : 1e10 + id);
+  return order(a) - order(b);
+}
+
+function newRow(key) {
+  const row = element("tr", { tabIndex: 0 });
+  row.dataset.key = key;
+  const cell = (className) => element("td", { className }, "");
+  row.append(element("td", {}, element("span", { className: "swatch" }), ""), cell(""), cell("number"), cell("number"));
   return row;
+}
+
+function fillRow(row, cluster, colour, isPicked) {
+  row.className = isPicked ? "picked" : "";
+  const [name, kind, points, speed] = row.children;
+  name.firstChild.style.background = colour ?? "transparent";
+  name.lastChild.data = typeof cluster.track === "number" ? String(cluster.track) : `#${cluster.id}`;
+  kind.firstChild.data = String(cluster.class ?? "");
+  points.firstChild.data = countText(cluster.points);
+  speed.firstChild.data = cluster.moving ? fixed(speedOf(cluster), 1) : "";
+}
+
+// Pages of plain http and of files may not use the clipboard's own interface.
+function copyText(text) {
+  const area = element("textarea", { value: text });
+  document.body.append(area);
+  area.select();
+  document.execCommand("copy");
+  area.remove();
 }
 
 function pair(name, text) {

@@ -7,9 +7,9 @@ import { THEMES } from "./palette.js";
 import { quantile } from "./vectors.js";
 
 const MOST_FRAMES = 200;
+// The parts of `total`, in their order; to decode is no part of it.
 const STAGES = [
-  ["decode", "#7f8fa6"], ["filter", "#3fa7d6"], ["ground", "#b08a3e"],
-  ["cluster", "#4cae6a"], ["fit", "#e0894a"], ["track", "#a77bd8"],
+  ["filter", "#3fa7d6"], ["ground", "#b08a3e"], ["cluster", "#4cae6a"], ["fit", "#e0894a"], ["track", "#a77bd8"],
 ];
 
 export class Plots {
@@ -74,7 +74,7 @@ export class Plots {
     const first = wide - step * this.frames.length;
     this.frames.forEach(({ ms }, i) => {
       let base = high;
-      for (const [stage, colour] of STAGES.slice(1)) { // decode is no part of total
+      for (const [stage, colour] of STAGES) {
         const tall = Number.isFinite(ms[stage]) ? (ms[stage] / most) * high : 0;
         context.fillStyle = colour;
         context.fillRect(first + i * step, base - tall, Math.max(1, step), tall);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // WebGL2 by hand: the points of a frame as they came, lines and faces of a batch. Throws where there is no WebGL2.
-import { LINE_BYTES, VERTEX_BYTES } from "./batch.js";
+import { LINE_BYTES, LINE_CORNERS, VERTEX_BYTES } from "./batch.js";
 import { THEMES } from "./palette.js";
 import { FACE_FRAGMENT, FACE_VERTEX, LINE_FRAGMENT, LINE_VERTEX, POINT_FRAGMENT, POINT_VERTEX } from "./shaders.js";
 
@@ -54,6 +54,8 @@ export class Renderer {
     gl.bindTexture(gl.TEXTURE_2D, this.colours);
     for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
     this.setObjectColours([]);
+    this.corners = gl.createBuffer();
+    this.reserved = 0;
     this.volumes = this.newLayer();
     this.ground = this.newLayer();
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
@@ -67,24 +69,37 @@ export class Renderer {
     layer.lineArray = gl.createVertexArray();
     gl.bindVertexArray(layer.lineArray);
     gl.bindBuffer(gl.ARRAY_BUFFER, lines);
-    this.attribute(0, 3, gl.FLOAT, false, LINE_BYTES, 0, 1);
-    this.attribute(1, 3, gl.FLOAT, false, LINE_BYTES, 12, 1);
-    this.attribute(2, 4, gl.UNSIGNED_BYTE, true, LINE_BYTES, 24, 1);
+    this.attribute(0, 3, gl.FLOAT, false, LINE_BYTES, 0);
+    this.attribute(1, 3, gl.FLOAT, false, LINE_BYTES, 12);
+    this.attribute(2, 4, gl.UNSIGNED_BYTE, true, LINE_BYTES, 24);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.corners);
     layer.faceArray = gl.createVertexArray();
     gl.bindVertexArray(layer.faceArray);
     gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
-    this.attribute(0, 3, gl.FLOAT, false, VERTEX_BYTES, 0, 0);
-    this.attribute(1, 3, gl.BYTE, true, VERTEX_BYTES, 12, 0);
-    this.attribute(2, 4, gl.UNSIGNED_BYTE, true, VERTEX_BYTES, 16, 0);
+    this.attribute(0, 3, gl.FLOAT, false, VERTEX_BYTES, 0);
+    this.attribute(1, 3, gl.BYTE, true, VERTEX_BYTES, 12);
+    this.attribute(2, 4, gl.UNSIGNED_BYTE, true, VERTEX_BYTES, 16);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
     gl.bindVertexArray(null);
     return layer;
   }
 
-  attribute(index, size, type, normalised, stride, offset, divisor) {
+  attribute(index, size, type, normalised, stride, offset) {
     this.gl.enableVertexAttribArray(index);
     this.gl.vertexAttribPointer(index, size, type, normalised, stride, offset);
-    this.gl.vertexAttribDivisor(index, divisor);
+  }
+
+  // Two triangles for each line: indices that all lines share.
+  reserveLines(lines) {
+    if (lines <= this.reserved) return;
+    this.reserved = 2 ** Math.ceil(Math.log2(lines));
+    const indices = new Uint32Array(6 * this.reserved);
+    for (let line = 0; line < this.reserved; ++line) {
+      [0, 1, 2, 2, 1, 3].forEach((corner, k) => (indices[6 * line + k] = LINE_CORNERS * line + corner));
+    }
+    this.gl.bindVertexArray(null);
+    this.gl.bindBuffer(this.gl.ELEMENT_ARRAY_BUFFER, this.corners);
+    this.gl.bufferData(this.gl.ELEMENT_ARRAY_BUFFER, indices, this.gl.STATIC_DRAW);
   }
 
   // `points` as in messages.js, or null.
@@ -95,10 +110,10 @@ export class Renderer {
     gl.bindVertexArray(this.pointArray);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.pointBuffer);
     gl.bufferData(gl.ARRAY_BUFFER, points.bytes, gl.STREAM_DRAW);
-    this.attribute(0, 3, gl.FLOAT, false, points.stride, 0, 0);
+    this.attribute(0, 3, gl.FLOAT, false, points.stride, 0);
     gl.enableVertexAttribArray(1);
     gl.vertexAttribIPointer(1, 1, gl.UNSIGNED_INT, points.stride, 12);
-    if (points.intensity) this.attribute(2, 1, gl.FLOAT, false, points.stride, 16, 0);
+    if (points.intensity) this.attribute(2, 1, gl.FLOAT, false, points.stride, 16);
     else gl.disableVertexAttribArray(2);
     gl.bindVertexArray(null);
   }
@@ -118,10 +133,12 @@ export class Renderer {
     const gl = this.gl;
     const [lines, vertices, indices] = layer.buffers;
     layer.lines = batch.lines;
+    this.reserveLines(batch.lines);
     layer.indices = batch.indexCount;
     gl.bindVertexArray(layer.faceArray);
     gl.bindBuffer(gl.ARRAY_BUFFER, lines);
-    gl.bufferData(gl.ARRAY_BUFFER, new Uint8Array(batch.lineBytes, 0, batch.lines * LINE_BYTES), gl.STREAM_DRAW);
+    const lineBytes = batch.lines * LINE_CORNERS * LINE_BYTES;
+    gl.bufferData(gl.ARRAY_BUFFER, new Uint8Array(batch.lineBytes, 0, lineBytes), gl.STREAM_DRAW);
     gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
     gl.bufferData(gl.ARRAY_BUFFER, new Uint8Array(batch.vertexBytes, 0, batch.vertices * VERTEX_BYTES), gl.STREAM_DRAW);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
@@ -175,7 +192,7 @@ export class Renderer {
     gl.uniform2f(this.lineProgram.place("viewport"), this.canvas.width, this.canvas.height);
     gl.uniform1f(this.lineProgram.place("width"), width);
     gl.bindVertexArray(layer.lineArray);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, layer.lines);
+    gl.drawElements(gl.TRIANGLES, 6 * layer.lines, gl.UNSIGNED_INT, 0);
   }
 
   drawFaces(matrix, camera) {

@@ -6,7 +6,7 @@ import { across, add, cross, scale, sub, unit } from "./vectors.js";
 
 const STACKS = 16;
 const SLICES = 32;
-const CIRCLE_LINES = 64;
+const CIRCLE_LINES = 48;
 
 function angles(count) {
   return Array.from({ length: count + 1 }, (_, k) => [Math.cos((2 * Math.PI * k) / count), Math.sin((2 * Math.PI * k) / count)]);
@@ -15,7 +15,7 @@ function angles(count) {
 const FINE = angles(CIRCLE_LINES);
 const COARSE = angles(SLICES);
 
-// An arc of the ellipse center + cos*u + sin*v, from line `first` to line `last` of the 64 around it.
+// An arc of the ellipse center + cos*u + sin*v, from line `first` to line `last` of the 48 around it.
 function arc(batch, center, u, v, colour, first = 0, last = CIRCLE_LINES) {
   let before = null;
   for (let k = first; k <= last; ++k) {

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A frame as a scene: volumes, arrows of velocity and a grid on the ground, in coordinates relative to an origin.
-import { packColour } from "./batch.js";
+import { LINE_BYTES, LINE_CORNERS, packColour } from "./batch.js";
 import { objectColour, THEMES } from "./palette.js";
 import { centerOf, drawVolume, isDrawable } from "./shapes.js";
 import { add, along, cross, dot, norm, scale, sub, unit } from "./vectors.js";
 
 const FACE_ALPHA = 0.13;
 const GRID_LINES = 20; // to each side
+const GRID_PIECE = 4; // steps of the grid that fade together
+const LINE_WORDS = (LINE_CORNERS * LINE_BYTES) / 4;
 
 // Where coordinates are large, a multiple of 1024 m, which float32 holds exactly up to 1.7e10 m.
 export function originNear(point) {
@@ -55,7 +57,7 @@ function boundOfLines(batch, first, up) {
   let topmost = -Infinity;
   for (let line = first; line < batch.lines; ++line) {
     for (let end = 0; end < 2; ++end) {
-      const at = 7 * line + 3 * end;
+      const at = LINE_WORDS * line + 3 * end;
       let height = 0;
       for (let k = 0; k < 3; ++k) {
         const x = batch.lineFloats[at + k];
@@ -92,13 +94,13 @@ export function buildGrid(batch, center, radius, camera, theme) {
   const snap = (axis) => step * Math.round(dot(center, axis) / step);
   const middle = along(along(scale(camera.up, dot(center, camera.up)), e1, snap(e1)), e2, snap(e2));
   for (let k = -GRID_LINES; k <= GRID_LINES; ++k) {
-    for (let j = -GRID_LINES; j < GRID_LINES; ++j) {
-      const fade = 1 - Math.hypot(k, j + 0.5) / GRID_LINES;
+    for (let j = -GRID_LINES; j < GRID_LINES; j += GRID_PIECE) {
+      const fade = 1 - Math.hypot(k, j + GRID_PIECE / 2) / GRID_LINES;
       if (fade <= 0) continue;
       const colour = packColour(THEMES[theme].grid, 0.28 * fade);
       for (const [a, b] of [[e1, e2], [e2, e1]]) {
         const from = along(along(middle, a, k * step), b, j * step);
-        batch.line(from, along(from, b, step), colour);
+        batch.line(from, along(from, b, GRID_PIECE * step), colour);
       }
     }
   }

@@ -1,0 +1,317 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The whole page: frames come from the connection or from the page itself, the newest is drawn when the browser asks for
+// a picture, and nothing is drawn when nothing has changed.
+import { Batch } from "./batch.js";
+import { Camera } from "./camera.js";
+import { Connection } from "./connection.js";
+import { controlCamera } from "./controls.js";
+import { byId, countText } from "./elements.js";
+import { History } from "./history.js";
+import { readStaticFrame, samplePoints } from "./messages.js";
+import { notice, say } from "./notices.js";
+import { ObjectPanel } from "./objects.js";
+import { Overlay } from "./overlay.js";
+import { objectColour } from "./palette.js";
+import { pickCluster } from "./picking.js";
+import { Plots } from "./plots.js";
+import { Renderer } from "./renderer.js";
+import { buildGrid, buildVolumes, keyOf, middleOfCluster, originNear } from "./scene.js";
+import { Settings } from "./settings.js";
+import { centerOf, isDrawable } from "./shapes.js";
+import { add, dot, quantile, sub } from "./vectors.js";
+import { View } from "./view.js";
+
+const SAMPLE = 4096; // points that decide on view and ranges of colours
+const PICK_PIXELS = 3;
+const PLOT_MS = 200; // plots are drawn five times a second
+const NARROW = 900; // pixels of a page whose side panel begins closed
+
+export class Page {
+  constructor() {
+    this.camera = new Camera();
+    this.renderer = new Renderer(byId("scene"));
+    this.overlay = new Overlay(byId("overlay"));
+    this.batch = new Batch();
+    this.grid = new Batch();
+    this.history = new History();
+    this.plots = new Plots();
+    this.panel = new ObjectPanel((key) => this.pick(key));
+    this.view = new View({
+      changed: (what) => this.changed(what),
+      look: (name) => this.look(name),
+      fit: () => this.fit(),
+      follow: () => this.follow(!this.view.following),
+      pause: () => this.pause(!this.history.paused),
+      step: (by) => this.step(by),
+      panel: () => this.showPanel(byId("side").hidden),
+      escape: () => this.pick(null),
+    });
+    controlCamera(byId("scene"), this.camera, {
+      moved: () => this.request(),
+      grabbed: () => this.follow(false),
+      click: (px, py) => this.pick(this.keyAt(px, py)),
+    });
+    this.frame = null; // the one shown, or to show next
+    this.origin = null; // of the scene
+    this.objects = [];
+    this.range = { height: [0, 1], intensity: [0, 1] };
+    this.dirty = {};
+    this.drawn = 0;
+    this.notDrawn = 0;
+    this.connection = null;
+    this.showPanel(innerWidth > NARROW);
+    new ResizeObserver(() => this.resize()).observe(byId("view"));
+    this.watchContext();
+    this.resize();
+  }
+
+  watchContext() {
+    byId("scene").addEventListener("webglcontextlost", (event) => event.preventDefault());
+    byId("scene").addEventListener("webglcontextrestored", () => {
+      this.renderer.setUp();
+      this.dirty = { frame: true };
+      this.request();
+    });
+  }
+
+  start() {
+    const frame = readStaticFrame(byId("data"));
+    document.documentElement.dataset.kind = frame ? "static" : "live";
+    if (frame) {
+      document.title = `${frame.report.file ?? "cloud"} – pcl_bv`;
+      this.camera.setUp(frame.up);
+      this.show(frame);
+    } else {
+      this.connect();
+    }
+  }
+
+  connect() {
+    byId("waiting").hidden = false;
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    this.settings = new Settings((message) => this.connection.send(message));
+    this.connection = new Connection(`${scheme}://${location.host}/`, {
+      frame: (frame) => this.arrived(frame),
+      opened: () => this.opened(),
+      lost: () => say("banner", "connection lost, trying again"),
+      status: (level, message) => {
+        if (level < 2 || !this.settings.refuse(message)) notice(message);
+      },
+      parameters: (parameters, id) => this.settings.receive(parameters, id),
+      error: (text) => say("error", text),
+    });
+    setInterval(() => this.drawPlots(), PLOT_MS);
+  }
+
+  opened() {
+    say("banner", "");
+    say("error", "");
+    this.plots.restart();
+    this.settings.load().catch((error) => notice(`no settings: ${error.message}`));
+  }
+
+  arrived(frame) {
+    this.plots.add(frame.report, performance.now());
+    if (frame.report.error !== undefined) {
+      notice(`frame ${frame.report.seq} was lost: ${frame.report.error}`);
+      return;
+    }
+    const next = this.history.arrive(frame);
+    if (!next) return;
+    if (this.dirty.frame) ++this.notDrawn;
+    this.show(next);
+  }
+
+  show(frame) {
+    this.frame = frame;
+    this.dirty.frame = true;
+    this.request();
+  }
+
+  request() {
+    this.requested ??= requestAnimationFrame(() => {
+      this.requested = null;
+      try {
+        this.draw();
+      } catch (error) {
+        say("error", `the frame could not be drawn: ${error.message}`);
+        throw error;
+      }
+    });
+  }
+
+  changed(what) {
+    if (what === "colours") this.dirty.colours = true;
+    this.request();
+  }
+
+  draw() {
+    const dirty = this.dirty;
+    this.dirty = {};
+    if (this.frame) {
+      if (dirty.frame) this.takeFrame();
+      if (dirty.frame || dirty.colours) this.takeVolumes();
+      if (this.view.following) this.moveToPicked();
+    }
+    const ratio = window.devicePixelRatio;
+    this.renderer.draw(this.camera, {
+      theme: this.view.theme, mode: this.view.mode, range: this.range[this.view.mode] ?? [0, 1],
+      pointSize: this.view.pointSize * ratio, lineWidth: 1.4 * ratio, origin: this.origin ?? [0, 0, 0],
+      faces: this.view.faces, grid: this.view.grid,
+    });
+    this.overlay.draw(this.camera, this.objects, this.view, ratio);
+    if (!dirty.frame) return;
+    ++this.drawn;
+    say("error", "");
+  }
+
+  takeFrame() {
+    const { report, points } = this.frame;
+    byId("waiting").hidden = true;
+    if (this.origin === null) this.takeFirst();
+    this.renderer.setPoints(points);
+    this.view.offer({
+      tracks: report.clusters.some(({ track }) => typeof track === "number") || this.view.mode === "track",
+      intensity: points?.intensity ?? false,
+    });
+    this.view.showMethods(report.clusters);
+    byId("frame-text").textContent = frameText(this.frame, this.history.paused);
+    byId("frame-text").title = byId("frame-text").textContent;
+  }
+
+  takeVolumes() {
+    const { clusters } = this.frame.report;
+    const { mode, theme } = this.view;
+    const colours = [];
+    for (const cluster of clusters) colours[cluster.id] = objectColour(cluster, mode, theme);
+    this.renderer.setObjectColours(Array.from(colours, (colour) => colour ?? [0.5, 0.5, 0.5]));
+    this.objects = buildVolumes(this.batch, this.frame.report, this.view, this.origin, this.camera.up);
+    this.renderer.setLayer(this.renderer.volumes, this.batch);
+    this.panel.show(clusters, this.objects, this.view.picked);
+    this.renewGrid();
+  }
+
+  // The first frame decides on the origin, and with the view on the ranges of colours.
+  takeFirst() {
+    const points = this.fitPoints([0, 0, 0]);
+    const middle = [0, 1, 2].map((k) => quantile(points.map((p) => p[k]).sort((a, b) => a - b), 0.5));
+    this.origin = this.frame.origin ?? originNear(middle);
+    this.fit();
+  }
+
+  // Points of the frame that the view is fitted to; without points the middles of volumes.
+  fitPoints(origin) {
+    const { points, report } = this.frame;
+    const sample = points ? samplePoints(points, SAMPLE).map((p) => [...add(p, sub(points.origin, origin)), p[3]]) : [];
+    if (sample.length > 0) return sample;
+    return report.clusters.flatMap(({ volumes }) => volumes.filter(isDrawable).map((v) => [...sub(centerOf(v), origin), 0]));
+  }
+
+  fit() {
+    if (!this.frame || this.origin === null) return;
+    this.follow(false);
+    const points = this.fitPoints(this.origin);
+    this.camera.fit(points);
+    const rangeOf = (values) => [quantile(values, 0.02), quantile(values, 0.98)];
+    this.range.height = rangeOf(points.map((p) => dot(p, this.camera.up)).sort((a, b) => a - b));
+    this.range.intensity = rangeOf(points.map((p) => p[3]).sort((a, b) => a - b));
+    this.gridTheme = null;
+    this.changed("colours");
+  }
+
+  renewGrid() {
+    if (this.gridTheme === this.view.theme) return;
+    this.gridTheme = this.view.theme;
+    const { up, target, radius } = this.camera;
+    const onGround = add(target, up.map((x) => x * (this.range.height[0] - dot(target, up))));
+    buildGrid(this.grid, onGround, radius, this.camera, this.view.theme);
+    this.renderer.setLayer(this.renderer.ground, this.grid);
+  }
+
+  look(name) {
+    this.camera.look(name);
+    this.request();
+  }
+
+  pick(key) {
+    this.view.picked = key === this.view.picked ? null : key;
+    if (this.view.picked === null) this.follow(false);
+    this.changed("colours");
+  }
+
+  keyAt(px, py) {
+    if (!this.frame || this.origin === null) return null;
+    const { from, direction } = this.camera.ray(px, py);
+    const pad = (distance) => PICK_PIXELS * this.camera.pixelSize(distance);
+    const cluster = pickCluster(this.frame.report.clusters, this.view.hidden, add(from, this.origin), direction, pad);
+    return cluster ? keyOf(cluster) : null;
+  }
+
+  follow(following) {
+    this.view.following = following && this.view.picked !== null;
+    if (following && this.view.picked === null) notice("Pick an object to follow it.");
+    this.view.showState();
+    this.request();
+  }
+
+  moveToPicked() {
+    const cluster = this.frame.report.clusters.find((candidate) => keyOf(candidate) === this.view.picked);
+    const middle = cluster ? middleOfCluster(cluster, this.origin) : null;
+    if (middle) this.camera.target = middle;
+  }
+
+  pause(paused) {
+    if (!this.connection) return;
+    this.history.pause(paused);
+    this.showPaused();
+  }
+
+  step(by) {
+    if (!this.connection) return;
+    const frame = this.history.step(by);
+    if (frame) this.show(frame);
+    this.showPaused();
+  }
+
+  showPaused() {
+    byId("pause").textContent = this.history.paused ? "Play" : "Pause";
+    byId("pause").setAttribute("aria-pressed", String(this.history.paused));
+    if (this.frame) byId("frame-text").textContent = frameText(this.frame, this.history.paused);
+  }
+
+  showPanel(shown) {
+    byId("side").hidden = !shown;
+    byId("panel").setAttribute("aria-pressed", String(shown));
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = byId("view");
+    for (const canvas of [byId("scene"), byId("overlay")]) {
+      canvas.width = Math.max(1, Math.round(clientWidth * devicePixelRatio));
+      canvas.height = Math.max(1, Math.round(clientHeight * devicePixelRatio));
+    }
+    this.camera.width = Math.max(1, clientWidth);
+    this.camera.height = Math.max(1, clientHeight);
+    if (this.requested) cancelAnimationFrame(this.requested);
+    this.requested = null;
+    this.request();
+  }
+
+  drawPlots() {
+    if (!document.hidden) this.plots.draw(this.view.theme, this.notDrawn);
+  }
+}
+
+function frameText({ report, stamp, shown, of }, paused) {
+  const parts = [];
+  if (report.file !== undefined) parts.push(String(report.file));
+  if (report.frame_id !== undefined) parts.push(String(report.frame_id));
+  if (report.seq !== undefined) parts.push(`frame ${report.seq}`);
+  if (stamp !== "") parts.push(`${stamp.slice(0, -9) || "0"}.${stamp.slice(-9, -6).padStart(3, "0")} s`);
+  parts.push(shown < of ? `${shown} of ${of} points shown` : `${countText(report.points)} points`);
+  parts.push(`${report.clusters.length} objects`);
+  if (paused) parts.push("paused");
+  return parts.join("  ·  ");
+}
