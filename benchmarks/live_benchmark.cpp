@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What viewers cost the pipeline: streets of 130 k points every 50 ms on one thread, in turns of 50 frames without a
-// viewer, with one that reads all channels, and with one that subscribes to all and reads nothing. Counters: percentiles of
-// the pipeline's and of the sink's milliseconds, what the reader got of what was sent, and the p99 of the pipeline beside a
-// hanging viewer over that without one. PCL_BV_BENCH_TURNS: of each (12, so 600 frames).
+// What viewers cost the pipeline: streets of 130 k points every 50 ms on one thread, in turns of 50 frames
+// without a viewer, with one that reads all channels, and with one that subscribes to all and reads nothing.
+// Counters: percentiles of the pipeline's and of the sink's milliseconds, what the reader got of what was
+// sent, and the p99 of the pipeline beside a hanging viewer over that without one. PCL_BV_BENCH_TURNS: of
+// each (12, so 600 frames).
 
 #include <benchmark/benchmark.h>
 
@@ -137,7 +138,8 @@ void beside_viewers(benchmark::State& state) {
         state.counters[std::string(names[viewer]) + "_sink_" + what] = percentile(times[viewer].sink, share);
       }
     }
-    state.counters["hangs_over_none_p99"] = percentile(times[hangs].pipeline, 0.99) / percentile(times[none].pipeline, 0.99);
+    state.counters["hangs_over_none_p99"] =
+        percentile(times[hangs].pipeline, 0.99) / percentile(times[none].pipeline, 0.99);
   }
 }
 
@@ -145,6 +147,8 @@ void beside_viewers(benchmark::State& state) {
 }  // namespace pcl_bv::bench
 
 int main(int argc, char** argv) {
-  benchmark::RegisterBenchmark("live/beside-viewers", pcl_bv::bench::beside_viewers)->Iterations(1)->UseRealTime();
+  benchmark::RegisterBenchmark("live/beside-viewers", pcl_bv::bench::beside_viewers)
+      ->Iterations(1)
+      ->UseRealTime();
   return pcl_bv::bench::run_program(argc, argv);
 }

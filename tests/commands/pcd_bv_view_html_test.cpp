@@ -49,7 +49,8 @@ Shown read_page(const std::string& file) {
 using PcdBvViewHtml = PcdBv;
 
 TEST_F(PcdBvViewHtml, HoldsTheReportAndThePointsWithTheirClusters) {
-  const std::string cloud = ascii("a.pcd", {"0 0 0", "0.1 0 0", "nan 0 0", "9 0 0", "9.1 0 0", "9.2 0 0", "50 0 0"});
+  const std::string cloud =
+      ascii("a.pcd", {"0 0 0", "0.1 0 0", "nan 0 0", "9 0 0", "9.1 0 0", "9.2 0 0", "50 0 0"});
   const Result result =
       run({"--cluster", "0.5", "--min-size", "2", "--format", "json", "--view-html", at("a.html"), cloud});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -71,7 +72,10 @@ TEST_F(PcdBvViewHtml, OfAWholeCloudAllPointsAreTheObjectAndGroundIsToldApart) {
   const Shown all = read_page(at("all.html"));
   EXPECT_GT(all.labels.size(), 4900U);
   EXPECT_EQ(all.labels, std::vector<std::uint32_t>(all.labels.size(), 0));
-  ASSERT_EQ(run({"--ground", "zones", "--range", "0.5:1000", "--view-html", at("ground.html"), "synth:street:5000"}).status, 0);
+  ASSERT_EQ(
+      run({"--ground", "zones", "--range", "0.5:1000", "--view-html", at("ground.html"), "synth:street:5000"})
+          .status,
+      0);
   const Shown ground = read_page(at("ground.html"));
   EXPECT_EQ(std::count(ground.labels.begin(), ground.labels.end(), 4294967294U),
             ground.data["report"]["counts"]["ground"].get<std::ptrdiff_t>());
@@ -87,7 +91,8 @@ TEST_F(PcdBvViewHtml, ShowsAtMostHalfAMillionPointsOfEveryPartOfTheCloud) {
 TEST_F(PcdBvViewHtml, KeepsMillimetresOfUtmCoordinatesAndTheIntensity) {
   const std::string header =
       "VERSION 0.7\nFIELDS x y z intensity\nSIZE 8 8 8 4\nTYPE F F F F\nWIDTH 2\nHEIGHT 1\nDATA ascii\n";
-  const std::string cloud = file("utm.pcd", header + "500000.001 5000000.002 100 7\n500010.003 5000020.004 100 250\n");
+  const std::string cloud =
+      file("utm.pcd", header + "500000.001 5000000.002 100 7\n500010.003 5000020.004 100 250\n");
   ASSERT_EQ(run({"--view-html", at("a.html"), cloud}).status, 0);
   const Shown shown = read_page(at("a.html"));
   EXPECT_EQ(shown.intensity, (std::vector<float>{7, 250}));

@@ -27,7 +27,8 @@ void look(const std::string& text) {
   }
   is_our_host(text, {});
   // A page of another site never gets in by the way it writes itself.
-  if (may_connect("http://" + text + ".evil.example", text) && text.find_first_of("[:") == std::string::npos) __builtin_trap();
+  if (may_connect("http://" + text + ".evil.example", text) && text.find_first_of("[:") == std::string::npos)
+    __builtin_trap();
 }
 
 }  // namespace

@@ -28,17 +28,19 @@ TEST(LiveAccess, KnowsItselfByAddressesAndItsOwnNames) {
   const Address server{"robot.lan", 8765};
   for (const char* ours : {"localhost:8765", "127.0.0.1", "[::1]:8765", "192.168.1.7:8765", "robot.lan:8765"})
     EXPECT_TRUE(is_our_host(ours, server)) << ours;
-  for (const char* other : {"", "evil.example:8765", "localhost.evil.example", "127.0.0.1.evil.example", "[::1", ":8765"})
+  for (const char* other :
+       {"", "evil.example:8765", "localhost.evil.example", "127.0.0.1.evil.example", "[::1", ":8765"})
     EXPECT_FALSE(is_our_host(other, server)) << other;
 }
 
 TEST(LiveAccess, LetsInOurPageThisMachinesAndFoxgloves) {
-  for (const char* origin : {"", "http://192.168.1.7:8765", "http://localhost:8080", "http://127.0.0.1:3000", "http://[::1]:1",
-                             "file://", "https://app.foxglove.dev"})
+  for (const char* origin : {"", "http://192.168.1.7:8765", "http://localhost:8080", "http://127.0.0.1:3000",
+                             "http://[::1]:1", "file://", "https://app.foxglove.dev"})
     EXPECT_TRUE(may_connect(origin, "192.168.1.7:8765")) << origin;
-  for (const char* origin : {"null", "http://evil.example", "https://app.foxglove.dev.evil.example",
-                             "https://evil.example/https://app.foxglove.dev", "http://192.168.1.7:8766",
-                             "http://localhost.evil.example", "http://127.0.0.1.evil.example", "://localhost@evil"})
+  for (const char* origin :
+       {"null", "http://evil.example", "https://app.foxglove.dev.evil.example",
+        "https://evil.example/https://app.foxglove.dev", "http://192.168.1.7:8766",
+        "http://localhost.evil.example", "http://127.0.0.1.evil.example", "://localhost@evil"})
     EXPECT_FALSE(may_connect(origin, "192.168.1.7:8765")) << origin;
   using namespace std::string_view_literals;
   EXPECT_FALSE(may_connect("http://127.0.0.1\0.evil.example"sv, "localhost"));

@@ -119,7 +119,8 @@ class Client {
     parser.skip(verb == http::verb::head);
     beast::flat_buffer buffer;
     done([&](auto then) {
-      http::async_write(ws_.next_layer(), request, [then](beast::error_code error, std::size_t) { then(error); });
+      http::async_write(ws_.next_layer(), request,
+                        [then](beast::error_code error, std::size_t) { then(error); });
     });
     done([&](auto then) {
       http::async_read(ws_.next_layer(), buffer, parser,

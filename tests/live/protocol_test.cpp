@@ -23,12 +23,14 @@ TEST(LiveProtocol, TakesTheFirstNameThatItKnows) {
 }
 
 TEST(LiveProtocol, ReadsWhatClientsAskFor) {
-  const auto subscribe = std::get<Subscribe>(
-      parse_request(R"({"op":"subscribe","subscriptions":[{"id":4294967295,"channelId":3},{"id":0,"channelId":0}]})"));
+  const auto subscribe = std::get<Subscribe>(parse_request(
+      R"({"op":"subscribe","subscriptions":[{"id":4294967295,"channelId":3},{"id":0,"channelId":0}]})"));
   EXPECT_THAT(subscribe.subscriptions, ElementsAre(Pair(4294967295U, 3U), Pair(0U, 0U)));
-  EXPECT_THAT(std::get<Unsubscribe>(parse_request(R"({"op":"unsubscribe","subscriptionIds":[7,8]})")).subscriptions,
-              ElementsAre(7U, 8U));
-  const auto get = std::get<GetParameters>(parse_request(R"({"op":"getParameters","parameterNames":["a"],"id":"x"})"));
+  EXPECT_THAT(
+      std::get<Unsubscribe>(parse_request(R"({"op":"unsubscribe","subscriptionIds":[7,8]})")).subscriptions,
+      ElementsAre(7U, 8U));
+  const auto get =
+      std::get<GetParameters>(parse_request(R"({"op":"getParameters","parameterNames":["a"],"id":"x"})"));
   EXPECT_THAT(get.names, ElementsAre("a"));
   EXPECT_EQ(get.id, "x");
   const auto set = std::get<SetParameters>(
@@ -42,7 +44,8 @@ TEST(LiveProtocol, AnythingElseIsSaidToBeUnknown) {
   const std::string deep(200'000, '[');
   for (const std::string& text :
        {std::string(), std::string("null"), std::string("[]"), std::string("{}"), std::string(R"({"op":1})"),
-        std::string(R"({"op":"fly"})"), std::string(R"({"op":"subscribe"})"), std::string("{\"op\":\"\xff\"}"),
+        std::string(R"({"op":"fly"})"), std::string(R"({"op":"subscribe"})"),
+        std::string("{\"op\":\"\xff\"}"),
         std::string(R"({"op":"subscribe","subscriptions":[{"id":"1","channelId":0}]})"),
         std::string(R"({"op":"getParameters","parameterNames":[1]})"),
         std::string(R"({"op":"setParameters","parameters":[{"value":1}]})"),
@@ -57,7 +60,8 @@ TEST(LiveProtocol, AMessagesHeadHasItsNumbersLittleEndian) {
 }
 
 TEST(LiveProtocol, AdvertisesChannelsWithTheirDefinitions) {
-  const std::vector<MessageTopic> topics{{"/a", "sensor_msgs/msg/PointCloud2"}, {"/b", "pcl_bv.Frame", "json"}};
+  const std::vector<MessageTopic> topics{{"/a", "sensor_msgs/msg/PointCloud2"},
+                                         {"/b", "pcl_bv.Frame", "json"}};
   const Json channels = Json::parse(advertisement(topics, 0)).at("channels");
   ASSERT_EQ(channels.size(), 2U);
   EXPECT_EQ(channels[0]["schemaEncoding"], "ros2msg");

@@ -160,7 +160,9 @@ TEST_F(LiveServer, SettingsAreReadWatchedAndChanged) {
   EXPECT_EQ(watches.await("parameterValues")["parameters"],
             Json::parse(R"([{"name":"cluster.tolerance","type":"float64","value":0.5}])"));
   const auto set = [&](const Json& value, const char* id) {
-    changes.say({{"op", "setParameters"}, {"parameters", {{{"name", "cluster.tolerance"}, {"value", value}}}}, {"id", id}});
+    changes.say({{"op", "setParameters"},
+                 {"parameters", {{{"name", "cluster.tolerance"}, {"value", value}}}},
+                 {"id", id}});
   };
   set(0.75, "a");
   const Json answer = changes.await("parameterValues");
@@ -173,7 +175,8 @@ TEST_F(LiveServer, SettingsAreReadWatchedAndChanged) {
   ASSERT_NE(tolerance, update["parameters"].end());
   EXPECT_EQ((*tolerance)["value"], 0.75);
   set(-1, "b");
-  EXPECT_THAT(changes.await("status")["message"].get<std::string>(), HasSubstr("cluster.tolerance: -1 is not"));
+  EXPECT_THAT(changes.await("status")["message"].get<std::string>(),
+              HasSubstr("cluster.tolerance: -1 is not"));
   EXPECT_EQ(changes.await("parameterValues")["parameters"][0]["value"], 0.75);
 }
 
@@ -189,15 +192,18 @@ TEST_F(LiveServer, ServesThePageAndTheDescriptionOfSettings) {
   const auto head = Client(port_).get("/", "localhost", "", http::verb::head);
   EXPECT_EQ(head[http::field::content_length], std::to_string(live_page().size()));
   EXPECT_EQ(Client(port_).get("/../etc/passwd").result(), http::status::not_found);
-  EXPECT_EQ(Client(port_).get("/", "localhost", "", http::verb::post).result(), http::status::method_not_allowed);
+  EXPECT_EQ(Client(port_).get("/", "localhost", "", http::verb::post).result(),
+            http::status::method_not_allowed);
 }
 
 TEST_F(LiveServer, RefusesPagesOfOthersAndSaysSo) {
   EXPECT_EQ(Client(port_).get("/settings", "evil.example").result(), http::status::forbidden);
   Client client(port_);
-  EXPECT_THROW(client.open("foxglove.sdk.v1", "localhost", "http://evil.example"), boost::system::system_error);
+  EXPECT_THROW(client.open("foxglove.sdk.v1", "localhost", "http://evil.example"),
+               boost::system::system_error);
   EXPECT_EQ(client.response().result(), http::status::forbidden);
-  EXPECT_THAT(server_.take_remarks(), testing::ElementsAre(HasSubstr("'evil.example'"), HasSubstr("'http://evil.example'")));
+  EXPECT_THAT(server_.take_remarks(),
+              testing::ElementsAre(HasSubstr("'evil.example'"), HasSubstr("'http://evil.example'")));
   Client without(port_);
   EXPECT_THROW(without.open("chat"), boost::system::system_error);
   EXPECT_EQ(without.response().result(), http::status::bad_request);

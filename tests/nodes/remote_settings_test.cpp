@@ -61,10 +61,11 @@ TEST(RemoteSettings, EveryValueThatTheyHaveCanBeSetAgain) {
 TEST(RemoteSettings, ChangeThePipelineAllOrNothing) {
   const Remote remote;
   const auto change = [&](const char* object) { return remote.settings->change(object); };
-  EXPECT_EQ(change(R"({"cluster.tolerance":0.25,"ground.method":"plane","volumes":"aabb, dop14","ground.up":"0,0,2",
+  EXPECT_EQ(
+      change(R"({"cluster.tolerance":0.25,"ground.method":"plane","volumes":"aabb, dop14","ground.up":"0,0,2",
                       "track.enabled":true,"cluster.min_size":"null","filter.own_box_min":[-1,-1,-1],
                       "filter.own_box_max":[1,1,1]})"),
-            "");
+      "");
   const PipelineConfig config = remote.pipeline.config();
   EXPECT_EQ(config.cluster.tolerance, 0.25);
   EXPECT_EQ(config.ground.method, GroundMethod::plane);

@@ -36,7 +36,8 @@ std::vector<std::string> strings_of(const Json& request, const char* key) {
 Request subscribe(const Json& request) {
   Subscribe wanted;
   for (const Json& one : request.at("subscriptions"))
-    wanted.subscriptions.emplace_back(one.at("id").get<std::uint32_t>(), one.at("channelId").get<std::size_t>());
+    wanted.subscriptions.emplace_back(one.at("id").get<std::uint32_t>(),
+                                      one.at("channelId").get<std::size_t>());
   return wanted;
 }
 
@@ -55,8 +56,10 @@ Request set_parameters(const Json& request) {
 Request request_of(const Json& request) {
   const auto op = request.at("op").get<std::string>();
   if (op == "subscribe") return subscribe(request);
-  if (op == "unsubscribe") return Unsubscribe{request.at("subscriptionIds").get<std::vector<std::uint32_t>>()};
-  if (op == "getParameters") return GetParameters{strings_of(request, "parameterNames"), request.value("id", "")};
+  if (op == "unsubscribe")
+    return Unsubscribe{request.at("subscriptionIds").get<std::vector<std::uint32_t>>()};
+  if (op == "getParameters")
+    return GetParameters{strings_of(request, "parameterNames"), request.value("id", "")};
   if (op == "setParameters") return set_parameters(request);
   if (op == "subscribeParameterUpdates") return WatchParameters{true};
   if (op == "unsubscribeParameterUpdates") return WatchParameters{false};

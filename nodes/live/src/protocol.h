@@ -28,8 +28,10 @@ std::string advertisement(const std::vector<MessageTopic>& topics, std::size_t f
 enum class Level : std::uint8_t { info, warning, error };
 std::string status(Level level, const std::string& message);
 
-/// Of settings by key (RemoteSettings::values()), those that are asked for, or all if none are; `id` of the request.
-std::string parameter_values(const std::string& settings, const std::vector<std::string>& names, const std::string& id);
+/// Of settings by key (RemoteSettings::values()), those that are asked for, or all if none are; `id` of the
+/// request.
+std::string parameter_values(const std::string& settings, const std::vector<std::string>& names,
+                             const std::string& id);
 
 /// What comes before the bytes of a message.
 using MessageHead = std::array<unsigned char, 13>;
@@ -38,7 +40,8 @@ MessageHead message_head(std::uint32_t subscription, std::int64_t stamp_ns);
 std::string time_message(std::int64_t stamp_ns);
 
 struct Subscribe {
-  std::vector<std::pair<std::uint32_t, std::size_t>> subscriptions;  ///< Their numbers, and those of the channels.
+  std::vector<std::pair<std::uint32_t, std::size_t>>
+      subscriptions;  ///< Their numbers, and those of the channels.
 };
 struct Unsubscribe {
   std::vector<std::uint32_t> subscriptions;

@@ -53,7 +53,8 @@ Server::~Server() {
 }
 
 void Server::listen() {
-  const auto found = tcp::resolver(io_).resolve(address_.host, std::to_string(address_.port), tcp::resolver::passive);
+  const auto found =
+      tcp::resolver(io_).resolve(address_.host, std::to_string(address_.port), tcp::resolver::passive);
   const tcp::endpoint endpoint = found.begin()->endpoint();
   acceptor_.open(endpoint.protocol());
   acceptor_.set_option(tcp::acceptor::reuse_address(true));

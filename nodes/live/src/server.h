@@ -19,7 +19,8 @@ namespace pcl_bv::live {
 /// Viewers on one port, in a thread of its own: who sends waits for nobody.
 class Server final : public MessageCarrier {
  public:
-  /// Throws std::invalid_argument for what parse_address() does not know, IoError where nobody can listen there.
+  /// Throws std::invalid_argument for what parse_address() does not know, IoError where nobody can listen
+  /// there.
   explicit Server(const std::string& place);
   ~Server() override;
   Server(const Server&) = delete;

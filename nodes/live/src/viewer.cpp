@@ -118,7 +118,8 @@ void Viewer::write() {
   ws_.text(next.is_text);
   std::array<asio::const_buffer, 2> parts{asio::buffer(next.text)};
   if (next.message != nullptr) parts[1] = {next.message->data(), next.message->size()};
-  ws_.async_write(parts, [self = shared_from_this()](const Error& error, std::size_t) { self->on_written(error); });
+  ws_.async_write(parts,
+                  [self = shared_from_this()](const Error& error, std::size_t) { self->on_written(error); });
 }
 
 void Viewer::on_written(const Error& error) {

@@ -21,7 +21,8 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 class Viewer : public std::enable_shared_from_this<Viewer> {
  public:
   static constexpr std::size_t kMostViewers = 32;
-  static constexpr std::size_t kMostWaitingBytes = std::size_t{32} << 20;  ///< Of messages: 16 clouds of 2 MB.
+  static constexpr std::size_t kMostWaitingBytes = std::size_t{32}
+                                                   << 20;  ///< Of messages: 16 clouds of 2 MB.
   static constexpr std::size_t kMostWaitingAnswers = 256;
   static constexpr std::size_t kLongestRequest = std::size_t{1} << 20;
   static constexpr int kMostRequestsASecond = 200;
@@ -33,8 +34,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   /// A text that has to arrive. A client that leaves too many of them unread is cut off.
   void tell(const std::string& text);
 
-  /// A message, if it is subscribed. Where too much waits already, all messages that wait are dropped for it, and it counts
-  /// as no reader until it reads on: a viewer that hangs costs nobody the making of messages.
+  /// A message, if it is subscribed. Where too much waits already, all messages that wait are dropped for it,
+  /// and it counts as no reader until it reads on: a viewer that hangs costs nobody the making of messages.
   void send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
   void send_time(std::int64_t stamp_ns);
 
@@ -72,7 +73,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   std::size_t waiting_bytes_ = 0, waiting_answers_ = 0;
   std::uint64_t dropped_ = 0;
   bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;
-  bool counts_ = true;  // as a reader of what it has subscribed
+  bool counts_ = true;                                  // as a reader of what it has subscribed
   std::map<std::size_t, std::uint32_t> subscriptions_;  // by channel
   std::chrono::steady_clock::time_point second_{};
   int requests_ = 0;

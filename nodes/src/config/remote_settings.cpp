@@ -64,14 +64,17 @@ Json instruction_sets() {
 template <class Value>
 Json described(const Setting& setting, const Value&) {
   const std::string kind = setting.key == "isa" ? "choice" : kind_of<Value>();
-  Json json{{"key", std::string(setting.key)}, {"kind", kind}, {"unit", std::string(setting.unit)},
+  Json json{{"key", std::string(setting.key)},
+            {"kind", kind},
+            {"unit", std::string(setting.unit)},
             {"about", std::string(setting.about)}};
   if (kind == "number" || kind == "count") {
     json["least"] = setting.range.least;
     if (setting.range.most < kFinite) json["most"] = setting.range.most;
     if (!setting.range.closed) json["closed"] = false;
   }
-  if (kind == "choice") json["choices"] = setting.key == "isa" ? instruction_sets() : choices_in(std::string(setting.unit));
+  if (kind == "choice")
+    json["choices"] = setting.key == "isa" ? instruction_sets() : choices_in(std::string(setting.unit));
   if (!setting.unset.empty()) json["unset"] = std::string(setting.unset);
   if (is_fixed(setting.key)) json["fixed"] = true;
   return json;
@@ -117,7 +120,8 @@ class PipelineSettings final : public RemoteSettings {
   std::string description() const override {
     Json all = Json::array();
     const PipelineConfig config;
-    visit_pipeline(config, [&](const Setting& setting, const auto& value) { all.push_back(described(setting, value)); });
+    visit_pipeline(
+        config, [&](const Setting& setting, const auto& value) { all.push_back(described(setting, value)); });
     return all.dump();
   }
 

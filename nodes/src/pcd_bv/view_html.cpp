@@ -99,12 +99,12 @@ std::string view_html(const Frame& frame, const FrameResult& result, const Repor
   const Eigen::Vector3d origin = middle_of(result);
   PagePoints points(frame, labels, origin);
   points.add_all();
-  const std::string data = "<script id=\"data\" type=\"application/json\">{\"report\":" + in_html(report_json(report)) +
-                           ",\"origin\":" + list(origin) + ",\"shown\":" + std::to_string(points.shown) +
-                           ",\"of\":" + std::to_string(frame.points.count) +
-                           ",\"stride\":" + (frame.intensity ? "20" : "16") +
-                           ",\"up\":" + list(result.config->ground.up.normalized()) + ",\"points\":\"" +
-                           base64(points.bytes) + "\"}</script>";
+  const std::string data =
+      "<script id=\"data\" type=\"application/json\">{\"report\":" + in_html(report_json(report)) +
+      ",\"origin\":" + list(origin) + ",\"shown\":" + std::to_string(points.shown) +
+      ",\"of\":" + std::to_string(frame.points.count) + ",\"stride\":" + (frame.intensity ? "20" : "16") +
+      ",\"up\":" + list(result.config->ground.up.normalized()) + ",\"points\":\"" + base64(points.bytes) +
+      "\"}</script>";
   std::string page(live_page());
   page.replace(page.find(kPageData), kPageData.size(), data);
   return page;

@@ -17,8 +17,8 @@ namespace pcl_bv {
 /// Points in a page: 20 bytes of text each. Of more, every other, third, ... one is left out.
 inline constexpr std::size_t kMostPointsOfAPage = 500'000;
 
-/// The page as HTML. `labels` as labels_of() has them; empty: all points are of cluster 0. Coordinates become float32
-/// relative to whole numbers near their middle.
+/// The page as HTML. `labels` as labels_of() has them; empty: all points are of cluster 0. Coordinates become
+/// float32 relative to whole numbers near their middle.
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
                       const std::vector<std::uint32_t>& labels);
 
