@@ -195,24 +195,28 @@ export class Page {
 
   // The first frame decides on the origin, and with the view on the ranges of colours.
   takeFirst() {
-    const points = this.fitPoints([0, 0, 0]);
-    const middle = [0, 1, 2].map((k) => quantile(points.map((p) => p[k]).sort((a, b) => a - b), 0.5));
-    this.origin = this.frame.origin ?? originNear(middle);
+    const { points, report, origin } = this.frame;
+    const places = points
+      ? samplePoints(points, SAMPLE).map((p) => add(p, points.origin))
+      : report.clusters.flatMap(({ volumes }) => volumes.filter(isDrawable).map(centerOf));
+    const middle = [0, 1, 2].map((k) => quantile(places.map((p) => p[k]).sort((a, b) => a - b), 0.5));
+    this.origin = origin ?? originNear(middle);
     this.fit();
   }
 
-  // Points of the frame that the view is fitted to; without points the middles of volumes.
-  fitPoints(origin) {
+  // Places of the scene that the view is fitted to, each with an intensity; without points, those of volumes.
+  fitPoints() {
     const { points, report } = this.frame;
-    const sample = points ? samplePoints(points, SAMPLE).map((p) => [...add(p, sub(points.origin, origin)), p[3]]) : [];
-    if (sample.length > 0) return sample;
-    return report.clusters.flatMap(({ volumes }) => volumes.filter(isDrawable).map((v) => [...sub(centerOf(v), origin), 0]));
+    const sample = points ? samplePoints(points, SAMPLE) : [];
+    if (sample.length > 0) return sample.map((p) => [...add(p, sub(points.origin, this.origin)), p[3]]);
+    const objects = buildVolumes(this.batch, report, this.view, this.origin, this.camera.up);
+    return objects.flatMap(({ low, high }) => [[...low, 0], [...high, 0]]);
   }
 
   fit() {
     if (!this.frame || this.origin === null) return;
     this.follow(false);
-    const points = this.fitPoints(this.origin);
+    const points = this.fitPoints();
     this.camera.fit(points);
     const rangeOf = (values) => [quantile(values, 0.02), quantile(values, 0.98)];
     this.range.height = rangeOf(points.map((p) => dot(p, this.camera.up)).sort((a, b) => a - b));
