@@ -34,13 +34,13 @@ struct LabelledPoint {
 // A page of its own file around a report.
 class PageFile {
  public:
-  PageFile(Json report, const std::vector<LabelledPoint>& points, const Vector3d& origin = {0, 0, 0}) {
+  PageFile(Json report, const std::vector<LabelledPoint>& points, const Vector3d& origin, std::size_t of) {
     std::string bytes(points.size() * sizeof(LabelledPoint), '\0');
     if (!points.empty()) std::memcpy(bytes.data(), points.data(), bytes.size());
     const Json data = {{"report", std::move(report)},
                        {"origin", {origin.x(), origin.y(), origin.z()}},
                        {"shown", points.size()},
-                       {"of", points.size()},
+                       {"of", std::max(of, points.size())},
                        {"stride", sizeof(LabelledPoint)},
                        {"points", base64(bytes)},
                        {"up", {0, 0, 1}}};
@@ -108,9 +108,10 @@ struct Page : testing::Test {
   std::unique_ptr<PageFile> file;
 
   // Opens the page in the dark, with nothing beside points and volumes in the scene.
-  void show(Json report, const std::vector<LabelledPoint>& points = {}, const Vector3d& origin = {0, 0, 0}) {
+  void show(Json report, const std::vector<LabelledPoint>& points = {}, const Vector3d& origin = {0, 0, 0},
+            std::size_t of = 0) {
     browser.prefer("dark");
-    file = std::make_unique<PageFile>(std::move(report), points, origin);
+    file = std::make_unique<PageFile>(std::move(report), points, origin, of);
     browser.open(file->url());
     browser.until("window.pclBv && pclBv.frames === 1");
     for (const char* key : {"g", "l"})
@@ -440,9 +441,20 @@ TEST_F(Page, AsksForNothingOverTheNetwork) {
 }
 
 TEST_F(Page, TellsHowManyOfThePointsItShows) {
-  show(report_of({{Aabb({-1, -1, -1}, {1, 1, 1})}}), {{3, 3, 3, no_label}});
-  EXPECT_EQ(browser.run("return document.documentElement.dataset.kind"), "static");
-  EXPECT_EQ(browser.run("return getComputedStyle(document.querySelector('footer')).display"), "none");
+  show(report_of({{Aabb({-1, -1, -1}, {1, 1, 1})}}), {{3, 3, 3, no_label}}, {0, 0, 0}, 1234567);
+  const auto text =
+      browser.run("return document.getElementById('frame-text').textContent").get<std::string>();
+  EXPECT_THAT(text, testing::HasSubstr("1 of 1234567 points shown"));
+}
+
+TEST_F(Page, OfAFileHasNothingOfAConnection) {
+  show(report_of({{Aabb({-1, -1, -1}, {1, 1, 1})}}));
+  browser.press(" ");  // nothing to pause
+  const Json shown = browser.run(
+      "return ['pause', 'banner', 'settings-section', 'stage-plot']"
+      ".map((id) => document.getElementById(id).getClientRects().length)");
+  EXPECT_EQ(shown, Json({0, 0, 0, 0}));
+  EXPECT_EQ(browser.run("return [pclBv.connected, pclBv.state.paused]"), Json({false, false}));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ function drawBox(batch, center, halfAxes, paint) {
 function drawPolygons(batch, faces, paint) {
   const before = batch.lines;
   const corners = faces.flatMap((face) => face.corners);
-  const least = 1e-6 * Math.max(0, ...corners.map((p) => norm(sub(p, corners[0]))));
+  const least = 1e-6 * corners.reduce((most, p) => Math.max(most, norm(sub(p, corners[0]))), 0);
   for (const { n, corners: around } of faces) {
     around.forEach((corner, k) => {
       const next = around[(k + 1) % around.length];
