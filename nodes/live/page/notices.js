@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the page says above the scene: "banner" (the connection), "error", and a notice that fades.
-import { byId } from "./elements.js";
+// What the page says: about the frame, and above the scene "banner" (the connection), "error" and a notice that fades.
+import { byId, countText } from "./elements.js";
 
 const NOTICE_MS = 4000;
 
@@ -21,3 +21,15 @@ export function notice(text) {
   noticeTimer = setTimeout(() => byId("notice").classList.add("fading"), NOTICE_MS);
 }
 
+// The line at the top.
+export function frameText({ report, stamp, shown, of }, paused) {
+  const parts = [];
+  if (report.file !== undefined) parts.push(String(report.file));
+  if (report.frame_id !== undefined) parts.push(String(report.frame_id));
+  if (report.seq !== undefined) parts.push(`frame ${report.seq}`);
+  if (stamp !== "") parts.push(`${stamp.slice(0, -9) || "0"}.${stamp.slice(-9, -6).padStart(3, "0")} s`);
+  parts.push(shown < of ? `${shown} of ${of} points shown` : `${countText(report.points)} points`);
+  parts.push(`${report.clusters.length} objects`);
+  if (paused) parts.push("paused");
+  return parts.join("  ·  ");
+}

@@ -9,6 +9,7 @@ import { dot } from "./vectors.js";
 const FONT = "12px system-ui, sans-serif";
 const LINE_HEIGHT = 15;
 const MOST_LABELS = 300;
+const RAMP_PIXELS = 180;
 
 export class Overlay {
   constructor(canvas) {
@@ -16,8 +17,8 @@ export class Overlay {
     this.context = canvas.getContext("2d");
   }
 
-  // `objects`: of buildVolumes().
-  draw(camera, objects, view, pixelRatio) {
+  // `objects`: of buildVolumes(); `range`: of the ramp of colours, undefined where colours have none.
+  draw(camera, objects, view, range, pixelRatio) {
     const context = this.context;
     context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
     context.clearRect(0, 0, camera.width, camera.height);
@@ -26,6 +27,21 @@ export class Overlay {
     if (view.labels) this.drawLabels(camera, objects, view);
     this.drawScaleBar(camera, view.theme);
     this.drawAxes(camera, view.theme);
+    if (range) this.drawRamp(camera, view, range);
+  }
+
+  // What the colours mean, above the scale bar.
+  drawRamp(camera, { mode, theme }, [low, high]) {
+    const [x, y, wide] = [camera.width - 16 - RAMP_PIXELS, camera.height - 58, RAMP_PIXELS];
+    const { ramp, dim } = THEMES[theme];
+    const gradient = this.context.createLinearGradient(x, 0, x + wide, 0);
+    for (let k = 0; k < 5; ++k) gradient.addColorStop(k / 4, cssColour(ramp.slice(3 * k, 3 * k + 3)));
+    this.context.fillStyle = gradient;
+    this.context.fillRect(x, y, wide, 6);
+    const unit = mode === "height" ? " m" : "";
+    this.write(`${Number(low.toPrecision(3))}${unit}`, x, y - 5, dim, theme, "left");
+    this.write(mode, x + wide / 2, y - 5, dim, theme, "center");
+    this.write(`${Number(high.toPrecision(3))}${unit}`, x + wide, y - 5, dim, theme, "right");
   }
 
   // A label that would cover one before it is left out: the picked object's comes first, then what moves, then what is large.

@@ -7,10 +7,10 @@ import { Batch } from "./batch.js";
 import { Camera } from "./camera.js";
 import { Connection } from "./connection.js";
 import { controlCamera } from "./controls.js";
-import { byId, countText } from "./elements.js";
+import { byId } from "./elements.js";
 import { History } from "./history.js";
 import { readStaticFrame, samplePoints } from "./messages.js";
-import { notice, say } from "./notices.js";
+import { frameText, notice, say } from "./notices.js";
 import { ObjectPanel } from "./objects.js";
 import { Overlay } from "./overlay.js";
 import { objectColour } from "./palette.js";
@@ -26,6 +26,7 @@ import { View } from "./view.js";
 const SAMPLE = 4096; // points that decide on view and ranges of colours
 const PICK_PIXELS = 3;
 const PLOT_MS = 200; // plots are drawn five times a second
+const MOST_OBJECTS = 1 << 20; // that points can be coloured by
 const NARROW = 900; // pixels of a page whose side panel begins closed
 
 export class Page {
@@ -161,7 +162,7 @@ export class Page {
       pointSize: this.view.pointSize * ratio, lineWidth: 1.4 * ratio, origin: this.origin ?? [0, 0, 0],
       faces: this.view.faces, grid: this.view.grid,
     });
-    this.overlay.draw(this.camera, this.objects, this.view, ratio);
+    this.overlay.draw(this.camera, this.objects, this.view, this.range[this.view.mode], ratio);
     if (!dirty.frame) return;
     ++this.drawn;
     say("error", "");
@@ -173,7 +174,7 @@ export class Page {
     if (this.origin === null) this.takeFirst();
     this.renderer.setPoints(points);
     this.view.offer({
-      tracks: report.clusters.some(({ track }) => typeof track === "number") || this.view.mode === "track",
+      tracks: report.clusters.some(({ track }) => typeof track === "number"),
       intensity: points?.intensity ?? false,
     });
     this.view.showMethods(report.clusters);
@@ -185,7 +186,9 @@ export class Page {
     const { clusters } = this.frame.report;
     const { mode, theme } = this.view;
     const colours = [];
-    for (const cluster of clusters) colours[cluster.id] = objectColour(cluster, mode, theme);
+    for (const cluster of clusters) {
+      if (cluster.id < MOST_OBJECTS) colours[cluster.id] = objectColour(cluster, mode, theme);
+    }
     this.renderer.setObjectColours(Array.from(colours, (colour) => colour ?? [0.5, 0.5, 0.5]));
     this.objects = buildVolumes(this.batch, this.frame.report, this.view, this.origin, this.camera.up);
     this.renderer.setLayer(this.renderer.volumes, this.batch);
@@ -195,24 +198,28 @@ export class Page {
 
   // The first frame decides on the origin, and with the view on the ranges of colours.
   takeFirst() {
-    const points = this.fitPoints([0, 0, 0]);
-    const middle = [0, 1, 2].map((k) => quantile(points.map((p) => p[k]).sort((a, b) => a - b), 0.5));
-    this.origin = this.frame.origin ?? originNear(middle);
+    const { points, report, origin } = this.frame;
+    const places = points
+      ? samplePoints(points, SAMPLE).map((p) => add(p, points.origin))
+      : report.clusters.flatMap(({ volumes }) => volumes.filter(isDrawable).map(centerOf));
+    const middle = [0, 1, 2].map((k) => quantile(places.map((p) => p[k]).sort((a, b) => a - b), 0.5));
+    this.origin = origin ?? originNear(middle);
     this.fit();
   }
 
-  // Points of the frame that the view is fitted to; without points the middles of volumes.
-  fitPoints(origin) {
+  // Places of the scene that the view is fitted to, each with an intensity; without points, those of volumes.
+  fitPoints() {
     const { points, report } = this.frame;
-    const sample = points ? samplePoints(points, SAMPLE).map((p) => [...add(p, sub(points.origin, origin)), p[3]]) : [];
-    if (sample.length > 0) return sample;
-    return report.clusters.flatMap(({ volumes }) => volumes.filter(isDrawable).map((v) => [...sub(centerOf(v), origin), 0]));
+    const sample = points ? samplePoints(points, SAMPLE) : [];
+    if (sample.length > 0) return sample.map((p) => [...add(p, sub(points.origin, this.origin)), p[3]]);
+    const objects = buildVolumes(this.batch, report, this.view, this.origin, this.camera.up);
+    return objects.flatMap(({ low, high }) => [[...low, 0], [...high, 0]]);
   }
 
   fit() {
     if (!this.frame || this.origin === null) return;
     this.follow(false);
-    const points = this.fitPoints(this.origin);
+    const points = this.fitPoints();
     this.camera.fit(points);
     const rangeOf = (values) => [quantile(values, 0.02), quantile(values, 0.98)];
     this.range.height = rangeOf(points.map((p) => dot(p, this.camera.up)).sort((a, b) => a - b));
@@ -302,16 +309,4 @@ export class Page {
   drawPlots() {
     if (!document.hidden) this.plots.draw(this.view.theme, this.notDrawn);
   }
-}
-
-function frameText({ report, stamp, shown, of }, paused) {
-  const parts = [];
-  if (report.file !== undefined) parts.push(String(report.file));
-  if (report.frame_id !== undefined) parts.push(String(report.frame_id));
-  if (report.seq !== undefined) parts.push(`frame ${report.seq}`);
-  if (stamp !== "") parts.push(`${stamp.slice(0, -9) || "0"}.${stamp.slice(-9, -6).padStart(3, "0")} s`);
-  parts.push(shown < of ? `${shown} of ${of} points shown` : `${countText(report.points)} points`);
-  parts.push(`${report.clusters.length} objects`);
-  if (paused) parts.push("paused");
-  return parts.join("  ·  ");
 }

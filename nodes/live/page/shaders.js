@@ -72,9 +72,9 @@ void main() {
   if (to.w < nearest && from.w > nearest) to = mix(to, from, (nearest - to.w) / (from.w - to.w));
   vec2 way = (to.xy / to.w - from.xy / from.w) * viewport;
   float length2 = dot(way, way);
-  bool isDot = length2 < 1e-3; // a point is a square of twice the width
+  bool isDot = length2 < 1e-3; // a square as wide as a line; a volume of one point is one of twice the width
   way = isDot ? vec2(1.0, 0.0) : way * inversesqrt(length2);
-  float half_ = (width + 1.0) * (isDot ? 2.0 : 1.0) / 2.0;
+  float half_ = (width + 1.0) * (a == b ? 2.0 : 1.0) / 2.0;
   float end = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
   side = (gl_VertexID & 2) == 0 ? -1.0 : 1.0;
   vec4 at = end < 0.0 ? from : to;

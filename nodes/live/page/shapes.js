@@ -24,12 +24,20 @@ function drawBox(batch, center, halfAxes, paint) {
   });
 }
 
-// Outlines of polygons; an edge between two of them is drawn twice, at the same place.
+// Outlines of polygons; an edge between two of them is drawn twice, at the same place. Where more than three planes
+// meet, rounding leaves edges of no length: they are left out, and only what is a single point is drawn as one.
 function drawPolygons(batch, faces, paint) {
-  for (const { n, corners } of faces) {
-    corners.forEach((corner, k) => batch.line(corner, corners[(k + 1) % corners.length], paint.line));
-    if (paint.face && corners.length > 2) batch.polygon(corners, n, paint.face);
+  const before = batch.lines;
+  const corners = faces.flatMap((face) => face.corners);
+  const least = 1e-6 * corners.reduce((most, p) => Math.max(most, norm(sub(p, corners[0]))), 0);
+  for (const { n, corners: around } of faces) {
+    around.forEach((corner, k) => {
+      const next = around[(k + 1) % around.length];
+      if (norm(sub(next, corner)) > least) batch.line(corner, next, paint.line);
+    });
+    if (paint.face && around.length > 2) batch.polygon(around, n, paint.face);
   }
+  if (batch.lines === before && corners.length > 0) batch.line(corners[0], corners[0], paint.line);
 }
 
 function slabPlanes({ directions, min, max }, o) {
@@ -48,8 +56,8 @@ function drawKdop(batch, v, o, paint) {
   const bound = boundOfKdop(v, o);
   if (!bound) return;
   const faces = bound.radius > 0 ? polytope(slabPlanes(v, o), bound.center, bound.radius) : [];
-  if (faces.length === 0) batch.line(bound.center, bound.center, paint.line);
-  drawPolygons(batch, faces, paint);
+  const point = [{ n: [0, 0, 1], corners: [bound.center] }];
+  drawPolygons(batch, faces.length > 0 ? faces : point, paint);
 }
 
 // Faces of a hull are triangles, of a flat side many: edges inside a flat side are left out.

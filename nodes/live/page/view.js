@@ -15,6 +15,7 @@ export class View {
     this.on = on;
     this.mode = "cluster";
     this.modeChosen = false;
+    this.offered = { height: true, cluster: true, track: false, intensity: false };
     this.theme = matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark";
     this.faces = this.labels = this.arrows = this.grid = true;
     this.hidden = new Set(); // methods
@@ -73,17 +74,17 @@ export class View {
     else this.toggleHelp();
   }
 
-  // Modes that the frame has no data for are passed over.
+  // Modes that no frame has had data for are passed over.
   offer({ tracks, intensity }) {
-    this.offered = { height: true, cluster: true, track: tracks, intensity };
+    this.offered.track ||= tracks;
+    this.offered.intensity ||= intensity;
     for (const input of document.getElementsByName("mode")) input.disabled = !this.offered[input.value];
-    if (!this.modeChosen) this.mode = tracks ? "track" : "cluster";
-    else if (!this.offered[this.mode]) this.mode = "cluster";
+    if (!this.modeChosen) this.mode = this.offered.track ? "track" : "cluster";
     this.showState();
   }
 
   nextMode() {
-    const offered = MODES.filter((mode) => this.offered?.[mode] ?? true);
+    const offered = MODES.filter((mode) => this.offered[mode]);
     this.setMode(offered[(offered.indexOf(this.mode) + 1) % offered.length]);
   }
 
