@@ -72,6 +72,7 @@ export class Page {
     byId("scene").addEventListener("webglcontextlost", (event) => event.preventDefault());
     byId("scene").addEventListener("webglcontextrestored", () => {
       this.renderer.setUp();
+      this.gridTheme = null;
       this.dirty = { frame: true };
       this.request();
     });
