@@ -31,7 +31,7 @@ TEST_F(Page, PickingGivesTheObjectUnderThePixel) {
   browser.click(at[2].x(), at[2].y());
   browser.until("pclBv.picked === 'cluster 2'");
   browser.press("p");
-  browser.until("pclBv.state.panel");
+  browser.until("pclBv.state.panel && document.getElementById('picked-rows').children.length > 0");
   const auto text = browser.run("return document.getElementById('picked-rows').innerText").get<std::string>();
   EXPECT_THAT(text, testing::HasSubstr("sphere"));
   EXPECT_THAT(text, testing::HasSubstr("radius"));
@@ -61,7 +61,7 @@ TEST_F(Page, HostileStringsStayText) {
   browser.press("l");
   const Vector2d middle = project({{0, 0, 0}}).front();
   browser.click(middle.x(), middle.y());
-  browser.until("pclBv.picked === 'cluster 0'");
+  browser.until("pclBv.picked === 'cluster 0' && document.getElementById('picked-rows').children.length > 0");
   EXPECT_EQ(browser.run("return document.querySelectorAll('img').length"), 0);
   EXPECT_EQ(browser.run("return typeof window.broken"), "undefined");
   EXPECT_EQ(browser.run("return document.querySelectorAll('script').length"), 2);
