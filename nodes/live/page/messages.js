@@ -59,13 +59,16 @@ export function readPointCloud2(view) {
   return { bytes, count, stride, intensity: has("intensity", 16, FLOAT32), origin: [0, 0, 0] };
 }
 
+// Browsers before 2025 lack fromBase64(), which takes a tenth of the time.
+function bytesOfBase64(text) {
+  return Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+}
+
 // What `<script id="data">` holds, as a frame; null in a live page.
 export function readStaticFrame(element) {
   if (!element) return null;
   const data = JSON.parse(element.textContent);
-  const text = atob(data.points);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  const bytes = bytesOfBase64(data.points);
   const count = Math.floor(bytes.length / data.stride);
   return {
     report: data.report,

@@ -31,7 +31,10 @@ const NARROW = 900; // pixels of a page whose side panel begins closed
 
 export class Page {
   constructor() {
+    document.documentElement.dataset.kind = byId("data") ? "static" : "live";
     this.camera = new Camera();
+    this.showPanel(innerWidth > NARROW);
+    this.resize(); // before there is a context, which would have to make its buffers twice
     this.renderer = new Renderer(byId("scene"));
     this.overlay = new Overlay(byId("overlay"));
     this.batch = new Batch();
@@ -62,16 +65,16 @@ export class Page {
     this.drawn = 0;
     this.notDrawn = 0;
     this.connection = null;
-    this.showPanel(innerWidth > NARROW);
-    new ResizeObserver(() => this.resize()).observe(byId("view"));
+    // At once: a canvas of a new size is blank.
+    new ResizeObserver(() => this.resize() && this.drawAndSay()).observe(byId("view"));
     this.watchContext();
-    this.resize();
   }
 
   watchContext() {
     byId("scene").addEventListener("webglcontextlost", (event) => event.preventDefault());
     byId("scene").addEventListener("webglcontextrestored", () => {
       this.renderer.setUp();
+      this.gridTheme = null;
       this.dirty = { frame: true };
       this.request();
     });
@@ -79,7 +82,6 @@ export class Page {
 
   start() {
     const frame = readStaticFrame(byId("data"));
-    document.documentElement.dataset.kind = frame ? "static" : "live";
     if (frame) {
       document.title = `${frame.report.file ?? "cloud"} – pcl_bv`;
       this.camera.setUp(frame.up);
@@ -134,13 +136,17 @@ export class Page {
   request() {
     this.requested ??= requestAnimationFrame(() => {
       this.requested = null;
-      try {
-        this.draw();
-      } catch (error) {
-        say("error", `the frame could not be drawn: ${error.message}`);
-        throw error;
-      }
+      this.drawAndSay();
     });
+  }
+
+  drawAndSay() {
+    try {
+      this.draw();
+    } catch (error) {
+      say("error", `the frame could not be drawn: ${error.message}`);
+      throw error;
+    }
   }
 
   changed(what) {
@@ -293,17 +299,15 @@ export class Page {
     byId("panel").setAttribute("aria-pressed", String(shown));
   }
 
+  // Whether the size has changed.
   resize() {
     const { clientWidth, clientHeight } = byId("view");
-    for (const canvas of [byId("scene"), byId("overlay")]) {
-      canvas.width = Math.max(1, Math.round(clientWidth * devicePixelRatio));
-      canvas.height = Math.max(1, Math.round(clientHeight * devicePixelRatio));
-    }
+    const [wide, high] = [clientWidth, clientHeight].map((size) => Math.max(1, Math.round(size * devicePixelRatio)));
+    if (byId("scene").width === wide && byId("scene").height === high) return false;
+    for (const canvas of [byId("scene"), byId("overlay")]) Object.assign(canvas, { width: wide, height: high });
     this.camera.width = Math.max(1, clientWidth);
     this.camera.height = Math.max(1, clientHeight);
-    if (this.requested) cancelAnimationFrame(this.requested);
-    this.requested = null;
-    this.request();
+    return true;
   }
 
   drawPlots() {

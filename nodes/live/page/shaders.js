@@ -119,7 +119,7 @@ in vec3 faceNormal;
 in vec3 toEye;
 out vec4 pixel;
 void main() {
-  float facing = abs(dot(normalize(faceNormal), normalize(toEye)));
-  float rim = 1.0 - facing;
+  float size = length(faceNormal);  // 0 where a volume is too flat to have one
+  float rim = size > 0.0 ? 1.0 - abs(dot(faceNormal, normalize(toEye))) / size : 0.0;
   pixel = vec4(faceColour.rgb, faceColour.a * (0.6 + 1.6 * rim * rim * rim));
 }`;

@@ -19,9 +19,10 @@ function drawBox(batch, center, halfAxes, paint) {
     }
   }
   if (!paint.face) return;
-  CUBE_FACES.forEach((face, k) => {
-    batch.polygon(face.map((bits) => corners[bits]), unit(halfAxes[k >> 1]), paint.face);
-  });
+  // Of a flat box no half axis says where its large sides look to.
+  const normals = [[0, 1, 2], [1, 2, 0], [2, 0, 1]].map(([k, i, j]) =>
+    unit(norm(halfAxes[k]) > 0 ? halfAxes[k] : cross(halfAxes[i], halfAxes[j])));
+  CUBE_FACES.forEach((face, k) => batch.polygon(face.map((bits) => corners[bits]), normals[k >> 1], paint.face));
 }
 
 // Outlines of polygons; an edge between two of them is drawn twice, at the same place. Where more than three planes
