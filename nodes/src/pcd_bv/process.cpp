@@ -22,6 +22,8 @@
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/report/meshes.h"
+#include "pcl_bv/segmentation/up.h"
+#include "shares.h"
 
 namespace pcl_bv {
 namespace {
@@ -32,6 +34,11 @@ class Stopwatch {
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+  /// The same without beginning anew.
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
   }
 
  private:
@@ -75,16 +82,18 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
   return Status::failed;
 }
 
+Status write_mesh(const Job& job, const Report& report) {
+  if (!job.mesh) return Status::done;
+  return write_file(*job.mesh, [&] {
+    const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
+    write_volumes(*job.mesh, report.clusters, format);
+  });
+}
+
 /// The files that were asked for beside the report. The labels are written into the cloud's own records.
 Status write_files(const Job& job, const Options& options, const Frame& frame, const FrameResult& result,
                    const Report& report, LoadedCloud& loaded) {
-  Status status = Status::done;
-  if (job.mesh) {
-    status = worse(status, write_file(*job.mesh, [&] {
-                     const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
-                     write_volumes(*job.mesh, report.clusters, format);
-                   }));
-  }
+  Status status = write_mesh(job, report);
   if (!job.labels && !job.image) return status;
   std::vector<std::uint32_t> label;
   if (job.labels || options.clusters()) label = labels_of(frame, result);
@@ -105,6 +114,22 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
   return status;
 }
 
+std::string coarse_remark(const Aabb& box, ScalarType scalar) {
+  const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
+  const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
+  // A centimetre, and not only because the cloud is large.
+  const bool coarse =
+      scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm();
+  if (!coarse) return {};
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
+      "--origin auto) or subtract an origin before",
+      farthest, step);
+  return text;
+}
+
 /// What a user would want to know before believing the results.
 std::vector<std::string> remarks(const FrameResult& result, const PointView& points) {
   std::vector<std::string> said;
@@ -113,18 +138,8 @@ std::vector<std::string> remarks(const FrameResult& result, const PointView& poi
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)
     box.merge(aabb(result.volume(id, 0)));
-  const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
-  const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
-  // A centimetre, and not only because the cloud is large.
-  if (points.scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm()) {
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
-        "--origin auto) or subtract an origin before",
-        farthest, step);
-    said.emplace_back(text);
-  }
+  const std::string coarse = coarse_remark(box, points.scalar);
+  if (!coarse.empty()) said.push_back(coarse);
   return said;
 }
 
@@ -141,6 +156,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
     frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(loaded.cloud(), field->name));
   FrameResult result;
   pipeline.process(frame, result);
+  if (job.tiles) report.parts = job.tiles->used();
   report.points = result.points;
   report.counts = result.counts;
   report.clusters = entries_of(result);
@@ -158,13 +174,66 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   return worse(checked, write_files(job, options, frame, result, report, loaded));
 }
 
+/// One cloud in many inputs. One that fails is left out, and the cloud is begun again without it.
+Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
+  const Stopwatch watch;
+  if (options.progress && errors_go_to_a_terminal()) {
+    job.tiles->on_loaded = [watch, &tiles = *job.tiles](std::size_t points) {
+      char text[120];
+      std::snprintf(text, sizeof text, "%zu files, %.1f M points read in all passes, %.1f s", tiles.used(),
+                    static_cast<double>(points) / 1e6, watch.seconds());
+      show_status_line(text);
+    };
+  }
+  Status status = say_what_is_left_out(*job.tiles);
+  for (;;) {
+    if (job.tiles->used() == 0) throw IoError("none of the inputs could be read");
+    try {
+      return worse(status, process(job, options, pipeline, report));
+    } catch (const TileError& error) {
+      complain(job.tiles->jobs()[error.tile()].input + ": " + error.what());
+      job.tiles->leave_out(error.tile(), error.what());
+      status = Status::failed;
+    }
+  }
+}
+
+/// Partial results to volumes.
+Status process_partials(const Job& job, const Options& options, Report& report) {
+  Stopwatch watch;
+  const std::optional<PartialFile> all = merge_files(job.partials);
+  if (!all) throw IoError("not all of the partial results can be merged");
+  if (!all->is_whole()) throw IoError("shares are missing: " + all->missing());
+  const double read = watch.lap();
+  const std::vector<const Method*> methods = options.pipeline.methods();
+  report = report_of(*all, methods);
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    AnyVolume volume;
+    const EstimationResult result =
+        all->partial.fit(*methods[i], volume, execution_of(options), method_options(options));
+    set_volume(i, result, std::move(volume), report);
+  }
+  if (options.timings) report.seconds = {read, 0, watch.lap()};
+  const Status checked = check({}, FrameResult(), options, report);
+  return worse(checked, write_mesh(job, report));
+}
+
+Status process_any(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
+  if (!job.partials.empty()) return process_partials(job, options, report);
+  return job.tiles ? process_tiles(job, options, pipeline, report) : process(job, options, pipeline, report);
+}
+
 }  // namespace
+
+MethodOptions method_options(const Options& options) {
+  return {options.pipeline.growth, up_direction(options.pipeline.ground.up)};
+}
 
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline) {
   Outcome outcome;
   outcome.report.file = job.input;
   try {
-    outcome.status = process(job, options, pipeline, outcome.report);
+    outcome.status = process_any(job, options, pipeline, outcome.report);
     return outcome;
   } catch (const std::bad_alloc&) {
     outcome.report.error = "not enough memory";

@@ -24,6 +24,9 @@ struct Outcome {
 /// `report.error` too.
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
+/// What the methods are told.
+MethodOptions method_options(const Options& options);
+
 /// Processes all jobs and writes their reports; what is written and said comes in the order of the jobs,
 /// whatever the number of threads. At least as many jobs as threads are spread over the threads, each job
 /// serial; fewer are done one after another, each with all threads. A job that fails stops no other; when

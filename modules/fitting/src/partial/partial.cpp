@@ -249,6 +249,25 @@ EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Exe
   return method.fit(held.view(), volume, informed, options);
 }
 
+EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
+                                              const FarthestPoints& farthest,
+                                              const Execution& execution) const {
+  const FloatEnvironment environment;
+  if (state_->all_kept()) {
+    const HeldPoints all(state_->loose, state_->scalar);
+    return pcl_bv::fit_smallest_sphere(all.view(), sphere, certificate, execution);
+  }
+  const NumberedPoints points = standing_for_all(*state_);
+  const HeldPoints held(points, state_->scalar);
+  Supports supports = supports_of(*state_, points, held.view(), execution);
+  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // by the numbers of the cloud
+    supports.along[k].low_point.index = state_->ends[2 * k].index;
+    supports.along[k].high_point.index = state_->ends[2 * k + 1].index;
+  }
+  sphere = smallest_sphere(supports, farthest, certificate);
+  return result_of(supports);
+}
+
 std::size_t Partial::size() const {
   return state_->size();
 }
