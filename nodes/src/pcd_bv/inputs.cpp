@@ -84,10 +84,12 @@ std::vector<Job> expand_partials(const std::string& argument) {
 }
 
 // All inputs as one job.
-Job joined(const Options& options, std::vector<Job> inputs) {
+Job joined(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
   Job job;
   job.input = kTogether;
-  if (options.merge) {
+  if (tiles) {
+    job.tiles = std::move(tiles);
+  } else if (options.merge) {
     for (const Job& input : inputs)
       job.partials.push_back(input.input);
   } else {
@@ -128,7 +130,7 @@ std::vector<Job> list_inputs(const Options& options) {
   return jobs;
 }
 
-std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs) {
+std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
   const bool one = options.together || options.merge;
   const bool several = !one && (inputs.size() > 1 || is_folder(options.inputs.front()));
   const auto target = [&](const char* option, const fs::path& given, const Job& job, const char* extension) {
@@ -153,7 +155,7 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs) {
     if (!is_synth(job.input) && !job.recording) claims.add_input(job.input);
   }
   if (options.partial) claims.claim(*options.partial);
-  std::vector<Job> jobs = one ? std::vector{joined(options, std::move(inputs))} : std::move(inputs);
+  std::vector<Job> jobs = one ? std::vector{joined(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
   if (options.output) claims.claim(*options.output);
   for (Job& job : jobs) {
     if (job.error) continue;

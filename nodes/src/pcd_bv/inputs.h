@@ -40,9 +40,10 @@ bool is_synth(const std::string& input);
 /// All inputs, folders expanded in natural order; nothing goes anywhere.
 std::vector<Job> list_inputs(const Options& options);
 
-/// The jobs and where their files go: one for each of the inputs, or one for all. Throws UsageError if two
-/// results would go to the same file.
-std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs);
+/// The jobs and where their files go: one for each of the inputs, or one for all: of `tiles`, or, without
+/// them, of tiles whose headers are read now. Throws UsageError if two results would go to the same file.
+std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs,
+                           std::shared_ptr<Tiles> tiles = nullptr);
 inline std::vector<Job> plan_jobs(const Options& options) {
   return plan_jobs(options, list_inputs(options));
 }

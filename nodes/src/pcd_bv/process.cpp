@@ -45,26 +45,16 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Failed if a fit did; if asked, verifies all other volumes of all entries: outside if a point is.
+/// If asked, verifies all volumes of all entries whose fits have not failed; then as say_what_is_wrong().
 Status check(const PointView& cloud, const FrameResult& result, const Options& options, Report& report) {
-  const Execution execution{options.pipeline.policy(), parse_isa(options.pipeline.isa)};
-  Status status = Status::done;
   for (ClusterEntry& cluster : report.clusters) {
-    const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
-      std::string said = report.file + ": cluster " + std::to_string(cluster.id) + ": ";
-      said.append(entry.method).append(": ").append(problem);
-      complain(said);
-      status = worse(status, what);
-    };
     for (VolumeEntry& entry : cluster.volumes) {
-      if (!entry.failed.empty()) object(entry, Status::failed, entry.failed);
-      if (!entry.failed.empty() || !options.check) continue;
-      entry.outside = verify(entry.volume, result.points_of(cluster.id, cloud), execution).outside;
-      if (*entry.outside > 0)
-        object(entry, Status::outside, std::to_string(*entry.outside) + " points outside");
+      if (options.check && entry.failed.empty())
+        entry.outside =
+            verify(entry.volume, result.points_of(cluster.id, cloud), execution_of(options)).outside;
     }
   }
-  return status;
+  return say_what_is_wrong(report);
 }
 
 /// Runs `write`, which makes the file `path`, and its folder before.
@@ -80,14 +70,6 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
     complain(path.string() + ": " + error.what());
   }
   return Status::failed;
-}
-
-Status write_mesh(const Job& job, const Report& report) {
-  if (!job.mesh) return Status::done;
-  return write_file(*job.mesh, [&] {
-    const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
-    write_volumes(*job.mesh, report.clusters, format);
-  });
 }
 
 /// The files that were asked for beside the report. The labels are written into the cloud's own records.
@@ -112,22 +94,6 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
                    }));
   }
   return status;
-}
-
-std::string coarse_remark(const Aabb& box, ScalarType scalar) {
-  const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
-  const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
-  // A centimetre, and not only because the cloud is large.
-  const bool coarse =
-      scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm();
-  if (!coarse) return {};
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
-      "--origin auto) or subtract an origin before",
-      farthest, step);
-  return text;
 }
 
 /// What a user would want to know before believing the results.
@@ -214,8 +180,7 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
     set_volume(i, result, std::move(volume), report);
   }
   if (options.timings) report.seconds = {read, 0, watch.lap()};
-  const Status checked = check({}, FrameResult(), options, report);
-  return worse(checked, write_mesh(job, report));
+  return worse(say_what_is_wrong(report), write_mesh(job, report));
 }
 
 Status process_any(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
@@ -224,6 +189,48 @@ Status process_any(const Job& job, const Options& options, FramePipeline& pipeli
 }
 
 }  // namespace
+
+Status say_what_is_wrong(const Report& report) {
+  Status status = Status::done;
+  for (const ClusterEntry& cluster : report.clusters) {
+    const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
+      std::string said = report.file + ": cluster " + std::to_string(cluster.id) + ": ";
+      said.append(entry.method).append(": ").append(problem);
+      complain(said);
+      status = worse(status, what);
+    };
+    for (const VolumeEntry& entry : cluster.volumes) {
+      if (!entry.failed.empty()) object(entry, Status::failed, entry.failed);
+      if (entry.outside.value_or(0) > 0)
+        object(entry, Status::outside, std::to_string(*entry.outside) + " points outside");
+    }
+  }
+  return status;
+}
+
+Status write_mesh(const Job& job, const Report& report) {
+  if (!job.mesh) return Status::done;
+  return write_file(*job.mesh, [&] {
+    const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
+    write_volumes(*job.mesh, report.clusters, format);
+  });
+}
+
+std::string coarse_remark(const Aabb& box, ScalarType scalar) {
+  const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
+  const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
+  // A centimetre, and not only because the cloud is large.
+  const bool coarse =
+      scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm();
+  if (!coarse) return {};
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
+      "--origin auto) or subtract an origin before",
+      farthest, step);
+  return text;
+}
 
 MethodOptions method_options(const Options& options) {
   return {options.pipeline.growth, up_direction(options.pipeline.ground.up)};

@@ -24,6 +24,15 @@ struct Outcome {
 /// `report.error` too.
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
+/// Complains of fits that failed and of points that were found outside: the status for that.
+Status say_what_is_wrong(const Report& report);
+
+/// The job's mesh, if there is to be one.
+Status write_mesh(const Job& job, const Report& report);
+
+/// A warning if floats of such magnitude are too coarse for points in this box; else nothing.
+std::string coarse_remark(const Aabb& box, ScalarType scalar);
+
 /// What the methods are told.
 MethodOptions method_options(const Options& options);
 
