@@ -190,7 +190,9 @@ TEST_F(Mpi, KeepsWhatIsDoneWhenARankIsKilledAmongManyInputs) {
   EXPECT_NE(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("exited on signal 9 (Killed)"));
   EXPECT_THAT(result.err, HasSubstr("pcd_bv_mpi: interrupted: "));
-  if (std::filesystem::exists(at("o.json"))) EXPECT_GE(Json::parse(read_file(at("o.json"))).size(), 1U);
+  if (std::filesystem::exists(at("o.json"))) {
+    EXPECT_GE(Json::parse(read_file(at("o.json"))).size(), 1U);
+  }
 }
 
 }  // namespace
