@@ -103,8 +103,9 @@ TEST_F(PcdBvTogether, FiltersShiftsAndChecksAsOneFile) {
   const Points points = gaussian(70'000, 5);
   const std::string whole = binary("whole.pcd", points);
   const std::string folder = tiles("tiles", points, 12);
-  const std::vector<std::string> options{"--format", "jsonl", "--volume", "aabb,sphere,obb-pca", "--check",
-                                         "--range", "0.3:1.1", "--origin", "auto"};
+  const std::vector<std::string> options{"--format", "jsonl",   "--volume", "aabb,sphere,obb-pca",
+                                         "--check",  "--range", "0.3:1.1",  "--origin",
+                                         "auto"};
   std::vector<std::string> one = options, many = options;
   one.push_back(whole);
   many.insert(many.end(), {"--together", folder});
@@ -116,13 +117,14 @@ TEST_F(PcdBvTogether, FiltersShiftsAndChecksAsOneFile) {
   std::vector<std::string> files;
   for (const std::string part : {"0/3", "1/3", "2/3"}) {
     files.push_back(at("p" + part.substr(0, 1)));
-    ASSERT_EQ(run({"--partial", files.back(), "--part", part, "--range", "0.3:1.1", "--origin", "1,2,3", folder})
-                  .status,
-              0);
+    ASSERT_EQ(
+        run({"--partial", files.back(), "--part", part, "--range", "0.3:1.1", "--origin", "1,2,3", folder})
+            .status,
+        0);
   }
   EXPECT_TRUE(found(merge("aabb,sphere,obb-pca", files)) ==
-              found(run({"--format", "jsonl", "--volume", "aabb,sphere,obb-pca", "--range", "0.3:1.1", "--origin",
-                         "1,2,3", whole})));
+              found(run({"--format", "jsonl", "--volume", "aabb,sphere,obb-pca", "--range", "0.3:1.1",
+                         "--origin", "1,2,3", whole})));
 }
 
 TEST_F(PcdBvTogether, SaysSoInTheTextAndCsvAndWritesMeshAndPicture) {
@@ -190,7 +192,8 @@ TEST_F(PcdBvTogether, SharesMergeToItsBitsInAnyOrderForEveryMethodThatTheyServe)
       EXPECT_TRUE(merged.out == expected) << count;
     }
     if (count < 2) continue;
-    const std::vector<std::string> half(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(count / 2));
+    const std::vector<std::string> half(files.begin(),
+                                        files.begin() + static_cast<std::ptrdiff_t>(count / 2));
     std::vector<std::string> arguments{"--merge", "--partial", at("half")};
     arguments.insert(arguments.end(), half.begin(), half.end());
     ASSERT_EQ(run(arguments).status, 0);

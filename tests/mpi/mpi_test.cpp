@@ -74,8 +74,9 @@ class Mpi : public Tiled {
 
 TEST_F(Mpi, HasTheBitsOfOneProcessForEveryMethodAndNumberOfRanks) {
   const std::string folder = tiles("tiles", gaussian(150'000, 1), 20);
-  const std::vector<std::string> options{"--together", "--format", "jsonl", "--volume", "all,hull,best",
-                                         "--check",    "--range",  "0.1:1.2", "--origin", "auto", folder};
+  const std::vector<std::string> options{"--together",    "--format", "jsonl",   "--volume",
+                                         "all,hull,best", "--check",  "--range", "0.1:1.2",
+                                         "--origin",      "auto",     folder};
   const Result expected = run(options);
   ASSERT_EQ(expected.status, 0) << expected.err;
   for (const int count : {1, 2, 3, 4, 8}) {
@@ -96,8 +97,8 @@ TEST_F(Mpi, CutsOneFileIntoRanges) {
 TEST_F(Mpi, OfFewPointsAndOfNoneIsAsOneProcess) {
   for (const std::size_t size : {0UL, 1UL, 700UL, 4200UL}) {
     const std::string folder = tiles("tiles" + std::to_string(size), gaussian(size, 3), 6);
-    const std::vector<std::string> options{"--together", "--format", "jsonl", "--volume", "all,hull", "--check",
-                                           folder};
+    const std::vector<std::string> options{"--together", "--format", "jsonl", "--volume",
+                                           "all,hull",   "--check",  folder};
     const Result result = ranks(3, options);
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_TRUE(result.out == run(options).out) << size;
@@ -157,9 +158,11 @@ TEST_F(Mpi, DealsOutInputsAndWritesResultsInTheirOrder) {
 }
 
 TEST_F(Mpi, SaysWrongUseOnceAndEndsWithStatusTwo) {
-  for (const std::vector<std::string>& wrong :
-       {std::vector<std::string>{"--volume", "cube", "x.pcd"}, {"--partial", "p", "x.pcd"}, {},
-        {"--together", "--info", "x.pcd"}, {"--output", at("x.pcd"), at("x.pcd")}}) {
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--volume", "cube", "x.pcd"},
+                                                {"--partial", "p", "x.pcd"},
+                                                {},
+                                                {"--together", "--info", "x.pcd"},
+                                                {"--output", at("x.pcd"), at("x.pcd")}}) {
     const Result result = ranks(3, wrong);
     EXPECT_EQ(result.status, 2);
     EXPECT_THAT(result.err, HasSubstr("pcd_bv_mpi: "));
@@ -171,10 +174,9 @@ TEST_F(Mpi, SaysWrongUseOnceAndEndsWithStatusTwo) {
 TEST_F(Mpi, EndsWithALineAndWritesNothingWhenARankIsKilled) {
   const std::string endless = "synth:surface:3000000";
   for (const int rank : {0, 1}) {
-    const Result result =
-        ranks_of_which_one_is_killed(rank, {"--together", "--volume", "all", "--check", "--format", "json",
-                                            "--output", at("o.json"), endless, endless, endless, endless,
-                                            endless, endless, endless, endless});
+    const Result result = ranks_of_which_one_is_killed(
+        rank, {"--together", "--volume", "all", "--check", "--format", "json", "--output", at("o.json"),
+               endless, endless, endless, endless, endless, endless, endless, endless});
     EXPECT_NE(result.status, 0);
     EXPECT_NE(result.status, 124) << "it had to be told to end";
     EXPECT_THAT(result.err, HasSubstr("exited on signal 9 (Killed)"));
@@ -183,8 +185,9 @@ TEST_F(Mpi, EndsWithALineAndWritesNothingWhenARankIsKilled) {
 }
 
 TEST_F(Mpi, KeepsWhatIsDoneWhenARankIsKilledAmongManyInputs) {
-  std::vector<std::string> arguments{"--volume", "all", "--check", "--format", "json", "--output", at("o.json"),
-                                     binary("first.pcd", gaussian(10, 7))};
+  std::vector<std::string> arguments{
+      "--volume", "all",      "--check",    "--format",
+      "json",     "--output", at("o.json"), binary("first.pcd", gaussian(10, 7))};
   arguments.insert(arguments.end(), 40, "synth:surface:3000000");
   const Result result = ranks_of_which_one_is_killed(1, arguments);
   EXPECT_NE(result.status, 0);

@@ -104,8 +104,9 @@ void PartialFile::add_input(std::string_view name, std::size_t points) {
 }
 
 void PartialFile::merge(const PartialFile& other) {
-  require_same(inputs_hash == other.inputs_hash && inputs == other.inputs && cloud_points == other.cloud_points,
-               "is a share of another cloud: the inputs were not the same");
+  require_same(
+      inputs_hash == other.inputs_hash && inputs == other.inputs && cloud_points == other.cloud_points,
+      "is a share of another cloud: the inputs were not the same");
   require_same(origin == other.origin, "is a share with another --origin");
   require_same(filter == other.filter, "is a share with another --range or other regions");
   Shares all = united(shares, other.shares);

@@ -26,7 +26,8 @@ std::vector<std::size_t> deal(const std::vector<Job>& jobs, std::size_t ranks) {
   for (const Job& job : jobs)
     sizes.push_back(size_of_input(job));
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
   for (const std::size_t job : order) {
     owner[job] = static_cast<std::size_t>(std::min_element(load.begin(), load.end()) - load.begin());
     load[owner[job]] += sizes[job];
@@ -97,7 +98,8 @@ Status process_dealt(Ranks& ranks, const std::vector<Job>& jobs, const Options& 
   }
   InOrder order(options, jobs.size(), ranks.size());
   interrupted.set([&] { order.interrupt(); });
-  auto others = static_cast<std::size_t>(std::count_if(owners.begin(), owners.end(), [](auto o) { return o != 0; }));
+  auto others =
+      static_cast<std::size_t>(std::count_if(owners.begin(), owners.end(), [](auto o) { return o != 0; }));
   const auto receive = [&](bool wait) {
     while (others > 0) {
       const std::optional<std::string> message = ranks.receive_any(wait);

@@ -20,8 +20,8 @@
 namespace pcl_bv {
 namespace {
 
-/// Does what every rank does to the same end, unless one finds the use wrong: then none goes on, and the first
-/// rank says why.
+/// Does what every rank does to the same end, unless one finds the use wrong: then none goes on, and the
+/// first rank says why.
 bool all_do(Ranks& ranks, const std::function<void()>& work) {
   std::string problem;
   {

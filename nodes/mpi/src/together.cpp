@@ -38,7 +38,8 @@ bool in_rounds(const Method& method, const Tiles& tiles) {
   return method.name == "sphere-exact" && tiles.xyz().count > Partial::kAllKept;
 }
 
-/// The cloud as it is now, from its points to its volumes; each step ends with what all ranks know of failures.
+/// The cloud as it is now, from its points to its volumes; each step ends with what all ranks know of
+/// failures.
 class Attempt {
  public:
   Attempt(Ranks& ranks, const Tiles& tiles, const Options& options)
@@ -99,8 +100,8 @@ Failure Attempt::find_origin() {
   }
   ends = ranks_.least(ends);
   const Eigen::Vector3d low(ends[0], ends[1], ends[2]), high(-ends[3], -ends[4], -ends[5]);
-  origin_ = ends[0] == none ? Eigen::Vector3d::Zero()
-                            : Eigen::Vector3d(Aabb(low, high).center().array().round());
+  origin_ =
+      ends[0] == none ? Eigen::Vector3d::Zero() : Eigen::Vector3d(Aabb(low, high).center().array().round());
   return agreed(ranks_, failure);
 }
 
@@ -142,8 +143,7 @@ Failure Attempt::fit() {
     } else if (in_rounds(*methods_[i], tiles_)) {
       if (const Failure failure = fit_in_rounds(fitted)) return failure;
     } else if (ranks_.first() || options_.check) {
-      fitted.result =
-          merged_.partial.fit(*methods_[i], fitted.volume, execution_, method_options(options_));
+      fitted.result = merged_.partial.fit(*methods_[i], fitted.volume, execution_, method_options(options_));
     }
   }
   return std::nullopt;
@@ -151,9 +151,8 @@ Failure Attempt::fit() {
 
 bool Attempt::answer(const Question& question, Failure& failure, OctantPoints& found) {
   OctantPoints own;
-  const Failure now = attempt([&] {
-    farthest_points(points_->view(), question.center, question.limit, own, execution_);
-  });
+  const Failure now =
+      attempt([&] { farthest_points(points_->view(), question.center, question.limit, own, execution_); });
   if (now) failure = now;
   return !ranks_.farthest(own, now.has_value(), found);
 }
@@ -228,8 +227,9 @@ void say_costs(Ranks& ranks, double seconds, std::size_t rounds) {
   const auto microseconds = [](const timeval& t) {
     return static_cast<std::size_t>(t.tv_sec) * 1'000'000 + static_cast<std::size_t>(t.tv_usec);
   };
-  const std::vector<std::size_t> sums = ranks.sum({microseconds(usage.ru_utime) + microseconds(usage.ru_stime),
-                                                   ranks.messages_sent(), ranks.bytes_sent()});
+  const std::vector<std::size_t> sums =
+      ranks.sum({microseconds(usage.ru_utime) + microseconds(usage.ru_stime), ranks.messages_sent(),
+                 ranks.bytes_sent()});
   const double memory = -ranks.least({-static_cast<double>(usage.ru_maxrss)}).front();
   if (!ranks.first()) return;
   char text[240];

@@ -155,7 +155,8 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
     if (!is_synth(job.input) && !job.recording) claims.add_input(job.input);
   }
   if (options.partial) claims.claim(*options.partial);
-  std::vector<Job> jobs = one ? std::vector{joined(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
+  std::vector<Job> jobs =
+      one ? std::vector{joined(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
   if (options.output) claims.claim(*options.output);
   for (Job& job : jobs) {
     if (job.error) continue;

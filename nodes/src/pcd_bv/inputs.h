@@ -5,8 +5,8 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +24,7 @@ struct Job {
   std::string input;                   ///< A file, synth:NAME[:POINTS[:SEED]], or RECORDING#NUMBER.
   std::optional<std::string> error{};  ///< Why there is nothing to load, for a folder without clouds.
   std::optional<std::filesystem::path> labels{}, mesh{}, image{};
-  std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
+  std::size_t bin_fields = 0;                   ///< As read_cloud() takes it.
   std::shared_ptr<RecordedClouds> recording{};  ///< Whose cloud `number` it is; `input` is FILE#number.
   std::size_t number = 0;
   std::shared_ptr<Tiles> tiles{};       ///< One cloud in many inputs (--together); `input` is its name.

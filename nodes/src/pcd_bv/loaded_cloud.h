@@ -14,7 +14,8 @@ namespace pcl_bv {
 class LoadedCloud {
  public:
   /// `hold`: whether it has to be in memory; then the policy says on which threads it is read. Throws what
-  /// load_cloud() throws, and TileError for a job of tiles, which are held only if they are few. What `origin` asks for is subtracted from the points of xyz().
+  /// load_cloud() throws, and TileError for a job of tiles, which are held only if they are few. What
+  /// `origin` asks for is subtracted from the points of xyz().
   LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy, const OriginOption& origin);
 
   /// Fields, size and viewpoint; the points only if it is held.

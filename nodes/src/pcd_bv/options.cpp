@@ -166,18 +166,22 @@ void refuse_for_one_cloud(const CommandLine& line, const Options& options) {
   refuse(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
   refuse(config.ground.method != GroundMethod::none, "--ground (ground.method)");
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  refuse(config.cluster.least_size() > 0 || config.cluster.max_size < unlimited, "cluster.min_size or max_size");
+  refuse(config.cluster.least_size() > 0 || config.cluster.max_size < unlimited,
+         "cluster.min_size or max_size");
   if (!options.merge && !options.partial) return;
   refuse_with(line, option, {"--image", "--check", "--info"});
-  if (options.merge) refuse_with(line, option, {"--together", "--part", "--origin", "--range", "--drop-inside",
-                                                "--keep-inside", "--bin-fields", "--topic"});
+  if (options.merge)
+    refuse_with(line, option,
+                {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
+                 "--bin-fields", "--topic"});
   if (options.partial) refuse_with(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
     refuse(options.origin.asked && !options.origin.at, "--origin auto: each share would have its own");
   for (const Method* method : config.methods()) {
     if (!Partial::serves(*method))
-      throw UsageError(std::string("--volume: ").append(method->name).append(
-          " needs all points, not only partial results: use --together"));
+      throw UsageError(std::string("--volume: ")
+                           .append(method->name)
+                           .append(" needs all points, not only partial results: use --together"));
   }
 }
 
@@ -189,9 +193,9 @@ void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
   if (line.given("--part") && !options.partial) throw UsageError("--part: only useful with --partial");
 }
 
-Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig config,
-                   PcdBvCommand command) {
-  if (texts.inputs.empty()) throw UsageError(std::string("no INPUT; ") + name_of(command) + " --help lists the options");
+Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig config, PcdBvCommand command) {
+  if (texts.inputs.empty())
+    throw UsageError(std::string("no INPUT; ") + name_of(command) + " --help lists the options");
   refuse_useless(line, config);
   Options options;
   options.inputs = texts.inputs;

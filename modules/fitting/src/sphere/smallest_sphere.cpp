@@ -84,8 +84,7 @@ void keep_farthest(const OctantPoints& other, OctantPoints& best) {
 bool farthest_points(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution) {
   const FloatEnvironment environment;
-  if (points.indices != nullptr)
-    throw std::invalid_argument("farthest_points: the view has an index list");
+  if (points.indices != nullptr) throw std::invalid_argument("farthest_points: the view has an index list");
   return DistanceScan(points, execution).farthest(center, limit, found);
 }
 

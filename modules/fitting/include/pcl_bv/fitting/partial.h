@@ -54,7 +54,8 @@ class Partial {
 
   /// The smallest sphere of all points, which answer questions where they are: the bits of
   /// fit_smallest_sphere() of the whole cloud, whatever the number of points, if `farthest` speaks of these
-  /// points by the numbers that they have here. Asks nothing where all points are kept. Throws what it throws.
+  /// points by the numbers that they have here. Asks nothing where all points are kept. Throws what it
+  /// throws.
   EstimationResult fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
                                        const FarthestPoints& farthest, const Execution& execution = {}) const;
 
@@ -72,4 +73,4 @@ class Partial {
   std::shared_ptr<const PartialState> state_;
 };
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

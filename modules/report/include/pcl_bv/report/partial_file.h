@@ -31,7 +31,7 @@ struct PartialFile {
   std::size_t cloud_points = 0;           ///< Of the whole cloud, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< What was subtracted from all coordinates, if something was.
   std::string filter;                     ///< Which points were dropped: a text that is only compared.
-  Counts counts;                          ///< Of this share: range and inside, which `partial` takes for invalid.
+  Counts counts;  ///< Of this share: range and inside, which `partial` takes for invalid.
   /// Numbers of the points: from .first to before .second, ascending and neither empty nor adjacent.
   std::vector<std::pair<std::size_t, std::size_t>> shares;
   Partial partial;
@@ -64,4 +64,4 @@ void write_partial_file(const std::filesystem::path& path, const PartialFile& fi
 /// Throws IoError. Files of more than 1 GiB are refused.
 PartialFile read_partial_file(const std::filesystem::path& path);
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

@@ -71,7 +71,7 @@ struct CloudInfo : CloudStatistics {
 
 /// One input. If `error` is set the input failed and only `file` and `error` mean anything.
 struct Report {
-  std::string file;        ///< As the user named it; invalid UTF-8 is replaced where it is written.
+  std::string file;                  ///< As the user named it; invalid UTF-8 is replaced where it is written.
   std::optional<std::size_t> parts;  ///< Of how many inputs, if it is one cloud in several.
   std::size_t points = 0;            ///< All points of the input, good or bad.
   std::optional<Eigen::Vector3d> origin;  ///< What was subtracted from all coordinates, if something was.
@@ -95,4 +95,4 @@ std::string report_json(const Report& report);
 /// report gives no text.
 std::string report_text(const Report& report);
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv
