@@ -17,19 +17,6 @@
 
 namespace pcl_bv {
 
-void require_apart(const PartialState& state) {
-  bool apart = true;
-  std::size_t free = 0;
-  for (const MomentNode& node : state.blocks) {
-    const NumberedPoint first{node.first * kBlockPoints, {}};
-    const auto loose = std::lower_bound(state.loose.begin(), state.loose.end(), first);
-    apart = apart && node.first >= free;
-    free = node.first + node.blocks;
-    apart = apart && (loose == state.loose.end() || block_of_number(loose->number) >= free);
-  }
-  require_disjoint(apart);
-}
-
 namespace {
 
 // What of these points is needed where more are than can be kept, but for their moments: number(i) is that of
@@ -203,8 +190,6 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
 
 }  // namespace
 
-Partial::Partial() : state_(std::make_shared<PartialState>()) {}
-
 Partial::Partial(const PointView& points, std::size_t first, const Execution& execution) {
   const FloatEnvironment environment;
   require_own_supports(points, execution);
@@ -266,10 +251,6 @@ EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate&
   }
   sphere = smallest_sphere(supports, farthest, certificate);
   return result_of(supports);
-}
-
-std::size_t Partial::size() const {
-  return state_->size();
 }
 
 }  // namespace pcl_bv
