@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/crc.hpp>
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
@@ -81,6 +83,28 @@ TEST(PartialFile, IsRefusedIfAnyByteIsWrongOrMissing) {
     bad[i] = static_cast<char>(bad[i] ^ 0x10);
     EXPECT_THROW(parse_partial_file(bad), IoError) << i;
     EXPECT_THROW(parse_partial_file(good.substr(0, i)), IoError) << i;
+  }
+}
+
+// With a right check sum: what a fuzzer found, and its like.
+TEST(PartialFile, IsRefusedIfItsHeadingHasNumbersThatAreNone) {
+  const std::vector<float> xyz = points(100);
+  const std::string good = partial_file_content(share(xyz, 0, 100));
+  const std::string number = "\"cloud_points\":100";
+  ASSERT_NE(good.find(number), std::string::npos);
+  for (const char* bad : {"5e37", "-1", "1.5", "\"100\"", "null", "99999999999999999999999"}) {
+    std::string content = good.substr(0, good.size() - 4);
+    content.replace(content.find(number), number.size(), std::string("\"cloud_points\":") + bad);
+    boost::crc_32_type sum;
+    sum.process_bytes(content.data(), content.size());
+    const std::uint32_t value = sum.checksum();
+    content.append(reinterpret_cast<const char*>(&value), sizeof value);
+    try {
+      parse_partial_file(content);
+      ADD_FAILURE() << bad;
+    } catch (const IoError& error) {
+      EXPECT_STREQ(error.what(), "its heading has no whole number where it should") << bad;
+    }
   }
 }
 

@@ -64,13 +64,19 @@ std::size_t points_in(const Shares& shares) {
   return points;
 }
 
+// Nothing below 0 and no fraction, and no number that only a double holds.
+std::size_t whole(const Json& number) {
+  require(number.is_number_unsigned(), "its heading has no whole number where it should");
+  return number.get<std::size_t>();
+}
+
 // Throws what nlohmann throws, and IoError.
 PartialFile read_heading(std::string_view line) {
   const Json json = Json::parse(line);
   PartialFile file;
-  file.inputs_hash = json.at("inputs_hash").get<std::uint64_t>();
-  file.inputs = json.at("inputs").get<std::size_t>();
-  file.cloud_points = json.at("cloud_points").get<std::size_t>();
+  file.inputs_hash = whole(json.at("inputs_hash"));
+  file.inputs = whole(json.at("inputs"));
+  file.cloud_points = whole(json.at("cloud_points"));
   if (json.contains("origin")) {
     file.origin.emplace();
     for (std::size_t k = 0; k < 3; ++k)
@@ -78,11 +84,11 @@ PartialFile read_heading(std::string_view line) {
     require(file.origin->allFinite(), "its origin is not finite");
   }
   file.filter = json.at("filter").get<std::string>();
-  file.counts.range = json.at("range").get<std::size_t>();
-  file.counts.inside = json.at("inside").get<std::size_t>();
+  file.counts.range = whole(json.at("range"));
+  file.counts.inside = whole(json.at("inside"));
   std::size_t end = 0;
   for (const Json& share : json.at("shares")) {
-    file.shares.emplace_back(share.at(0).get<std::size_t>(), share.at(1).get<std::size_t>());
+    file.shares.emplace_back(whole(share.at(0)), whole(share.at(1)));
     const auto& [from, to] = file.shares.back();
     const bool apart = from > end || (from == 0 && file.shares.size() == 1);
     require(apart && from < to && to <= file.cloud_points, "its shares contradict each other");
