@@ -29,7 +29,7 @@ RANKS = (1, 2, 4, 8)
 # Of the network between machines, which one machine cannot measure: 10 Gbit/s, and what MPI over TCP takes.
 LATENCY, BANDWIDTH = 50e-6, 1.2e9
 COSTS = re.compile(
-    r"(\d+) ranks: ([\d.]+) s, ([\d.]+) s of processors, (\d+) rounds, (\d+) messages of (\d+) bytes.* most (\d+) KiB"
+    r"(\d+) ranks: ([\d.]+) s, ([\d.]+) s of work, (\d+) rounds, (\d+) messages of (\d+) bytes.* most (\d+) KiB"
 )
 
 
@@ -115,7 +115,7 @@ class Model:
 
 
 def measured_rows(runs, model, points):
-    rows = ["| ranks | seconds | over one | model | processor time over one | messages | bytes | KiB a rank |"]
+    rows = ["| ranks | seconds | over one | model | work over one | messages | bytes | KiB a rank |"]
     rows.append("|---|---|---|---|---|---|---|---|")
     first = runs[ROUNDS, 1]
     for ranks in RANKS:
@@ -133,8 +133,8 @@ def measured_rows(runs, model, points):
 
 
 def duration(seconds):
-    for unit, size in (("h", 3600), ("min", 60), ("s", 1)):
-        if seconds >= 2 * size:
+    for unit, size, least in (("h", 3600, 7200), ("min", 60, 120), ("s", 1, 1)):
+        if seconds >= least:
             return f"{seconds / size:.3g} {unit}"
     return f"{seconds * 1e3:.3g} ms"
 

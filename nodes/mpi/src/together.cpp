@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -38,6 +39,12 @@ bool in_rounds(const Method& method, const Tiles& tiles) {
   return method.name == "sphere-exact" && tiles.xyz().count > Partial::kAllKept;
 }
 
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
 /// The cloud as it is now, from its points to its volumes; each step ends with what all ranks know of
 /// failures.
 class Attempt {
@@ -53,8 +60,18 @@ class Attempt {
   Failure run();
   Report report() const;  ///< Of the first rank.
   std::size_t rounds() const { return rounds_; }
+  double worked() const { return worked_; }  ///< Seconds of processors, without those of waiting for others.
 
  private:
+  /// What a rank does on its own.
+  template <typename Work>
+  Failure work(const Work& own) {
+    const double begin = processor_seconds();
+    Failure failure = attempt(own);
+    worked_ += processor_seconds() - begin;
+    return failure;
+  }
+
   Failure find_origin();
   Failure read_own_points();
   void merge();
@@ -81,6 +98,7 @@ class Attempt {
   std::vector<Fitted> fitted_;
   std::vector<std::size_t> outside_;
   std::size_t rounds_ = 0;
+  double worked_ = 0;
 };
 
 // The box of all is exact, and so is where its middle lies.
@@ -88,7 +106,7 @@ Failure Attempt::find_origin() {
   origin_ = options_.origin.at;
   if (!options_.origin.asked || origin_) return std::nullopt;
   Aabb box;
-  const Failure failure = attempt([&] {
+  const Failure failure = work([&] {
     const PointView all = tiles_.xyz();
     fit_aabb(all.slice(range_.first, range_.second - range_.first), box, execution_);
   });
@@ -106,7 +124,7 @@ Failure Attempt::find_origin() {
 }
 
 Failure Attempt::read_own_points() {
-  const Failure failure = attempt([&] {
+  const Failure failure = work([&] {
     points_.emplace(tiles_, range_, origin_, options_);
     merged_ = describe_cloud(tiles_, origin_, options_);
     add_share(*points_, range_, execution_, merged_);
@@ -128,8 +146,9 @@ void Attempt::merge() {
       ranks_.send(partial_file_content(merged_), ranks_.rank() - step);
       break;
     }
-    if (ranks_.rank() + step < ranks_.size())
-      merged_.merge(parse_partial_file(ranks_.receive(ranks_.rank() + step)));
+    if (ranks_.rank() + step >= ranks_.size()) continue;
+    const std::string content = ranks_.receive(ranks_.rank() + step);
+    work([&] { merged_.merge(parse_partial_file(content)); });
   }
   if (options_.check)
     merged_ = parse_partial_file(ranks_.broadcast(ranks_.first() ? partial_file_content(merged_) : ""));
@@ -143,7 +162,10 @@ Failure Attempt::fit() {
     } else if (in_rounds(*methods_[i], tiles_)) {
       if (const Failure failure = fit_in_rounds(fitted)) return failure;
     } else if (ranks_.first() || options_.check) {
-      fitted.result = merged_.partial.fit(*methods_[i], fitted.volume, execution_, method_options(options_));
+      work([&] {
+        fitted.result =
+            merged_.partial.fit(*methods_[i], fitted.volume, execution_, method_options(options_));
+      });
     }
   }
   return std::nullopt;
@@ -190,7 +212,7 @@ Failure Attempt::fit_in_rounds(Fitted& fitted) {
 }
 
 Failure Attempt::check() {
-  const Failure failure = attempt([&] {
+  const Failure failure = work([&] {
     for (std::size_t i = 0; i < methods_.size() && options_.check; ++i)
       outside_[i] = verify(fitted_[i].volume, points_->view(), execution_).outside;
     tiles_.require_unchanged();
@@ -220,21 +242,17 @@ Report Attempt::report() const {
   return report;
 }
 
-/// With --timings, what the run cost: the processors and the greatest memory of all ranks.
-void say_costs(Ranks& ranks, double seconds, std::size_t rounds) {
+/// With --timings, what the run cost: the work of all ranks, and the greatest memory of any.
+void say_costs(Ranks& ranks, double seconds, double worked, std::size_t rounds) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto microseconds = [](const timeval& t) {
-    return static_cast<std::size_t>(t.tv_sec) * 1'000'000 + static_cast<std::size_t>(t.tv_usec);
-  };
   const std::vector<std::size_t> sums =
-      ranks.sum({microseconds(usage.ru_utime) + microseconds(usage.ru_stime), ranks.messages_sent(),
-                 ranks.bytes_sent()});
+      ranks.sum({static_cast<std::size_t>(worked * 1e6), ranks.messages_sent(), ranks.bytes_sent()});
   const double memory = -ranks.least({-static_cast<double>(usage.ru_maxrss)}).front();
   if (!ranks.first()) return;
   char text[240];
   std::snprintf(text, sizeof text,
-                "%zu ranks: %.3f s, %.3f s of processors, %zu rounds, %zu messages of %zu bytes in all, "
+                "%zu ranks: %.3f s, %.3f s of work, %zu rounds, %zu messages of %zu bytes in all, "
                 "at most %.0f KiB a rank",
                 ranks.size(), seconds, static_cast<double>(sums[0]) / 1e6, rounds, sums[1], sums[2], memory);
   say(text);
@@ -256,7 +274,7 @@ Status fit_together(Ranks& ranks, Tiles& tiles, const Options& options, Report& 
       continue;
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    if (options.timings) say_costs(ranks, seconds.count(), now.rounds());
+    if (options.timings) say_costs(ranks, seconds.count(), now.worked(), now.rounds());
     if (!ranks.first()) return status;
     report = now.report();
     if (options.timings) report.seconds = {0, 0, seconds.count()};
