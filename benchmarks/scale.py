@@ -45,7 +45,7 @@ class Run:
         self.wall = time.monotonic() - begin  # with the start of the ranks
         self.text = re.sub(r',"seconds".*', "", done.stdout)
         costs = COSTS.search(done.stderr)
-        self.seconds, self.processors = float(costs[2]), float(costs[3])
+        self.seconds, self.work = float(costs[2]), float(costs[3])
         self.rounds, self.messages, self.bytes, self.memory = (int(costs[i]) for i in range(4, 8))
 
 
@@ -74,6 +74,10 @@ def median(runs, what):
     return statistics.median(getattr(run, what) for run in runs)
 
 
+def least(runs, what):
+    return min(getattr(run, what) for run in runs)
+
+
 def merging(build, folder, work):
     """Bytes of a share's results and seconds to read and merge one more of them."""
     files = []
@@ -100,8 +104,9 @@ class Model:
     def __init__(self, runs, points, size, merge):
         one, rounds = runs[ONE_PASS, 1], runs[ROUNDS, 1]
         self.rounds = int(median(rounds, "rounds"))
-        self.read = median(one, "seconds") / points
-        self.ask = max(0.0, median(rounds, "seconds") - median(one, "seconds")) / points / max(1, self.rounds)
+        # Of the processor: on a quiet machine, from the page cache, the seconds of one rank.
+        self.read = least(one, "work") / points
+        self.ask = max(0.0, least(rounds, "work") - least(one, "work")) / points / max(1, self.rounds)
         self.size, self.merge = size, merge
 
     def per_point(self):
@@ -120,13 +125,13 @@ def measured_rows(runs, model, points):
     first = runs[ROUNDS, 1]
     for ranks in RANKS:
         now = runs[ROUNDS, ranks]
-        seconds, processors = median(now, "seconds"), median(now, "processors")
+        seconds, work = median(now, "seconds"), median(now, "work")
         wall = ranks <= (os.cpu_count() or 1)  # more ranks than processors say nothing about time
         local = model.seconds(points, ranks, 1e-6, 5e9)
         rows.append(
             f"| {ranks} | {f'{seconds:.2f}' if wall else '-'} "
             f"| {'%.2fx' % (median(first, 'seconds') / seconds) if wall else '-'} | {f'{local:.2f}' if wall else '-'} "
-            f"| {processors / median(first, 'processors'):.2f} | {median(now, 'messages'):.0f} "
+            f"| {work / median(first, 'work'):.2f} | {median(now, 'messages'):.0f} "
             f"| {median(now, 'bytes'):.0f} | {median(now, 'memory'):.0f} |"
         )
     return rows
@@ -169,13 +174,13 @@ def processor():
 
 def page_part(runs, model, points):
     cores = os.cpu_count()
+    pace = f"One rank reads and fits {1e-6 / model.read:.0f} M points/s in a pass"
+    if model.ask > 0:
+        pace += f" and {1e-6 / model.ask:.0f} in a round of the sphere"
     text = [
         f"{processor()}, {cores} processors, {points / 1e6:.0f} M points in {TILES} tiles in the page cache, "
-        f"`--volume {ROUNDS}`, one thread a rank, medians of {len(runs[ROUNDS, 1])} runs in turns. One pass of one rank "
-        f"reads and fits {1e-6 / model.read:.0f} M points/s, a round of the sphere {1e-6 / model.ask:.0f}; "
-        f"{model.rounds} rounds; a share's results are {model.size / 1e3:.0f} kB and merged in {model.merge * 1e3:.1f} ms."
-        if model.ask > 0
-        else f"{points} points: too few to tell a pass from a round",
+        f"`--volume {ROUNDS}`, one thread a rank, medians of {len(runs[ROUNDS, 1])} runs in turns. {pace}; rounds: "
+        f"{model.rounds}; a share's results are {model.size / 1e3:.0f} kB and merged in {model.merge * 1e3:.1f} ms.",
         "",
         *measured_rows(runs, model, points),
         "",
