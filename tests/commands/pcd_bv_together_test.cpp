@@ -137,6 +137,15 @@ TEST_F(PcdBvTogether, SaysSoInTheTextAndCsvAndWritesMeshAndPicture) {
   EXPECT_THAT(run({"--together", "--format", "csv", folder}).out, HasSubstr("\ntogether,0,39600,aabb,"));
 }
 
+TEST_F(PcdBvTogether, ShowsHowManyPointsItHasRead) {
+  if (!has_terminals()) GTEST_SKIP() << "no terminals here";
+  const Result result =
+      run({"--together", "--progress", "synth:gauss:3000000", "synth:gauss:3000000:2"}, {.terminal = true});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("2 files, "));
+  EXPECT_THAT(result.err, HasSubstr(" M points read in all passes"));
+}
+
 TEST_F(PcdBvTogether, LeavesOutAnInputThatFailsAndNamesIt) {
   const Points points = gaussian(60'000, 7);
   const std::string folder = tiles("tiles", points, 8);
