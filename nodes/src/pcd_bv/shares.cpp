@@ -11,7 +11,7 @@
 
 #include "command/interruption.h"
 #include "command/messages.h"
-#include "config/words.h"
+#include "pcl_bv/nodes/settings.h"
 #include "shifted_points.h"
 
 namespace pcl_bv {
