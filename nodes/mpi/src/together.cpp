@@ -114,7 +114,7 @@ Failure Attempt::find_origin() {
   std::vector<double> ends(6, none);
   for (int k = 0; k < 3 && !box.empty(); ++k) {
     ends[static_cast<std::size_t>(k)] = box.min()[k];
-    ends[static_cast<std::size_t>(3 + k)] = -box.max()[k];
+    ends[3 + static_cast<std::size_t>(k)] = -box.max()[k];
   }
   ends = ranks_.least(ends);
   const Eigen::Vector3d low(ends[0], ends[1], ends[2]), high(-ends[3], -ends[4], -ends[5]);
@@ -160,7 +160,7 @@ Failure Attempt::fit() {
     if (const auto rank = owner(i)) {
       fitted = fitted_from(ranks_.broadcast(*rank == ranks_.rank() ? bytes_of(fitted) : "", *rank));
     } else if (in_rounds(*methods_[i], tiles_)) {
-      if (const Failure failure = fit_in_rounds(fitted)) return failure;
+      if (Failure failure = fit_in_rounds(fitted)) return failure;
     } else if (ranks_.first() || options_.check) {
       work([&] {
         fitted.result =
@@ -206,7 +206,7 @@ Failure Attempt::fit_in_rounds(Fitted& fitted) {
       answer(question, failure, found);
     }
   }
-  if (const Failure agreed_on = agreed(ranks_, failure)) return agreed_on;
+  if (Failure agreed_on = agreed(ranks_, failure)) return agreed_on;
   fitted = fitted_from(ranks_.broadcast(ranks_.first() ? bytes_of(fitted) : ""));
   return std::nullopt;
 }
@@ -222,10 +222,10 @@ Failure Attempt::check() {
 }
 
 Failure Attempt::run() {
-  if (const Failure failure = find_origin()) return failure;
-  if (const Failure failure = read_own_points()) return failure;
+  if (Failure failure = find_origin()) return failure;
+  if (Failure failure = read_own_points()) return failure;
   merge();
-  if (const Failure failure = fit()) return failure;
+  if (Failure failure = fit()) return failure;
   return check();
 }
 
@@ -267,7 +267,7 @@ Status fit_together(Ranks& ranks, Tiles& tiles, const Options& options, Report& 
   for (;;) {
     if (tiles.used() == 0) throw IoError("none of the inputs could be read");
     Attempt now(ranks, tiles, options);
-    if (const Failure failure = now.run()) {
+    if (Failure failure = now.run()) {
       if (ranks.first()) complain(tiles.jobs()[failure->tile].input + ": " + failure->reason);
       tiles.leave_out(failure->tile, failure->reason);
       status = Status::failed;
