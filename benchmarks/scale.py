@@ -188,6 +188,8 @@ def page_part(runs, model, points):
         f"{LATENCY * 1e6:.0f} us and {BANDWIDTH / 1e9:.1f} GB/s:",
         "",
         *modelled_rows(model),
+        "",
+        "![seconds by ranks](benchmarks/scale.svg)",
     ]
     return "\n".join(text)
 
