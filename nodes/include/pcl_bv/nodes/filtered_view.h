@@ -24,4 +24,4 @@ struct FilteredView {
 /// file of regions that cannot be read.
 FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

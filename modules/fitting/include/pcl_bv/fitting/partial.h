@@ -73,4 +73,4 @@ class Partial {
   std::shared_ptr<const PartialState> state_;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -44,4 +44,4 @@ bool farthest_points(const PointView& points, const DistanceCenter& center, doub
 Sphere smallest_sphere(const Supports& supports, const FarthestPoints& farthest,
                        SphereCertificate& certificate);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -35,4 +35,4 @@ struct CloudHeader {
 /// Reads no points: a file can still turn out to be cut or damaged. Throws as read_cloud().
 CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin_fields = 0);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -64,4 +64,4 @@ void write_partial_file(const std::filesystem::path& path, const PartialFile& fi
 /// Throws IoError. Files of more than 1 GiB are refused.
 PartialFile read_partial_file(const std::filesystem::path& path);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -95,4 +95,4 @@ std::string report_json(const Report& report);
 /// report gives no text.
 std::string report_text(const Report& report);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv
