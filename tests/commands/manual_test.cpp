@@ -37,9 +37,9 @@ class Manual : public PcdBv, public testing::WithParamInterface<std::string> {
 
 TEST_P(Manual, HasTheOptionsOfTheHelpWithTheirArguments) {
   // "  --volume LIST      Methods ..." and ".BI --volume LIST"; "-h,--help" has a space more in the page
-  const std::set<std::string> helped = matches(help(), "^ +(?:-h,)?(--[a-z-]+(?: [A-Z][A-Za-z.:,]*)?)");
+  const std::set<std::string> helped = matches(help(), "^ +(?:-h,)?(--[a-z-]+(?: [A-Z][A-Za-z.:,/]*)?)");
   const std::set<std::string> paged =
-      matches(page(GetParam()), "^\\.TP\n\\.BI? (?:-h, )?(--[a-z-]+(?: +[A-Z][A-Za-z.:,]*)?)$");
+      matches(page(GetParam()), "^\\.TP\n\\.BI? (?:-h, )?(--[a-z-]+(?: +[A-Z][A-Za-z.:,/]*)?)$");
   EXPECT_GT(helped.size(), 20U);
   std::set<std::string> words;
   for (const std::string& option : paged)

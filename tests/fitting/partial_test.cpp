@@ -157,6 +157,50 @@ TYPED_TEST(Partials, OfMethodsThatRoundEncloseAllPointsAndAreAsSmall) {
   }
 }
 
+// Each machine has a part, and none has all.
+TYPED_TEST(Partials, FindTheSmallestSphereOfTheWholeByAskingTheParts) {
+  for (const TestCloud<TypeParam>& cloud : clouds<TypeParam>()) {
+    const PointView all = cloud.view();
+    const std::size_t third = all.count / 3;
+    const PointView parts[] = {all.slice(0, third), all.slice(third, 1), all.slice(third + 1, 0),
+                               all.slice(third + 1, all.count - third - std::min<std::size_t>(1, all.count))};
+    if (all.count == 0) continue;
+    Partial merged;
+    for (const PointView& part : parts)
+      merged.merge(Partial(part));
+    int questions = 0;
+    const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& found) {
+      found = {};
+      ++questions;
+      for (const PointView& part : parts) {
+        OctantPoints own;
+        farthest_points(part, center, limit, own);
+        keep_farthest(own, found);
+      }
+      return std::any_of(found.begin(), found.end(),
+                         [](const FarPoint& p) { return p.squared_distance >= 0; });
+    };
+    Sphere expected, sphere;
+    SphereCertificate of_whole, certificate;
+    const EstimationResult whole = fit_smallest_sphere(all, expected, of_whole);
+    const EstimationResult result = merged.fit_smallest_sphere(sphere, certificate, ask);
+    EXPECT_TRUE(AnyVolume(sphere) == AnyVolume(expected)) << cloud.name;
+    EXPECT_EQ(result.used, whole.used) << cloud.name;
+    EXPECT_EQ(result.rank, whole.rank) << cloud.name;
+    EXPECT_EQ(certificate.support, of_whole.support) << cloud.name;
+    EXPECT_EQ(certificate.passes, of_whole.passes) << cloud.name;
+    EXPECT_EQ(questions, all.count > Partial::kAllKept ? certificate.passes : 0) << cloud.name;
+  }
+}
+
+TEST(FarthestPoints, RefusesAnIndexList) {
+  const TestCloud<float> cloud = test::gaussian<float>(10, 15);
+  const std::int32_t indices[] = {1, 2};
+  OctantPoints found;
+  EXPECT_THROW(farthest_points(PointView::of(cloud.xyz.data(), 12, 2, indices), {}, 0, found),
+               std::invalid_argument);
+}
+
 TYPED_TEST(Partials, HaveTheSameBytesWhateverTheOrderOfMerging) {
   for (const TestCloud<TypeParam>& cloud : clouds<TypeParam>()) {
     std::mt19937_64 random(7);

@@ -81,6 +81,31 @@ void write_requests(const fs::path& folder) {
   write(folder / "live" / "address", "[::1]:8765");
 }
 
+// A heading and results of few points, and of many, as fuzz_partial wants them.
+void write_partials(const fs::path& folder) {
+  const auto bytes_of = [](const auto&... values) {
+    std::string bytes;
+    (bytes.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
+    return bytes;
+  };
+  const auto results = [&](std::uint64_t used, const std::string& points) {
+    std::string ends(26 * 32, '\0');
+    return "PCLBVPRT" + bytes_of(std::uint32_t{1}, std::uint32_t{4}, used, std::uint64_t{0}) + ends + points;
+  };
+  const auto heading = [](std::size_t points) {
+    const std::string n = std::to_string(points);
+    return R"({"inputs":1,"inputs_hash":7,"cloud_points":)" + n +
+           R"(,"origin":[1,2,3],"filter":"0:inf","range":0,"inside":0,"shares":[[0,)" + n + "]]}\n";
+  };
+  const std::string point = bytes_of(std::uint64_t{0}, 1.0, 2.0, 3.0);
+  const std::uint64_t none = 0, one = 1, five = 5;
+  write(folder / "partial" / "few", heading(1) + results(0, bytes_of(one) + point + bytes_of(none, none)));
+  const std::string node =
+      bytes_of(none, five - 1, std::uint64_t{4096}, 1.0, 2.0, 3.0, 0) + std::string(72, '\0');
+  write(folder / "partial" / "many",
+        heading(5000) + results(5000, bytes_of(none, one) + point + bytes_of(one) + node));
+}
+
 // A cloud as a message of both encodings, recordings of it, and a packet.
 void write_recordings(const fs::path& folder) {
   const std::string points(48, '\x3f');
@@ -138,7 +163,8 @@ void write_recordings(const fs::path& folder) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "cloud", "live"})
+  for (const char* name :
+       {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "partial", "cloud", "live"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
@@ -146,6 +172,7 @@ int main(int count, char** arguments) {
   write_claims(folder);
   write_requests(folder);
   write_recordings(folder);
+  write_partials(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));
   write(folder / "number" / "some", "-12.3456789e-01");
   write(folder / "text" / "rows",

@@ -263,5 +263,35 @@ TEST_F(CloudInFile, IsFittedInLittleMemory) {
   EXPECT_LT(largest_allocation, 2'000'000U);
 }
 
+TEST_F(CloudInFile, HasAHeaderThatSaysHowManyPointsWithoutReadingThem) {
+  const RawCloud cloud = sample_cloud({"doubles", {{"x", 'F', 8}, {"y", 'F', 8}, {"z", 'F', 8}}}, 30, 4, 9);
+  for (const PcdEncoding encoding :
+       {PcdEncoding::ascii, PcdEncoding::binary, PcdEncoding::binary_compressed}) {
+    const CloudHeader header = read_cloud_header(write(cloud, encoding));
+    EXPECT_EQ(header.cloud.size(), 120U);
+    EXPECT_EQ(header.cloud.data.size(), 0U);
+    EXPECT_EQ(header.scalar, ScalarType::float64);
+    EXPECT_EQ(header.by_position, encoding == PcdEncoding::binary);
+  }
+  std::ofstream(file("a.bin"), std::ios::binary) << std::string(160, '\0');
+  EXPECT_EQ(read_cloud_header(file("a.bin")).cloud.size(), 10U);
+  EXPECT_EQ(read_cloud_header(file("a.bin"), 5).cloud.size(), 8U);
+  EXPECT_TRUE(read_cloud_header(file("a.bin")).by_position);
+  std::ofstream(file("a.ply"))
+      << "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\n"
+         "property float z\nend_header\n";
+  EXPECT_EQ(read_cloud_header(file("a.ply")).cloud.size(), 7U);
+  EXPECT_FALSE(read_cloud_header(file("a.ply")).by_position);
+}
+
+TEST_F(CloudInFile, HasAHeaderOnlyIfItHoldsAllPoints) {
+  const RawCloud cloud = sample_cloud({"floats", {{"x"}, {"y"}, {"z"}}}, 30, 4, 9);
+  const auto path = write(cloud);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+  EXPECT_THROW(read_cloud_header(path), IoError);
+  EXPECT_THROW(read_cloud_header(file("nowhere.pcd")), IoError);
+  EXPECT_THROW(read_cloud_header(file("a.obj")), IoError);
+}
+
 }  // namespace
 }  // namespace pcl_bv

@@ -8,9 +8,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <vector>
 
 #include "command.h"
@@ -149,6 +151,90 @@ TEST_F(BillionPoints, OnASphereTakeSixteenMegabytesForMethodsWithoutAHull) {
   });
   expect_little_memory(path, {"dop26", "sphere-ritter", "sphere-epos98", "sphere", "obb-pca", "obb-dito14",
                               "obb-yaw", "obb-lshape"});
+}
+
+// One cloud in twenty files, of PCL_BV_LARGE_POINTS points (a billion).
+class InParts : public BigFile {
+ protected:
+  static constexpr std::size_t kTiles = 20;
+
+  static std::size_t points() {
+    const char* const asked = std::getenv("PCL_BV_LARGE_POINTS");
+    return asked != nullptr ? std::stoul(asked) : 1'000'000'000;
+  }
+
+  // Gaussian, as sums of three.
+  std::string write() const {
+    Random random;
+    const std::size_t count = points() / kTiles;
+    for (std::size_t tile = 0; tile < kTiles; ++tile) {
+      const std::string path = at("tiles/" + std::to_string(tile) + ".pcd");
+      std::filesystem::create_directories(at("tiles"));
+      std::ofstream file(path, std::ios::binary);
+      file << header(count, "binary");
+      std::vector<float> part(3 * (count / 50));
+      for (std::size_t i = 0; i < 50; ++i) {
+        for (float& c : part)
+          c = random() + random() + random() + static_cast<float>(tile);
+        file.write(reinterpret_cast<const char*>(part.data()),
+                   static_cast<std::streamsize>(part.size() * sizeof part[0]));
+      }
+    }
+    return at("tiles");
+  }
+
+  Result measured(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> all{"-f", "%M", "-o", at("kib"), PCL_BV_BIN_DIR "/pcd_bv"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return run(all, {.program = "/usr/bin/time"});
+  }
+
+  long kib() const { return std::stol(read_file(at("kib"))); }
+
+  // Of the rank that has the most.
+  static long kib_of_ranks(const Result& result) {
+    const std::size_t at_most = result.err.find("at most ");
+    return at_most == std::string::npos ? -1 : std::stol(result.err.substr(at_most + 8));
+  }
+
+  Result ranks(std::size_t count, const std::string& volumes, const std::string& input) const {
+    for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"})
+      setenv(name, "1", 1);
+    return run({"--oversubscribe", "-n", std::to_string(count), PCL_BV_BIN_DIR "/pcd_bv_mpi", "--together",
+                "--timings", "--format", "jsonl", "--volume", volumes, input},
+               {.program = PCL_BV_MPIEXEC});
+  }
+
+  static constexpr const char* kVolumes = "dop26,sphere,obb-pca,obb-dito14,obb-yaw,obb-min";
+};
+
+TEST_F(InParts, TakesSixteenMegabytesForSharesAndMergesToTheBitsOfAll) {
+  const std::string tiles = write();
+  const Result small = measured({"--together", "--threads", "1", "synth:gauss:10"});
+  ASSERT_EQ(small.status, 0) << small.err;
+  const long program = kib();
+  const Result whole =
+      measured({"--together", "--threads", "1", "--volume", kVolumes, "--format", "jsonl", tiles});
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_EQ(whole.json()["points"], points() / kTiles / 50 * 50 * kTiles);
+  EXPECT_LE(kib() - program, 16 << 10);
+  RecordProperty("together KiB", static_cast<int>(kib() - program));
+
+  std::vector<std::string> merge{"--merge", "--volume", kVolumes, "--format", "jsonl"};
+  for (const std::string part : {"0/3", "1/3", "2/3"}) {
+    merge.push_back(at("share" + part.substr(0, 1)));
+    ASSERT_EQ(measured({"--partial", merge.back(), "--part", part, "--threads", "1", tiles}).status, 0);
+    EXPECT_LE(kib() - program, 16 << 10);
+    EXPECT_LE(std::filesystem::file_size(merge.back()), std::size_t{1} << 20);
+  }
+  EXPECT_EQ(run(merge).out, whole.out);
+
+  const long idle = kib_of_ranks(ranks(2, "aabb", "synth:gauss:10"));
+  const Result over_ranks = ranks(2, kVolumes, tiles);
+  ASSERT_EQ(over_ranks.status, 0) << over_ranks.err;
+  EXPECT_EQ(over_ranks.json()["clusters"], whole.json()["clusters"]);
+  EXPECT_LE(kib_of_ranks(over_ranks) - idle, 16 << 10) << over_ranks.err;
+  std::cout << over_ranks.err;
 }
 
 }  // namespace

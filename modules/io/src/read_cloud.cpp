@@ -9,6 +9,7 @@
 #include <new>
 #include <utility>
 
+#include "fields.h"
 #include "las_format.h"
 #include "pcd_format.h"
 #include "pcl_bv/io/bin.h"
@@ -120,6 +121,25 @@ RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& pol
   if (extension == ".las" || extension == ".laz") return read_las(path);
   refuse_other_formats(path);
   return read_pcd(path, policy);
+}
+
+CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin_fields) {
+  const InputFile file(path);
+  const std::string extension = lower_case_extension(path);
+  CloudHeader header;
+  if (extension == ".ply") {
+    header.cloud = read_ply_header(file).cloud;
+  } else if (extension == ".las" || extension == ".laz") {
+    header.cloud = read_las_header(file).cloud;
+  } else {
+    refuse_other_formats(path);
+    PcdHeader pcd = extension == ".bin" ? read_bin_header(file, path, bin_fields) : read_pcd_header(file);
+    header.by_position = pcd.encoding == PcdEncoding::binary;
+    if (header.by_position) require_records(file, pcd);
+    header.cloud = std::move(pcd.cloud);
+  }
+  header.scalar = coordinate_fields(header.cloud.fields).scalar;
+  return header;
 }
 
 }  // namespace pcl_bv

@@ -175,6 +175,7 @@ std::string report_json(const Report& report) {
   if (report.error) {
     json["error"] = *report.error;
   } else {
+    if (report.parts) json["parts"] = *report.parts;
     json["points"] = report.points;
     if (report.origin) json["origin"] = {(*report.origin)[0], (*report.origin)[1], (*report.origin)[2]};
     json["counts"] = counts_json(report.counts);

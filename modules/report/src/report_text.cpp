@@ -127,7 +127,9 @@ std::string printable(std::string name) {
 }
 
 std::string header(const Report& report) {
-  std::string text = printable(report.file) + ": " + std::to_string(report.points) + " points";
+  std::string text = printable(report.file) + ": ";
+  if (report.parts) text += std::to_string(*report.parts) + " inputs, ";
+  text += std::to_string(report.points) + " points";
   const auto add = [&](std::size_t n, const char* what) {
     if (n > 0) text += ", " + std::to_string(n) + what;
   };

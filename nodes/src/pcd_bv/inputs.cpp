@@ -13,9 +13,11 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/synth/synth.h"
+#include "tiles.h"
 
 namespace pcl_bv {
 namespace {
@@ -67,6 +69,39 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   }
 }
 
+// A folder's files, whatever they are called; their order does not matter.
+std::vector<Job> expand_partials(const std::string& argument) {
+  if (!is_folder(argument)) return {{argument}};
+  std::vector<Job> jobs;
+  std::error_code unreadable;
+  for (const fs::directory_entry& entry : fs::directory_iterator(argument, unreadable)) {
+    if (entry.path().filename().string().front() != '.' && !entry.is_directory())
+      jobs.push_back({entry.path().string()});
+  }
+  std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.input < b.input; });
+  if (jobs.empty()) return {{argument, "no file of partial results in this folder"}};
+  return jobs;
+}
+
+// All inputs as one job.
+Job joined(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
+  Job job;
+  job.input = kTogether;
+  if (tiles) {
+    job.tiles = std::move(tiles);
+  } else if (options.merge) {
+    for (const Job& input : inputs)
+      job.partials.push_back(input.input);
+  } else {
+    std::vector<TileHeader> headers(inputs.size());
+    for_each_chunk(options.pipeline.policy(), inputs.size(),
+                   [&](std::size_t i) { headers[i] = describe_tile(inputs[i]); });
+    job.tiles = std::make_shared<Tiles>(std::move(inputs), std::move(headers),
+                                        thread_count(options.pipeline.policy()));
+  }
+  return job;
+}
+
 std::string stem(const std::string& input) {
   const std::size_t number = input.rfind('#');  // of a recording: FILE.mcap#3 becomes FILE-3
   if (!is_synth(input) && number != std::string::npos &&
@@ -84,15 +119,20 @@ bool is_synth(const std::string& input) {
   return input.starts_with(synth_prefix);
 }
 
-std::vector<Job> plan_jobs(const Options& options) {
+std::vector<Job> list_inputs(const Options& options) {
   std::vector<Job> jobs;
   for (const std::string& argument : options.inputs) {
-    for (Job& job : expand(argument, options.topic)) {
+    for (Job& job : options.merge ? expand_partials(argument) : expand(argument, options.topic)) {
       job.bin_fields = options.bin_fields;
       jobs.push_back(std::move(job));
     }
   }
-  const bool several = jobs.size() > 1 || is_folder(options.inputs.front());
+  return jobs;
+}
+
+std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
+  const bool one = options.together || options.merge;
+  const bool several = !one && (inputs.size() > 1 || is_folder(options.inputs.front()));
   const auto target = [&](const char* option, const fs::path& given, const Job& job, const char* extension) {
     if (several || !given.has_filename() || is_folder(given.string()))
       return given / (stem(job.input) + extension);
@@ -111,9 +151,12 @@ std::vector<Job> plan_jobs(const Options& options) {
   if (!options.config_file.empty()) claims.add_input(options.config_file);
   for (const RegionConfig& region : options.pipeline.filter.regions)
     claims.add_input(region.file);
-  for (const Job& job : jobs) {
+  for (const Job& job : inputs) {
     if (!is_synth(job.input) && !job.recording) claims.add_input(job.input);
   }
+  if (options.partial) claims.claim(*options.partial);
+  std::vector<Job> jobs =
+      one ? std::vector{joined(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
   if (options.output) claims.claim(*options.output);
   for (Job& job : jobs) {
     if (job.error) continue;

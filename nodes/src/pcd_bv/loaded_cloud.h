@@ -14,7 +14,8 @@ namespace pcl_bv {
 class LoadedCloud {
  public:
   /// `hold`: whether it has to be in memory; then the policy says on which threads it is read. Throws what
-  /// load_cloud() throws. What `origin` asks for is subtracted from the points of xyz().
+  /// load_cloud() throws, and TileError for a job of tiles, which are held only if they are few. What
+  /// `origin` asks for is subtracted from the points of xyz().
   LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy, const OriginOption& origin);
 
   /// Fields, size and viewpoint; the points only if it is held.
@@ -25,21 +26,22 @@ class LoadedCloud {
   /// What was subtracted, if that was asked for.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
-  /// Throws IoError if it was left in its file and that has been changed.
-  void require_unchanged() const {
-    if (file_) file_->require_unchanged();
-  }
+  /// Throws IoError if it was left in files and one of those has been changed.
+  void require_unchanged() const;
 
   /// To be changed by its last user.
   RawCloud take() { return std::move(held_); }
 
  private:
+  void hold_points();
+
   std::unique_ptr<CloudFile> file_;
+  std::shared_ptr<const Tiles> tiles_;
   RawCloud held_;
   PointView xyz_;  // of one of these, or of one of those below
   std::optional<Eigen::Vector3d> origin_;
   std::unique_ptr<PointSource> shifted_;
-  std::vector<double> near_;  // the shifted points, if they have to be in memory
+  std::vector<std::byte> unshifted_, near_;  // points of tiles and shifted ones, if they are in memory
 };
 
 }  // namespace pcl_bv

@@ -7,6 +7,7 @@
 #include "inputs.h"
 #include "options.h"
 #include "process.h"
+#include "shares.h"
 
 int main(int argc, char** argv) {
   using namespace pcl_bv;
@@ -14,6 +15,8 @@ int main(int argc, char** argv) {
     const auto asked = parse_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&asked)) return print(*text);
     const auto& options = std::get<Options>(asked);
-    return static_cast<int>(process_all(plan_jobs(options), options));
+    const std::vector<Job> jobs = plan_jobs(options);
+    if (options.partial) return static_cast<int>(make_partial_file(jobs.front(), options));
+    return static_cast<int>(process_all(jobs, options));
   });
 }

@@ -6,11 +6,14 @@
 #include "options.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <limits>
 
 #include "command/command_line.h"
 #include "command/setting_options.h"
 #include "command/values.h"
 #include "config/words.h"
+#include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/nodes/settings.h"
 
@@ -23,6 +26,7 @@ constexpr const char* examples = R"(Examples:
   pcd_bv --ground zones --cluster 0.5 --image o.png s.pcd around each object, and a picture
   pcd_bv --cluster 0.5 --format jsonl sweeps/ | jq .counts
   pcd_bv --cluster 0.5 --format csv --mesh o.vtp s.bin   a line per volume, and ParaView's mesh
+  pcd_bv --together tiles/                               one cloud in many files, one result
   pcd_bv --timings synth:street
 
 Exit status: 0 done; 1 some input could not be processed or an output not written (the
@@ -37,14 +41,18 @@ constexpr Names<OutputFormat, 4> kFormats{{{"text", OutputFormat::text},
 constexpr Names<ViewFrom, 4> kViews{
     {{"iso", ViewFrom::iso}, {"top", ViewFrom::top}, {"front", ViewFrom::front}, {"side", ViewFrom::side}}};
 
+const char* name_of(PcdBvCommand command) {
+  return command == PcdBvCommand::alone ? "pcd_bv" : "pcd_bv_mpi";
+}
+
 /// The command line as texts, before the values are looked at.
 struct Texts {
   std::vector<std::string> inputs;
-  std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin;
-  bool check = false, info = false, timings = false, progress = false;
+  std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part;
+  bool together = false, merge = false, check = false, info = false, timings = false, progress = false;
 };
 
-void declare(CommandLine& line, Texts& texts) {
+void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("INPUT", texts.inputs, "",
               ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]],\n"
               "recordings (.mcap, .bag, .db3 or its folder)");
@@ -52,6 +60,13 @@ void declare(CommandLine& line, Texts& texts) {
   line.option("--topic", texts.topic, "NAME", "The topic of recordings, where several have clouds");
   line.option("--origin", texts.origin, "X,Y,Z",
               "Subtract this, or auto: whole numbers in the middle of each cloud");
+  line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
+  if (command == PcdBvCommand::alone) {
+    line.option("--partial", texts.partial, "FILE",
+                "Write what merging needs of that cloud instead of volumes");
+    line.option("--part", texts.part, "K/N", "Only of share K (from 0 on) of N, for N processes (0/1)");
+    line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
+  }
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
   line.option("--output", texts.output, "FILE", "Write the results here, not to standard output");
   line.option("--labels", texts.labels, "FILE.pcd",
@@ -129,8 +144,62 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
   options.progress = texts.progress;
 }
 
-Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig config) {
-  if (texts.inputs.empty()) throw UsageError("no INPUT; pcd_bv --help lists the options");
+ShareOption parse_share(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) refuse_value("--part", text, "is not K/N, such as 0/8");
+  ShareOption share;
+  share.count = parse_whole_number("--part", text.substr(slash + 1), 1, 1'000'000);
+  share.number = parse_whole_number("--part", text.substr(0, slash), 0, share.count - 1);
+  return share;
+}
+
+void refuse_with(const CommandLine& line, const char* option, std::initializer_list<const char*> others) {
+  for (const char* other : others) {
+    if (line.given(other)) throw UsageError(std::string(option) + ": cannot be combined with " + other);
+  }
+}
+
+// What one cloud in many inputs cannot be told apart by, and what files of partial results do not know.
+void refuse_for_one_cloud(const CommandLine& line, const Options& options) {
+  const PipelineConfig& config = options.pipeline;
+  const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
+  refuse_with(line, option, {"--labels"});
+  const auto refuse = [&](bool asked, const char* what) {
+    if (asked) throw UsageError(std::string(option) + ": cannot be combined with " + what);
+  };
+  refuse(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
+  refuse(config.ground.method != GroundMethod::none, "--ground (ground.method)");
+  const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+  refuse(config.cluster.least_size() > 0 || config.cluster.max_size < unlimited,
+         "cluster.min_size or max_size");
+  if (!options.merge && !options.partial) return;
+  refuse_with(line, option, {"--image", "--view-html", "--check", "--info"});
+  if (options.merge)
+    refuse_with(line, option,
+                {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
+                 "--bin-fields", "--topic"});
+  if (options.partial) refuse_with(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
+  if (options.partial && !options.merge)
+    refuse(options.origin.asked && !options.origin.at, "--origin auto: each share would have its own");
+  for (const Method* method : config.methods()) {
+    if (!Partial::serves(*method))
+      throw UsageError(std::string("--volume: ")
+                           .append(method->name)
+                           .append(" needs all points, not only partial results: use --together"));
+  }
+}
+
+void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
+  options.merge = texts.merge;
+  options.partial = path_or_none(texts.partial);
+  options.together = texts.together || (options.partial && !options.merge);
+  if (line.given("--part")) options.share = parse_share(texts.part);
+  if (line.given("--part") && !options.partial) throw UsageError("--part: only useful with --partial");
+}
+
+Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig config, PcdBvCommand command) {
+  if (texts.inputs.empty())
+    throw UsageError(std::string("no INPUT; ") + name_of(command) + " --help lists the options");
   refuse_useless(line, config);
   Options options;
   options.inputs = texts.inputs;
@@ -139,22 +208,26 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
   if (line.given("--origin")) options.origin = parse_origin(texts.origin);
   read_outputs(line, texts, options);
+  options.together = texts.together;
+  options.threads_given = line.given("--threads");
+  if (command == PcdBvCommand::alone) read_parts(line, texts, options);
+  if (options.together || options.merge) refuse_for_one_cloud(line, options);
   return options;
 }
 
 }  // namespace
 
-std::variant<Options, std::string> parse_options(int argc, const char* const* argv) {
-  CommandLine line("pcd_bv",
+std::variant<Options, std::string> parse_options(int argc, const char* const* argv, PcdBvCommand command) {
+  CommandLine line(name_of(command),
                    "Bounding volumes of point clouds: boxes, k-DOPs and spheres that hold every point.",
                    examples);
   Texts texts;
-  declare(line, texts);
+  declare(line, texts, command);
   SettingOptions settings(line, {whole_cloud_config(), {}}, false);
   if (auto text = line.parse(argc, argv)) return *std::move(text);
   StreamConfig config = settings.config();
   if (settings.print_config()) return to_yaml(config);
-  Options options = to_options(line, texts, std::move(config.pipeline));
+  Options options = to_options(line, texts, std::move(config.pipeline), command);
   options.config_file = settings.file();
   return options;
 }

@@ -24,6 +24,12 @@ struct OriginOption {
   std::optional<Eigen::Vector3d> at{};  ///< If not given: the middle of each cloud, in whole numbers.
 };
 
+/// One of `count` shares of a cloud, by its number from 0 on.
+struct ShareOption {
+  std::size_t number = 0;
+  std::size_t count = 1;
+};
+
 struct Options {
   std::vector<std::string> inputs;
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
@@ -34,6 +40,11 @@ struct Options {
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image, view_html;
   ViewFrom view = ViewFrom::iso;
+  bool together = false;  ///< All inputs are one cloud; also set by --partial without --merge.
+  bool merge = false;     ///< Inputs are files of partial results.
+  std::optional<std::filesystem::path> partial;  ///< Write partial results there, and no volumes.
+  ShareOption share;                             ///< Of which of the cloud's points they are.
+  bool threads_given = false;                    ///< On the command line.
   bool check = false;
   bool info = false;
   bool timings = false;
@@ -47,8 +58,15 @@ inline bool writes_files(const Options& options) {
   return options.labels || options.mesh || options.image || options.view_html;
 }
 
+/// The commands that share these options.
+enum class PcdBvCommand {
+  alone,
+  ranks  ///< pcd_bv_mpi, which has no use for files of partial results.
+};
+
 /// What the command line asks for: work, or (--help, --version, --print-config) only a text on
 /// standard output. Throws UsageError.
-std::variant<Options, std::string> parse_options(int argc, const char* const* argv);
+std::variant<Options, std::string> parse_options(int argc, const char* const* argv,
+                                                 PcdBvCommand command = PcdBvCommand::alone);
 
 }  // namespace pcl_bv

@@ -22,6 +22,8 @@
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/report/meshes.h"
+#include "pcl_bv/segmentation/up.h"
+#include "shares.h"
 #include "view_html.h"
 
 namespace pcl_bv {
@@ -35,30 +37,25 @@ class Stopwatch {
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
   }
 
+  /// The same without beginning anew.
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
+  }
+
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Failed if a fit did; if asked, verifies all other volumes of all entries: outside if a point is.
+/// If asked, verifies all volumes of all entries whose fits have not failed; then as say_what_is_wrong().
 Status check(const PointView& cloud, const FrameResult& result, const Options& options, Report& report) {
-  const Execution execution{options.pipeline.policy(), parse_isa(options.pipeline.isa)};
-  Status status = Status::done;
   for (ClusterEntry& cluster : report.clusters) {
-    const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
-      std::string said = report.file + ": cluster " + std::to_string(cluster.id) + ": ";
-      said.append(entry.method).append(": ").append(problem);
-      complain(said);
-      status = worse(status, what);
-    };
     for (VolumeEntry& entry : cluster.volumes) {
-      if (!entry.failed.empty()) object(entry, Status::failed, entry.failed);
-      if (!entry.failed.empty() || !options.check) continue;
-      entry.outside = verify(entry.volume, result.points_of(cluster.id, cloud), execution).outside;
-      if (*entry.outside > 0)
-        object(entry, Status::outside, std::to_string(*entry.outside) + " points outside");
+      if (options.check && entry.failed.empty())
+        entry.outside =
+            verify(entry.volume, result.points_of(cluster.id, cloud), execution_of(options)).outside;
     }
   }
-  return status;
+  return say_what_is_wrong(report);
 }
 
 /// Runs `write`, which makes the file `path`, and its folder before.
@@ -79,13 +76,7 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
 /// The files that were asked for beside the report. The labels are written into the cloud's own records.
 Status write_files(const Job& job, const Options& options, const Frame& frame, const FrameResult& result,
                    const Report& report, LoadedCloud& loaded) {
-  Status status = Status::done;
-  if (job.mesh) {
-    status = worse(status, write_file(*job.mesh, [&] {
-                     const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
-                     write_volumes(*job.mesh, report.clusters, format);
-                   }));
-  }
+  Status status = write_mesh(job, report);
   if (!job.labels && !job.image && !job.view_html) return status;
   std::vector<std::uint32_t> label;
   const bool shows_ground = job.view_html && result.ground.found;
@@ -120,18 +111,8 @@ std::vector<std::string> remarks(const FrameResult& result, const PointView& poi
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)
     box.merge(aabb(result.volume(id, 0)));
-  const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
-  const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
-  // A centimetre, and not only because the cloud is large.
-  if (points.scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm()) {
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
-        "--origin auto) or subtract an origin before",
-        farthest, step);
-    said.emplace_back(text);
-  }
+  const std::string coarse = coarse_remark(box, points.scalar);
+  if (!coarse.empty()) said.push_back(coarse);
   return said;
 }
 
@@ -150,6 +131,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
     frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(loaded.cloud(), field->name));
   FrameResult result;
   pipeline.process(frame, result);
+  if (job.tiles) report.parts = job.tiles->used();
   report.points = result.points;
   report.counts = result.counts;
   report.clusters = entries_of(result);
@@ -167,13 +149,107 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   return worse(checked, write_files(job, options, frame, result, report, loaded));
 }
 
+/// One cloud in many inputs. One that fails is left out, and the cloud is begun again without it.
+Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
+  const Stopwatch watch;
+  if (options.progress && errors_go_to_a_terminal()) {
+    job.tiles->on_loaded = [watch, &tiles = *job.tiles](std::size_t points) {
+      char text[120];
+      std::snprintf(text, sizeof text, "%zu files, %.1f M points read in all passes, %.1f s", tiles.used(),
+                    static_cast<double>(points) / 1e6, watch.seconds());
+      show_status_line(text);
+    };
+  }
+  Status status = say_what_is_left_out(*job.tiles);
+  for (;;) {
+    if (job.tiles->used() == 0) throw IoError("none of the inputs could be read");
+    try {
+      return worse(status, process(job, options, pipeline, report));
+    } catch (const TileError& error) {
+      complain(job.tiles->jobs()[error.tile()].input + ": " + error.what());
+      job.tiles->leave_out(error.tile(), error.what());
+      status = Status::failed;
+    }
+  }
+}
+
+/// Partial results to volumes.
+Status process_partials(const Job& job, const Options& options, Report& report) {
+  Stopwatch watch;
+  const std::optional<PartialFile> all = merge_files(job.partials);
+  if (!all) throw IoError("not all of the partial results can be merged");
+  if (!all->is_whole()) throw IoError("shares are missing: " + all->missing());
+  const double read = watch.lap();
+  const std::vector<const Method*> methods = options.pipeline.methods();
+  report = report_of(*all, methods);
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    AnyVolume volume;
+    const EstimationResult result =
+        all->partial.fit(*methods[i], volume, execution_of(options), method_options(options));
+    set_volume(i, result, std::move(volume), report);
+  }
+  if (options.timings) report.seconds = {read, 0, watch.lap()};
+  return worse(say_what_is_wrong(report), write_mesh(job, report));
+}
+
+Status process_any(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
+  if (!job.partials.empty()) return process_partials(job, options, report);
+  return job.tiles ? process_tiles(job, options, pipeline, report) : process(job, options, pipeline, report);
+}
+
 }  // namespace
+
+Status say_what_is_wrong(const Report& report) {
+  Status status = Status::done;
+  for (const ClusterEntry& cluster : report.clusters) {
+    const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
+      std::string said = report.file + ": cluster " + std::to_string(cluster.id) + ": ";
+      said.append(entry.method).append(": ").append(problem);
+      complain(said);
+      status = worse(status, what);
+    };
+    for (const VolumeEntry& entry : cluster.volumes) {
+      if (!entry.failed.empty()) object(entry, Status::failed, entry.failed);
+      if (entry.outside.value_or(0) > 0)
+        object(entry, Status::outside, std::to_string(*entry.outside) + " points outside");
+    }
+  }
+  return status;
+}
+
+Status write_mesh(const Job& job, const Report& report) {
+  if (!job.mesh) return Status::done;
+  return write_file(*job.mesh, [&] {
+    const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
+    write_volumes(*job.mesh, report.clusters, format);
+  });
+}
+
+std::string coarse_remark(const Aabb& box, ScalarType scalar) {
+  const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
+  const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
+  // A centimetre, and not only because the cloud is large.
+  const bool coarse =
+      scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm();
+  if (!coarse) return {};
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
+      "--origin auto) or subtract an origin before",
+      farthest, step);
+  return text;
+}
+
+MethodOptions method_options(const Options& options) {
+  return {options.pipeline.growth, up_direction(options.pipeline.ground.up)};
+}
 
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline) {
   Outcome outcome;
   outcome.report.file = job.input;
   try {
-    outcome.status = process(job, options, pipeline, outcome.report);
+    outcome.status = process_any(job, options, pipeline, outcome.report);
     return outcome;
   } catch (const std::bad_alloc&) {
     outcome.report.error = "not enough memory";

@@ -24,6 +24,18 @@ struct Outcome {
 /// `report.error` too.
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
+/// Complains of fits that failed and of points that were found outside: the status for that.
+Status say_what_is_wrong(const Report& report);
+
+/// The job's mesh, if there is to be one.
+Status write_mesh(const Job& job, const Report& report);
+
+/// A warning if floats of such magnitude are too coarse for points in this box; else nothing.
+std::string coarse_remark(const Aabb& box, ScalarType scalar);
+
+/// What the methods are told.
+MethodOptions method_options(const Options& options);
+
 /// Processes all jobs and writes their reports; what is written and said comes in the order of the jobs,
 /// whatever the number of threads. At least as many jobs as threads are spread over the threads, each job
 /// serial; fewer are done one after another, each with all threads. A job that fails stops no other; when

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "pcl_bv/nodes/filtered_view.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/report/read_volumes.h"
@@ -183,6 +184,17 @@ PointView FilteredPoints::load(std::size_t first, std::size_t count, std::vector
     copy_kept<float>(part.view(), scratch.verdicts, buffer.data());
   }
   return packed_points(buffer.data(), points_.scalar, count, first);
+}
+
+FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution) {
+  if (points.indices != nullptr) throw std::invalid_argument("filter_points: the view has an index list");
+  const auto filter = std::make_shared<const PointFilter>(config, execution.isa);
+  if (filter->keeps_all()) return {points, {}, {}};
+  const auto filtered = std::make_shared<const FilteredPoints>(points, nullptr, filter);
+  FilteredView view{view_of(*filtered, points.count, points.scalar), filtered->count(execution.parallel),
+                    filtered};
+  view.points.first = points.first;
+  return view;
 }
 
 }  // namespace pcl_bv

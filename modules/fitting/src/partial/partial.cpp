@@ -17,19 +17,6 @@
 
 namespace pcl_bv {
 
-void require_apart(const PartialState& state) {
-  bool apart = true;
-  std::size_t free = 0;
-  for (const MomentNode& node : state.blocks) {
-    const NumberedPoint first{node.first * kBlockPoints, {}};
-    const auto loose = std::lower_bound(state.loose.begin(), state.loose.end(), first);
-    apart = apart && node.first >= free;
-    free = node.first + node.blocks;
-    apart = apart && (loose == state.loose.end() || block_of_number(loose->number) >= free);
-  }
-  require_disjoint(apart);
-}
-
 namespace {
 
 // What of these points is needed where more are than can be kept, but for their moments: number(i) is that of
@@ -203,8 +190,6 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
 
 }  // namespace
 
-Partial::Partial() : state_(std::make_shared<PartialState>()) {}
-
 Partial::Partial(const PointView& points, std::size_t first, const Execution& execution) {
   const FloatEnvironment environment;
   require_own_supports(points, execution);
@@ -249,8 +234,23 @@ EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Exe
   return method.fit(held.view(), volume, informed, options);
 }
 
-std::size_t Partial::size() const {
-  return state_->size();
+EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
+                                              const FarthestPoints& farthest,
+                                              const Execution& execution) const {
+  const FloatEnvironment environment;
+  if (state_->all_kept()) {
+    const HeldPoints all(state_->loose, state_->scalar);
+    return pcl_bv::fit_smallest_sphere(all.view(), sphere, certificate, execution);
+  }
+  const NumberedPoints points = standing_for_all(*state_);
+  const HeldPoints held(points, state_->scalar);
+  Supports supports = supports_of(*state_, points, held.view(), execution);
+  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // by the numbers of the cloud
+    supports.along[k].low_point.index = state_->ends[2 * k].index;
+    supports.along[k].high_point.index = state_->ends[2 * k + 1].index;
+  }
+  sphere = smallest_sphere(supports, farthest, certificate);
+  return result_of(supports);
 }
 
 }  // namespace pcl_bv

@@ -6,15 +6,33 @@
 //   loose points, extreme points, nodes of moments: u64 how many, then each
 //   CRC-32 of all before: u32
 
+// Also what a Partial is without its points' kernels, so that the fuzzer of its bytes needs none.
+
+#include <algorithm>
 #include <boost/crc.hpp>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "partial/partial_state.h"
 
 namespace pcl_bv {
+
+void require_apart(const PartialState& state) {
+  bool apart = true;
+  std::size_t free = 0;
+  for (const MomentNode& node : state.blocks) {
+    const NumberedPoint first{node.first * kBlockPoints, {}};
+    const auto loose = std::lower_bound(state.loose.begin(), state.loose.end(), first);
+    apart = apart && node.first >= free;
+    free = node.first + node.blocks;
+    apart = apart && (loose == state.loose.end() || block_of_number(loose->number) >= free);
+  }
+  require_disjoint(apart);
+}
+
 namespace {
 
 constexpr char kMagic[8] = {'P', 'C', 'L', 'B', 'V', 'P', 'R', 'T'};
@@ -130,14 +148,20 @@ NumberedPoints read_points(Reader& in) {
   return points;
 }
 
+// So many have points with numbers.
+constexpr std::size_t kMostBlocks = std::numeric_limits<std::size_t>::max() / kBlockPoints;
+
 MomentTree read_tree(Reader& in) {
   MomentTree tree;
   for (std::size_t left = read_count(in, 124); left > 0; --left) {
     MomentNode node{};
     transfer_node(in, node);
-    const bool aligned =
-        node.blocks > 0 && (node.blocks & (node.blocks - 1)) == 0 && node.first % node.blocks == 0;
+    const bool aligned = node.blocks > 0 && node.blocks <= kMostBlocks &&
+                         node.first <= kMostBlocks - node.blocks && (node.blocks & (node.blocks - 1)) == 0 &&
+                         node.first % node.blocks == 0;
     require(aligned, "a sum is not of blocks that belong together");
+    const int exponent = node.moments.exponent;
+    require(exponent == 0 || exponent == 500 || exponent == 1000, "a sum is in no known unit");
     tree.append(node);
   }
   return tree;
@@ -151,6 +175,8 @@ PartialState read_state(Reader& in, ScalarType scalar) {
   state.extreme = read_points(in);
   state.blocks = read_tree(in);
   require(in.left() == 0, "bytes follow them");
+  require(state.used <= std::numeric_limits<std::size_t>::max() - state.dropped,
+          "their numbers of points contradict each other");
   require(state.all_kept() ? state.loose.size() <= Partial::kAllKept : state.size() > Partial::kAllKept,
           "their numbers of points contradict each other");
   require((state.used > 0) != state.extreme.empty(), "their numbers of points contradict each other");
@@ -165,6 +191,12 @@ PartialState read_state(Reader& in, ScalarType scalar) {
 }
 
 }  // namespace
+
+Partial::Partial() : state_(std::make_shared<PartialState>()) {}
+
+std::size_t Partial::size() const {
+  return state_->size();
+}
 
 std::vector<std::byte> Partial::to_bytes() const {
   Writer out;

@@ -12,6 +12,7 @@
 
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "sphere/distance_scan.h"
 #include "sphere/sphere_seed.h"
 
 namespace pcl_bv {
@@ -78,6 +79,13 @@ void keep_farthest(const FarPoint& other, FarPoint& best) {
 void keep_farthest(const OctantPoints& other, OctantPoints& best) {
   for (std::size_t o = 0; o < best.size(); ++o)
     keep_farthest(other[o], best[o]);
+}
+
+bool farthest_points(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
+                     const Execution& execution) {
+  const FloatEnvironment environment;
+  if (points.indices != nullptr) throw std::invalid_argument("farthest_points: the view has an index list");
+  return DistanceScan(points, execution).farthest(center, limit, found);
 }
 
 Sphere smallest_sphere(const Supports& supports, const FarthestPoints& farthest,

@@ -10,6 +10,7 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/methods.h"
+#include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/kernels/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -50,6 +51,13 @@ class Partial {
   /// serves(method), and for Execution::supports. O(m log m).
   EstimationResult fit(const Method& method, AnyVolume& volume, const Execution& execution = {},
                        const MethodOptions& options = {}) const;
+
+  /// The smallest sphere of all points, which answer questions where they are: the bits of
+  /// fit_smallest_sphere() of the whole cloud, whatever the number of points, if `farthest` speaks of these
+  /// points by the numbers that they have here. Asks nothing where all points are kept. Throws what it
+  /// throws.
+  EstimationResult fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
+                                       const FarthestPoints& farthest, const Execution& execution = {}) const;
 
   /// Points, valid or not.
   std::size_t size() const;

@@ -33,6 +33,11 @@ void keep_farthest(const OctantPoints& other, OctantPoints& best);
 /// whatever was there. Whether there is any.
 using FarthestPoints = std::function<bool(const DistanceCenter& center, double limit, OctantPoints& found)>;
 
+/// The answer of the points of a view: `found` becomes what FarthestPoints says, and its numbers are those of
+/// PointView::index(). One pass over the points. Throws std::invalid_argument for a view with an index list.
+bool farthest_points(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
+                     const Execution& execution = {});
+
 /// The smallest sphere of the points that `supports`, along dop26 with points, and `farthest` speak of. The
 /// bits of fit_smallest_sphere(), whoever answers. Empty without a valid point. Throws std::invalid_argument
 /// for other supports, and what `farthest` throws. One question for each of certificate.passes.

@@ -25,4 +25,14 @@ bool is_cloud_name(const std::filesystem::path& path);
 RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{},
                     std::size_t bin_fields = 0);
 
+/// What the header of a file says of its points.
+struct CloudHeader {
+  RawCloud cloud;  ///< All but its points.
+  ScalarType scalar = ScalarType::float32;
+  bool by_position = false;  ///< Whether any of them can be read without those before (CloudFile).
+};
+
+/// Reads no points: a file can still turn out to be cut or damaged. Throws as read_cloud().
+CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin_fields = 0);
+
 }  // namespace pcl_bv

@@ -71,8 +71,9 @@ struct CloudInfo : CloudStatistics {
 
 /// One input. If `error` is set the input failed and only `file` and `error` mean anything.
 struct Report {
-  std::string file;        ///< As the user named it; invalid UTF-8 is replaced where it is written.
-  std::size_t points = 0;  ///< All points of the input, good or bad.
+  std::string file;                  ///< As the user named it; invalid UTF-8 is replaced where it is written.
+  std::optional<std::size_t> parts;  ///< Of how many inputs, if it is one cloud in several.
+  std::size_t points = 0;            ///< All points of the input, good or bad.
   std::optional<Eigen::Vector3d> origin;  ///< What was subtracted from all coordinates, if something was.
   Counts counts;
   std::vector<ClusterEntry> clusters;

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/report/partial_file.h"
+
+#include <algorithm>
+#include <boost/crc.hpp>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/posix_file.h"
+
+namespace pcl_bv {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Shares = std::vector<std::pair<std::size_t, std::size_t>>;
+
+constexpr std::string_view kFormat = "pcl_bv partial results ";
+constexpr std::string_view kVersion = "1\n";
+constexpr std::size_t kGreatest = std::size_t{1} << 30;
+
+std::string check_sum(std::string_view content) {
+  boost::crc_32_type sum;
+  sum.process_bytes(content.data(), content.size());
+  const std::uint32_t value = sum.checksum();
+  std::string bytes(sizeof value, '\0');
+  std::memcpy(bytes.data(), &value, sizeof value);
+  return bytes;
+}
+
+void require(bool good, const char* what) {
+  if (!good) throw IoError(what);
+}
+
+void require_same(bool same, const char* what) {
+  if (!same) throw std::invalid_argument(what);
+}
+
+// Of both; those that touch become one.
+Shares united(const Shares& a, const Shares& b) {
+  Shares sorted = a, shares;
+  sorted.insert(sorted.end(), b.begin(), b.end());
+  std::sort(sorted.begin(), sorted.end());
+  for (const auto& share : sorted) {
+    require_same(shares.empty() || share.first >= shares.back().second,
+                 "has points that another one has, too: the same share twice?");
+    if (!shares.empty() && share.first == shares.back().second) {
+      shares.back().second = share.second;
+    } else {
+      shares.push_back(share);
+    }
+  }
+  return shares;
+}
+
+std::size_t points_in(const Shares& shares) {
+  std::size_t points = 0;
+  for (const auto& [first, end] : shares)
+    points += end - first;
+  return points;
+}
+
+// Nothing below 0 and no fraction, and no number that only a double holds.
+std::size_t whole(const Json& number) {
+  require(number.is_number_unsigned(), "its heading has no whole number where it should");
+  return number.get<std::size_t>();
+}
+
+// Throws what nlohmann throws, and IoError.
+PartialFile read_heading(std::string_view line) {
+  const Json json = Json::parse(line);
+  PartialFile file;
+  file.inputs_hash = whole(json.at("inputs_hash"));
+  file.inputs = whole(json.at("inputs"));
+  file.cloud_points = whole(json.at("cloud_points"));
+  if (json.contains("origin")) {
+    file.origin.emplace();
+    for (std::size_t k = 0; k < 3; ++k)
+      (*file.origin)[static_cast<Eigen::Index>(k)] = json.at("origin").at(k).get<double>();
+    require(file.origin->allFinite(), "its origin is not finite");
+  }
+  file.filter = json.at("filter").get<std::string>();
+  file.counts.range = whole(json.at("range"));
+  file.counts.inside = whole(json.at("inside"));
+  std::size_t end = 0;
+  for (const Json& share : json.at("shares")) {
+    file.shares.emplace_back(whole(share.at(0)), whole(share.at(1)));
+    const auto& [from, to] = file.shares.back();
+    const bool apart = from > end || (from == 0 && file.shares.size() == 1);
+    require(apart && from < to && to <= file.cloud_points, "its shares contradict each other");
+    end = to;
+  }
+  return file;
+}
+
+}  // namespace
+
+void PartialFile::add_input(std::string_view name, std::size_t points) {
+  const auto add = [&](unsigned char byte) { inputs_hash = (inputs_hash ^ byte) * 0x100000001b3; };
+  for (const char c : name)
+    add(static_cast<unsigned char>(c));
+  for (std::size_t i = 0; i <= 8; ++i)  // the 0 ends the name
+    add(i == 0 ? 0 : static_cast<unsigned char>(points >> (8 * (i - 1))));
+  ++inputs;
+  cloud_points += points;
+}
+
+void PartialFile::merge(const PartialFile& other) {
+  require_same(
+      inputs_hash == other.inputs_hash && inputs == other.inputs && cloud_points == other.cloud_points,
+      "is a share of another cloud: the inputs were not the same");
+  require_same(origin == other.origin, "is a share with another --origin");
+  require_same(filter == other.filter, "is a share with another --range or other regions");
+  Shares all = united(shares, other.shares);
+  partial.merge(other.partial);
+  shares = std::move(all);
+  counts.range += other.counts.range;
+  counts.inside += other.counts.inside;
+}
+
+bool PartialFile::is_whole() const {
+  return points_in(shares) == cloud_points;
+}
+
+std::string PartialFile::missing() const {
+  std::string text;
+  std::size_t from = 0;
+  const auto gap = [&](std::size_t to) {
+    if (from == to) return;
+    text += (text.empty() ? "points " : ", ") + std::to_string(from) + " to " + std::to_string(to);
+  };
+  for (const auto& [first, end] : shares) {
+    gap(first);
+    from = end;
+  }
+  gap(cloud_points);
+  return text + " of " + std::to_string(cloud_points);
+}
+
+std::string partial_file_content(const PartialFile& file) {
+  Json json{{"inputs", file.inputs}, {"inputs_hash", file.inputs_hash}, {"cloud_points", file.cloud_points}};
+  if (file.origin) json["origin"] = {(*file.origin)[0], (*file.origin)[1], (*file.origin)[2]};
+  json["filter"] = file.filter;
+  json["range"] = file.counts.range;
+  json["inside"] = file.counts.inside;
+  json["shares"] = file.shares;
+  std::string content(kFormat);
+  content += kVersion;
+  content += json.dump(-1, ' ', true, Json::error_handler_t::replace) + '\n';
+  const std::vector<std::byte> bytes = file.partial.to_bytes();
+  content.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return content + check_sum(content);
+}
+
+PartialFile parse_partial_file(std::string_view content) {
+  require(content.starts_with(kFormat), "is no file of partial results, as --partial writes them");
+  std::string_view rest = content.substr(kFormat.size());
+  require(rest.size() > 6, "ends early");
+  require(rest.starts_with(kVersion), "was written by another version of pcl_bv: this one reads version 1");
+  const std::size_t sum = 4;
+  require(content.substr(content.size() - sum) == check_sum(content.substr(0, content.size() - sum)),
+          "was cut or changed: its check sum is wrong");
+  rest = rest.substr(kVersion.size(), rest.size() - kVersion.size() - sum);
+  const std::size_t end = rest.find('\n');
+  require(end != std::string_view::npos, "ends early");
+  try {
+    PartialFile file = read_heading(rest.substr(0, end));
+    const std::string_view bytes = rest.substr(end + 1);
+    file.partial = Partial::from_bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
+    require(file.partial.size() == points_in(file.shares), "its numbers of points contradict each other");
+    return file;
+  } catch (const Json::exception&) {
+    throw IoError("its heading cannot be read");
+  } catch (const std::invalid_argument& error) {
+    throw IoError(error.what());
+  }
+}
+
+void write_partial_file(const std::filesystem::path& path, const PartialFile& file) {
+  make_folder_of(path);
+  write_file_atomically(path, partial_file_content(file));
+}
+
+PartialFile read_partial_file(const std::filesystem::path& path) {
+  const InputFile file(path);
+  require(file.size() <= kGreatest, "is too large for partial results");
+  std::string content(file.size(), '\0');
+  file.read(0, content.data(), content.size());
+  return parse_partial_file(content);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command pcd_bv_mpi: pcd_bv over the ranks of MPI.
+
+#include <exception>
+#include <functional>
+#include <new>
+
+#include "command/interruption.h"
+#include "command/messages.h"
+#include "command/run_command.h"
+#include "command/values.h"
+#include "dealt.h"
+#include "failures.h"
+#include "pcd_bv/in_order.h"
+#include "ranks.h"
+#include "together.h"
+
+namespace pcl_bv {
+namespace {
+
+/// Does what every rank does to the same end, unless one finds the use wrong: then none goes on, and the
+/// first rank says why.
+bool all_do(Ranks& ranks, const std::function<void()>& work) {
+  std::string problem;
+  {
+    const HeldComplaints held;
+    try {
+      work();
+    } catch (const UsageError& error) {
+      problem = error.what();
+    }
+    if (ranks.first()) {
+      for (const std::string& complaint : held.kept)
+        say(complaint);
+    }
+  }
+  for (const std::string& each : ranks.all(problem)) {
+    if (each.empty()) continue;
+    if (ranks.first()) complain(each);
+    return false;
+  }
+  return true;
+}
+
+void refuse_for_ranks(const Options& options) {
+  if (options.together && (options.image || options.view_html || options.info))
+    throw UsageError("--together: cannot be combined with --image, --view-html or --info over ranks");
+}
+
+std::string names_of(const std::vector<Job>& inputs) {
+  std::string names;
+  for (const Job& input : inputs)
+    names += input.input + '\n';
+  return names;
+}
+
+Status process_together(Ranks& ranks, const Job& job, const Options& options, WhenInterrupted& interrupted) {
+  Outcome outcome;
+  outcome.report.file = job.input;
+  try {
+    outcome.status = fit_together(ranks, *job.tiles, options, outcome.report);
+  } catch (const IoError& error) {  // of all ranks
+    outcome.report.error = error.what();
+    outcome.status = Status::failed;
+  }
+  if (!ranks.first()) return Status::done;
+  if (outcome.report.error) {
+    complain(job.input + ": " + *outcome.report.error);
+  } else {
+    outcome.status = worse(outcome.status, write_mesh(job, outcome.report));
+  }
+  InOrder order(options, 1, 1);
+  interrupted.set([&] { order.interrupt(); });
+  order.take(0, result_of(std::move(outcome), options.format));
+  const Status status = order.finish();
+  interrupted.set(nullptr);
+  return status;
+}
+
+int run(Ranks& ranks, int argc, char** argv, WhenInterrupted& interrupted) {
+  std::variant<Options, std::string> asked;
+  std::vector<Job> inputs, jobs;
+  const bool understood = all_do(ranks, [&] {
+    asked = parse_options(argc, argv, PcdBvCommand::ranks);
+    const auto* const options = std::get_if<Options>(&asked);
+    if (options == nullptr) return;
+    refuse_for_ranks(*options);
+    inputs = list_inputs(*options);
+  });
+  if (!understood) return static_cast<int>(Status::misuse);
+  if (const auto* text = std::get_if<std::string>(&asked)) return ranks.first() ? print(*text) : 0;
+  Options options = std::get<Options>(asked);
+  if (!options.threads_given) options.pipeline.threads = 1;  // as many ranks as processors are the rule
+  if (ranks.broadcast(names_of(inputs)) != names_of(inputs))
+    throw IoError("sees other inputs than rank 0: all ranks need the same files at the same paths");
+  std::shared_ptr<Tiles> tiles;
+  if (options.together)
+    tiles = std::make_shared<Tiles>(inputs, describe_tiles(ranks, inputs),
+                                    thread_count(options.pipeline.policy()));
+  if (!all_do(ranks, [&] { jobs = plan_jobs(options, std::move(inputs), tiles); }))
+    return static_cast<int>(Status::misuse);
+  const Status status = options.together ? process_together(ranks, jobs.front(), options, interrupted)
+                                         : process_dealt(ranks, jobs, options, interrupted);
+  return static_cast<int>(status);
+}
+
+}  // namespace
+}  // namespace pcl_bv
+
+int main(int argc, char** argv) {
+  using namespace pcl_bv;
+  return run_command("pcd_bv_mpi", [&]() -> int {
+    WhenInterrupted interrupted;
+    const Interruption interruption([&] { interrupted(); });  // before MPI has threads
+    Ranks ranks(&argc, &argv);
+    std::string reason;
+    try {
+      const int status = run(ranks, argc, argv, interrupted);
+      return ranks.first() ? status : 0;
+    } catch (const std::bad_alloc&) {
+      reason = "not enough memory";
+    } catch (const std::exception& error) {
+      reason = error.what();
+    }
+    say("rank " + std::to_string(ranks.rank()) + ": " + reason);
+    Ranks::abort();  // the others may wait for this one
+  });
+}

@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "together.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "command/messages.h"
+#include "failures.h"
+#include "pcd_bv/process.h"
+#include "pcd_bv/shares.h"
+#include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/fitting/verify.h"
+#include "volume_bytes.h"
+
+namespace pcl_bv {
+namespace {
+
+using Failure = std::optional<TileFailure>;
+
+struct Question {
+  DistanceCenter center;
+  double limit;
+};
+
+// Ends the solver when a rank cannot answer.
+struct NoAnswer {};
+
+bool in_rounds(const Method& method, const Tiles& tiles) {
+  return method.name == "sphere-exact" && tiles.xyz().count > Partial::kAllKept;
+}
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+/// The cloud as it is now, from its points to its volumes; each step ends with what all ranks know of
+/// failures.
+class Attempt {
+ public:
+  Attempt(Ranks& ranks, const Tiles& tiles, const Options& options)
+      : ranks_(ranks), tiles_(tiles), options_(options), execution_(execution_of(options)) {
+    range_ = tiles.share(ranks.rank(), ranks.size());
+    methods_ = options.pipeline.methods();
+    fitted_.resize(methods_.size());
+    outside_.resize(methods_.size());
+  }
+
+  Failure run();
+  Report report() const;  ///< Of the first rank.
+  std::size_t rounds() const { return rounds_; }
+  double worked() const { return worked_; }  ///< Seconds of processors, without those of waiting for others.
+
+ private:
+  /// What a rank does on its own.
+  template <typename Work>
+  Failure work(const Work& own) {
+    const double begin = processor_seconds();
+    Failure failure = attempt(own);
+    worked_ += processor_seconds() - begin;
+    return failure;
+  }
+
+  Failure find_origin();
+  Failure read_own_points();
+  void merge();
+  Failure fit();
+  Failure fit_in_rounds(Fitted& fitted);
+  Failure check();
+  bool answer(const Question& question, Failure& failure, OctantPoints& found);
+
+  /// The rank that fits this method to all points, if it is one that needs them.
+  std::optional<std::size_t> owner(std::size_t method) const {
+    if (!methods_[method]->needs_all_points) return std::nullopt;
+    return method % ranks_.size();
+  }
+
+  Ranks& ranks_;
+  const Tiles& tiles_;
+  const Options& options_;
+  const Execution execution_;
+  PointRange range_;
+  std::vector<const Method*> methods_;
+  std::optional<Eigen::Vector3d> origin_;
+  std::optional<SharePoints> points_;
+  PartialFile merged_;  // on the first rank of all; on all ranks, if they check
+  std::vector<Fitted> fitted_;
+  std::vector<std::size_t> outside_;
+  std::size_t rounds_ = 0;
+  double worked_ = 0;
+};
+
+// The box of all is exact, and so is where its middle lies.
+Failure Attempt::find_origin() {
+  origin_ = options_.origin.at;
+  if (!options_.origin.asked || origin_) return std::nullopt;
+  Aabb box;
+  const Failure failure = work([&] {
+    const PointView all = tiles_.xyz();
+    fit_aabb(all.slice(range_.first, range_.second - range_.first), box, execution_);
+  });
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<double> ends(6, none);
+  for (int k = 0; k < 3 && !box.empty(); ++k) {
+    ends[static_cast<std::size_t>(k)] = box.min()[k];
+    ends[3 + static_cast<std::size_t>(k)] = -box.max()[k];
+  }
+  ends = ranks_.least(ends);
+  const Eigen::Vector3d low(ends[0], ends[1], ends[2]), high(-ends[3], -ends[4], -ends[5]);
+  origin_ =
+      ends[0] == none ? Eigen::Vector3d::Zero() : Eigen::Vector3d(Aabb(low, high).center().array().round());
+  return agreed(ranks_, failure);
+}
+
+Failure Attempt::read_own_points() {
+  const Failure failure = work([&] {
+    points_.emplace(tiles_, range_, origin_, options_);
+    merged_ = describe_cloud(tiles_, origin_, options_);
+    add_share(*points_, range_, execution_, merged_);
+    std::optional<SharePoints> all;
+    for (std::size_t i = 0; i < methods_.size(); ++i) {
+      if (owner(i) != ranks_.rank()) continue;
+      if (!all) all.emplace(tiles_, PointRange{0, tiles_.xyz().count}, origin_, options_);
+      fitted_[i].result =
+          methods_[i]->fit(all->view(), fitted_[i].volume, execution_, method_options(options_));
+    }
+  });
+  return agreed(ranks_, failure);
+}
+
+// In pairs, and pairs of pairs: MPI_Reduce wants parts of one length.
+void Attempt::merge() {
+  for (std::size_t step = 1; step < ranks_.size(); step *= 2) {
+    if (ranks_.rank() % (2 * step) == step) {
+      ranks_.send(partial_file_content(merged_), ranks_.rank() - step);
+      break;
+    }
+    if (ranks_.rank() + step >= ranks_.size()) continue;
+    const std::string content = ranks_.receive(ranks_.rank() + step);
+    work([&] { merged_.merge(parse_partial_file(content)); });
+  }
+  if (options_.check)
+    merged_ = parse_partial_file(ranks_.broadcast(ranks_.first() ? partial_file_content(merged_) : ""));
+}
+
+Failure Attempt::fit() {
+  for (std::size_t i = 0; i < methods_.size(); ++i) {
+    Fitted& fitted = fitted_[i];
+    if (const auto rank = owner(i)) {
+      fitted = fitted_from(ranks_.broadcast(*rank == ranks_.rank() ? bytes_of(fitted) : "", *rank));
+    } else if (in_rounds(*methods_[i], tiles_)) {
+      if (Failure failure = fit_in_rounds(fitted)) return failure;
+    } else if (ranks_.first() || options_.check) {
+      work([&] {
+        fitted.result =
+            merged_.partial.fit(*methods_[i], fitted.volume, execution_, method_options(options_));
+      });
+    }
+  }
+  return std::nullopt;
+}
+
+bool Attempt::answer(const Question& question, Failure& failure, OctantPoints& found) {
+  OctantPoints own;
+  const Failure now =
+      attempt([&] { farthest_points(points_->view(), question.center, question.limit, own, execution_); });
+  if (now) failure = now;
+  return !ranks_.farthest(own, now.has_value(), found);
+}
+
+// The first rank asks, an empty question ends it.
+Failure Attempt::fit_in_rounds(Fitted& fitted) {
+  Failure failure;
+  OctantPoints found;
+  if (ranks_.first()) {
+    const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& farthest) {
+      const Question question{center, limit};
+      ranks_.broadcast(std::string(reinterpret_cast<const char*>(&question), sizeof question));
+      if (!answer(question, failure, farthest)) throw NoAnswer();
+      return std::any_of(farthest.begin(), farthest.end(),
+                         [](const FarPoint& p) { return p.squared_distance >= 0; });
+    };
+    try {
+      SphereCertificate certificate;
+      fitted.result =
+          merged_.partial.fit_smallest_sphere(fitted.volume.emplace<Sphere>(), certificate, ask, execution_);
+      rounds_ += static_cast<std::size_t>(certificate.passes);
+    } catch (const NoAnswer&) {
+    }
+    ranks_.broadcast("");
+  } else {
+    for (std::string asked = ranks_.broadcast(""); !asked.empty(); asked = ranks_.broadcast("")) {
+      Question question;
+      std::memcpy(&question, asked.data(), sizeof question);
+      answer(question, failure, found);
+    }
+  }
+  if (Failure agreed_on = agreed(ranks_, failure)) return agreed_on;
+  fitted = fitted_from(ranks_.broadcast(ranks_.first() ? bytes_of(fitted) : ""));
+  return std::nullopt;
+}
+
+Failure Attempt::check() {
+  const Failure failure = work([&] {
+    for (std::size_t i = 0; i < methods_.size() && options_.check; ++i)
+      outside_[i] = verify(fitted_[i].volume, points_->view(), execution_).outside;
+    tiles_.require_unchanged();
+  });
+  outside_ = ranks_.sum(outside_);
+  return agreed(ranks_, failure);
+}
+
+Failure Attempt::run() {
+  if (Failure failure = find_origin()) return failure;
+  if (Failure failure = read_own_points()) return failure;
+  merge();
+  if (Failure failure = fit()) return failure;
+  return check();
+}
+
+Report Attempt::report() const {
+  Report report = report_of(merged_, methods_);
+  for (std::size_t i = 0; i < methods_.size(); ++i) {
+    set_volume(i, fitted_[i].result, fitted_[i].volume, report);
+    VolumeEntry& entry = report.clusters.front().volumes[i];
+    if (options_.check && entry.failed.empty()) entry.outside = outside_[i];
+  }
+  const std::string coarse =
+      coarse_remark(aabb(fitted_.front().volume), origin_ ? ScalarType::float64 : tiles_.xyz().scalar);
+  if (!coarse.empty()) complain(report.file + ": " + coarse);
+  return report;
+}
+
+/// With --timings, what the run cost: the work of all ranks, and the greatest memory of any.
+void say_costs(Ranks& ranks, double seconds, double worked, std::size_t rounds) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const std::vector<std::size_t> sums =
+      ranks.sum({static_cast<std::size_t>(worked * 1e6), ranks.messages_sent(), ranks.bytes_sent()});
+  const double memory = -ranks.least({-static_cast<double>(usage.ru_maxrss)}).front();
+  if (!ranks.first()) return;
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "%zu ranks: %.3f s, %.3f s of work, %zu rounds, %zu messages of %zu bytes in all, "
+                "at most %.0f KiB a rank",
+                ranks.size(), seconds, static_cast<double>(sums[0]) / 1e6, rounds, sums[1], sums[2], memory);
+  say(text);
+}
+
+}  // namespace
+
+Status fit_together(Ranks& ranks, Tiles& tiles, const Options& options, Report& report) {
+  const auto begin = std::chrono::steady_clock::now();
+  Status status = Status::done;
+  if (ranks.first()) status = say_what_is_left_out(tiles);
+  for (;;) {
+    if (tiles.used() == 0) throw IoError("none of the inputs could be read");
+    Attempt now(ranks, tiles, options);
+    if (Failure failure = now.run()) {
+      if (ranks.first()) complain(tiles.jobs()[failure->tile].input + ": " + failure->reason);
+      tiles.leave_out(failure->tile, failure->reason);
+      status = Status::failed;
+      continue;
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    if (options.timings) say_costs(ranks, seconds.count(), now.worked(), now.rounds());
+    if (!ranks.first()) return status;
+    report = now.report();
+    if (options.timings) report.seconds = {0, 0, seconds.count()};
+    return worse(status, say_what_is_wrong(report));
+  }
+}
+
+}  // namespace pcl_bv

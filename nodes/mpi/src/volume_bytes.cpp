@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "volume_bytes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+
+namespace pcl_bv {
+namespace {
+
+enum class Shape { sphere, empty_sphere, obb, empty_obb };
+
+struct Fixed {
+  EstimationStatus status;
+  int rank;
+  std::size_t used, dropped;
+  Shape shape;
+  std::array<double, 15> numbers;
+};
+static_assert(std::is_trivially_copyable_v<Fixed>);
+
+// Reasons are texts that are never freed.
+std::string_view kept(const std::string& reason) {
+  static std::set<std::string> reasons;
+  return reason.empty() ? std::string_view() : *reasons.insert(reason).first;
+}
+
+}  // namespace
+
+std::string bytes_of(const Fitted& fitted) {
+  const EstimationResult& result = fitted.result;
+  Fixed fixed;
+  std::memset(&fixed, 0, sizeof fixed);
+  fixed.status = result.status;
+  fixed.rank = result.rank;
+  fixed.used = result.used;
+  fixed.dropped = result.dropped;
+  double* to = fixed.numbers.data();
+  const auto add = [&](const auto& numbers) { to = std::copy_n(numbers.data(), numbers.size(), to); };
+  const bool nothing = empty(fitted.volume);
+  if (const auto* sphere = std::get_if<Sphere>(&fitted.volume)) {
+    fixed.shape = nothing ? Shape::empty_sphere : Shape::sphere;
+    if (!nothing) add(Eigen::Vector3d(sphere->center()));
+    if (!nothing) *to = sphere->radius();
+  } else if (const auto* obb = std::get_if<Obb>(&fitted.volume)) {
+    fixed.shape = nothing ? Shape::empty_obb : Shape::obb;
+    if (!nothing) {
+      add(Eigen::Vector3d(obb->center()));
+      add(Eigen::Matrix3d(obb->axes()));
+      add(Eigen::Vector3d(obb->half_extents()));
+    }
+  } else {
+    throw std::invalid_argument("bytes_of: neither a sphere nor a box");
+  }
+  return std::string(reinterpret_cast<const char*>(&fixed), sizeof fixed).append(result.reason);
+}
+
+Fitted fitted_from(const std::string& bytes) {
+  Fixed fixed;
+  if (bytes.size() < sizeof fixed) throw std::invalid_argument("fitted_from: ends early");
+  std::memcpy(&fixed, bytes.data(), sizeof fixed);
+  const double* const numbers = fixed.numbers.data();
+  const Eigen::Map<const Eigen::Vector3d> center(numbers), half(numbers + 12);
+  Fitted fitted;
+  fitted.result = {fixed.status, fixed.rank, fixed.used, fixed.dropped, kept(bytes.substr(sizeof fixed))};
+  switch (fixed.shape) {
+    case Shape::sphere:
+      fitted.volume = Sphere(center, numbers[3]);
+      break;
+    case Shape::empty_sphere:
+      fitted.volume = Sphere();
+      break;
+    case Shape::obb:
+      fitted.volume = Obb(center, Eigen::Map<const Eigen::Matrix3d>(numbers + 3), half);
+      break;
+    case Shape::empty_obb:
+      fitted.volume = Obb();
+  }
+  return fitted;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A cloud as one file, and cut into many.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "command.h"
+
+namespace pcl_bv::test {
+
+using Points = std::vector<std::array<float, 3>>;
+
+/// Methods that can be fitted to partial results.
+inline const std::string kServed =
+    "aabb,dop6,dop14,dop18,dop26,sphere,obb-pca,obb-dito14,obb-min,obb-yaw,cylinder,capsule,ellipsoid,hull,"
+    "best";
+
+inline std::string path_of(const std::string& folder, std::size_t number) {
+  return folder + '/' + std::string(number < 10 ? "0" : "") + std::to_string(number) + ".pcd";
+}
+
+class Tiled : public PcdBv {
+ protected:
+  /// In the unit ball and beyond, one in a hundred not finite.
+  static Points gaussian(std::size_t count, unsigned seed) {
+    std::mt19937 random(seed);
+    Points points(count);
+    const auto even = [&] { return static_cast<float>(random() % 65536) / 65536.0F - 0.5F; };
+    for (auto& p : points) {
+      for (float& c : p)
+        c = even() + even() + even();
+    }
+    for (std::size_t i = 50; i < count; i += 100)
+      points[i][i % 3] = std::numeric_limits<float>::quiet_NaN();
+    return points;
+  }
+
+  std::string binary(const std::string& name, const Points& points) const {
+    const std::string_view bytes(reinterpret_cast<const char*>(points.data()), points.size() * 12);
+    return file(name, header(points.size(), "binary") + std::string(bytes));
+  }
+
+  std::string text(const std::string& name, const Points& points) const {
+    std::string rows = header(points.size());
+    for (const auto& p : points) {
+      for (const float c : p) {
+        char digits[32];
+        const auto end = std::to_chars(digits, digits + sizeof digits, c).ptr;
+        rows.append(std::isnan(c) ? std::string("nan") : std::string(digits, end)) += ' ';
+      }
+      rows += '\n';
+    }
+    return file(name, rows);
+  }
+
+  /// Cut at random, some empty and one of one point, some of them as text: the folder.
+  std::string tiles(const std::string& folder, const Points& points, std::size_t count) const {
+    std::mt19937 random(static_cast<unsigned>(count));
+    std::vector<std::size_t> cuts{0, points.size()};
+    while (cuts.size() < count + 1)
+      cuts.push_back(random() % (points.size() + 1));
+    if (count > 4) cuts[2] = cuts[3];
+    if (count > 4) cuts[4] = std::min(points.size(), cuts[3] + 1);
+    std::sort(cuts.begin(), cuts.end());
+    std::filesystem::create_directories(at(folder));
+    for (std::size_t i = 0; i < count; ++i) {
+      const Points part(points.begin() + static_cast<std::ptrdiff_t>(cuts[i]),
+                        points.begin() + static_cast<std::ptrdiff_t>(cuts[i + 1]));
+      i % 3 == 2 ? text(path_of(folder, i), part) : binary(path_of(folder, i), part);
+    }
+    return at(folder);
+  }
+
+  /// What a report says of the cloud, whatever it is called.
+  static Json found(const Result& result) {
+    EXPECT_EQ(result.status, 0) << result.err;
+    Json report = result.json();
+    report.erase("file");
+    report.erase("parts");
+    return report;
+  }
+};
+
+}  // namespace pcl_bv::test

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What reading partial results does not call.
+#include <cstdlib>
+
+#include "pcl_bv/fitting/partial.h"
+#include "pcl_bv/kernels/moments.h"
+
+namespace pcl_bv {
+
+void Partial::merge(const Partial&) {
+  std::abort();
+}
+
+Moments block_moments(UsableIsa, const PointView&) {
+  std::abort();
+}
+
+}  // namespace pcl_bv

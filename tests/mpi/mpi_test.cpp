@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// pcd_bv over ranks, which share this machine's processors.
+
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include "tiles.h"
+
+namespace pcl_bv::test {
+namespace {
+
+using testing::HasSubstr;
+
+// The line of a file in /proc of which one variable or number is wanted.
+std::string proc(int process, const std::string& name) {
+  return read_file("/proc/" + std::to_string(process) + "/" + name);
+}
+
+// The process that is this rank of the run that `launcher` and its children are, once it is there.
+std::optional<int> process_of_rank(int launcher, int rank) {
+  std::istringstream children(proc(launcher, "task/" + std::to_string(launcher) + "/children"));
+  const std::string wanted = std::string("\0OMPI_COMM_WORLD_RANK=", 22) + std::to_string(rank) + '\0';
+  for (int child; children >> child;) {
+    if (proc(child, "comm") == "pcd_bv_mpi\n" && proc(child, "environ").find(wanted) != std::string::npos)
+      return child;
+    if (const auto found = process_of_rank(child, rank)) return found;
+  }
+  return std::nullopt;
+}
+
+class Mpi : public Tiled {
+ protected:
+  Mpi() {
+    for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"})
+      setenv(name, "1", 1);
+  }
+
+  Result ranks(int count, std::vector<std::string> arguments, Surroundings surroundings = {}) const {
+    arguments.insert(arguments.begin(), {"-k", "5", "120", PCL_BV_MPIEXEC, "--oversubscribe", "-n",
+                                         std::to_string(count), PCL_BV_BIN_DIR "/pcd_bv_mpi"});
+    surroundings.program = "/usr/bin/timeout";
+    return run(arguments, surroundings);
+  }
+
+  /// Kills this rank once it has worked a while: it would for a minute and more.
+  Result ranks_of_which_one_is_killed(int rank, std::vector<std::string> arguments) const {
+    Surroundings surroundings;
+    surroundings.meanwhile = [rank](int launcher) {
+      std::optional<int> process;
+      for (int i = 0; i < 600 && !process; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        process = process_of_rank(launcher, rank);
+      }
+      std::this_thread::sleep_for(std::chrono::seconds(2));
+      ASSERT_TRUE(process.has_value());
+      kill(*process, SIGKILL);
+    };
+    return ranks(3, std::move(arguments), surroundings);
+  }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(at("")), {}));
+  }
+};
+
+TEST_F(Mpi, HasTheBitsOfOneProcessForEveryMethodAndNumberOfRanks) {
+  const std::string folder = tiles("tiles", gaussian(150'000, 1), 20);
+  const std::vector<std::string> options{"--together",    "--format", "jsonl",   "--volume",
+                                         "all,hull,best", "--check",  "--range", "0.1:1.2",
+                                         "--origin",      "auto",     folder};
+  const Result expected = run(options);
+  ASSERT_EQ(expected.status, 0) << expected.err;
+  for (const int count : {1, 2, 3, 4, 8}) {
+    const Result result = ranks(count, options);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(result.out == expected.out) << count;
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST_F(Mpi, CutsOneFileIntoRanges) {
+  const std::string whole = binary("whole.pcd", gaussian(200'000, 2));
+  const Result expected = run({"--together", "--format", "jsonl", "--volume", kServed, whole});
+  const Result result = ranks(4, {"--together", "--format", "jsonl", "--volume", kServed, whole});
+  EXPECT_TRUE(result.out == expected.out) << result.err;
+}
+
+TEST_F(Mpi, OfFewPointsAndOfNoneIsAsOneProcess) {
+  for (const std::size_t size : {0UL, 1UL, 700UL, 4200UL}) {
+    const std::string folder = tiles("tiles" + std::to_string(size), gaussian(size, 3), 6);
+    const std::vector<std::string> options{"--together", "--format", "jsonl", "--volume",
+                                           "all,hull",   "--check",  folder};
+    const Result result = ranks(3, options);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(result.out == run(options).out) << size;
+  }
+}
+
+TEST_F(Mpi, FindsTheSmallestSphereInFewRounds) {
+  const std::string whole = binary("whole.pcd", gaussian(100'000, 4));
+  const Result result = ranks(2, {"--together", "--timings", "--volume", "sphere", whole});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::size_t end = result.err.find(" rounds");
+  ASSERT_NE(end, std::string::npos) << result.err;
+  const int rounds = std::stoi(result.err.substr(result.err.rfind(' ', end - 1) + 1));
+  EXPECT_GE(rounds, 1);
+  EXPECT_LE(rounds, 5);
+}
+
+TEST_F(Mpi, LeavesOutAnInputThatFailsOnOneRankAndNamesItOnce) {
+  const std::string folder = tiles("tiles", gaussian(60'000, 5), 8);
+  const Json expected = run({"--together", "--format", "jsonl", "--volume", "all", folder}).json();
+  file("tiles/99.pcd", "no cloud");
+  file("tiles/00a.pcd", header(100) + "1 2 3\n1 x 3\n");  // its header is good
+  const std::vector<std::string> options{"--together", "--format", "jsonl", "--volume", "all", folder};
+  for (const int count : {2, 4}) {
+    const Result result = ranks(count, options);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.json()["clusters"], expected["clusters"]);
+    EXPECT_EQ(result.json()["parts"], 8);
+    for (const char* name : {"tiles/99.pcd: ", "tiles/00a.pcd: "}) {
+      EXPECT_THAT(result.err, HasSubstr(name));
+      EXPECT_EQ(result.err.find(name), result.err.rfind(name));
+    }
+  }
+  const Result nothing = ranks(2, {"--together", "--format", "jsonl", at("nowhere.pcd")});
+  EXPECT_EQ(nothing.status, 1);
+  EXPECT_EQ(nothing.json()["error"], "none of the inputs could be read");
+}
+
+TEST_F(Mpi, DealsOutInputsAndWritesResultsInTheirOrder) {
+  const std::string folder = tiles("tiles", gaussian(120'000, 6), 30);
+  file("tiles/15a.pcd", "no cloud");
+  const std::vector<std::string> options{"--format", "json", "--volume", "all", "--check", folder};
+  const Result expected = run(options);
+  ASSERT_EQ(expected.status, 1);
+  for (const int count : {1, 2, 5}) {
+    const Result result = ranks(count, options);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(result.out == expected.out) << count;
+    EXPECT_THAT(result.err, HasSubstr("pcd_bv_mpi: " + at("tiles/15a.pcd") + ": "));
+    EXPECT_THAT(result.err, HasSubstr("31 files: 30 done, 1 failed, 120000 points"));
+  }
+  const Result files = ranks(3, {"--mesh", at("meshes"), "--labels", at("labels"), "--output", at("o.json"),
+                                 "--format", "json", "--volume", "all", "--cluster", "0.2", folder});
+  EXPECT_EQ(files.status, 1);
+  EXPECT_TRUE(std::filesystem::exists(at("labels/29.pcd")));
+  EXPECT_EQ(Json::parse(read_file(at("o.json"))).size(), 31U);
+}
+
+TEST_F(Mpi, SaysWrongUseOnceAndEndsWithStatusTwo) {
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--volume", "cube", "x.pcd"},
+                                                {"--partial", "p", "x.pcd"},
+                                                {},
+                                                {"--together", "--info", "x.pcd"},
+                                                {"--output", at("x.pcd"), at("x.pcd")}}) {
+    const Result result = ranks(3, wrong);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("pcd_bv_mpi: "));
+    EXPECT_EQ(result.err.find("pcd_bv_mpi: "), result.err.rfind("pcd_bv_mpi: "));
+  }
+  EXPECT_THAT(ranks(2, {"--version"}).out, testing::StartsWith("pcd_bv_mpi "));
+}
+
+TEST_F(Mpi, EndsWithALineAndWritesNothingWhenARankIsKilled) {
+  const std::string endless = "synth:surface:3000000";
+  for (const int rank : {0, 1}) {
+    const Result result = ranks_of_which_one_is_killed(
+        rank, {"--together", "--volume", "all", "--check", "--format", "json", "--output", at("o.json"),
+               endless, endless, endless, endless, endless, endless, endless, endless});
+    EXPECT_NE(result.status, 0);
+    EXPECT_NE(result.status, 124) << "it had to be told to end";
+    EXPECT_THAT(result.err, HasSubstr("exited on signal 9 (Killed)"));
+    EXPECT_EQ(files(), 0U);
+  }
+}
+
+TEST_F(Mpi, KeepsWhatIsDoneWhenARankIsKilledAmongManyInputs) {
+  std::vector<std::string> arguments{
+      "--volume", "all",      "--check",    "--format",
+      "json",     "--output", at("o.json"), binary("first.pcd", gaussian(10, 7))};
+  arguments.insert(arguments.end(), 40, "synth:surface:3000000");
+  const Result result = ranks_of_which_one_is_killed(1, arguments);
+  EXPECT_NE(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("exited on signal 9 (Killed)"));
+  EXPECT_THAT(result.err, HasSubstr("pcd_bv_mpi: interrupted: "));
+  if (std::filesystem::exists(at("o.json"))) {
+    EXPECT_GE(Json::parse(read_file(at("o.json"))).size(), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv::test
