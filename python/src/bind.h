@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The parts of the module. Docstrings begin with a signature and a line "--", which inspect.signature() and help()
+// take for the function's own.
+#pragma once
+
+#include "precompiled.h"
+
+namespace pcl_bv::python {
+
+void bind_volumes(pybind11::module_& module);
+void bind_shapes(pybind11::module_& module);
+void bind_fit(pybind11::module_& module);
+
+}  // namespace pcl_bv::python
