@@ -38,7 +38,8 @@ double number(py::handle value, const char* name, const NumberRange& range) {
 }
 
 std::size_t whole_number(py::handle value, const char* name, const NumberRange& range) {
-  if (PyBool_Check(value.ptr()) || PyIndex_Check(value.ptr()) == 0) refuse_type(name, "a whole number", value);
+  if (PyBool_Check(value.ptr()) || PyIndex_Check(value.ptr()) == 0)
+    refuse_type(name, "a whole number", value);
   const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   if (!whole) throw py::error_already_set();
   const std::size_t read = PyLong_AsSize_t(whole.ptr());
@@ -149,7 +150,8 @@ Eigen::Isometry3d isometry(py::handle matrix, const char* name) {
   constexpr double most = 1e-6;  // of the scale of a pose in float; volumes grow by what is not rigid
   if (!m.allFinite() || m.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || rotation.determinant() < 0 ||
       (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > most)
-    refuse_value(name, "a rotation (orthonormal to 1e-6) and a shift above 0 0 0 1 are wanted, not " + shown(matrix));
+    refuse_value(
+        name, "a rotation (orthonormal to 1e-6) and a shift above 0 0 0 1 are wanted, not " + shown(matrix));
   Eigen::Isometry3d motion;
   motion.matrix() = m;
   return motion;

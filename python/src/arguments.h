@@ -45,7 +45,8 @@ Eigen::Vector3d up_argument(py::handle value);
 /// The method of this name or alias.
 const Method* method_of(py::handle name);
 
-/// A name, or a list of names; "all" in it stands for methods_of_all(). `one`: whether it was a single name of one.
+/// A name, or a list of names; "all" in it stands for methods_of_all(). `one`: whether it was a single name
+/// of one.
 std::vector<const Method*> methods_of(py::handle names, bool& one);
 
 /// 1: the calling thread; 0: all processors.

@@ -90,15 +90,16 @@ Field field_of(const py::dtype& record, const char* field, const char* name) {
 /// Of records in one row.
 PointArray records_of(const py::array& array, const char* name) {
   const py::dtype record = array.dtype();
-  const Field x = field_of(record, "x", name), y = field_of(record, "y", name), z = field_of(record, "z", name);
+  const Field x = field_of(record, "x", name), y = field_of(record, "y", name),
+              z = field_of(record, "z", name);
   for (const Field* field : {&x, &y, &z}) {
     if (!is_real(field->type)) refuse_numbers(name, field->type);
   }
   const py::ssize_t size = x.type.itemsize();
   const auto count = static_cast<std::size_t>(array.shape(0));
   const py::ssize_t stride = count > 1 ? array.strides(0) : record.itemsize();
-  const bool side_by_side = y.type.itemsize() == size && z.type.itemsize() == size && y.offset == x.offset + size &&
-                            z.offset == y.offset + size;
+  const bool side_by_side = y.type.itemsize() == size && z.type.itemsize() == size &&
+                            y.offset == x.offset + size && z.offset == y.offset + size;
   const bool native = is_native(x.type) && is_native(y.type) && is_native(z.type);
   if (!side_by_side || !native || stride < 3 * size) {
     const bool wide = size == 8 || y.type.itemsize() == 8 || z.type.itemsize() == 8;
@@ -123,8 +124,8 @@ PointArray records_of(const py::array& array, const char* name) {
 }  // namespace
 
 PointArray points_of(py::handle object, const char* name) {
-  py::array array = py::isinstance<py::array>(object) ? py::reinterpret_borrow<py::array>(object)
-                                                      : from_any(object, name);
+  py::array array =
+      py::isinstance<py::array>(object) ? py::reinterpret_borrow<py::array>(object) : from_any(object, name);
   const py::dtype type = array.dtype();
   if (type.has_fields())
     return records_of(array.ndim() == 1 ? array : py::array(array.attr("reshape")(-1)), name);

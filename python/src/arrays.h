@@ -17,11 +17,11 @@ struct PointArray {
   PointView view;
 };
 
-/// Points of an array (N, 3 or more) of float32 or float64 whose x, y, z are side by side, in rows any positive
-/// distance apart; (H, W, 3 or more), as its rows; or of records with the fields x, y and z, whatever their shape.
-/// Copied are Fortran's order, backward and overlapping rows, x, y, z that are not side by side, and bytes of the
-/// other order. Other objects become arrays first, as numpy.asarray() makes them. TypeError for other numbers,
-/// ValueError for other shapes.
+/// Points of an array (N, 3 or more) of float32 or float64 whose x, y, z are side by side, in rows any
+/// positive distance apart; (H, W, 3 or more), as its rows; or of records with the fields x, y and z,
+/// whatever their shape. Copied are Fortran's order, backward and overlapping rows, x, y, z that are not side
+/// by side, and bytes of the other order. Other objects become arrays first, as numpy.asarray() makes them.
+/// TypeError for other numbers, ValueError for other shapes.
 PointArray points_of(py::handle object, const char* name = "points");
 
 /// Numbers of any shape, as doubles in C's order.

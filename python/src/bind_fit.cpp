@@ -39,8 +39,8 @@ py::object python_of(Fitted* fitted, const std::vector<const Method*>& among, bo
   return list;
 }
 
-py::object fit_labelled(const PointArray& points, const std::vector<const Method*>& among, bool one, py::handle labels,
-                        const Execution& execution, const MethodOptions& options) {
+py::object fit_labelled(const PointArray& points, const std::vector<const Method*>& among, bool one,
+                        py::handle labels, const Execution& execution, const MethodOptions& options) {
   const LabelGroups groups(labels, points.view);
   std::vector<Fitted> fitted(groups.size() * among.size());
   {
@@ -95,7 +95,8 @@ py::object verify_volume(py::handle volume, py::handle points, py::handle thread
   return py::cast(found);
 }
 
-constexpr const char* fit_doc = R"(fit(points, method, labels=None, *, up='z', growth='deferred', threads=1, isa=None)
+constexpr const char* fit_doc =
+    R"(fit(points, method, labels=None, *, up='z', growth='deferred', threads=1, isa=None)
 --
 
 Fits a volume around points: each finite one is inside, by exact arithmetic.
@@ -137,6 +138,14 @@ a face or surface, in the points' unit. Raises as fit().
 Verification(checked=1000, outside=0, worst=0)
 )";
 
+constexpr const char* verification_doc = R"(What verify() found.
+
+>>> import pcl_bv
+>>> found = pcl_bv.verify(pcl_bv.Sphere([0, 0, 0], 1), [[0., 0, 1], [0, 0, 3]])
+>>> found.checked, found.outside, found.worst
+(2, 1, 2.0)
+)";
+
 constexpr const char* methods_doc = R"(methods()
 --
 
@@ -164,16 +173,19 @@ void bind_fit(py::module_& module) {
   module.def("fit", fit, "points"_a, "method"_a, "labels"_a = py::none(), py::kw_only(), "up"_a = "z",
              "growth"_a = "deferred", "threads"_a = 1, "isa"_a = py::none(), fit_doc);
   module.def("methods", all_methods, methods_doc);
-  py::class_<VerificationObject>(module, "Verification", R"(What verify() found: checked, outside, worst.)")
-      .def_property_readonly("checked", [](const VerificationObject& v) { return v.checked; }, "Finite points looked at.")
-      .def_property_readonly("outside", [](const VerificationObject& v) { return v.outside; },
-                             "Of them, those outside by exact arithmetic.")
-      .def_property_readonly("worst", [](const VerificationObject& v) { return v.worst; },
-                             "The greatest distance past a face or surface, in the points' unit; 0 if none.")
+  py::class_<VerificationObject>(module, "Verification", verification_doc)
+      .def_property_readonly(
+          "checked", [](const VerificationObject& v) { return v.checked; }, "Finite points looked at.")
+      .def_property_readonly(
+          "outside", [](const VerificationObject& v) { return v.outside; },
+          "Of them, those outside by exact arithmetic.")
+      .def_property_readonly(
+          "worst", [](const VerificationObject& v) { return v.worst; },
+          "The greatest distance past a face or surface, in the points' unit; 0 if none.")
       .def("__repr__", [](const VerificationObject& v) {
         char text[160];
-        std::snprintf(text, sizeof text, "Verification(checked=%zu, outside=%zu, worst=%.6g)", v.checked, v.outside,
-                      v.worst);
+        std::snprintf(text, sizeof text, "Verification(checked=%zu, outside=%zu, worst=%.6g)", v.checked,
+                      v.outside, v.worst);
         return std::string(text);
       });
   module.def("verify", verify_volume, "volume"_a, "points"_a, py::kw_only(), "threads"_a = 1, verify_doc);

@@ -13,7 +13,7 @@ namespace {
 using namespace py::literals;
 
 template <typename Shape>
-ShapeObject<Shape> object_of(Shape&& shape) {
+ShapeObject<Shape> object_of(Shape shape) {
   ShapeObject<Shape> object;
   object.value = std::move(shape);
   return object;
@@ -21,7 +21,8 @@ ShapeObject<Shape> object_of(Shape&& shape) {
 
 /// The class, with pickling by what its constructor takes: `make` is that constructor.
 template <typename Shape, typename Make>
-py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const char* name, const char* doc, Make make) {
+py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const char* name, const char* doc,
+                                                  Make make) {
   py::class_<ShapeObject<Shape>, VolumeObject> type(module, name, doc);
   type.def(py::pickle(
       [](const ShapeObject<Shape>& v) { return py::make_tuple(arguments_of(v.shape()), fit_state(v)); },
@@ -44,7 +45,8 @@ void property(Class& type, const char* name, std::size_t i, const char* doc) {
 template <typename Shape, typename Class>
 void bind_merging(Class& type) {
   type.def(
-      "overlaps", [](const ShapeObject<Shape>& a, const ShapeObject<Shape>& b) { return a.shape().overlaps(b.shape()); },
+      "overlaps",
+      [](const ShapeObject<Shape>& a, const ShapeObject<Shape>& b) { return a.shape().overlaps(b.shape()); },
       "other"_a, py::pos_only(), overlaps_doc);
   type.def(
       "merge",
@@ -76,7 +78,8 @@ void bind_extend(Class& type) {
 
 void bind_boxes(py::module_& module) {
   auto aabb = bind<Aabb>(module, "Aabb", aabb_doc, [](const py::tuple& a) { return make_aabb(a[0], a[1]); });
-  aabb.def(py::init([](py::handle min, py::handle max) { return object_of(make_aabb(min, max)); }), "min"_a, "max"_a);
+  aabb.def(py::init([](py::handle min, py::handle max) { return object_of(make_aabb(min, max)); }), "min"_a,
+           "max"_a, init_doc(aabb_doc).c_str());
   property<Aabb>(aabb, "min", 0, "The lower corner.");
   property<Aabb>(aabb, "max", 1, "The upper corner.");
   bind_merging<Aabb>(aabb);
@@ -86,12 +89,14 @@ void bind_boxes(py::module_& module) {
   obb.def(py::init([](py::handle center, py::handle axes, py::handle half_extents) {
             return object_of(make_obb(center, axes, half_extents));
           }),
-          "center"_a, "axes"_a, "half_extents"_a);
+          "center"_a, "axes"_a, "half_extents"_a, init_doc(obb_doc).c_str());
   property<Obb>(obb, "axes", 1, "(3, 3): axes[i] is a unit vector.");
   property<Obb>(obb, "half_extents", 2, "Half the size along each axis.");
   obb.def_property_readonly(
       "quaternion",
-      [](const ShapeObject<Obb>& v) { return array_of(Eigen::MatrixXd(v.shape().quaternion().coeffs())).attr("ravel")(); },
+      [](const ShapeObject<Obb>& v) {
+        return array_of(Eigen::MatrixXd(v.shape().quaternion().coeffs())).attr("ravel")();
+      },
       "x, y, z, w of the rotation from the box's axes to the frame.");
   obb.def_property_readonly(
       "pose", [](const ShapeObject<Obb>& v) { return array_of(Eigen::MatrixXd(v.shape().pose().matrix())); },
@@ -100,16 +105,18 @@ void bind_boxes(py::module_& module) {
 }
 
 void bind_slabs(py::module_& module) {
-  auto kdop = bind<Kdop>(module, "Kdop", kdop_doc, [](const py::tuple& a) { return make_kdop(a[0], a[1], a[2]); });
+  auto kdop =
+      bind<Kdop>(module, "Kdop", kdop_doc, [](const py::tuple& a) { return make_kdop(a[0], a[1], a[2]); });
   kdop.def(py::init([](py::handle directions, py::handle min, py::handle max) {
              return object_of(make_kdop(directions, min, max));
            }),
-           "directions"_a, "min"_a, "max"_a);
+           "directions"_a, "min"_a, "max"_a, init_doc(kdop_doc).c_str());
   property<Kdop>(kdop, "directions", 0, "(n, 3): those of the slabs, not of unit length.");
   property<Kdop>(kdop, "min", 1, "(n,): the least directions[i] . p of each slab.");
   property<Kdop>(kdop, "max", 2, "(n,): the greatest.");
   kdop.def(
-      "tightened", [](const ShapeObject<Kdop>& v) { return object_of(v.shape().tightened()); }, tightened_doc);
+      "tightened", [](const ShapeObject<Kdop>& v) { return object_of(v.shape().tightened()); },
+      tightened_doc);
   bind_merging<Kdop>(kdop);
   bind_extend<Kdop>(kdop);
 
@@ -118,17 +125,20 @@ void bind_slabs(py::module_& module) {
   hull.def(py::init([](py::handle vertices, py::handle faces, py::handle planes, py::handle rank) {
              return object_of(make_hull(vertices, faces, planes, rank));
            }),
-           "vertices"_a, "faces"_a, "planes"_a, "rank"_a = 3);
+           "vertices"_a, "faces"_a, "planes"_a, "rank"_a = 3, init_doc(hull_doc).c_str());
   property<Hull>(hull, "vertices", 0, "(V, 3): the extreme points.");
-  property<Hull>(hull, "faces", 1, "(F, 3): vertex numbers, counter-clockwise seen from outside; none if it is flat.");
+  property<Hull>(hull, "faces", 1,
+                 "(F, 3): vertex numbers, counter-clockwise seen from outside; none if it is flat.");
   property<Hull>(hull, "planes", 2, "(P, 4): nx, ny, nz, d with n . p <= d for each point p of the hull.");
   property<Hull>(hull, "rank", 3, "Dimensions that it spans, 0 to 3.");
 }
 
 void bind_round(py::module_& module) {
-  auto sphere = bind<Sphere>(module, "Sphere", sphere_doc, [](const py::tuple& a) { return make_sphere(a[0], a[1]); });
-  sphere.def(py::init([](py::handle center, py::handle radius) { return object_of(make_sphere(center, radius)); }),
-             "center"_a, "radius"_a);
+  auto sphere =
+      bind<Sphere>(module, "Sphere", sphere_doc, [](const py::tuple& a) { return make_sphere(a[0], a[1]); });
+  sphere.def(
+      py::init([](py::handle center, py::handle radius) { return object_of(make_sphere(center, radius)); }),
+      "center"_a, "radius"_a, init_doc(sphere_doc).c_str());
   property<Sphere>(sphere, "radius", 1, "-1 if it is empty.");
   bind_merging<Sphere>(sphere);
   bind_extend<Sphere>(sphere);
@@ -138,15 +148,17 @@ void bind_round(py::module_& module) {
   cylinder.def(py::init([](py::handle center, py::handle axis, py::handle radius, py::handle half_height) {
                  return object_of(make_cylinder(center, axis, radius, half_height));
                }),
-               "center"_a, "axis"_a, "radius"_a, "half_height"_a);
+               "center"_a, "axis"_a, "radius"_a, "half_height"_a, init_doc(cylinder_doc).c_str());
   property<Cylinder>(cylinder, "axis", 1, "A unit vector.");
   property<Cylinder>(cylinder, "radius", 2, "-1 if it is empty.");
   property<Cylinder>(cylinder, "half_height", 3, "Half the length along the axis.");
 
   auto capsule = bind<Capsule>(module, "Capsule", capsule_doc,
                                [](const py::tuple& a) { return make_capsule(a[0], a[1], a[2]); });
-  capsule.def(py::init([](py::handle a, py::handle b, py::handle radius) { return object_of(make_capsule(a, b, radius)); }),
-              "a"_a, "b"_a, "radius"_a);
+  capsule.def(py::init([](py::handle a, py::handle b, py::handle radius) {
+                return object_of(make_capsule(a, b, radius));
+              }),
+              "a"_a, "b"_a, "radius"_a, init_doc(capsule_doc).c_str());
   property<Capsule>(capsule, "a", 0, "One end of the segment.");
   property<Capsule>(capsule, "b", 1, "Its other end.");
   property<Capsule>(capsule, "radius", 2, "-1 if it is empty.");
@@ -156,7 +168,7 @@ void bind_round(py::module_& module) {
   ellipsoid.def(py::init([](py::handle center, py::handle axes, py::handle radii) {
                   return object_of(make_ellipsoid(center, axes, radii));
                 }),
-                "center"_a, "axes"_a, "radii"_a);
+                "center"_a, "axes"_a, "radii"_a, init_doc(ellipsoid_doc).c_str());
   property<Ellipsoid>(ellipsoid, "axes", 1, "(3, 3): axes[i] is a unit vector.");
   property<Ellipsoid>(ellipsoid, "radii", 2, "Along each axis.");
 }

@@ -70,7 +70,8 @@ py::tuple mesh_of(Self self) {
   }
   py::list faces(found.faces.size());
   for (std::size_t i = 0; i < found.faces.size(); ++i)
-    faces[i] = py::array_t<std::int32_t>(static_cast<py::ssize_t>(found.faces[i].size()), found.faces[i].data());
+    faces[i] =
+        py::array_t<std::int32_t>(static_cast<py::ssize_t>(found.faces[i].size()), found.faces[i].data());
   return py::make_tuple(array_of(found.vertices), std::move(faces));
 }
 
@@ -85,7 +86,8 @@ py::object fit_number(Self self, Number number) {
   return py::int_(number);
 }
 
-constexpr const char* volume_doc = R"(A volume: a closed set of points, in the frame and unit of the points it was fitted to.
+constexpr const char* volume_doc =
+    R"(A volume: a closed set of points, in the frame and unit of the points it was fitted to.
 
 No call changes one. Two are equal if they are of one class and have the same numbers, whatever fit gave them;
 they have no hash. Pickling keeps every bit. Arrays that they give are copies, and read-only.
@@ -93,9 +95,14 @@ they have no hash. Pickling keeps every bit. Arrays that they give are copies, a
 Of a fit, and None of volumes made otherwise: method, its name; status, 'ok', 'degenerate' (flat points),
 'no_valid_points' or 'failed', with its reason; used and dropped, numbers of points; fit_rank, how many
 dimensions the points span, 0 to 3.
+
+>>> import pcl_bv
+>>> box = pcl_bv.fit([[0., 0, 0], [1, 2, 0], [float('nan'), 0, 0]], 'aabb')
+>>> box.status, box.used, box.dropped, box.fit_rank, box.surface_area
+('degenerate', 2, 1, 1, 4.0)
 )";
 
-constexpr const char* contains_doc = R"(contains($self, points, /)
+constexpr const char* contains_doc = R"(contains(self, points, /)
 --
 
 Whether points are inside: bool for three numbers, else an array of bool, for arrays as fit() takes them.
@@ -109,7 +116,7 @@ True
 array([ True, False])
 )";
 
-constexpr const char* distance_doc = R"(distance($self, points, /)
+constexpr const char* distance_doc = R"(distance(self, points, /)
 --
 
 Distance to the volume, in the unit of the points: 0 inside, inf if it is empty, NaN for a NaN.
@@ -119,7 +126,7 @@ Distance to the volume, in the unit of the points: 0 inside, inf if it is empty,
 3.0
 )";
 
-constexpr const char* support_doc = R"(support($self, direction, /)
+constexpr const char* support_doc = R"(support(self, direction, /)
 --
 
 A point of the volume farthest along a direction of any length. NaN if it is empty.
@@ -129,7 +136,7 @@ A point of the volume farthest along a direction of any length. NaN if it is emp
 array([1., 0., 3.])
 )";
 
-constexpr const char* intersect_doc = R"(intersect($self, origin, direction, /)
+constexpr const char* intersect_doc = R"(intersect(self, origin, direction, /)
 --
 
 Where the ray origin + t direction is inside: (enter, exit) with 0 <= enter <= exit, or None.
@@ -141,7 +148,7 @@ Encloses the exact interval. A direction of zero tests the origin.
 True
 )";
 
-constexpr const char* aabb_doc = R"(aabb($self, /)
+constexpr const char* aabb_doc = R"(aabb(self, /)
 --
 
 An axis-aligned box around the volume, by exact arithmetic.
@@ -151,7 +158,7 @@ An axis-aligned box around the volume, by exact arithmetic.
 Aabb(min=[-2, -2, -2], max=[2, 2, 2])
 )";
 
-constexpr const char* mesh_doc = R"(mesh($self, /)
+constexpr const char* mesh_doc = R"(mesh(self, /)
 --
 
 Its surface for drawing: vertices (V, 3), and a list of arrays of vertex numbers, one for each face.
@@ -164,7 +171,7 @@ Faces are convex and counter-clockwise seen from outside; a flat volume may have
 ((8, 3), 6, 4)
 )";
 
-constexpr const char* transformed_doc = R"(transformed($self, matrix, /)
+constexpr const char* transformed_doc = R"(transformed(self, matrix, /)
 --
 
 The moved volume, as far as its class can hold it: the image of each point is inside, by exact arithmetic.
@@ -183,23 +190,34 @@ Aabb(min=[10, 0, 0], max=[11, 1, 1])
 void bind_volumes(py::module_& module) {
   py::class_<VolumeObject>(module, "Volume", volume_doc)
       .def_property_readonly(
-          "shape", [](Self v) { return std::string(shape_name(v.value)); }, "Its name in files: 'aabb', 'hull', ...")
-      .def_property_readonly("empty", [](Self v) { return empty(v.value); }, "Whether it holds no point.")
-      .def_property_readonly("volume", [](Self v) { return volume(v.value); }, "In cubed units; 0 if empty or flat.")
-      .def_property_readonly("surface_area", [](Self v) { return surface_area(v.value); },
-                             "In squared units; both sides of flat ones count.")
-      .def_property_readonly("center", [](Self v) { return array_of(center(v.value)); },
-                             "The centre of mass, of capsules the middle. NaN if empty.")
-      .def_property_readonly("method", [](Self v) { return fit_text(v, v.method == nullptr ? "" : v.method->name); },
-                             "The name of the method that it was fitted by.")
-      .def_property_readonly("status", [](Self v) { return fit_text(v, status_name(v.fit.status)); },
-                             "'ok', 'degenerate', 'no_valid_points' or 'failed'.")
-      .def_property_readonly("reason", [](Self v) { return fit_text(v, v.fit.reason); }, "Why the fit failed.")
-      .def_property_readonly("used", [](Self v) { return fit_number(v, v.fit.used); }, "Points enclosed.")
-      .def_property_readonly("dropped", [](Self v) { return fit_number(v, v.fit.dropped); },
-                             "Points with a coordinate that is not finite (of float64: or beyond 1e100).")
-      .def_property_readonly("fit_rank", [](Self v) { return fit_number(v, v.fit.rank); },
-                             "How many dimensions the points span, to 2^-36 of their extent.")
+          "shape", [](Self v) { return std::string(shape_name(v.value)); },
+          "Its name in files: 'aabb', 'hull', ...")
+      .def_property_readonly(
+          "empty", [](Self v) { return empty(v.value); }, "Whether it holds no point.")
+      .def_property_readonly(
+          "volume", [](Self v) { return volume(v.value); }, "In cubed units; 0 if empty or flat.")
+      .def_property_readonly(
+          "surface_area", [](Self v) { return surface_area(v.value); },
+          "In squared units; both sides of flat ones count.")
+      .def_property_readonly(
+          "center", [](Self v) { return array_of(center(v.value)); },
+          "The centre of mass, of capsules the middle. NaN if empty.")
+      .def_property_readonly(
+          "method", [](Self v) { return fit_text(v, v.method == nullptr ? "" : v.method->name); },
+          "The name of the method that it was fitted by.")
+      .def_property_readonly(
+          "status", [](Self v) { return fit_text(v, status_name(v.fit.status)); },
+          "'ok', 'degenerate', 'no_valid_points' or 'failed'.")
+      .def_property_readonly(
+          "reason", [](Self v) { return fit_text(v, v.fit.reason); }, "Why the fit failed.")
+      .def_property_readonly(
+          "used", [](Self v) { return fit_number(v, v.fit.used); }, "Points enclosed.")
+      .def_property_readonly(
+          "dropped", [](Self v) { return fit_number(v, v.fit.dropped); },
+          "Points with a coordinate that is not finite (of float64: or beyond 1e100).")
+      .def_property_readonly(
+          "fit_rank", [](Self v) { return fit_number(v, v.fit.rank); },
+          "How many dimensions the points span, to 2^-36 of their extent.")
       .def("contains", contains_points, "points"_a, py::pos_only(), contains_doc)
       .def("distance", distances, "points"_a, py::pos_only(), distance_doc)
       .def(
@@ -207,13 +225,17 @@ void bind_volumes(py::module_& module) {
           [](Self v, py::handle along) { return array_of(support(v.value, vector3(along, "direction"))); },
           "direction"_a, py::pos_only(), support_doc)
       .def("intersect", ray, "origin"_a, "direction"_a, py::pos_only(), intersect_doc)
-      .def("aabb", [](Self v) { return to_python(aabb(v.value)); }, aabb_doc)
+      .def(
+          "aabb", [](Self v) { return to_python(aabb(v.value)); }, aabb_doc)
       .def("mesh", mesh_of, mesh_doc)
       .def(
           "transformed",
-          [](Self v, py::handle matrix) { return to_python(transformed(v.value, isometry(matrix, "matrix"))); },
+          [](Self v, py::handle matrix) {
+            return to_python(transformed(v.value, isometry(matrix, "matrix")));
+          },
           "matrix"_a, py::pos_only(), transformed_doc)
-      .def("__eq__", [](Self a, Self b) { return a.value == b.value; }, py::is_operator())
+      .def(
+          "__eq__", [](Self a, Self b) { return a.value == b.value; }, py::is_operator())
       .def("__repr__", repr_of);
 }
 

@@ -13,7 +13,8 @@ LabelGroups::LabelGroups(py::handle labels, const PointView& points) {
   const py::object given = py::hasattr(labels, "labels") ? py::object(labels.attr("labels"))
                                                          : py::reinterpret_borrow<py::object>(labels);
   std::vector<std::int64_t> of = integers(given, "labels", points.count);
-  const bool as_written = py::isinstance<py::array>(given) && given.attr("dtype").attr("char").cast<std::string>() == "I";
+  const bool as_written =
+      py::isinstance<py::array>(given) && given.attr("dtype").attr("char").cast<std::string>() == "I";
   if (as_written) {
     for (std::int64_t& label : of)
       label = static_cast<std::int32_t>(label);

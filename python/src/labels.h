@@ -11,8 +11,8 @@ namespace pcl_bv::python {
 
 class LabelGroups {
  public:
-  /// `labels`: an integer for each point, or Clusters. Negative ones are no label, nor are those of uint32 that are
-  /// such as int32: what pcd_bv's labels call ground and none.
+  /// `labels`: an integer for each point, or Clusters. Negative ones are no label, nor are those of uint32
+  /// that are such as int32: what pcd_bv's labels call ground and none.
   LabelGroups(py::handle labels, const PointView& points);
 
   std::size_t size() const { return views_.size(); }

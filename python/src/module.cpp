@@ -26,16 +26,23 @@ void translate(std::exception_ptr error) {
 }
 
 }  // namespace
+
+std::string init_doc(std::string_view class_doc) {
+  const std::size_t begin = class_doc.find('(') + 1;
+  return "__init__(self, " + std::string(class_doc.substr(begin, class_doc.find('\n') - begin)) + "\n--\n\n";
+}
+
 }  // namespace pcl_bv::python
 
 PYBIND11_MODULE(_pcl_bv, module) {
+  using namespace pcl_bv::python;
   pybind11::options options;
   options.disable_function_signatures();
-  pybind11::register_local_exception_translator(pcl_bv::python::translate);
+  pybind11::register_local_exception_translator(translate);
   module.attr("__version__") = PCL_BV_VERSION;
-  pcl_bv::python::bind_volumes(module);
-  pcl_bv::python::bind_shapes(module);
-  pcl_bv::python::bind_fit(module);
+  for (const auto bind : {bind_volumes, bind_shapes, bind_fit, bind_partial, bind_segmentation, bind_result,
+                          bind_pipeline, bind_picture, bind_read})
+    bind(module);
   pybind11::list sets;
   for (const pcl_bv::Isa isa : pcl_bv::usable_isas())
     sets.append(std::string(pcl_bv::isa_name(isa)));

@@ -56,7 +56,8 @@ SlabVector slabs(py::handle value, const char* name) {
 /// The built-in one of these directions, if there is one.
 std::shared_ptr<const KdopSet> set_of(std::vector<Eigen::Vector3d> directions) {
   const auto own = std::make_shared<const KdopSet>(std::move(directions));
-  for (const DirectionSet set : {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18, DirectionSet::dop26}) {
+  for (const DirectionSet set :
+       {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18, DirectionSet::dop26}) {
     if (*KdopSet::of(set) == *own) return KdopSet::of(set);
   }
   return own;
@@ -77,7 +78,8 @@ Sphere make_sphere(py::handle center, py::handle radius) {
   return {vector(center, "center"), real(radius, "radius")};
 }
 Cylinder make_cylinder(py::handle center, py::handle axis, py::handle radius, py::handle half_height) {
-  return {vector(center, "center"), vector(axis, "axis"), real(radius, "radius"), real(half_height, "half_height")};
+  return {vector(center, "center"), vector(axis, "axis"), real(radius, "radius"),
+          real(half_height, "half_height")};
 }
 Capsule make_capsule(py::handle a, py::handle b, py::handle radius) {
   return {vector(a, "a"), vector(b, "b"), real(radius, "radius")};
@@ -90,8 +92,9 @@ Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::han
   std::vector<Hull::Triangle> triangles;
   for (py::ssize_t i = 0; i < corners.size(); i += 3) {
     Hull::Triangle& triangle = triangles.emplace_back();
-    std::transform(corners.data() + i, corners.data() + i + 3, triangle.begin(),
-                   [](double number) { return static_cast<std::int32_t>(std::clamp(number, -1.0, 2147483647.0)); });
+    std::transform(corners.data() + i, corners.data() + i + 3, triangle.begin(), [](double number) {
+      return static_cast<std::int32_t>(std::clamp(number, -1.0, 2147483647.0));
+    });
   }
   std::vector<HullPlane> half_spaces;
   for (py::ssize_t i = 0; i < sides.size(); i += 4)

@@ -101,7 +101,7 @@ A convex hull: n . p <= d for each plane nx, ny, nz, d. Vertices and faces are w
 ((4, 3), (4, 3), (4, 4), 3)
 )";
 
-inline constexpr const char* overlaps_doc = R"(overlaps($self, other, /)
+inline constexpr const char* overlaps_doc = R"(overlaps(self, other, /)
 --
 
 Whether the two, of one class, have a point in common; errs only towards True. False if either is empty.
@@ -111,7 +111,7 @@ Whether the two, of one class, have a point in common; errs only towards True. F
 True
 )";
 
-inline constexpr const char* merge_doc = R"(merge($self, other, /)
+inline constexpr const char* merge_doc = R"(merge(self, other, /)
 --
 
 A new volume around both, of the same class; the other one, if one is empty. Neither changes.
@@ -123,7 +123,7 @@ Boxes and k-DOPs are exact, spheres grow by their rounding, oriented boxes are n
 Aabb(min=[0, 0, 0], max=[3, 1, 1])
 )";
 
-inline constexpr const char* extend_doc = R"(extend($self, points, /)
+inline constexpr const char* extend_doc = R"(extend(self, points, /)
 --
 
 A new volume that holds the points, too: three numbers, or (N, 3). Those that are not finite are ignored.
@@ -133,7 +133,7 @@ A new volume that holds the points, too: three numbers, or (N, 3). Those that ar
 Aabb(min=[0, 0, 0], max=[5, 1, 1])
 )";
 
-inline constexpr const char* tightened_doc = R"(tightened($self, /)
+inline constexpr const char* tightened_doc = R"(tightened(self, /)
 --
 
 The same k-DOP with each slab moved in to where it reaches, as after merging or moving.

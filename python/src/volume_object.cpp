@@ -64,8 +64,8 @@ struct Said {
     append(text, "radii", ellipsoid.radii());
   }
   void operator()(const Hull& hull) {
-    text = "vertices=" + std::to_string(hull.vertices().size()) + ", faces=" +
-           std::to_string(hull.triangles().size());
+    text = "vertices=" + std::to_string(hull.vertices().size()) +
+           ", faces=" + std::to_string(hull.triangles().size());
     append(text, "volume", hull.volume());
   }
 };
@@ -162,8 +162,9 @@ py::tuple arguments_of(const Hull& hull) {
 py::tuple fit_state(const VolumeObject& volume) {
   if (volume.method == nullptr) return py::tuple();
   const EstimationResult& fit = volume.fit;
-  return py::make_tuple(py::str(volume.method->name.data(), volume.method->name.size()), static_cast<int>(fit.status),
-                        fit.rank, fit.used, fit.dropped, py::str(fit.reason.data(), fit.reason.size()));
+  return py::make_tuple(py::str(volume.method->name.data(), volume.method->name.size()),
+                        static_cast<int>(fit.status), fit.rank, fit.used, fit.dropped,
+                        py::str(fit.reason.data(), fit.reason.size()));
 }
 
 void set_fit_state(const py::tuple& state, VolumeObject& volume) {

@@ -28,7 +28,8 @@ py::object to_python(AnyVolume&& volume, const Method* method = nullptr, const E
 /// The volume of an argument.
 const VolumeObject& volume_of(py::handle value, const char* name);
 
-/// The volumes of a list, of a dict's values (each a volume or a list), or one alone; each with its label or number.
+/// The volumes of a list, of a dict's values (each a volume or a list), or one alone; each with its label or
+/// number.
 struct NumberedVolume {
   std::int64_t number;
   const VolumeObject* volume;

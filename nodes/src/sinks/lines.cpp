@@ -11,25 +11,13 @@
 namespace pcl_bv {
 namespace {
 
-FrameReport to_report(const Frame& frame, const std::string& error) {
+FrameReport report_of_lost(const Frame& frame, const std::string& error) {
   FrameReport report;
   report.seq = frame.header.seq;
   report.stamp_ns = frame.header.stamp_ns;
   report.frame_id = frame.header.frame_id;
   report.file = frame.file;
   report.error = error;
-  return report;
-}
-
-FrameReport to_report(const Frame& frame, const FrameResult& result) {
-  FrameReport report = to_report(frame, "");
-  report.error.reset();
-  report.points = result.points;
-  report.counts = result.counts;
-  report.clusters = entries_of(result);
-  const StageTimes& ms = result.ms;
-  report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},
-               {"fit", ms.fit},       {"track", ms.track},   {"total", ms.total}};
   return report;
 }
 
@@ -59,10 +47,10 @@ class LineSink : public FrameSink {
   LineSink(const SinkDescription& description, std::string heading, std::string (*lines)(const FrameReport&))
       : heading_(std::move(heading)), lines_(lines), file_(description.place) {}
   void write(const Frame& frame, const FrameResult& result) override {
-    write(lines_(to_report(frame, result)));
+    write(lines_(report_of(frame, result)));
   }
   void write_lost(const Frame& frame, const std::string& reason) override {
-    write(lines_(to_report(frame, reason)));
+    write(lines_(report_of_lost(frame, reason)));
   }
   void close() override {
     write("");
