@@ -99,7 +99,7 @@ the whole cloud, but for the last bits of sphere-exact and obb-yaw of more than 
 True
 )";
 
-constexpr const char* merge_doc = R"(merge(self, other, /)
+constexpr const char* partial_merge_doc = R"(merge(self, other, /)
 --
 
 Of the points of both; also self + other. Neither changes.
@@ -111,7 +111,7 @@ Raises ValueError if a point is in both, or if one has float32 and the other flo
 2
 )";
 
-constexpr const char* fit_doc = R"(fit(self, method, *, up='z', threads=1)
+constexpr const char* partial_fit_doc = R"(fit(self, method, *, up='z', threads=1)
 --
 
 The volume around all points, or a list for a list of methods, as of pcl_bv.fit().
@@ -174,9 +174,9 @@ void bind_partial(py::module_& module) {
   py::class_<Partial>(module, "Partial", partial_doc)
       .def(py::init(&make_partial), "points"_a = py::none(), "first"_a = 0, py::kw_only(), "threads"_a = 1,
            init_doc(partial_doc).c_str())
-      .def("merge", merged, "other"_a, py::pos_only(), merge_doc)
+      .def("merge", merged, "other"_a, py::pos_only(), partial_merge_doc)
       .def("__add__", merged, py::is_operator())
-      .def("fit", fit_partial, "method"_a, py::kw_only(), "up"_a = "z", "threads"_a = 1, fit_doc)
+      .def("fit", fit_partial, "method"_a, py::kw_only(), "up"_a = "z", "threads"_a = 1, partial_fit_doc)
       .def("to_bytes", bytes_of, to_bytes_doc)
       .def_static("from_bytes", from_bytes, "bytes"_a, py::pos_only(), from_bytes_doc)
       .def("__len__", &Partial::size)

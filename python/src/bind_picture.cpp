@@ -107,7 +107,7 @@ std::string csv_text(const Reported& found) {
   return text;
 }
 
-void write(py::handle file, py::handle what, py::handle labels) {
+void write_anything(py::handle file, py::handle what, py::handle labels) {
   const std::filesystem::path place = path(file, "path");
   const std::string extension = lower_case_extension(place);
   if (extension == ".pcd") return write_cloud(place, what, labels);
@@ -199,7 +199,7 @@ Raises OSError if it cannot be written, ValueError for another extension.
 [Aabb(min=[0, 0, 0], max=[1, 2, 3]), Kdop(k=14, volume=0)]
 )";
 
-std::string repr(const PictureObject& p) {
+std::string repr_of_picture(const PictureObject& p) {
   std::string said = "Picture(" + std::to_string(p.picture.width) + " x " + std::to_string(p.picture.height) +
                      ", " + std::to_string(p.picture.points.count) + " points";
   if (!p.result && !p.picture.volumes.empty())
@@ -214,10 +214,10 @@ void bind_picture(py::module_& module) {
       .def("png", &PictureObject::png, png_doc)
       .def("svg", &PictureObject::svg, svg_doc)
       .def("_repr_png_", &PictureObject::png)
-      .def("__repr__", repr);
+      .def("__repr__", repr_of_picture);
   module.def("show", show, "points"_a, "volumes"_a = py::none(), "labels"_a = py::none(), py::kw_only(),
              "view"_a = "iso", "up"_a = "z", "unit"_a = "m", "width"_a = 1600, "height"_a = 1000, show_doc);
-  module.def("write", write, "path"_a, "what"_a, "labels"_a = py::none(), write_doc);
+  module.def("write", write_anything, "path"_a, "what"_a, "labels"_a = py::none(), write_doc);
 }
 
 }  // namespace pcl_bv::python

@@ -45,9 +45,9 @@ std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle pres
   return std::make_unique<PipelineObject>(std::move(read));
 }
 
-std::shared_ptr<ResultObject> process(PipelineObject& self, py::handle points, py::handle stamp_ns,
-                                      py::handle frame_id, py::handle seq, py::handle pose,
-                                      py::handle classes) {
+std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle points, py::handle stamp_ns,
+                                            py::handle frame_id, py::handle seq, py::handle pose,
+                                            py::handle classes) {
   const auto result = std::make_shared<ResultObject>();
   result->points = points_of(points);
   if (!pose.is_none()) result->pose = Pose(isometry(pose, "pose").matrix());
@@ -72,7 +72,7 @@ void set_config(PipelineObject& self, py::handle config) {
   self.set_config(std::move(read));
 }
 
-std::string repr(const PipelineObject& self) {
+std::string repr_of_pipeline(const PipelineObject& self) {
   const PipelineConfig config = self.config();
   std::string methods;
   for (const Method* method : config.methods())
@@ -138,12 +138,12 @@ void bind_pipeline(py::module_& module) {
   py::class_<PipelineObject>(module, "Pipeline", pipeline_doc().c_str())
       .def(py::init(&make_pipeline), "config"_a = py::none(), py::kw_only(), "preset"_a = py::none(),
            init_doc(pipeline_doc()).c_str())
-      .def("process", process, "points"_a, py::kw_only(), "stamp_ns"_a = 0, "frame_id"_a = "",
+      .def("process", process_frame, "points"_a, py::kw_only(), "stamp_ns"_a = 0, "frame_id"_a = "",
            "seq"_a = py::none(), "pose"_a = py::none(), "classes"_a = py::none(), process_doc)
       .def_property(
           "config", [](const PipelineObject& p) { return dict_of(p.config()); }, set_config,
           "All settings as a dict, which Pipeline() takes back; setting it takes effect with the next frame.")
-      .def("__repr__", repr);
+      .def("__repr__", repr_of_pipeline);
 }
 
 }  // namespace pcl_bv::python

@@ -68,8 +68,8 @@ RawCloud load_cloud(const std::string& name, const std::string& topic, std::size
   return read_cloud(name, policy, bin_fields);
 }
 
-py::array read(py::handle file, py::handle topic, py::handle number, py::handle bin_fields,
-               py::handle threads) {
+py::array read_points(py::handle file, py::handle topic, py::handle number, py::handle bin_fields,
+                      py::handle threads) {
   const std::string name = path(file, "path").string();
   const std::string of = topic.is_none() ? "" : text(topic, "topic");
   const std::size_t which = whole_number(number, "number", {0, kNoLimit});
@@ -205,7 +205,7 @@ void bind_read(py::module_& module) {
         if (!frame) throw py::stop_iteration();
         return FrameObject{std::move(*frame)};
       });
-  module.def("read", read, "path"_a, py::kw_only(), "topic"_a = py::none(), "number"_a = 0,
+  module.def("read", read_points, "path"_a, py::kw_only(), "topic"_a = py::none(), "number"_a = 0,
              "bin_fields"_a = 0, "threads"_a = 1, read_doc);
   module.def("frames", open_frames, "source"_a, py::kw_only(), "topic"_a = py::none(), "rate"_a = py::none(),
              "poses"_a = py::none(), "class_field"_a = py::none(), "frame_id"_a = py::none(),

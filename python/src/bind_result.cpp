@@ -152,7 +152,7 @@ Track(id=0, age=1, velocity=[0, 0, 0])
       });
 }
 
-constexpr const char* cluster_doc =
+constexpr const char* cluster_class_doc =
     R"(One object of a frame: its points, its volumes, its track. cluster['aabb'] is the volume of that method.
 
 >>> import pcl_bv
@@ -189,7 +189,7 @@ The frame as bv_stream writes it: one JSON object on a line, every number with t
 20032
 )";
 
-constexpr const char* picture_doc = R"(picture(self, *, view='iso', width=1600, height=1000)
+constexpr const char* result_picture_doc = R"(picture(self, *, view='iso', width=1600, height=1000)
 --
 
 A Picture of the points, clusters in colours, and the volumes. view: 'iso', 'top', 'front' or 'side'.
@@ -204,7 +204,7 @@ Picture(640 x 400, 18847 points)
 
 void bind_result(py::module_& module) {
   bind_track(module);
-  py::class_<ClusterObject>(module, "Cluster", cluster_doc)
+  py::class_<ClusterObject>(module, "Cluster", cluster_class_doc)
       .def_readonly("id", &ClusterObject::id, "Its number in the frame: the largest is 0.")
       .def_property_readonly(
           "points", [](const ClusterObject& c) { return c.of->result.clusters.cluster_size(c.id); },
@@ -248,7 +248,7 @@ void bind_result(py::module_& module) {
           [](const Shared& r, py::handle view, py::handle width, py::handle height) {
             return picture_of_result(r, picture_size(view, width, height));
           },
-          py::kw_only(), "view"_a = "iso", "width"_a = 1600, "height"_a = 1000, picture_doc)
+          py::kw_only(), "view"_a = "iso", "width"_a = 1600, "height"_a = 1000, result_picture_doc)
       .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })
       .def("__len__", [](const Shared& r) { return r->result.clusters.size(); })
       .def("__repr__", repr_of_result)

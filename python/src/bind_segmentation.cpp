@@ -53,9 +53,10 @@ std::vector<ClassSettings> all_class_settings(py::handle said, const ClusterSett
   return own;
 }
 
-ClustersObject cluster(py::handle points, py::handle tolerance, py::handle min_size, py::handle max_size,
-                       py::handle min_points, py::handle tolerance_per_metre, py::handle oversized,
-                       py::handle classes, py::handle own_settings, py::handle threads) {
+ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle min_size,
+                             py::handle max_size, py::handle min_points, py::handle tolerance_per_metre,
+                             py::handle oversized, py::handle classes, py::handle own_settings,
+                             py::handle threads) {
   const PointArray array = points_of(points);
   ClusterSettings settings{static_cast<float>(number(tolerance, "tolerance", {0, 1e6, false}))};
   settings.min_size = whole_number(min_size, "min_size", {0, kNoLimit});
@@ -81,9 +82,9 @@ ClustersObject cluster(py::handle points, py::handle tolerance, py::handle min_s
   return clusters;
 }
 
-GroundObject ground(py::handle points, py::handle method, py::handle up, py::handle sensor,
-                    py::handle sensor_height, py::handle distance, py::handle max_slope_degrees,
-                    py::handle threads) {
+GroundObject find_ground(py::handle points, py::handle method, py::handle up, py::handle sensor,
+                         py::handle sensor_height, py::handle distance, py::handle max_slope_degrees,
+                         py::handle threads) {
   const PointArray array = points_of(points);
   const GroundMethod how = word<GroundMethod>(method, "method");
   const auto set = [&](auto& settings) {
@@ -122,7 +123,7 @@ py::object mask_of(const GroundObject& found) {
   return take(std::move(mask)).attr("view")("bool");
 }
 
-py::dict statistics(py::handle points, py::handle threads) {
+py::dict statistics_of(py::handle points, py::handle threads) {
   const PointArray array = points_of(points);
   const ParallelPolicy policy = policy_of(threads);
   CloudStatistics found;
@@ -179,7 +180,7 @@ ClustersObject from_state(const py::tuple& state) {
   return c;
 }
 
-std::string repr(const ClustersObject& c) {
+std::string repr_of_clusters(const ClustersObject& c) {
   std::string said =
       "Clusters(" + std::to_string(c.found.size()) + " of " + std::to_string(c.points) + " points";
   const auto add = [&](const char* what, std::size_t n) {
@@ -227,10 +228,10 @@ void bind_segmentation(py::module_& module) {
           "Points of classes that are dropped.")
       .def("__len__", [](const C& c) { return c.found.size(); })
       .def("__getitem__", cluster_at)
-      .def("__repr__", repr)
+      .def("__repr__", repr_of_clusters)
       .def(py::pickle([](const C& c) { return state_of(c); },
                       [](const py::tuple& state) { return from_state(state); }));
-  module.def("cluster", cluster, "points"_a, "tolerance"_a, py::kw_only(), "min_size"_a = 1,
+  module.def("cluster", find_clusters, "points"_a, "tolerance"_a, py::kw_only(), "min_size"_a = 1,
              "max_size"_a = py::none(), "min_points"_a = 1, "tolerance_per_metre"_a = 0,
              "oversized"_a = "drop", "classes"_a = py::none(), "class_settings"_a = py::none(),
              "threads"_a = 1, cluster_doc);
@@ -259,10 +260,10 @@ void bind_segmentation(py::module_& module) {
                ", ground=" + std::to_string(g.split.ground.size()) +
                ", rest=" + std::to_string(g.split.rest.size()) + " points)";
       });
-  module.def("ground", ground, "points"_a, "method"_a = "zones", py::kw_only(), "up"_a = "z",
+  module.def("ground", find_ground, "points"_a, "method"_a = "zones", py::kw_only(), "up"_a = "z",
              "sensor"_a = py::none(), "sensor_height"_a = py::none(), "distance"_a = py::none(),
              "max_slope_degrees"_a = py::none(), "threads"_a = 1, ground_doc);
-  module.def("statistics", statistics, "points"_a, py::kw_only(), "threads"_a = 1, statistics_doc);
+  module.def("statistics", statistics_of, "points"_a, py::kw_only(), "threads"_a = 1, statistics_doc);
 }
 
 }  // namespace pcl_bv::python

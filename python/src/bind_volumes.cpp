@@ -148,7 +148,7 @@ Encloses the exact interval. A direction of zero tests the origin.
 True
 )";
 
-constexpr const char* aabb_doc = R"(aabb(self, /)
+constexpr const char* verb_aabb_doc = R"(aabb(self, /)
 --
 
 An axis-aligned box around the volume, by exact arithmetic.
@@ -226,7 +226,7 @@ void bind_volumes(py::module_& module) {
           "direction"_a, py::pos_only(), support_doc)
       .def("intersect", ray, "origin"_a, "direction"_a, py::pos_only(), intersect_doc)
       .def(
-          "aabb", [](Self v) { return to_python(aabb(v.value)); }, aabb_doc)
+          "aabb", [](Self v) { return to_python(aabb(v.value)); }, verb_aabb_doc)
       .def("mesh", mesh_of, mesh_doc)
       .def(
           "transformed",

@@ -82,7 +82,7 @@ StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
   }
 }
 
-StreamConfig read(py::handle config, const StreamConfig& defaults) {
+StreamConfig read_config(py::handle config, const StreamConfig& defaults) {
   if (config.is_none()) return defaults;
   if (py::isinstance<py::dict>(config)) return read_dict(py::reinterpret_borrow<py::dict>(config), defaults);
   if (PyUnicode_Check(config.ptr())) {
@@ -95,41 +95,41 @@ StreamConfig read(py::handle config, const StreamConfig& defaults) {
 }
 
 // A value as Python has it, such that read_dict() takes it back.
-py::object object_of(bool value) {
+py::object python_value(bool value) {
   return py::bool_(value);
 }
-py::object object_of(double value) {
+py::object python_value(double value) {
   return py::float_(value);
 }
-py::object object_of(std::size_t value) {
+py::object python_value(std::size_t value) {
   if (value == std::numeric_limits<std::size_t>::max()) return py::str("unlimited");
   return py::int_(value);
 }
-py::object object_of(const std::string& name) {
+py::object python_value(const std::string& name) {
   return py::str(name);
 }
-py::object object_of(const FieldName& field) {
+py::object python_value(const FieldName& field) {
   return py::str(field.name);
 }
-py::object object_of(const Eigen::Vector3d& v) {
+py::object python_value(const Eigen::Vector3d& v) {
   return py::str(to_text(v));
 }
-py::object object_of(const std::vector<std::string>& names) {
+py::object python_value(const std::vector<std::string>& names) {
   py::list list;
   for (const std::string& name : names)
     list.append(name);
   return list;
 }
 template <typename T>
-py::object object_of(const std::optional<T>& value) {
+py::object python_value(const std::optional<T>& value) {
   if (!value) return py::none();
   if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
     return py::list(py::make_tuple(value->x(), value->y(), value->z()));
   } else {
-    return object_of(*value);
+    return python_value(*value);
   }
 }
-py::object object_of(const std::vector<RegionConfig>& regions) {
+py::object python_value(const std::vector<RegionConfig>& regions) {
   py::list list;
   for (const RegionConfig& region : regions) {
     py::dict said;
@@ -140,25 +140,25 @@ py::object object_of(const std::vector<RegionConfig>& regions) {
   }
   return list;
 }
-py::object object_of(const std::vector<ClassConfig>& classes) {
+py::object python_value(const std::vector<ClassConfig>& classes) {
   py::list list;
   for (const ClassConfig& own : classes) {
     py::dict said;
     const auto say = [&](const char* key, const auto& value) {
-      if (value) said[key] = object_of(*value);
+      if (value) said[key] = python_value(*value);
     };
     said["value"] = own.value;
     said["drop"] = own.drop;
     say("tolerance", own.tolerance);
     say("min_size", own.min_size);
     say("max_size", own.max_size);
-    if (!own.volumes.empty()) said["volumes"] = object_of(own.volumes);
+    if (!own.volumes.empty()) said["volumes"] = python_value(own.volumes);
     list.append(said);
   }
   return list;
 }
 template <typename Choice>
-std::enable_if_t<std::is_enum_v<Choice>, py::object> object_of(Choice choice) {
+std::enable_if_t<std::is_enum_v<Choice>, py::object> python_value(Choice choice) {
   return py::str(to_text(choice));
 }
 
@@ -183,7 +183,7 @@ PipelineConfig config_of(py::handle config, py::handle preset, const py::dict& s
       refuse_value("preset", error.what());
     }
   }
-  return read_dict(settings, read(config, defaults)).pipeline;
+  return read_dict(settings, read_config(config, defaults)).pipeline;
 }
 
 py::dict dict_of(const PipelineConfig& config) {
@@ -192,12 +192,12 @@ py::dict dict_of(const PipelineConfig& config) {
     const std::size_t dot = setting.key.find('.');
     const std::string key(setting.key.substr(dot == std::string_view::npos ? 0 : dot + 1));
     if (dot == std::string_view::npos) {
-      all[py::str(key)] = object_of(value);
+      all[py::str(key)] = python_value(value);
       return;
     }
     const py::str stage(std::string(setting.key.substr(0, dot)));
     if (!all.contains(stage)) all[stage] = py::dict();
-    all[stage][py::str(key)] = object_of(value);
+    all[stage][py::str(key)] = python_value(value);
   });
   return all;
 }

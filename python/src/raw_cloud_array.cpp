@@ -42,7 +42,7 @@ char letter_of(const py::dtype& type) {
 }
 
 /// A field of the cloud from one of the records, element by element.
-PointField field_of(const std::string& name, const py::dtype& type) {
+PointField point_field_of(const std::string& name, const py::dtype& type) {
   const py::object shape = type.attr("shape");
   const py::dtype element = py::dtype::from_args(type.attr("base"));
   PointField field;
@@ -66,7 +66,7 @@ RawCloud cloud_of_records(const py::array& records) {
   for (const py::handle name : records.dtype().attr("names")) {
     const py::tuple found = records.dtype().attr("fields")[name];
     PointField& field =
-        cloud.fields.emplace_back(field_of(name.cast<std::string>(), py::dtype::from_args(found[0])));
+        cloud.fields.emplace_back(point_field_of(name.cast<std::string>(), py::dtype::from_args(found[0])));
     field.offset = cloud.point_step;
     cloud.point_step += field.bytes();
     packed.append(py::make_tuple(name, found[0].attr("newbyteorder")("<")));

@@ -16,7 +16,7 @@ double real(py::handle value, const char* name) {
 }
 
 /// Numbers that may be NaN or infinite, as those of empty volumes are: the constructors judge them.
-Eigen::Vector3d vector(py::handle value, const char* name) {
+Eigen::Vector3d three_numbers(py::handle value, const char* name) {
   const py::array_t<double> numbers = doubles(value, name);
   if (numbers.size() != 3) refuse_value(name, "three numbers are wanted, not " + shown(value));
   return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
@@ -66,26 +66,26 @@ std::shared_ptr<const KdopSet> set_of(std::vector<Eigen::Vector3d> directions) {
 }  // namespace
 
 Aabb make_aabb(py::handle min, py::handle max) {
-  return {vector(min, "min"), vector(max, "max")};
+  return {three_numbers(min, "min"), three_numbers(max, "max")};
 }
 Obb make_obb(py::handle center, py::handle axes_rows, py::handle half_extents) {
-  return {vector(center, "center"), axes(axes_rows), vector(half_extents, "half_extents")};
+  return {three_numbers(center, "center"), axes(axes_rows), three_numbers(half_extents, "half_extents")};
 }
 Kdop make_kdop(py::handle directions, py::handle min, py::handle max) {
   return {set_of(vectors(directions, "directions")), slabs(min, "min"), slabs(max, "max")};
 }
 Sphere make_sphere(py::handle center, py::handle radius) {
-  return {vector(center, "center"), real(radius, "radius")};
+  return {three_numbers(center, "center"), real(radius, "radius")};
 }
 Cylinder make_cylinder(py::handle center, py::handle axis, py::handle radius, py::handle half_height) {
-  return {vector(center, "center"), vector(axis, "axis"), real(radius, "radius"),
+  return {three_numbers(center, "center"), three_numbers(axis, "axis"), real(radius, "radius"),
           real(half_height, "half_height")};
 }
 Capsule make_capsule(py::handle a, py::handle b, py::handle radius) {
-  return {vector(a, "a"), vector(b, "b"), real(radius, "radius")};
+  return {three_numbers(a, "a"), three_numbers(b, "b"), real(radius, "radius")};
 }
 Ellipsoid make_ellipsoid(py::handle center, py::handle axes_rows, py::handle radii) {
-  return {vector(center, "center"), axes(axes_rows), vector(radii, "radii")};
+  return {three_numbers(center, "center"), axes(axes_rows), three_numbers(radii, "radii")};
 }
 Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::handle rank) {
   const py::array_t<double> corners = table(faces, "faces", 3), sides = table(planes, "planes", 4);

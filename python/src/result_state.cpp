@@ -88,7 +88,7 @@ void require_sound(const FrameResult& result, std::size_t points) {
   if (!sound) throw py::value_error("Result: a state that is none of its own");
 }
 
-void read_volumes(const py::list& state, FrameResult& result) {
+void take_volumes(const py::list& state, FrameResult& result) {
   for (const py::handle each : state) {
     result.wanted.push_back(each.is_none() ? 0 : 1);
     if (each.is_none()) {
@@ -163,7 +163,7 @@ std::shared_ptr<ResultObject> result_of_state(const py::dict& state) {
     r.tracks.push_back(track(each));
   for (const py::handle name : py::list(state["methods"]))
     r.methods.push_back(method_of(name));
-  read_volumes(state["volumes"], r);
+  take_volumes(state["volumes"], r);
   r.ms = times(py::tuple(state["ms"]));
   require_sound(r, self->points.view.count);
   return self;

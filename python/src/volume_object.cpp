@@ -10,7 +10,7 @@ namespace pcl_bv::python {
 namespace {
 
 /// The text, kept for the life of the process: EstimationResult::reason points to one that is never freed.
-std::string_view kept(const std::string& text) {
+std::string_view kept_text(const std::string& text) {
   static std::mutex mutex;
   static std::set<std::string>* const texts = new std::set<std::string>;
   const std::lock_guard lock(mutex);
@@ -174,7 +174,7 @@ void set_fit_state(const py::tuple& state, VolumeObject& volume) {
   volume.fit.rank = state[2].cast<int>();
   volume.fit.used = state[3].cast<std::size_t>();
   volume.fit.dropped = state[4].cast<std::size_t>();
-  volume.fit.reason = kept(state[5].cast<std::string>());
+  volume.fit.reason = kept_text(state[5].cast<std::string>());
 }
 
 std::string repr_of(const VolumeObject& volume) {
