@@ -146,7 +146,7 @@ py::array_t<double> doubles(py::handle object, const char* name) {
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count) {
   const py::array given = from_any(object, name);
   const char kind = given.dtype().kind();
-  if (kind != 'i' && kind != 'u')
+  if (kind != 'i' && kind != 'u' && given.size() > 0)
     throw py::type_error(std::string(name) + ": integers are wanted, not " +
                          py::str(py::handle(given.dtype())).cast<std::string>());
   if (static_cast<std::size_t>(given.size()) != count)

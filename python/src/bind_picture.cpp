@@ -95,15 +95,15 @@ std::string json_text(const Reported& found) {
 }
 
 std::string csv_text(const Reported& found) {
-  const bool tracked = found.frame.has_value();
-  std::string text(csv_columns);
-  if (tracked) text.append(",").append(csv_track_columns);
-  text += '\n';
-  for (const ClusterEntry& cluster : found.clusters) {
-    std::string lines;
-    append_csv("", cluster, lines, tracked);
-    text += lines;
+  if (!found.frame) {
+    Report report;
+    report.clusters = found.clusters;
+    return report_csv_heading() + report_csv(report);
   }
+  std::string text = "seq,stamp_ns,track," + std::string(csv_columns) + ',' + std::string(csv_track_columns) + '\n';
+  const std::string frame = std::to_string(found.frame->seq) + ',' + std::to_string(found.frame->stamp_ns) + ',';
+  for (const ClusterEntry& cluster : found.clusters)
+    append_csv(frame + (cluster.track ? std::to_string(cluster.track->id) : ""), cluster, text, true);
   return text;
 }
 
@@ -197,6 +197,7 @@ Raises OSError if it cannot be written, ValueError for another extension.
 >>> pcl_bv.write(path, pcl_bv.fit([[0., 0, 0], [1, 2, 3]], ['aabb', 'dop14']))
 >>> pcl_bv.read_volumes(path)
 [Aabb(min=[0, 0, 0], max=[1, 2, 3]), Kdop(k=14, volume=0)]
+>>> folder.cleanup()
 )";
 
 std::string repr_of_picture(const PictureObject& p) {

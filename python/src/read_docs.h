@@ -76,6 +76,7 @@ Those that are empty or failed are left out. Raises FileNotFoundError; OSError f
 >>> pcl_bv.write(path, pcl_bv.Sphere([1, 2, 3], 0.1))
 >>> pcl_bv.read_volumes(path) == [pcl_bv.Sphere([1, 2, 3], 0.1)]
 True
+>>> folder.cleanup()
 )";
 
 }  // namespace pcl_bv::python
