@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).parent.resolve()
 
 class BuildWithCMake(build_ext):
     def run(self):
-        build = pathlib.Path(self.build_temp).resolve() / "cmake"
+        build = ROOT / "build" / "pip"  # as deep as the presets' folders, so that ccache knows what they compiled
         prefix = pathlib.Path(self.build_lib).resolve()
         build.mkdir(parents=True, exist_ok=True)
         options = [

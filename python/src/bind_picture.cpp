@@ -100,8 +100,10 @@ std::string csv_text(const Reported& found) {
     report.clusters = found.clusters;
     return report_csv_heading() + report_csv(report);
   }
-  std::string text = "seq,stamp_ns,track," + std::string(csv_columns) + ',' + std::string(csv_track_columns) + '\n';
-  const std::string frame = std::to_string(found.frame->seq) + ',' + std::to_string(found.frame->stamp_ns) + ',';
+  std::string text =
+      "seq,stamp_ns,track," + std::string(csv_columns) + ',' + std::string(csv_track_columns) + '\n';
+  const std::string frame =
+      std::to_string(found.frame->seq) + ',' + std::to_string(found.frame->stamp_ns) + ',';
   for (const ClusterEntry& cluster : found.clusters)
     append_csv(frame + (cluster.track ? std::to_string(cluster.track->id) : ""), cluster, text, true);
   return text;

@@ -91,6 +91,7 @@ From clouds to objects, frame by frame: filter, ground, clusters, volumes, track
 
 config: a dict, the text of a configuration file, or a path to one; keys as below, nested by stage.
 preset: 'road' (the defaults), 'indoor' or 'table'.
+    Regions may also have 'volumes', a list of them, instead of a 'file'.
 settings: whole stages as keywords, over config: cluster={'tolerance': 0.3}, volumes=['obb-yaw'], threads=0.
 
 Raises ValueError for an unknown key and for a value that is not allowed, naming key, value and range; OSError

@@ -7,6 +7,7 @@
 
 #include "arguments.h"
 #include "pcl_bv/nodes/settings.h"
+#include "volume_object.h"
 
 namespace pcl_bv::python {
 namespace {
@@ -69,10 +70,54 @@ std::string yaml_of(py::handle value, const std::string& key) {
   refuse_type(key.c_str(), "a number, a text, a list or a dict", value);
 }
 
+/// Regions by volumes, which no file can say: taken out of the settings, and a name left in their place.
+class RegionVolumes {
+ public:
+  explicit RegionVolumes(const py::dict& settings) : settings_(settings) {
+    if (!settings.contains("filter") || !py::isinstance<py::dict>(settings["filter"])) return;
+    py::dict filter = settings["filter"].attr("copy")();
+    if (!filter.contains("regions") || !py::isinstance<py::list>(filter["regions"])) return;
+    py::list regions;
+    for (const py::handle each : py::list(filter["regions"])) {
+      volumes_.emplace_back();
+      if (py::isinstance<py::dict>(each) && each.contains("volumes")) {
+        py::dict region = each.attr("copy")();
+        for (const NumberedVolume& one : volumes_of(region.attr("pop")("volumes"), "filter.regions: volumes"))
+          volumes_.back().push_back(one.volume->value);
+        if (volumes_.back().empty()) refuse_value("filter.regions", "a region with an empty list of volumes");
+        region["file"] = "volumes";
+        regions.append(region);
+      } else {
+        regions.append(each);
+      }
+    }
+    filter["regions"] = regions;
+    settings_ = settings.attr("copy")();
+    settings_["filter"] = filter;
+  }
+
+  const py::dict& settings() const { return settings_; }
+
+  void put_into(std::vector<RegionConfig>& regions) {
+    for (std::size_t i = 0; i < volumes_.size(); ++i) {
+      if (volumes_[i].empty()) continue;
+      regions[i].file.clear();
+      regions[i].volumes = std::move(volumes_[i]);
+    }
+  }
+
+ private:
+  py::dict settings_;
+  std::vector<std::vector<AnyVolume>> volumes_;  // of each region in turn; none: it has a file
+};
+
 /// Without "Pipeline: line 1: ", which means nothing to who gave a dict.
 StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
   try {
-    return parse_stream_config(yaml_map(settings, ""), the_name, defaults);
+    RegionVolumes regions(settings);
+    StreamConfig config = parse_stream_config(yaml_map(regions.settings(), ""), the_name, defaults);
+    regions.put_into(config.pipeline.filter.regions);
+    return config;
   } catch (const ConfigError& error) {
     std::string said = error.what();
     for (const std::string& prefix : {std::string(the_name) + ": ", std::string("line 1: ")}) {
@@ -133,7 +178,14 @@ py::object python_value(const std::vector<RegionConfig>& regions) {
   py::list list;
   for (const RegionConfig& region : regions) {
     py::dict said;
-    said["file"] = region.file.string();
+    if (region.volumes.empty()) {
+      said["file"] = region.file.string();
+    } else {
+      py::list volumes;
+      for (const AnyVolume& volume : region.volumes)
+        volumes.append(to_python(AnyVolume(volume)));
+      said["volumes"] = volumes;
+    }
     said["keep"] = region.keep;
     said["padding"] = region.padding;
     list.append(said);

@@ -139,7 +139,8 @@ inline constexpr const char* tightened_doc = R"(tightened(self, /)
 The same k-DOP with each slab moved in to where it reaches, as after merging or moving.
 
 >>> import numpy, pcl_bv
->>> pcl_bv.Kdop([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [0] * 4, [1, 1, 1, 9]).tightened().max[3] < 3.1
+>>> loose = pcl_bv.Kdop([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [0] * 4, [1, 1, 1, 9])
+>>> bool(loose.tightened().max[3] < 3.1)
 True
 )";
 

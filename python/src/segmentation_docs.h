@@ -12,7 +12,7 @@ clusters[i] is the point numbers of one, an int32 array. Arrays are read-only vi
 
 >>> import pcl_bv
 >>> clusters = pcl_bv.cluster([[0., 0, 0], [9, 0, 0], [0.1, 0, 0]], 0.5)
->>> [list(numbers) for numbers in clusters]
+>>> [numbers.tolist() for numbers in clusters]
 [[0, 2], [1]]
 >>> clusters.labels
 array([0, 1, 0], dtype=int32)
@@ -52,7 +52,7 @@ inline constexpr const char* ground_class_doc =
 >>> import numpy, pcl_bv
 >>> level = numpy.array([[x, y, 0.] for x in range(10) for y in range(10)] + [[5, 5, 2.]])
 >>> split = pcl_bv.ground(level, 'plane')
->>> split.found, list(split.rest), int(split.mask.sum())
+>>> split.found, split.rest.tolist(), int(split.mask.sum())
 (True, [100], 100)
 )";
 

@@ -120,6 +120,9 @@ class Arrays(unittest.TestCase):
         expected = {0: pcl_bv.fit(points[:2], "aabb"), 4: pcl_bv.fit(points[2:4], "aabb")}
         for dtype in (np.int8, np.int16, np.int32, np.int64):
             self.assertEqual(pcl_bv.fit(points, "aabb", np.array([0, 0, 4, 4, -1, -2], dtype)), expected)
+        far = [pcl_bv.fit(points, "aabb", np.array([10**15, 5, 5, 10**15, 7, 7])), pcl_bv.fit(points, "aabb", [2, 0, 0, 2, 1, 1])]
+        self.assertEqual(list(far[0]), [5, 7, 10**15])
+        self.assertEqual([far[0][5], far[0][7], far[0][10**15]], list(far[1].values()))
         written = np.array([0, 0, 4, 4, 4294967295, 4294967294], np.uint32)
         self.assertEqual(pcl_bv.fit(points, "aabb", written), expected)
         clusters = pcl_bv.cluster([[0.0, 0, 0], [9, 0, 0], [0.1, 0, 0]], 0.5)

@@ -105,6 +105,23 @@ class Pipelines(unittest.TestCase):
             with open(path) as file:
                 self.assertEqual(pcl_bv.Pipeline(file.read()).config["cluster"]["tolerance"], 0.7)
 
+    def test_regions_may_be_volumes(self):
+        points = normal(1000, 34)
+        ball, box = pcl_bv.Sphere([0, 0, 0], 1), pcl_bv.Aabb([0, 0, 0], [9, 9, 9])
+        settings = dict(filter={"range_min": 0, "regions": [{"volumes": [ball, box], "padding": 0.25}]}, volumes=["aabb"],
+                        ground={"method": "none"}, cluster={"tolerance": 0})
+        pipeline = pcl_bv.Pipeline(settings)
+        inside = pcl_bv.RegionMask([ball, box], 0.25).contains(points)
+        result = pipeline.process(points)
+        self.assertTrue(0 < inside.sum() == result.counts["inside"])
+        self.assertEqual(result.clusters[0].volumes[0], pcl_bv.fit(points[~inside], "aabb"))
+        self.assertEqual(pipeline.config["filter"]["regions"][0]["volumes"], [ball, box])
+        self.assertEqual(pcl_bv.Pipeline(pipeline.config).process(points).counts, result.counts)
+        self.assertEqual(pickle.loads(pickle.dumps(result)).json(), result.json())
+        self.assertEqual(settings["filter"]["regions"][0]["volumes"], [ball, box])  # the user's dict is left alone
+        with self.assertRaisesRegex(TypeError, "filter.regions"):
+            pcl_bv.Pipeline(filter={"regions": [{"volumes": [3]}]})
+
     def test_settings_change_between_frames(self):
         pipeline = pcl_bv.Pipeline(SETTINGS)
         many = len(pipeline.process(street()))
