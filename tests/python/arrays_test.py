@@ -43,7 +43,7 @@ class Arrays(unittest.TestCase):
             libc = ctypes.CDLL(None, use_errno=True)
             page = whole.ctypes.data + mmap.PAGESIZE
             self.assertEqual(libc.mprotect(ctypes.c_void_p(page), mmap.PAGESIZE, 0), 0)
-            count = 40
+            count = 64  # whole vectors, whose last load would reach farthest
             begin = mmap.PAGESIZE - count * columns * size + (columns - 3) * size
             array = as_strided(whole[begin:begin + size].view(dtype), (count, 3), (columns * size, size))
             array[:] = normal(count, 5, dtype)
