@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).parent.resolve()
 
 class BuildWithCMake(build_ext):
     def run(self):
-        build = ROOT / "build" / "pip"  # as deep as the presets' folders, so that ccache knows what they compiled
+        build = ROOT / "build" / "pip"  # as deep as the presets' folders: ccache knows what they compiled
         prefix = pathlib.Path(self.build_lib).resolve()
         build.mkdir(parents=True, exist_ok=True)
         options = [
@@ -51,7 +51,8 @@ class HasAnExtension(Distribution):
 
 
 setup(
-    version=re.search(r"VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1]).group(1),
+    version=re.search(r"VERSION ([0-9.]+)",
+                      (ROOT / "CMakeLists.txt").read_text().split("project(")[1]).group(1),
     packages=["pcl_bv"],
     package_dir={"": "python"},
     package_data={"pcl_bv": ["py.typed", "*.pyi"]},

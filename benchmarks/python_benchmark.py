@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Calls from Python, and Open3D's in the same run: python_benchmark.py [FOLDER OF THE PACKAGE [CLOUD]].
 
-Medians (minima) of interleaved repetitions, one thread. Ours and Open3D's take turns, so that a busy machine slows both.
-CLOUD: any file or recording; else a street as a LiDAR of 64 beams sees it. Open3D's rows need Debian's python3-open3d.
+Medians (minima), one thread of ours. Ours and Open3D's take turns, so that a busy machine slows both. CLOUD: any
+file or recording; else a street as a LiDAR of 64 beams sees it. Open3D's rows need Debian's python3-open3d.
 """
 
 import statistics
@@ -89,15 +89,19 @@ def beside_open3d(cloud):
         found = pcl_bv.cluster(points, tolerance).labels.max() + 1
         assert found == np.asarray(theirs.cluster_dbscan(tolerance, 1)).max() + 1, "not the same clusters"
     of = f", {len(largest)} points"
-    row("obb-min" + of, lambda: pcl_bv.fit(largest, "obb-min"), their_largest.get_minimal_oriented_bounding_box
-        if hasattr(their_largest, "get_minimal_oriented_bounding_box") else their_largest.get_oriented_bounding_box, 7)
+    row("obb-min" + of, lambda: pcl_bv.fit(largest, "obb-min"),
+        their_largest.get_minimal_oriented_bounding_box
+        if hasattr(their_largest,
+                   "get_minimal_oriented_bounding_box") else their_largest.get_oriented_bounding_box, 7)
     row("obb-pca" + of, lambda: pcl_bv.fit(largest, "obb-pca"), their_largest.get_oriented_bounding_box, 15)
     row("hull" + of, lambda: pcl_bv.fit(largest, "hull"), their_largest.compute_convex_hull, 15)
-    row(f"aabb, {len(points)} points", lambda: pcl_bv.fit(points, "aabb"), theirs.get_axis_aligned_bounding_box, 31)
+    row(f"aabb, {len(points)} points", lambda: pcl_bv.fit(points, "aabb"),
+        theirs.get_axis_aligned_bounding_box, 31)
 
 
 def main():
-    print(f"pcl_bv {pcl_bv.__version__}, {pcl_bv.instruction_sets[-1]}, numpy {np.__version__}, medians (minima)\n")
+    isa = pcl_bv.instruction_sets[-1]
+    print(f"pcl_bv {pcl_bv.__version__}, {isa}, numpy {np.__version__}, medians (minima)\n")
     calls_alone()
     beside_open3d(pcl_bv.read(sys.argv[2] if len(sys.argv) > 2 else "synth:street:128000:2"))
 

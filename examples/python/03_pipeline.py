@@ -18,5 +18,6 @@ for frame in pcl_bv.frames(source):
     result = pipeline.process(frame.points, stamp_ns=frame.stamp_ns, pose=frame.pose)
     tracks = [cluster.track for cluster in result.clusters if cluster.track]
     moving = [track for track in tracks if track.moving]
-    print(f"{frame.seq:3}: {len(result):3} objects, {len(tracks):3} tracks, {len(moving):2} move, {result.ms['total']:.1f} ms")
+    took = result.ms["total"]
+    print(f"{frame.seq:3}: {len(result):3} objects, {len(tracks):3} tracks, {len(moving):2} move, {took:.1f} ms")
 assert tracks, "no object was seen in three frames"

@@ -200,10 +200,7 @@ A Picture of the points, clusters in colours, and the volumes. view: 'iso', 'top
 Picture(640 x 400, 18847 points)
 )";
 
-}  // namespace
-
-void bind_result(py::module_& module) {
-  bind_track(module);
+void bind_cluster(py::module_& module) {
   py::class_<ClusterObject>(module, "Cluster", cluster_class_doc)
       .def_readonly("id", &ClusterObject::id, "Its number in the frame: the largest is 0.")
       .def_property_readonly(
@@ -221,6 +218,13 @@ void bind_result(py::module_& module) {
           "Its class, where points are told apart by class; else None.")
       .def("__getitem__", volume_by_name)
       .def("__repr__", repr_of_cluster);
+}
+
+}  // namespace
+
+void bind_result(py::module_& module) {
+  bind_track(module);
+  bind_cluster(module);
   py::class_<ResultObject, Shared>(module, "Result", result_doc)
       .def_property_readonly("clusters", clusters_of, "A list of Cluster, the largest first.")
       .def_property_readonly(
@@ -249,6 +253,8 @@ void bind_result(py::module_& module) {
             return picture_of_result(r, picture_size(view, width, height));
           },
           py::kw_only(), "view"_a = "iso", "width"_a = 1600, "height"_a = 1000, result_picture_doc)
+      // A notebook takes the first of these that it knows; a page that can be turned goes here, as
+      // _repr_html_.
       .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })
       .def("__len__", [](const Shared& r) { return r->result.clusters.size(); })
       .def("__repr__", repr_of_result)

@@ -180,6 +180,31 @@ ClustersObject from_state(const py::tuple& state) {
   return c;
 }
 
+py::tuple state_of_ground(const GroundObject& g) {
+  const GroundSplit& s = g.split;
+  const auto array = [](const std::vector<std::int32_t>& list) {
+    return py::array_t<std::int32_t>(static_cast<py::ssize_t>(list.size()), list.data());
+  };
+  return py::make_tuple(g.points, s.found, array_of(s.normal), s.offset, array(s.ground), array(s.rest));
+}
+
+GroundObject ground_from_state(const py::tuple& state) {
+  GroundObject g;
+  g.points = state[0].cast<std::size_t>();
+  g.split.found = state[1].cast<bool>();
+  g.split.normal = vector3(state[2], "normal");
+  g.split.offset = state[3].cast<double>();
+  g.split.ground = list_of<std::int32_t>(state[4]);
+  g.split.rest = list_of<std::int32_t>(state[5]);
+  for (const auto* list : {&g.split.ground, &g.split.rest}) {
+    for (const std::int32_t i : *list) {
+      if (i < 0 || static_cast<std::size_t>(i) >= g.points)
+        throw py::value_error("Ground: a state that is none of its own");
+    }
+  }
+  return g;
+}
+
 std::string repr_of_clusters(const ClustersObject& c) {
   std::string said =
       "Clusters(" + std::to_string(c.found.size()) + " of " + std::to_string(c.points) + " points";
@@ -194,9 +219,7 @@ std::string repr_of_clusters(const ClustersObject& c) {
   return said + ')';
 }
 
-}  // namespace
-
-void bind_segmentation(py::module_& module) {
+void bind_clusters(py::module_& module) {
   using C = ClustersObject;
   py::class_<C>(module, "Clusters", clusters_doc)
       .def_property_readonly(
@@ -235,7 +258,9 @@ void bind_segmentation(py::module_& module) {
              "max_size"_a = py::none(), "min_points"_a = 1, "tolerance_per_metre"_a = 0,
              "oversized"_a = "drop", "classes"_a = py::none(), "class_settings"_a = py::none(),
              "threads"_a = 1, cluster_doc);
+}
 
+void bind_ground(py::module_& module) {
   using G = GroundObject;
   py::class_<G>(module, "Ground", ground_class_doc)
       .def_property_readonly(
@@ -255,6 +280,8 @@ void bind_segmentation(py::module_& module) {
           [](const py::object& self) { return view_of_vector(self.cast<const G&>().split.rest, self); },
           "int32: numbers of the other finite points.")
       .def_property_readonly("mask", mask_of, "(N,) bool: which points are ground.")
+      .def(py::pickle([](const G& g) { return state_of_ground(g); },
+                      [](const py::tuple& state) { return ground_from_state(state); }))
       .def("__repr__", [](const G& g) {
         return "Ground(found=" + std::string(g.split.found ? "True" : "False") +
                ", ground=" + std::to_string(g.split.ground.size()) +
@@ -263,6 +290,13 @@ void bind_segmentation(py::module_& module) {
   module.def("ground", find_ground, "points"_a, "method"_a = "zones", py::kw_only(), "up"_a = "z",
              "sensor"_a = py::none(), "sensor_height"_a = py::none(), "distance"_a = py::none(),
              "max_slope_degrees"_a = py::none(), "threads"_a = 1, ground_doc);
+}
+
+}  // namespace
+
+void bind_segmentation(py::module_& module) {
+  bind_clusters(module);
+  bind_ground(module);
   module.def("statistics", statistics_of, "points"_a, py::kw_only(), "threads"_a = 1, statistics_doc);
 }
 

@@ -19,8 +19,10 @@ def records(points, layout):
 
 class Arrays(unittest.TestCase):
     def same(self, array, expected, **options):
-        self.assertEqual(pcl_bv.fit(array, "dop26", **options), pcl_bv.fit(expected.copy(), "dop26", **options))
-        self.assertEqual(pcl_bv.fit(array, "sphere", **options), pcl_bv.fit(expected.copy(), "sphere", **options))
+        self.assertEqual(pcl_bv.fit(array, "dop26", **options), pcl_bv.fit(expected.copy(), "dop26",
+            **options))
+        self.assertEqual(pcl_bv.fit(array, "sphere", **options), pcl_bv.fit(expected.copy(), "sphere",
+            **options))
 
     def test_any_layout_gives_the_volume_of_its_points(self):
         for dtype in (np.float32, np.float64):
@@ -50,7 +52,8 @@ class Arrays(unittest.TestCase):
             self.same(array, array)
             labels = np.arange(count) % 3
             self.assertEqual(pcl_bv.fit(array, "obb", labels), pcl_bv.fit(array.copy(), "obb", labels))
-            self.assertEqual(list(pcl_bv.cluster(array, 0.5).labels), list(pcl_bv.cluster(array.copy(), 0.5).labels))
+            self.assertEqual(list(pcl_bv.cluster(array, 0.5).labels), list(pcl_bv.cluster(array.copy(),
+                0.5).labels))
             libc.mprotect(ctypes.c_void_p(page), mmap.PAGESIZE, 3)
 
     def test_records_are_seen_by_the_names_of_their_fields(self):
@@ -68,7 +71,8 @@ class Arrays(unittest.TestCase):
     def test_an_organised_cloud_is_its_rows(self):
         image = normal(600, 9, np.float32).reshape(20, 30, 3)
         self.same(image, image.reshape(-1, 3))
-        self.assertEqual(pcl_bv.fit(records(normal(600, 9), [("x", "f4"), ("y", "f4"), ("z", "f4")]).reshape(20, 30), "obb"),
+        self.assertEqual(pcl_bv.fit(records(normal(600, 9), [("x", "f4"), ("y", "f4"), ("z",
+            "f4")]).reshape(20, 30), "obb"),
                          pcl_bv.fit(image, "obb"))
 
     def test_views_are_not_copied(self):
@@ -120,7 +124,8 @@ class Arrays(unittest.TestCase):
         expected = {0: pcl_bv.fit(points[:2], "aabb"), 4: pcl_bv.fit(points[2:4], "aabb")}
         for dtype in (np.int8, np.int16, np.int32, np.int64):
             self.assertEqual(pcl_bv.fit(points, "aabb", np.array([0, 0, 4, 4, -1, -2], dtype)), expected)
-        far = [pcl_bv.fit(points, "aabb", np.array([10**15, 5, 5, 10**15, 7, 7])), pcl_bv.fit(points, "aabb", [2, 0, 0, 2, 1, 1])]
+        far = [pcl_bv.fit(points, "aabb", np.array([10**15, 5, 5, 10**15, 7, 7])), pcl_bv.fit(points, "aabb",
+            [2, 0, 0, 2, 1, 1])]
         self.assertEqual(list(far[0]), [5, 7, 10**15])
         self.assertEqual([far[0][5], far[0][7], far[0][10**15]], list(far[1].values()))
         written = np.array([0, 0, 4, 4, 4294967295, 4294967294], np.uint32)

@@ -16,7 +16,8 @@ PCD_BV = os.path.join(os.environ["PCL_BV_BIN_DIR"], "pcd_bv")
 
 def command(path, methods):
     """What pcd_bv says of a cloud, method by method."""
-    out = subprocess.run([PCD_BV, "--volume", ",".join(methods), "--format", "json", path], check=True, capture_output=True)
+    out = subprocess.run([PCD_BV, "--volume", ",".join(methods), "--format", "json", path], check=True,
+                         capture_output=True)
     return json.loads(out.stdout)[0]["clusters"][0]["volumes"]
 
 

@@ -12,7 +12,7 @@ def normal(count, seed=1, dtype=np.float64):
 
 
 def clouds():
-    """Names and points of several kinds: round, flat, few, far from the origin, with rows that are not finite."""
+    """Points of several kinds, by name: round, flat, few, far from the origin, rows that are not finite."""
     bad = normal(500, 3, np.float32)
     bad[::7, 1] = np.nan
     bad[3] = np.inf

@@ -47,7 +47,8 @@ def stub():
 def shape(arguments):
     """Of a stub, as of inspect.signature(): names with their kinds and defaults."""
     positional = arguments.posonlyargs + arguments.args
-    defaults = [None] * (len(positional) - len(arguments.defaults)) + [ast.literal_eval(d) for d in arguments.defaults]
+    given = [ast.literal_eval(d) for d in arguments.defaults]
+    defaults = [None] * (len(positional) - len(given)) + given
     rows = [(a.arg, i < len(arguments.posonlyargs), d) for i, (a, d) in enumerate(zip(positional, defaults))]
     rows += [(a.arg, "keyword", None if d is None else ast.literal_eval(d))
              for a, d in zip(arguments.kwonlyargs, arguments.kw_defaults)]
@@ -64,7 +65,9 @@ def shape_of(callable_):
         if p.kind is kinds.VAR_KEYWORD:
             rows.append(p.name)
         else:
-            rows.append((p.name, "keyword" if p.kind is kinds.KEYWORD_ONLY else p.kind is kinds.POSITIONAL_ONLY, default))
+            rows.append((p.name,
+                         "keyword" if p.kind is kinds.KEYWORD_ONLY else p.kind is kinds.POSITIONAL_ONLY,
+                         default))
     return rows
 
 

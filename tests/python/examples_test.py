@@ -16,14 +16,16 @@ class Examples(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for example in EXAMPLES:
                 with self.subTest(example.name):
-                    done = subprocess.run([sys.executable, "-W", "error", example], cwd=folder, capture_output=True, text=True)
+                    done = subprocess.run([sys.executable, "-W", "error", example], cwd=folder,
+                                          capture_output=True, text=True)
                     self.assertEqual((done.returncode, done.stderr), (0, ""))
                     self.assertTrue(done.stdout)
                     self.assertEqual(os.listdir(folder), [])
 
     def test_a_picture_is_written_where_one_is_asked_for(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([sys.executable, EXAMPLES[1], "synth:street:20000:1", "street.png"], cwd=folder, check=True,
+            subprocess.run([sys.executable, EXAMPLES[1], "synth:street:20000:1", "street.png"], cwd=folder,
+                           check=True,
                            capture_output=True)
             self.assertEqual(pathlib.Path(folder, "street.png").read_bytes()[:4], b"\x89PNG")
 

@@ -23,7 +23,8 @@ class Files(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def test_clouds_keep_every_field_and_bit(self):
-        layout = [("intensity", "u1"), ("x", "f4"), ("y", "f4"), ("z", "f4"), ("t", "f8"), ("normal", "f4", (3,)), ("i", "i2")]
+        layout = [("intensity", "u1"), ("x", "f4"), ("y", "f4"), ("z", "f4"), ("t", "f8"), ("normal", "f4",
+            (3,)), ("i", "i2")]
         array = np.zeros(100, layout)
         raw = np.random.default_rng(41).integers(0, 256, array.nbytes, np.uint8)
         array = raw.view(layout).copy()
@@ -49,7 +50,8 @@ class Files(unittest.TestCase):
         points = normal(64, 43, np.float32)
         np.hstack([points, np.ones((64, 1), np.float32)]).tofile(self.folder / "a.bin")
         lines = ["%r %r %r" % tuple(map(float, p)) for p in points]
-        head = "ply\nformat ascii 1.0\nelement vertex 64\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+        head = "ply\nformat ascii 1.0\nelement vertex 64\n"
+        head += "".join(f"property float {name}\n" for name in "xyz") + "end_header\n"
         (self.folder / "a.ply").write_text(head + "\n".join(lines) + "\n")
         for name in ("a.bin", "a.ply"):
             cloud = pcl_bv.read(self.folder / name)
@@ -78,7 +80,8 @@ class Files(unittest.TestCase):
             for number, (one, other) in enumerate(zip(recorded, frames)):
                 finite = np.isfinite(other.points).all(axis=1)
                 self.assertEqual(pcl_bv.fit(one.points, "dop26"), pcl_bv.fit(other.points[finite], "dop26"))
-                self.assertEqual(pcl_bv.fit(pcl_bv.read(path, number=number), "dop26"), pcl_bv.fit(one.points, "dop26"))
+                self.assertEqual(pcl_bv.fit(pcl_bv.read(path, number=number), "dop26"),
+                                 pcl_bv.fit(one.points, "dop26"))
             with self.assertRaisesRegex(ValueError, "/nothing"):
                 pcl_bv.frames(path, topic="/nothing")
 
@@ -97,7 +100,8 @@ class Files(unittest.TestCase):
 
     def test_volumes_come_back_from_json_bit_by_bit(self):
         points = normal(200, 45)
-        volumes = pcl_bv.fit(points, ["aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid", "hull"])
+        volumes = pcl_bv.fit(points, ["aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid",
+                                      "hull"])
         path = self.folder / "v.json"
         pcl_bv.write(path, volumes)
         self.assertEqual(pcl_bv.read_volumes(path), volumes)
@@ -110,7 +114,8 @@ class Files(unittest.TestCase):
     def test_every_kind_of_file_is_written_of_results_and_volumes(self):
         result = pcl_bv.Pipeline(cluster={"min_size": 50}, volumes=["aabb", "sphere"]).process(street())
         for what in (result, result.clusters[0].volumes, pcl_bv.fit(street(), ["aabb"], result)):
-            for extension, begin in ((".json", b"{"), (".csv", b""), (".ply", b"ply"), (".vtp", b"<?xml"), (".png", b"\x89PNG"),
+            for extension, begin in ((".json", b"{"), (".csv", b""), (".ply", b"ply"), (".vtp", b"<?xml"),
+                                     (".png", b"\x89PNG"),
                                      (".svg", b"<?xml")):
                 path = self.folder / ("out" + extension)
                 pcl_bv.write(path, what)

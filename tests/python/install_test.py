@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""pip install into an empty prefix, without a network, from a copy of the sources; then a stranger's program."""
+"""pip install into an empty prefix, without a network, of a copy of the sources; then a stranger's program."""
 
 import os
 import pathlib
@@ -26,15 +26,19 @@ def main(source, work):
     shutil.rmtree(work, ignore_errors=True)
     copy, prefix, empty = work / "source", work / "prefix", work / "empty"
     empty.mkdir(parents=True)
-    shutil.copytree(source, copy, ignore=lambda folder, names: {"build", ".git", ".cache"} if folder == str(source) else ())
-    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH" and not name.startswith("PIP_")}
-    pip = [sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index", "--prefix", prefix,
+    shutil.copytree(source, copy, ignore=lambda folder, names: {"build", ".git",
+                                                                ".cache"} if folder == str(source) else ())
+    environment = {name: value for name,
+                   value in os.environ.items() if name != "PYTHONPATH" and not name.startswith("PIP_")}
+    pip = [sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index",
+           "--prefix", prefix,
            "--ignore-installed", "--break-system-packages", copy]
     subprocess.run(pip, check=True, env=environment, cwd=empty)
     installed = [path.parent for path in prefix.rglob("pcl_bv/__init__.py")]
     assert len(installed) == 1, installed
     environment["PYTHONPATH"] = str(installed[0].parent)
-    subprocess.run([sys.executable, "-W", "error", "-c", PROGRAM, prefix], check=True, env=environment, cwd=empty)
+    subprocess.run([sys.executable, "-W", "error", "-c", PROGRAM, prefix], check=True, env=environment,
+                   cwd=empty)
     shutil.rmtree(work)
 
 

@@ -58,7 +58,8 @@ class Memory(unittest.TestCase):
     def test_everything_else_leaves_nothing(self):
         points = normal(60, 53)
         labels = np.arange(60) % 4
-        pipeline = pcl_bv.Pipeline(filter={"range_min": 0}, ground={"method": "none"}, cluster={"min_size": 1})
+        pipeline = pcl_bv.Pipeline(filter={"range_min": 0}, ground={"method": "none"},
+                                   cluster={"min_size": 1})
 
         def call():
             for volume in pcl_bv.fit(points, ["dop26", "sphere", "obb-pca", "hull"]):

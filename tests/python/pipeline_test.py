@@ -18,7 +18,8 @@ SETTINGS = dict(filter={"range_min": 1, "range_max": 60}, cluster={"tolerance": 
 
 
 def run(*arguments):
-    return subprocess.run([os.path.join(BIN, arguments[0]), *arguments[1:]], check=True, capture_output=True).stdout
+    return subprocess.run([os.path.join(BIN, arguments[0]), *arguments[1:]], check=True,
+                          capture_output=True).stdout
 
 
 class Pipelines(unittest.TestCase):
@@ -77,7 +78,8 @@ class Pipelines(unittest.TestCase):
     def test_one_object_without_clusters(self):
         points = normal(500, 31)
         points[4] = np.nan
-        result = pcl_bv.Pipeline(filter={"range_min": 0.5}, ground={"method": "none"}, cluster={"tolerance": 0}).process(points)
+        result = pcl_bv.Pipeline(filter={"range_min": 0.5}, ground={"method": "none"},
+                                 cluster={"tolerance": 0}).process(points)
         self.assertEqual([v.method for v in result.clusters[0].volumes], ["aabb", "sphere-exact", "obb-min"])
         kept = np.flatnonzero(np.linalg.norm(points, axis=1) >= 0.5)
         self.assertTrue(np.array_equal(result.clusters[0].indices, kept))
@@ -108,7 +110,8 @@ class Pipelines(unittest.TestCase):
     def test_regions_may_be_volumes(self):
         points = normal(1000, 34)
         ball, box = pcl_bv.Sphere([0, 0, 0], 1), pcl_bv.Aabb([0, 0, 0], [9, 9, 9])
-        settings = dict(filter={"range_min": 0, "regions": [{"volumes": [ball, box], "padding": 0.25}]}, volumes=["aabb"],
+        settings = dict(filter={"range_min": 0, "regions": [{"volumes": [ball, box], "padding": 0.25}]},
+                        volumes=["aabb"],
                         ground={"method": "none"}, cluster={"tolerance": 0})
         pipeline = pcl_bv.Pipeline(settings)
         inside = pcl_bv.RegionMask([ball, box], 0.25).contains(points)
@@ -118,7 +121,8 @@ class Pipelines(unittest.TestCase):
         self.assertEqual(pipeline.config["filter"]["regions"][0]["volumes"], [ball, box])
         self.assertEqual(pcl_bv.Pipeline(pipeline.config).process(points).counts, result.counts)
         self.assertEqual(pickle.loads(pickle.dumps(result)).json(), result.json())
-        self.assertEqual(settings["filter"]["regions"][0]["volumes"], [ball, box])  # the user's dict is left alone
+        self.assertEqual(settings["filter"]["regions"][0]["volumes"], [ball,
+            box])  # the user's dict is left alone
         with self.assertRaisesRegex(TypeError, "filter.regions"):
             pcl_bv.Pipeline(filter={"regions": [{"volumes": [3]}]})
 
@@ -133,9 +137,11 @@ class Pipelines(unittest.TestCase):
         points = np.array([[0.0, 0, 0], [0.1, 0, 0], [0.2, 0, 0], [5, 0, 0]])
         classes = [1, 2, 1, 3]
         clusters = pcl_bv.cluster(points, 0.5, classes=classes, class_settings={3: {"drop": True}})
-        self.assertEqual(([list(c) for c in clusters], list(clusters.classes), clusters.class_points), ([[0, 2], [1]], [1, 2], 1))
+        self.assertEqual(([list(c) for c in clusters], list(clusters.classes), clusters.class_points), ([[0,
+            2], [1]], [1, 2], 1))
         pipeline = pcl_bv.Pipeline(filter={"range_min": 0}, ground={"method": "none"}, volumes=["aabb"],
-                                   cluster={"min_size": 1, "class_field": "kind", "classes": [{"value": 3, "drop": True}]})
+                                   cluster={"min_size": 1, "class_field": "kind", "classes": [{"value": 3,
+                                       "drop": True}]})
         result = pipeline.process(points, classes=classes)
         self.assertEqual([c.class_value for c in result.clusters], [1, 2])
         self.assertEqual(result.counts["class"], 1)
@@ -150,11 +156,16 @@ class Pipelines(unittest.TestCase):
         self.assertEqual(len(pcl_bv.cluster(points, 0.15, tolerance_per_metre=10)), 1)
 
     def test_results_pickle_with_their_picture(self):
-        result = pcl_bv.Pipeline(dict(SETTINGS, track={"enabled": True, "birth": 1})).process(street(), stamp_ns=5, frame_id="f")
+        result = pcl_bv.Pipeline(dict(SETTINGS, track={"enabled": True, "birth": 1})).process(street(),
+            stamp_ns=5, frame_id="f")
         again = pickle.loads(pickle.dumps(result))
         self.assertEqual(again.json(), result.json())
         self.assertEqual(again._repr_png_(), result._repr_png_())
         self.assertEqual([c.volumes for c in again.clusters], [c.volumes for c in result.clusters])
+        split = pickle.loads(pickle.dumps(result.ground))
+        self.assertEqual((split.offset, split.ground.tolist()), (result.ground.offset,
+                                                                 result.ground.ground.tolist()))
+        self.assertTrue(np.array_equal(split.mask, result.ground.mask))
         clusters = pcl_bv.cluster(normal(300, 33), 0.3, min_size=2)
         again = pickle.loads(pickle.dumps(clusters))
         self.assertEqual([list(c) for c in again], [list(c) for c in clusters])

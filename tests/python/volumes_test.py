@@ -50,7 +50,8 @@ def fitted():
 class Volumes(unittest.TestCase):
     def test_every_point_is_inside_in_exact_arithmetic(self):
         points = normal(300, 21, np.float32) * np.float32([100, 1e-3, 5]) + np.float32(1000)
-        for method in ("aabb", "dop14", "dop26", "hull", "sphere", "sphere-ritter", "obb", "obb-pca", "obb-yaw", "ellipsoid"):
+        for method in ("aabb", "dop14", "dop26", "hull", "sphere", "sphere-ritter", "obb", "obb-pca",
+                       "obb-yaw", "ellipsoid"):
             volume = pcl_bv.fit(points, method)
             self.assertTrue(all(inside(volume, p) for p in points), method)
             outside = np.array(volume.center) + [1e6, 0, 0]
@@ -113,7 +114,8 @@ class Volumes(unittest.TestCase):
 
     def test_moved_volumes_hold_moved_points(self):
         angle = 0.3
-        matrix = np.array([[np.cos(angle), -np.sin(angle), 0, 5], [np.sin(angle), np.cos(angle), 0, -2], [0, 0, 1, 1],
+        matrix = np.array([[np.cos(angle), -np.sin(angle), 0, 5], [np.sin(angle), np.cos(angle), 0, -2], [0,
+            0, 1, 1],
                            [0, 0, 0, 1]])
         points = normal(200, 24)
         moved = points @ matrix[:3, :3].T + matrix[:3, 3]
@@ -133,7 +135,8 @@ class Volumes(unittest.TestCase):
             self.assertTrue(one.overlaps(both))
             if method != "obb":
                 self.assertTrue(one.extend(b).contains(b).all())
-        self.assertEqual(pcl_bv.fit(a, "dop26").merge(pcl_bv.fit(b, "dop26")), pcl_bv.fit(np.vstack([a, b]), "dop26"))
+        self.assertEqual(pcl_bv.fit(a, "dop26").merge(pcl_bv.fit(b, "dop26")), pcl_bv.fit(np.vstack([a, b]),
+            "dop26"))
 
     def test_meshes_lie_on_their_volumes(self):
         for volume in pcl_bv.fit(normal(100, 27), "all"):
@@ -144,11 +147,13 @@ class Volumes(unittest.TestCase):
     def test_parts_give_the_bits_of_the_whole(self):
         points = normal(9000, 28, np.float32)
         cuts = [0, 1000, 1001, 5000, 9000]
-        parts = [pickle.loads(pickle.dumps(pcl_bv.Partial(points[a:b], first=a))) for a, b in zip(cuts, cuts[1:])]
+        parts = [pickle.loads(pickle.dumps(pcl_bv.Partial(points[a:b], first=a))) for a, b in zip(cuts,
+            cuts[1:])]
         whole = functools.reduce(operator.add, reversed(parts), pcl_bv.Partial())
         self.assertEqual(len(whole), len(points))
         self.assertEqual(whole.to_bytes(), functools.reduce(operator.add, parts).to_bytes())
-        methods = ["aabb", "dop6", "dop26", "hull", "obb-pca", "obb-dito14", "obb-min", "cylinder", "capsule", "ellipsoid"]
+        methods = ["aabb", "dop6", "dop26", "hull", "obb-pca", "obb-dito14", "obb-min", "cylinder",
+                   "capsule", "ellipsoid"]
         for volume in whole.fit(methods):
             self.assertEqual(volume, pcl_bv.fit(points, volume.method), volume.method)
             self.assertEqual(volume.used, len(points))
@@ -163,7 +168,8 @@ class Volumes(unittest.TestCase):
 
     def test_reprs_say_what_a_person_wants_to_know(self):
         said = repr(pcl_bv.fit([[0.0, 0, 0], [1, 0, 0], [np.nan, 0, 0]], "aabb"))
-        self.assertEqual(said, "Aabb(min=[0, 0, 0], max=[1, 0, 0], method='aabb', used=2, dropped=1, status='degenerate')")
+        self.assertEqual(said,
+                         "Aabb(min=[0, 0, 0], max=[1, 0, 0], method='aabb', used=2, dropped=1, status='degenerate')")
         self.assertEqual(repr(pcl_bv.fit(np.zeros((0, 3)), "obb")),
                          "Obb(empty, method='obb-min', used=0, status='no_valid_points')")
 
