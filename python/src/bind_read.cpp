@@ -31,7 +31,8 @@ auto reading(const std::string& name, const Read& read) {
     return read();
   } catch (const IoError& error) {
     std::error_code unknown;
-    if (name.rfind("synth:", 0) != 0 && !std::filesystem::exists(name, unknown)) {
+    const bool file = name.rfind("synth:", 0) != 0 && name.rfind("dds:", 0) != 0;
+    if (file && !std::filesystem::exists(name, unknown)) {
       errno = ENOENT;
       PyErr_SetFromErrnoWithFilename(PyExc_FileNotFoundError, name.c_str());
       throw py::error_already_set();

@@ -4,7 +4,9 @@ import csv
 import json
 import os
 import pathlib
+import signal
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -84,6 +86,20 @@ class Files(unittest.TestCase):
                                  pcl_bv.fit(one.points, "dop26"))
             with self.assertRaisesRegex(ValueError, "/nothing"):
                 pcl_bv.frames(path, topic="/nothing")
+
+    def test_a_live_source_that_is_silent_can_be_interrupted(self):
+        try:
+            pcl_bv.frames("dds:/pcl_bv_python_test_of_silence")
+        except OSError as error:
+            self.assertIn("pcl_bv_dds.so is not installed", str(error))
+            return
+        program = "import pcl_bv\nframes = pcl_bv.frames('dds:/pcl_bv_python_test_of_silence')\n"
+        program += "print('on', flush=True)\n"
+        with subprocess.Popen([sys.executable, "-c", program + "next(frames)"], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True) as waiting:
+            self.assertEqual(waiting.stdout.readline(), "on\n")
+            waiting.send_signal(signal.SIGINT)
+            self.assertIn("KeyboardInterrupt", waiting.communicate(timeout=60)[1])
 
     def test_frames_of_a_folder_come_in_their_order_with_rates_and_poses(self):
         for i in range(3):
