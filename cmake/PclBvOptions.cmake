@@ -1,5 +1,5 @@
 # What to build. As a subproject: only the libraries whose dependencies are few, nothing to install, no commands.
-set(all_components core pcl segmentation io report messages recording nodes dds live ros1 mpi)
+set(all_components core pcl segmentation io report messages recording nodes dds live ros1 mpi python)
 if(PROJECT_IS_TOP_LEVEL)
   set(default_components ${all_components})
 else()
@@ -24,7 +24,7 @@ foreach(component ${PCL_BV_COMPONENTS})
   endif()
 endforeach()
 # Each component with those that it is built on.
-foreach(program dds live ros1 mpi)
+foreach(program dds live ros1 mpi python)
   if(program IN_LIST PCL_BV_COMPONENTS)
     list(APPEND PCL_BV_COMPONENTS nodes)
   endif()

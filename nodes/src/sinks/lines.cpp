@@ -6,7 +6,6 @@
 #include "line_file.h"
 #include "pcl_bv/report/csv.h"
 #include "sinks.h"
-#include "streaming/reports.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/settings.h"
-#include "streaming/reports.h"
 #include "topics/scene.h"
 
 namespace pcl_bv {

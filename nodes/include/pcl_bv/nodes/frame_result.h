@@ -14,6 +14,7 @@
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/report/frame_report.h"
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
@@ -75,6 +76,10 @@ std::string ground_remark(const FrameResult& result);
 
 /// The clusters as they are reported.
 std::vector<ClusterEntry> entries_of(const FrameResult& result);
+
+/// The frame as it is reported, and one that was lost, with the reason.
+FrameReport report_of(const Frame& frame, const FrameResult& result);
+FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 
 /// The frame and what was found in it, up as the configuration says: with clusters the points that passed
 /// the filter in the colours of `labels`, as labels_of() gives them, and each cluster's id; else those that

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "arguments.h"
+
+#include "arrays.h"
+
+namespace pcl_bv::python {
+
+void refuse_value(const char* name, const std::string& what) {
+  throw py::value_error(std::string(name) + ": " + what);
+}
+
+void refuse_type(const char* name, const std::string& wanted, py::handle value) {
+  throw py::type_error(std::string(name) + ": " + wanted + " is wanted, not " + shown(value));
+}
+
+std::string shown(py::handle value) {
+  constexpr std::size_t longest = 60;
+  std::string said = py::repr(value).cast<std::string>();
+  std::replace(said.begin(), said.end(), '\n', ' ');
+  if (said.size() > longest) said = said.substr(0, longest - 3) + "...";
+  return said;
+}
+
+double number(py::handle value, const char* name, const NumberRange& range) {
+  if (PyBool_Check(value.ptr())) refuse_type(name, "a number", value);
+  const double read = PyFloat_AsDouble(value.ptr());
+  if (read == -1 && PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    refuse_type(name, "a number", value);
+  }
+  Setting setting{name, "", ""};
+  setting.range = range;
+  const std::string problem = problem_of(setting, read);
+  if (!problem.empty()) refuse_value(name, problem);
+  return read;
+}
+
+std::size_t whole_number(py::handle value, const char* name, const NumberRange& range) {
+  if (PyBool_Check(value.ptr()) || PyIndex_Check(value.ptr()) == 0)
+    refuse_type(name, "a whole number", value);
+  const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  if (!whole) throw py::error_already_set();
+  const std::size_t read = PyLong_AsSize_t(whole.ptr());
+  if (read == static_cast<std::size_t>(-1) && PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    refuse_value(name, shown(value) + " is not a whole number of at least 0 that fits 64 bits");
+  }
+  Setting setting{name, "", ""};
+  setting.range = range;
+  const std::string problem = problem_of(setting, read);
+  if (!problem.empty()) refuse_value(name, problem);
+  return read;
+}
+
+std::string text(py::handle value, const char* name) {
+  if (!PyUnicode_Check(value.ptr())) refuse_type(name, "a text", value);
+  return value.cast<std::string>();
+}
+
+std::filesystem::path path(py::handle value, const char* name) {
+  const py::object path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
+  if (!path) {
+    PyErr_Clear();
+    refuse_type(name, "a path", value);
+  }
+  PyObject* bytes = nullptr;
+  if (PyUnicode_FSConverter(path.ptr(), &bytes) == 0) throw py::error_already_set();
+  return py::reinterpret_steal<py::bytes>(bytes).cast<std::string>();
+}
+
+Eigen::Vector3d vector3(py::handle value, const char* name) {
+  const auto numbers = doubles(value, name);
+  if (numbers.size() != 3) refuse_value(name, "three numbers are wanted, not " + shown(value));
+  const Eigen::Vector3d v(numbers.data()[0], numbers.data()[1], numbers.data()[2]);
+  if (!v.allFinite()) refuse_value(name, shown(value) + " is not finite");
+  return v;
+}
+
+Eigen::Vector3d up_argument(py::handle value) {
+  const Eigen::Vector3d up =
+      PyUnicode_Check(value.ptr()) ? word<Eigen::Vector3d>(value, "up") : vector3(value, "up");
+  const std::string problem = problem_of(Setting{"up", "", ""}, up);
+  if (!problem.empty()) refuse_value("up", problem);
+  return up;
+}
+
+const Method* method_of(py::handle name) {
+  Py_ssize_t size = 0;
+  const char* const characters =
+      PyUnicode_Check(name.ptr()) ? PyUnicode_AsUTF8AndSize(name.ptr(), &size) : nullptr;
+  if (characters == nullptr) {
+    PyErr_Clear();
+    refuse_type("method", "a name or a list of names", name);
+  }
+  const Method* const method = find_method({characters, static_cast<std::size_t>(size)});
+  if (method != nullptr) return method;
+  std::string known;
+  for (const Method& each : methods())
+    known.append(known.empty() ? "" : ", ").append(each.name);
+  refuse_value("method", shown(name) + " is not one of " + known + ", or all");
+}
+
+std::vector<const Method*> methods_of(py::handle names, bool& one) {
+  const auto is_all = [](py::handle name) {
+    return PyUnicode_Check(name.ptr()) && PyUnicode_CompareWithASCIIString(name.ptr(), "all") == 0;
+  };
+  one = PyUnicode_Check(names.ptr()) && !is_all(names);
+  if (one) return {method_of(names)};
+  if (is_all(names)) return methods_of_all();
+  if (!PyList_Check(names.ptr()) && !PyTuple_Check(names.ptr()))
+    refuse_type("method", "a name or a list of names", names);
+  std::vector<const Method*> found;
+  for (const py::handle name : names) {
+    if (is_all(name)) {
+      found.insert(found.end(), methods_of_all().begin(), methods_of_all().end());
+    } else {
+      found.push_back(method_of(name));
+    }
+  }
+  if (found.empty()) refuse_value("method", "the list has no names");
+  return found;
+}
+
+ParallelPolicy policy_of(py::handle threads) {
+  const std::size_t n = whole_number(threads, "threads", {0, 1024});
+  if (n == 1) return Serial{};
+  return Threads{static_cast<unsigned>(n)};
+}
+
+Execution execution_of(py::handle threads, py::handle isa) {
+  Execution execution;
+  execution.parallel = policy_of(threads);
+  if (isa.is_none()) return execution;
+  try {
+    execution.isa = parse_isa(text(isa, "isa"));
+  } catch (const std::invalid_argument& error) {
+    refuse_value("isa", error.what());
+  }
+  return execution;
+}
+
+Eigen::Isometry3d isometry(py::handle matrix, const char* name) {
+  const auto numbers = doubles(matrix, name);
+  if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
+    refuse_value(name, "a matrix of 4 x 4 numbers is wanted, not " + shown(matrix));
+  const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  const Eigen::Matrix3d rotation = m.topLeftCorner<3, 3>();
+  constexpr double most = 1e-6;  // of the scale of a pose in float; volumes grow by what is not rigid
+  if (!m.allFinite() || m.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || rotation.determinant() < 0 ||
+      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > most)
+    refuse_value(
+        name, "a rotation (orthonormal to 1e-6) and a shift above 0 0 0 1 are wanted, not " + shown(matrix));
+  Eigen::Isometry3d motion;
+  motion.matrix() = m;
+  return motion;
+}
+
+}  // namespace pcl_bv::python

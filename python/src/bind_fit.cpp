@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "bind.h"
+#include "labels.h"
+#include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/fitting/verify.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+using namespace py::literals;
+
+struct Fitted {
+  AnyVolume volume;
+  EstimationResult result;
+};
+
+/// Of one view: as many as there are methods.
+void fit_all(const PointView& view, const std::vector<const Method*>& among, const Execution& execution,
+             const MethodOptions& options, Fitted* fitted) {
+  Supports supports;
+  const Execution shared = share_supports(view, among, execution, supports);
+  for (std::size_t m = 0; m < among.size(); ++m)
+    fitted[m].result = among[m]->fit(view, fitted[m].volume, shared, options);
+}
+
+py::object python_of(Fitted&& fitted, const Method* method) {
+  return to_python(std::move(fitted.volume), method, fitted.result);
+}
+
+/// A volume, or a list of them.
+py::object python_of(Fitted* fitted, const std::vector<const Method*>& among, bool one) {
+  if (one) return python_of(std::move(*fitted), among.front());
+  py::list list(among.size());
+  for (std::size_t m = 0; m < among.size(); ++m)
+    list[m] = python_of(std::move(fitted[m]), among[m]);
+  return list;
+}
+
+py::object fit_labelled(const PointArray& points, const std::vector<const Method*>& among, bool one,
+                        py::handle labels, const Execution& execution, const MethodOptions& options) {
+  const LabelGroups groups(labels, points.view);
+  std::vector<Fitted> fitted(groups.size() * among.size());
+  {
+    const py::gil_scoped_release unlocked;
+    for_each_view(groups.views(), execution, [&](std::size_t i, const Execution& own) {
+      fit_all(groups.views()[i], among, own, options, &fitted[i * among.size()]);
+    });
+  }
+  py::dict by_label;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    by_label[py::int_(groups.label(i))] = python_of(&fitted[i * among.size()], among, one);
+  return by_label;
+}
+
+py::object fit(py::handle points, py::handle method, py::handle labels, py::handle up, py::handle growth,
+               py::handle threads, py::handle isa) {
+  const PointArray array = points_of(points);
+  const Execution execution = execution_of(threads, isa);
+  const MethodOptions options{word<SphereGrowth>(growth, "growth"), up_argument(up)};
+  if (PyUnicode_Check(method.ptr()) && labels.is_none() &&
+      PyUnicode_CompareWithASCIIString(method.ptr(), "all") != 0) {
+    const Method* const asked = method_of(method);
+    Fitted fitted;
+    {
+      const py::gil_scoped_release unlocked;
+      fitted.result = asked->fit(array.view, fitted.volume, execution, options);
+    }
+    return python_of(std::move(fitted), asked);
+  }
+  bool one = false;
+  const std::vector<const Method*> among = methods_of(method, one);
+  if (!labels.is_none()) return fit_labelled(array, among, one, labels, execution, options);
+  std::vector<Fitted> fitted(among.size());
+  {
+    const py::gil_scoped_release unlocked;
+    fit_all(array.view, among, execution, options, fitted.data());
+  }
+  return python_of(fitted.data(), among, one);
+}
+
+struct VerificationObject : Verification {};
+
+py::object verify_volume(py::handle volume, py::handle points, py::handle threads) {
+  const VolumeObject& object = volume_of(volume, "volume");
+  const PointArray array = points_of(points);
+  const Execution execution = execution_of(threads, py::none());
+  VerificationObject found;
+  {
+    const py::gil_scoped_release unlocked;
+    static_cast<Verification&>(found) = verify(object.value, array.view, execution);
+  }
+  return py::cast(found);
+}
+
+constexpr const char* fit_doc =
+    R"(fit(points, method, labels=None, *, up='z', growth='deferred', threads=1, isa=None)
+--
+
+Fits a volume around points: each finite one is inside, by exact arithmetic.
+
+points: (N, 3 or more) float32 or float64 with any positive distance between rows, (H, W, 3 or more), or
+    records with fields x, y, z; not copied. Rows that are not finite are dropped and counted.
+method: a name of pcl_bv.methods() or its alias, or a list of them. 'all': every method but the hull.
+labels: whose points belong together: an integer for each point (negative: to nothing), or Clusters.
+up: against gravity, for obb-yaw and obb-lshape: 'x', '-z', ... or three numbers.
+growth: of spheres that grow: 'sequential', 'stationary' or 'deferred'.
+threads: 0 for all processors. No bit of the result depends on it, or on isa, one of instruction_sets.
+
+Returns a volume in the frame and unit of the points; for a list of methods a list; with labels a dict of
+these by label, ascending. No finite point: an empty volume with status 'no_valid_points'.
+Raises TypeError for other numbers, ValueError for an unknown method, a wrong shape or value.
+
+>>> import numpy, pcl_bv
+>>> corners = numpy.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]], numpy.float32)
+>>> pcl_bv.fit(corners, 'aabb')
+Aabb(min=[0, 0, 0], max=[2, 3, 4], method='aabb', used=4)
+>>> box, ball = pcl_bv.fit(corners, ['obb', 'sphere'])
+>>> bool(ball.contains(corners).all())
+True
+>>> sorted(pcl_bv.fit(corners, 'aabb', labels=[7, 7, 9, -1]))
+[7, 9]
+)";
+
+constexpr const char* verify_doc = R"(verify(volume, points, *, threads=1)
+--
+
+Checks the volume's exact predicates, in rationals where doubles cannot decide, for every finite point.
+
+Returns a Verification: checked, the finite points; outside, those outside; worst, the greatest distance past
+a face or surface, in the points' unit. Raises as fit().
+
+>>> import numpy, pcl_bv
+>>> points = numpy.random.default_rng(1).normal(size=(1000, 3))
+>>> pcl_bv.verify(pcl_bv.fit(points, 'sphere'), points)
+Verification(checked=1000, outside=0, worst=0)
+)";
+
+constexpr const char* verification_doc = R"(What verify() found.
+
+>>> import pcl_bv
+>>> found = pcl_bv.verify(pcl_bv.Sphere([0, 0, 0], 1), [[0., 0, 1], [0, 0, 3]])
+>>> found.checked, found.outside, found.worst
+(2, 1, 2.0)
+)";
+
+constexpr const char* methods_doc = R"(methods()
+--
+
+The names of all methods, each with its aliases, in the order of the documentation.
+
+>>> import pcl_bv
+>>> pcl_bv.methods()['sphere-exact']
+('sphere',)
+)";
+
+py::dict all_methods() {
+  py::dict names;
+  for (const Method& method : methods()) {
+    py::list aliases;
+    for (const std::string_view alias : method.aliases)
+      aliases.append(std::string(alias));
+    names[py::str(std::string(method.name))] = py::tuple(aliases);
+  }
+  return names;
+}
+
+}  // namespace
+
+void bind_fit(py::module_& module) {
+  module.def("fit", fit, "points"_a, "method"_a, "labels"_a = py::none(), py::kw_only(), "up"_a = "z",
+             "growth"_a = "deferred", "threads"_a = 1, "isa"_a = py::none(), fit_doc);
+  module.def("methods", all_methods, methods_doc);
+  py::class_<VerificationObject>(module, "Verification", verification_doc)
+      .def_property_readonly(
+          "checked", [](const VerificationObject& v) { return v.checked; }, "Finite points looked at.")
+      .def_property_readonly(
+          "outside", [](const VerificationObject& v) { return v.outside; },
+          "Of them, those outside by exact arithmetic.")
+      .def_property_readonly(
+          "worst", [](const VerificationObject& v) { return v.worst; },
+          "The greatest distance past a face or surface, in the points' unit; 0 if none.")
+      .def("__repr__", [](const VerificationObject& v) {
+        char text[160];
+        std::snprintf(text, sizeof text, "Verification(checked=%zu, outside=%zu, worst=%.6g)", v.checked,
+                      v.outside, v.worst);
+        return std::string(text);
+      });
+  module.def("verify", verify_volume, "volume"_a, "points"_a, py::kw_only(), "threads"_a = 1, verify_doc);
+}
+
+}  // namespace pcl_bv::python

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clouds in parts, and masks of points against volumes.
+
+#include "pcl_bv/fitting/partial.h"
+
+#include "bind.h"
+#include "pcl_bv/trees/region_mask.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+using namespace py::literals;
+
+Partial make_partial(py::handle points, py::handle first, py::handle threads) {
+  const std::size_t begin = whole_number(first, "first", {0, kNoLimit});
+  const Execution execution = execution_of(threads, py::none());
+  if (points.is_none()) return Partial();
+  const PointArray array = points_of(points);
+  const py::gil_scoped_release unlocked;
+  return Partial(array.view, begin, execution);
+}
+
+Partial merged(const Partial& a, const Partial& b) {
+  const py::gil_scoped_release unlocked;
+  Partial both = a;
+  both.merge(b);
+  return both;
+}
+
+py::object fit_partial(const Partial& partial, py::handle names, py::handle up, py::handle threads) {
+  bool one = false;
+  const std::vector<const Method*> among = methods_of(names, one);
+  const Execution execution = execution_of(threads, py::none());
+  const MethodOptions options{SphereGrowth::deferred, up_argument(up)};
+  std::vector<AnyVolume> volumes(among.size());
+  std::vector<EstimationResult> results(among.size());
+  {
+    const py::gil_scoped_release unlocked;
+    for (std::size_t m = 0; m < among.size(); ++m)
+      results[m] = partial.fit(*among[m], volumes[m], execution, options);
+  }
+  if (one) return to_python(std::move(volumes[0]), among[0], results[0]);
+  py::list list(among.size());
+  for (std::size_t m = 0; m < among.size(); ++m)
+    list[m] = to_python(std::move(volumes[m]), among[m], results[m]);
+  return list;
+}
+
+py::bytes bytes_of(const Partial& partial) {
+  const std::vector<std::byte> bytes = partial.to_bytes();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+Partial from_bytes(py::handle bytes) {
+  if (!PyBytes_Check(bytes.ptr())) refuse_type("bytes", "what to_bytes() gave", bytes);
+  const std::string_view content = py::reinterpret_borrow<py::bytes>(bytes);
+  return Partial::from_bytes(reinterpret_cast<const std::byte*>(content.data()), content.size());
+}
+
+RegionMask make_mask(py::handle volumes, py::handle padding) {
+  const double grown = number(padding, "padding", {0, 1e100});
+  std::vector<Region> regions;
+  for (const NumberedVolume& each : volumes_of(volumes, "volumes"))
+    regions.push_back({each.volume->value, grown});
+  return RegionMask(regions);
+}
+
+py::object mark(const RegionMask& mask, py::handle points, py::handle threads) {
+  const PointArray array = points_of(points);
+  const Execution execution = execution_of(threads, py::none());
+  std::vector<std::uint8_t> inside;
+  {
+    const py::gil_scoped_release unlocked;
+    mask.mark(array.view, inside, execution);
+  }
+  return take(std::move(inside)).attr("view")("bool");
+}
+
+constexpr const char* partial_doc = R"(Partial(points=None, first=0, *, threads=1)
+--
+
+What some of a cloud's points contribute to volumes around all of them: a few kilobytes, for clouds in many
+files or on many machines. No call changes one; it pickles.
+
+points: as fit() takes them; None: of no points, where sums begin.
+first: the number, in the whole cloud, of the first one. No point may be in two parts.
+
+Whatever the parts, and in whatever order they were merged, the volumes have the same bits; those of a fit of
+the whole cloud, but for the last bits of sphere-exact and obb-yaw of more than 4096 points.
+
+>>> import functools, numpy, operator, pcl_bv
+>>> points = numpy.random.default_rng(1).normal(size=(9000, 3))
+>>> parts = [pcl_bv.Partial(points[i:i + 3000], first=i) for i in (0, 3000, 6000)]
+>>> whole = functools.reduce(operator.add, parts)
+>>> whole.fit('dop26') == pcl_bv.fit(points, 'dop26')
+True
+)";
+
+constexpr const char* partial_merge_doc = R"(merge(self, other, /)
+--
+
+Of the points of both; also self + other. Neither changes.
+
+Raises ValueError if a point is in both, or if one has float32 and the other float64.
+
+>>> import pcl_bv
+>>> len(pcl_bv.Partial([[0., 0, 0]]).merge(pcl_bv.Partial([[1., 1, 1]], first=1)))
+2
+)";
+
+constexpr const char* partial_fit_doc = R"(fit(self, method, *, up='z', threads=1)
+--
+
+The volume around all points, or a list for a list of methods, as of pcl_bv.fit().
+
+Raises ValueError for methods that need all points: spheres that grow, and obb-lshape.
+
+>>> import pcl_bv
+>>> pcl_bv.Partial([[0., 0, 0], [2, 2, 2]]).fit('aabb').max
+array([2., 2., 2.])
+)";
+
+constexpr const char* to_bytes_doc = R"(to_bytes(self, /)
+--
+
+For a file or a message: some 2 kB and 32 bytes for each point that is kept; the same on every machine.
+
+>>> import pcl_bv
+>>> part = pcl_bv.Partial([[0., 0, 0], [2, 2, 2]])
+>>> pcl_bv.Partial.from_bytes(part.to_bytes()).fit('aabb') == part.fit('aabb')
+True
+)";
+
+constexpr const char* from_bytes_doc = R"(from_bytes(bytes, /)
+--
+
+Back from to_bytes(). Raises ValueError, saying what is wrong, for anything else.
+
+>>> import pcl_bv
+>>> len(pcl_bv.Partial.from_bytes(pcl_bv.Partial([[0., 0, 0]]).to_bytes()))
+1
+)";
+
+constexpr const char* mask_doc = R"(RegionMask(volumes, padding=0)
+--
+
+Volumes, grown by `padding` (in the points' unit) in every direction, that points are held against: a robot's
+own links, or a region to crop to.
+
+volumes: a volume, a list of them, or a dict of these, as fit() gives.
+
+>>> import pcl_bv
+>>> links = pcl_bv.RegionMask([pcl_bv.Sphere([0, 0, 0], 1), pcl_bv.Sphere([5, 0, 0], 1)], padding=0.5)
+>>> links.contains([[0., 0, 1.4], [3, 0, 0]])
+array([ True, False])
+)";
+
+constexpr const char* mask_contains_doc = R"(contains(self, points, *, threads=1)
+--
+
+For each point whether it is inside any of the volumes: an array of bool. Points as fit() takes them.
+
+>>> import pcl_bv
+>>> pcl_bv.RegionMask(pcl_bv.Sphere([0, 0, 0], 1)).contains([[0., 0, 1], [0, 0, 2]])
+array([ True, False])
+)";
+
+}  // namespace
+
+void bind_partial(py::module_& module) {
+  py::class_<Partial>(module, "Partial", partial_doc)
+      .def(py::init(&make_partial), "points"_a = py::none(), "first"_a = 0, py::kw_only(), "threads"_a = 1,
+           init_doc(partial_doc).c_str())
+      .def("merge", merged, "other"_a, py::pos_only(), partial_merge_doc)
+      .def("__add__", merged, py::is_operator())
+      .def("fit", fit_partial, "method"_a, py::kw_only(), "up"_a = "z", "threads"_a = 1, partial_fit_doc)
+      .def("to_bytes", bytes_of, to_bytes_doc)
+      .def_static("from_bytes", from_bytes, "bytes"_a, py::pos_only(), from_bytes_doc)
+      .def("__len__", &Partial::size)
+      .def("__repr__", [](const Partial& p) { return "Partial(of " + std::to_string(p.size()) + " points)"; })
+      .def(py::pickle([](const Partial& p) { return bytes_of(p); },
+                      [](const py::bytes& b) { return from_bytes(b); }));
+  py::class_<RegionMask>(module, "RegionMask", mask_doc)
+      .def(py::init(&make_mask), "volumes"_a, "padding"_a = 0, init_doc(mask_doc).c_str())
+      .def("contains", mark, "points"_a, py::kw_only(), "threads"_a = 1, mask_contains_doc);
+}
+
+}  // namespace pcl_bv::python

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <mutex>
+
+#include "bind.h"
+#include "config_dict.h"
+#include "pcl_bv/nodes/frame_pipeline.h"
+#include "result_object.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+using namespace py::literals;
+
+/// Several threads may call: frames are processed one after another.
+class PipelineObject {
+ public:
+  explicit PipelineObject(PipelineConfig config) : pipeline_(std::move(config)) {}
+
+  void process(const Frame& frame, FrameResult& result) {
+    const std::lock_guard lock(mutex_);
+    if (frame.header.seq == 0) {
+      Frame counted = frame;
+      counted.header.seq = next_++;
+      pipeline_.process(counted, result);
+    } else {
+      next_ = frame.header.seq + 1;
+      pipeline_.process(frame, result);
+    }
+  }
+  PipelineConfig config() const { return pipeline_.config(); }
+  void set_config(PipelineConfig config) { pipeline_.set_config(std::move(config)); }
+
+ private:
+  std::mutex mutex_;
+  FramePipeline pipeline_;
+  std::uint64_t next_ = 0;
+};
+
+std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle preset,
+                                              const py::kwargs& settings) {
+  PipelineConfig read = config_of(config, preset, settings);
+  return std::make_unique<PipelineObject>(std::move(read));
+}
+
+std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle points, py::handle stamp_ns,
+                                            py::handle frame_id, py::handle seq, py::handle pose,
+                                            py::handle classes) {
+  const auto result = std::make_shared<ResultObject>();
+  result->points = points_of(points);
+  if (!pose.is_none()) result->pose = Pose(isometry(pose, "pose").matrix());
+  Frame frame = result->frame();
+  if (PyLong_Check(stamp_ns.ptr()) == 0) refuse_type("stamp_ns", "a whole number of nanoseconds", stamp_ns);
+  frame.header.stamp_ns = stamp_ns.cast<std::int64_t>();
+  frame.header.frame_id = text(frame_id, "frame_id");
+  if (!seq.is_none()) frame.header.seq = whole_number(seq, "seq", {0, kNoLimit});
+  if (!classes.is_none())
+    frame.classes =
+        std::make_shared<std::vector<std::int64_t>>(integers(classes, "classes", result->points.view.count));
+  {
+    const py::gil_scoped_release unlocked;
+    self.process(frame, result->result);
+  }
+  return result;
+}
+
+void set_config(PipelineObject& self, py::handle config) {
+  PipelineConfig read = config_of(config, py::none(), {});
+  const py::gil_scoped_release unlocked;
+  self.set_config(std::move(read));
+}
+
+std::string repr_of_pipeline(const PipelineObject& self) {
+  const PipelineConfig config = self.config();
+  std::string methods;
+  for (const Method* method : config.methods())
+    methods.append(methods.empty() ? "" : ", ").append(method->name);
+  return "Pipeline(ground " + to_text(config.ground.method) + ", cluster " +
+         to_text(config.cluster.tolerance) + ", volumes " + methods +
+         (config.track.enabled ? ", tracked)" : ")");
+}
+
+const std::string& pipeline_doc() {
+  static const std::string* const doc = new std::string(
+      R"(Pipeline(config=None, *, preset=None, **settings)
+--
+
+From clouds to objects, frame by frame: filter, ground, clusters, volumes, tracks; what bv_stream and pcd_bv do.
+
+config: a dict, the text of a configuration file, or a path to one; keys as below, nested by stage.
+preset: 'road' (the defaults), 'indoor' or 'table'.
+    Regions may also have 'volumes', a list of them, instead of a 'file'.
+settings: whole stages as keywords, over config: cluster={'tolerance': 0.3}, volumes=['obb-yaw'], threads=0.
+
+Raises ValueError for an unknown key and for a value that is not allowed, naming key, value and range; OSError
+for a file that cannot be read. Threads may share a pipeline: they wait for one another.
+
+Settings, with defaults, [units] and ranges:
+)" + settings_text() +
+      R"(
+>>> import pcl_bv
+>>> pipeline = pcl_bv.Pipeline(cluster={'tolerance': 0.5, 'min_size': 30}, volumes=['obb-yaw'])
+>>> pipeline.process(pcl_bv.read('synth:street:20000:1')).clusters[0].volumes[0].method
+'obb-yaw'
+>>> pcl_bv.Pipeline(cluster={'tolerance': -1})
+Traceback (most recent call last):
+ValueError: cluster.tolerance: -1 is not at least 0 and at most 1e+06
+)");
+  return *doc;
+}
+
+constexpr const char* process_doc =
+    R"(process(self, points, *, stamp_ns=0, frame_id='', seq=None, pose=None, classes=None)
+--
+
+Processes one frame; of a stream, frames come in the order of their stamps. The GIL is released.
+
+points: as fit() takes them, in the sensor's frame, metres; not copied. The result keeps the array, and what is
+    written into it later shows in pictures.
+stamp_ns: when the sensor took it, nanoseconds. Tracks need it.
+frame_id, seq: kept in the result; without seq, or with 0, the pipeline counts.
+pose: of the sensor in a fixed frame, 4 x 4, for tracks over the ground.
+classes: an integer for each point, for cluster.class_field and cluster.classes.
+
+Returns a Result. Raises as fit().
+
+>>> import pcl_bv
+>>> pipeline = pcl_bv.Pipeline(track={'enabled': True, 'birth': 1})
+>>> frame = pipeline.process(pcl_bv.read('synth:street:20000:1'), stamp_ns=100_000_000)
+>>> frame.stamp_ns, frame.clusters[0].track.age
+(100000000, 1)
+)";
+
+}  // namespace
+
+void bind_pipeline(py::module_& module) {
+  py::class_<PipelineObject>(module, "Pipeline", pipeline_doc().c_str())
+      .def(py::init(&make_pipeline), "config"_a = py::none(), py::kw_only(), "preset"_a = py::none(),
+           init_doc(pipeline_doc()).c_str())
+      .def("process", process_frame, "points"_a, py::kw_only(), "stamp_ns"_a = 0, "frame_id"_a = "",
+           "seq"_a = py::none(), "pose"_a = py::none(), "classes"_a = py::none(), process_doc)
+      .def_property(
+          "config", [](const PipelineObject& p) { return dict_of(p.config()); }, set_config,
+          "All settings as a dict, which Pipeline() takes back; setting it takes effect with the next frame.")
+      .def("__repr__", repr_of_pipeline);
+}
+
+}  // namespace pcl_bv::python

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Clouds in: files, recordings, generated ones.
+
+#include <chrono>
+#include <mutex>
+
+#include "bind.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/nodes/frame_source.h"
+#include "pcl_bv/nodes/recorded_clouds.h"
+#include "pcl_bv/recording/recording.h"
+#include "pcl_bv/recording/velodyne.h"
+#include "pcl_bv/report/read_volumes.h"
+#include "pcl_bv/synth/synth.h"
+#include "raw_cloud_array.h"
+#include "read_docs.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+using namespace py::literals;
+
+/// FileNotFoundError where there is nothing, for all that reads; else the error's own, with the file's name.
+template <typename Read>
+auto reading(const std::string& name, const Read& read) {
+  try {
+    return read();
+  } catch (const IoError& error) {
+    std::error_code unknown;
+    const bool file = name.rfind("synth:", 0) != 0 && name.rfind("dds:", 0) != 0;
+    if (file && !std::filesystem::exists(name, unknown)) {
+      errno = ENOENT;
+      PyErr_SetFromErrnoWithFilename(PyExc_FileNotFoundError, name.c_str());
+      throw py::error_already_set();
+    }
+    throw IoError(std::string(error.what()).find(name) == std::string::npos ? name + ": " + error.what()
+                                                                            : error.what());
+  }
+}
+
+RawCloud raw_of(const VelodyneSweep& sweep) {
+  RawCloud cloud;
+  cloud.fields = {{"x", 'F', 4, 1, 0},          {"y", 'F', 4, 1, 4},     {"z", 'F', 4, 1, 8},
+                  {"intensity", 'F', 4, 1, 12}, {"ring", 'U', 4, 1, 16}, {"time_ns", 'U', 4, 1, 20}};
+  static_assert(sizeof(VelodynePoint) == 24);
+  cloud.point_step = sizeof(VelodynePoint);
+  cloud.width = sweep.points.size();
+  const auto* const begin = reinterpret_cast<const std::byte*>(sweep.points.data());
+  cloud.data.assign(begin, begin + cloud.width * cloud.point_step);
+  return cloud;
+}
+
+RawCloud load_cloud(const std::string& name, const std::string& topic, std::size_t number,
+                    std::size_t bin_fields, const ParallelPolicy& policy) {
+  if (name.rfind("synth:", 0) == 0) return to_raw_cloud(make_synth(parse_synth(name.substr(6))));
+  if (is_recording(name)) return RecordedClouds(name, topic).load(number);
+  if (is_capture(name)) {
+    VelodyneReader reader(name);
+    VelodyneSweep sweep;
+    for (std::size_t i = 0; i <= number; ++i) {
+      if (!reader.next(sweep)) throw IoError("the recording ends before this cloud");
+    }
+    return raw_of(sweep);
+  }
+  return read_cloud(name, policy, bin_fields);
+}
+
+py::array read_points(py::handle file, py::handle topic, py::handle number, py::handle bin_fields,
+                      py::handle threads) {
+  const std::string name = path(file, "path").string();
+  const std::string of = topic.is_none() ? "" : text(topic, "topic");
+  const std::size_t which = whole_number(number, "number", {0, kNoLimit});
+  const std::size_t fields = whole_number(bin_fields, "bin_fields", {0, 32});
+  const ParallelPolicy policy = policy_of(threads);
+  std::optional<RawCloud> cloud;
+  reading(name, [&] {
+    const py::gil_scoped_release unlocked;
+    cloud = load_cloud(name, of, which, fields, policy);
+  });
+  if (!cloud->note.empty() && PyErr_WarnEx(PyExc_UserWarning, (name + ": " + cloud->note).c_str(), 1) != 0)
+    throw py::error_already_set();
+  return array_of_cloud(std::move(*cloud));
+}
+
+py::list volumes_in(py::handle file) {
+  const std::string name = path(file, "path").string();
+  std::vector<AnyVolume> volumes;
+  reading(name, [&] {
+    const py::gil_scoped_release unlocked;
+    volumes = read_volumes(name);
+  });
+  py::list list;
+  for (AnyVolume& volume : volumes)
+    list.append(to_python(std::move(volume)));
+  return list;
+}
+
+/// A frame of a source, in its own memory.
+struct FrameObject {
+  Frame frame;
+};
+
+py::array points_of_frame(const FrameObject& object) {
+  const PointView& view = object.frame.points;
+  auto* const held = new std::shared_ptr<const void>(object.frame.owner);
+  const py::capsule owner(held, [](void* p) { delete static_cast<std::shared_ptr<const void>*>(p); });
+  const auto size = static_cast<py::ssize_t>(size_of(view.scalar));
+  return read_only(py::array(size == 8 ? py::dtype::of<double>() : py::dtype::of<float>(),
+                             {static_cast<py::ssize_t>(view.count), py::ssize_t{3}},
+                             {static_cast<py::ssize_t>(view.stride), size}, view.data, owner));
+}
+
+class FramesObject {
+ public:
+  FramesObject(const std::string& name, const ReplayOptions& options) : source_(open_source(name, options)) {}
+
+  /// Nothing at the end. Lets Ctrl-C through while nothing comes.
+  std::optional<Frame> next() {
+    for (;;) {
+      Frame frame;
+      Next what = Next::end;
+      {
+        const py::gil_scoped_release unlocked;
+        const std::lock_guard lock(mutex_);
+        if (source_) what = source_->next(frame, std::chrono::milliseconds(100));
+        if (what == Next::end) source_.reset();
+      }
+      if (what == Next::frame) return frame;
+      if (what == Next::end) return {};
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<FrameSource> source_;
+};
+
+std::unique_ptr<FramesObject> open_frames(py::handle source, py::handle topic, py::handle rate,
+                                          py::handle poses, py::handle class_field, py::handle frame_id,
+                                          py::handle stamps, py::handle bin_fields) {
+  const std::string name = path(source, "source").string();
+  ReplayOptions options;
+  if (!topic.is_none()) options.topic = text(topic, "topic");
+  if (!rate.is_none()) options.rate_hz = number(rate, "rate", {kLeastRate, kGreatestRate});
+  if (!poses.is_none()) options.poses = path(poses, "poses");
+  if (!class_field.is_none()) options.class_field = text(class_field, "class_field");
+  if (!frame_id.is_none()) options.frame_id = text(frame_id, "frame_id");
+  options.bin_fields = whole_number(bin_fields, "bin_fields", {0, 32});
+  const std::string times = text(stamps, "stamps");
+  if (times != "auto" && times != "rate" && times != "name")
+    refuse_value("stamps", "'" + times + "' is not one of auto, rate, name");
+  const bool recorded = source_kind(name).times == FrameTimes::messages;
+  options.from_name = times == "name" || (times == "auto" && recorded && rate.is_none());
+  std::unique_ptr<FramesObject> frames;
+  reading(name, [&] {
+    const py::gil_scoped_release unlocked;
+    frames = std::make_unique<FramesObject>(name, options);
+  });
+  return frames;
+}
+
+py::object classes_of(const FrameObject& f) {
+  if (!f.frame.classes) return py::none();
+  const std::vector<std::int64_t>& classes = *f.frame.classes;
+  return py::array_t<std::int64_t>(static_cast<py::ssize_t>(classes.size()), classes.data());
+}
+
+std::string repr_of_frame(const FrameObject& f) {
+  return "Frame(seq=" + std::to_string(f.frame.header.seq) +
+         ", stamp_ns=" + std::to_string(f.frame.header.stamp_ns) + ", " +
+         std::to_string(f.frame.points.count) + " points)";
+}
+
+}  // namespace
+
+void bind_read(py::module_& module) {
+  using F = FrameObject;
+  py::class_<F>(module, "Frame", frame_doc)
+      .def_property_readonly("points", points_of_frame, "(N, 3), float32 or float64, not copied.")
+      .def_property_readonly(
+          "stamp_ns", [](const F& f) { return f.frame.header.stamp_ns; }, "Nanoseconds.")
+      .def_property_readonly(
+          "seq", [](const F& f) { return f.frame.header.seq; }, "Its number in the source.")
+      .def_property_readonly(
+          "frame_id", [](const F& f) { return f.frame.header.frame_id; }, "Of its points.")
+      .def_property_readonly(
+          "file", [](const F& f) { return f.frame.file; }, "Where it comes from; '' if from none.")
+      .def_property_readonly("classes", classes_of,
+                             "int64, one a point, if class_field was given; else None.")
+      .def_property_readonly(
+          "pose",
+          [](const F& f) {
+            return f.frame.pose ? py::object(array_of(Eigen::MatrixXd(f.frame.pose->matrix()))) : py::none();
+          },
+          "(4, 4), of the sensor in a fixed frame; None where it is not known.")
+      .def("__repr__", repr_of_frame);
+  py::class_<FramesObject>(module, "Frames", frames_class_doc)
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__", [](FramesObject& self) {
+        std::optional<Frame> frame = self.next();
+        if (!frame) throw py::stop_iteration();
+        return FrameObject{std::move(*frame)};
+      });
+  module.def("read", read_points, "path"_a, py::kw_only(), "topic"_a = py::none(), "number"_a = 0,
+             "bin_fields"_a = 0, "threads"_a = 1, read_doc);
+  module.def("frames", open_frames, "source"_a, py::kw_only(), "topic"_a = py::none(), "rate"_a = py::none(),
+             "poses"_a = py::none(), "class_field"_a = py::none(), "frame_id"_a = py::none(),
+             "stamps"_a = "auto", "bin_fields"_a = 0, frames_doc);
+  module.def("read_volumes", volumes_in, "path"_a, read_volumes_doc);
+}
+
+}  // namespace pcl_bv::python

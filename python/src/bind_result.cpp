@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a pipeline found in a frame.
+
+#include "bind.h"
+#include "clusters_object.h"
+#include "picture_object.h"
+#include "result_object.h"
+#include "result_state.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+using namespace py::literals;
+using Shared = std::shared_ptr<ResultObject>;
+
+py::object volume_at(const ClusterObject& cluster, std::size_t method) {
+  const FrameResult& result = cluster.of->result;
+  return to_python(AnyVolume(result.volume(cluster.id, method)), result.methods[method],
+                   result.results[cluster.id * result.methods.size() + method]);
+}
+
+py::list volumes_of_cluster(const ClusterObject& cluster) {
+  py::list list;
+  const FrameResult& result = cluster.of->result;
+  for (std::size_t m = 0; m < result.methods.size(); ++m) {
+    if (result.has(cluster.id, m)) list.append(volume_at(cluster, m));
+  }
+  return list;
+}
+
+py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
+  const Method* const method = method_of(name);
+  const FrameResult& result = cluster.of->result;
+  for (std::size_t m = 0; m < result.methods.size(); ++m) {
+    if (result.methods[m] == method && result.has(cluster.id, m)) return volume_at(cluster, m);
+  }
+  throw py::key_error(std::string(method->name) + " was not asked for");
+}
+
+/// Point numbers; all that is valid and was kept, where the pipeline did not have to tell points apart.
+py::object indices_of(const ClusterObject& cluster) {
+  const FrameResult& result = cluster.of->result;
+  if (!result.clusters.indices.empty() || result.clusters.cluster_size(cluster.id) == 0)
+    return view_of_part(result.clusters.indices.data() + result.clusters.offsets[cluster.id],
+                        result.clusters.indices.empty() ? 0 : result.clusters.cluster_size(cluster.id),
+                        py::cast(cluster));
+  const std::vector<std::uint32_t> labels = labels_of(cluster.of->frame(), result);
+  std::vector<std::int32_t> numbers;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == cluster.id) numbers.push_back(static_cast<std::int32_t>(i));
+  }
+  return read_only(take(std::move(numbers)));
+}
+
+py::object track_of(const ClusterObject& cluster) {
+  const auto& tracks = cluster.of->result.tracks;
+  if (tracks.empty() || !tracks[cluster.id]) return py::none();
+  return py::cast(*tracks[cluster.id]);
+}
+
+std::string repr_of_cluster(const ClusterObject& cluster) {
+  const FrameResult& result = cluster.of->result;
+  std::string said = "Cluster(id=" + std::to_string(cluster.id) +
+                     ", points=" + std::to_string(result.clusters.cluster_size(cluster.id));
+  if (!result.class_of.empty()) said += ", class_value=" + std::to_string(result.class_of[cluster.id]);
+  if (!result.tracks.empty() && result.tracks[cluster.id])
+    said += ", track=" + std::to_string(result.tracks[cluster.id]->id);
+  for (std::size_t m = 0; m < result.methods.size(); ++m) {
+    if (!result.has(cluster.id, m)) continue;
+    said.append(m == 0 ? ", volumes: " : ", ").append(result.methods[m]->name);
+  }
+  return said + ')';
+}
+
+py::list clusters_of(const Shared& self) {
+  py::list list(self->result.clusters.size());
+  for (std::size_t id = 0; id < self->result.clusters.size(); ++id)
+    list[id] = py::cast(ClusterObject{self, id});
+  return list;
+}
+
+py::dict counts_of(const Shared& self) {
+  const Counts& c = self->result.counts;
+  return py::dict("nonfinite"_a = c.nonfinite, "range"_a = c.range, "ground"_a = c.ground,
+                  "small"_a = c.small, "large"_a = c.large, "noise"_a = c.noise, "inside"_a = c.inside,
+                  "class"_a = c.of_class);
+}
+
+py::dict times_of(const Shared& self) {
+  const StageTimes& ms = self->result.ms;
+  return py::dict("filter"_a = ms.filter, "ground"_a = ms.ground, "cluster"_a = ms.cluster, "fit"_a = ms.fit,
+                  "track"_a = ms.track, "total"_a = ms.total);
+}
+
+/// label_none and label_ground are -1 and -2 as int32.
+py::object labels_array(const Shared& self) {
+  std::vector<std::uint32_t> labels;
+  {
+    const py::gil_scoped_release unlocked;
+    labels = labels_of(self->frame(), self->result);
+  }
+  return take(std::move(labels)).attr("view")("int32");
+}
+
+std::string repr_of_result(const Shared& self) {
+  const FrameResult& result = self->result;
+  char text[200];
+  std::snprintf(text, sizeof text, "Result(%zu clusters of %zu points, ground=%zu, in %.2f ms)",
+                result.clusters.size(), result.points, result.counts.ground, result.ms.total);
+  return text;
+}
+
+py::array covariance_of(const TrackEntry& track) {
+  Eigen::MatrixXd m(6, 6);
+  std::size_t next = 0;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    for (Eigen::Index k = i; k < 6; ++k)
+      m(i, k) = m(k, i) = track.covariance[next++];
+  }
+  return array_of(m);
+}
+
+void bind_track(py::module_& module) {
+  py::class_<TrackEntry>(module, "Track", R"(An object that is followed from frame to frame.
+
+In the fixed frame where the sensor's poses are known, else relative to the sensor; metres, radians, seconds.
+
+>>> import pcl_bv
+>>> pipeline = pcl_bv.Pipeline(track={'enabled': True, 'birth': 1})
+>>> pipeline.process(pcl_bv.read('synth:street:20000:1')).clusters[0].track
+Track(id=0, age=1, velocity=[0, 0, 0])
+)")
+      .def_readonly("id", &TrackEntry::id, "Never given to another object.")
+      .def_readonly("age", &TrackEntry::age, "Frames since the first sighting, that one included.")
+      .def_readonly("moving", &TrackEntry::moving, "Over the ground, where the sensor's motion is known.")
+      .def_property_readonly(
+          "velocity", [](const TrackEntry& t) { return array_of(t.velocity); }, "(3,), in m/s.")
+      .def_property_readonly(
+          "pose", [](const TrackEntry& t) { return read_only(py::array_t<double>(4, t.pose.data())); },
+          "x, y, z of the centre and the yaw of where it faces.")
+      .def_property_readonly("covariance", covariance_of, "(6, 6), of x, y, z, yaw, vx, vy.")
+      .def(
+          "__eq__", [](const TrackEntry& a, const TrackEntry& b) { return a == b; }, py::is_operator())
+      .def("__repr__", [](const TrackEntry& t) {
+        char text[160];
+        std::snprintf(text, sizeof text, "Track(id=%u, age=%zu, velocity=[%.3g, %.3g, %.3g]%s)", t.id, t.age,
+                      t.velocity.x(), t.velocity.y(), t.velocity.z(), t.moving ? ", moving" : "");
+        return std::string(text);
+      });
+}
+
+constexpr const char* cluster_class_doc =
+    R"(One object of a frame: its points, its volumes, its track. cluster['aabb'] is the volume of that method.
+
+>>> import pcl_bv
+>>> pipeline = pcl_bv.Pipeline(volumes=['aabb', 'sphere'], cluster={'min_size': 100})
+>>> cluster = pipeline.process(pcl_bv.read('synth:street:20000:1')).clusters[0]
+>>> cluster['sphere'].used == cluster.points == len(cluster.indices)
+True
+)";
+
+constexpr const char* result_doc =
+    R"(What Pipeline.process() found in a frame. It owns its memory, and keeps the frame's array.
+
+In a notebook it shows itself as a picture.
+
+>>> import numpy, pcl_bv
+>>> points = pcl_bv.read('synth:street:20000:1')
+>>> result = pcl_bv.Pipeline(cluster={'min_size': 100}).process(points)
+>>> len(result) == len(result.clusters), result.points
+(True, 20032)
+>>> bool((result.labels[result.clusters[0].indices] == 0).all())
+True
+>>> int((result.labels == -2).sum()) == result.counts['ground']
+True
+)";
+
+constexpr const char* json_doc = R"(json(self, /)
+--
+
+The frame as bv_stream writes it: one JSON object on a line, every number with the digits that read back.
+
+>>> import json, pcl_bv
+>>> result = pcl_bv.Pipeline(cluster={'min_size': 100}).process(pcl_bv.read('synth:street:20000:1'))
+>>> json.loads(result.json())['points']
+20032
+)";
+
+constexpr const char* result_picture_doc = R"(picture(self, *, view='iso', width=1600, height=1000)
+--
+
+A Picture of the points, clusters in colours, and the volumes. view: 'iso', 'top', 'front' or 'side'.
+
+>>> import pcl_bv
+>>> result = pcl_bv.Pipeline(cluster={'min_size': 100}).process(pcl_bv.read('synth:street:20000:1'))
+>>> result.picture(view='top', width=640, height=400)
+Picture(640 x 400, 18847 points)
+)";
+
+void bind_cluster(py::module_& module) {
+  py::class_<ClusterObject>(module, "Cluster", cluster_class_doc)
+      .def_readonly("id", &ClusterObject::id, "Its number in the frame: the largest is 0.")
+      .def_property_readonly(
+          "points", [](const ClusterObject& c) { return c.of->result.clusters.cluster_size(c.id); },
+          "Number of valid points.")
+      .def_property_readonly("indices", indices_of, "int32: the numbers of its points in the frame's array.")
+      .def_property_readonly("volumes", volumes_of_cluster, "Its volumes, in the order asked for.")
+      .def_property_readonly("track", track_of, "A Track; None without tracking, and until it is born.")
+      .def_property_readonly(
+          "class_value",
+          [](const ClusterObject& c) -> py::object {
+            const auto& classes = c.of->result.class_of;
+            return classes.empty() ? py::object(py::none()) : py::object(py::int_(classes[c.id]));
+          },
+          "Its class, where points are told apart by class; else None.")
+      .def("__getitem__", volume_by_name)
+      .def("__repr__", repr_of_cluster);
+}
+
+}  // namespace
+
+void bind_result(py::module_& module) {
+  bind_track(module);
+  bind_cluster(module);
+  py::class_<ResultObject, Shared>(module, "Result", result_doc)
+      .def_property_readonly("clusters", clusters_of, "A list of Cluster, the largest first.")
+      .def_property_readonly(
+          "points", [](const Shared& r) { return r->result.points; }, "Number of points, good or bad.")
+      .def_property_readonly("counts", counts_of, "Points that are in no cluster, by reason: a dict.")
+      .def_property_readonly("labels", labels_array,
+                             "(N,) int32: each point's cluster; -1: none, -2: ground.")
+      .def_property_readonly("ms", times_of, "Milliseconds of each stage: a dict.")
+      .def_property_readonly(
+          "stamp_ns", [](const Shared& r) { return r->result.header.stamp_ns; }, "As given.")
+      .def_property_readonly(
+          "seq", [](const Shared& r) { return r->result.header.seq; }, "As given, or counted.")
+      .def_property_readonly(
+          "frame_id", [](const Shared& r) { return r->result.header.frame_id; }, "As given.")
+      .def_property_readonly(
+          "ground",
+          [](const Shared& r) {
+            return GroundObject{r->result.ground, r->result.points};
+          },
+          "A Ground; not found if none was asked for.")
+      .def(
+          "json", [](const Shared& r) { return frame_json(report_of(r->frame(), r->result)); }, json_doc)
+      .def(
+          "picture",
+          [](const Shared& r, py::handle view, py::handle width, py::handle height) {
+            return picture_of_result(r, picture_size(view, width, height));
+          },
+          py::kw_only(), "view"_a = "iso", "width"_a = 1600, "height"_a = 1000, result_picture_doc)
+      // A notebook takes the first of these that it knows; a page that can be turned goes here, as
+      // _repr_html_.
+      .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })
+      .def("__len__", [](const Shared& r) { return r->result.clusters.size(); })
+      .def("__repr__", repr_of_result)
+      .def(py::pickle([](const Shared& r) { return state_of_result(r); },
+                      [](const py::dict& state) { return result_of_state(state); }));
+}
+
+}  // namespace pcl_bv::python

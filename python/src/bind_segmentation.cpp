@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "bind.h"
+#include "clusters_object.h"
+#include "pcl_bv/segmentation/class_clusters.h"
+#include "pcl_bv/segmentation/cloud_statistics.h"
+#include "pcl_bv/segmentation/ground_zones.h"
+#include "segmentation_docs.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+using namespace py::literals;
+
+std::size_t size_or_unlimited(py::handle value, const char* name) {
+  return value.is_none() ? std::numeric_limits<std::size_t>::max() : whole_number(value, name, {1, kNoLimit});
+}
+
+/// What a dict says of one class, over what is said of the others.
+ClassSettings class_settings(std::int64_t value, py::handle said, const ClusterSettings& others) {
+  ClassSettings own{value, others};
+  if (!py::isinstance<py::dict>(said))
+    refuse_type("class_settings", "a dict of settings for each class", said);
+  for (const auto& [key, of] : py::reinterpret_borrow<py::dict>(said)) {
+    const std::string name = text(key, "class_settings");
+    if (name == "drop") {
+      if (!PyBool_Check(of.ptr())) refuse_type("class_settings: drop", "True or False", of);
+      own.drop = of.ptr() == Py_True;
+    } else if (name == "tolerance") {
+      own.clusters.tolerance = static_cast<float>(number(of, "class_settings: tolerance", {0, 1e6, false}));
+    } else if (name == "min_size") {
+      own.clusters.min_size = whole_number(of, "class_settings: min_size", {0, kNoLimit});
+    } else if (name == "max_size") {
+      own.clusters.max_size = size_or_unlimited(of, "class_settings: max_size");
+    } else {
+      refuse_value("class_settings", "'" + name + "' is not one of drop, tolerance, min_size, max_size");
+    }
+  }
+  return own;
+}
+
+std::vector<ClassSettings> all_class_settings(py::handle said, const ClusterSettings& others) {
+  std::vector<ClassSettings> own;
+  if (said.is_none()) return own;
+  if (!py::isinstance<py::dict>(said))
+    refuse_type("class_settings", "a dict of settings for each class", said);
+  for (const auto& [value, of] : py::reinterpret_borrow<py::dict>(said)) {
+    if (PyLong_Check(value.ptr()) == 0) refuse_type("class_settings", "a class, an integer,", value);
+    own.push_back(class_settings(value.cast<std::int64_t>(), of, others));
+  }
+  return own;
+}
+
+ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle min_size,
+                             py::handle max_size, py::handle min_points, py::handle tolerance_per_metre,
+                             py::handle oversized, py::handle classes, py::handle own_settings,
+                             py::handle threads) {
+  const PointArray array = points_of(points);
+  ClusterSettings settings{static_cast<float>(number(tolerance, "tolerance", {0, 1e6, false}))};
+  settings.min_size = whole_number(min_size, "min_size", {0, kNoLimit});
+  settings.max_size = size_or_unlimited(max_size, "max_size");
+  settings.min_points = whole_number(min_points, "min_points", {1, kNoLimit});
+  settings.tolerance_per_metre =
+      static_cast<float>(number(tolerance_per_metre, "tolerance_per_metre", {0, 1e6}));
+  settings.oversized = word<Oversized>(oversized, "oversized");
+  const std::vector<ClassSettings> own = all_class_settings(own_settings, settings);
+  if (classes.is_none() && !own.empty()) refuse_value("class_settings", "there are no classes");
+  const ParallelPolicy policy = policy_of(threads);
+  std::vector<std::int64_t> of_points;
+  if (!classes.is_none()) of_points = integers(classes, "classes", array.view.count);
+  ClustersObject clusters;
+  clusters.points = array.view.count;
+  const py::gil_scoped_release unlocked;
+  if (classes.is_none()) {
+    EuclideanClusterer().extract(array.view, settings, clusters.found, policy);
+  } else {
+    ClassClusterer().extract(array.view, of_points, settings, own, clusters.found, clusters.class_of, policy);
+  }
+  clusters.label_points();
+  return clusters;
+}
+
+GroundObject find_ground(py::handle points, py::handle method, py::handle up, py::handle sensor,
+                         py::handle sensor_height, py::handle distance, py::handle max_slope_degrees,
+                         py::handle threads) {
+  const PointArray array = points_of(points);
+  const GroundMethod how = word<GroundMethod>(method, "method");
+  const auto set = [&](auto& settings) {
+    settings.up = up_argument(up);
+    if (!sensor_height.is_none()) settings.sensor_height = number(sensor_height, "sensor_height", {});
+    if (!distance.is_none()) settings.distance = number(distance, "distance", {0, kFinite, false});
+    if (!max_slope_degrees.is_none())
+      settings.max_slope_degrees = number(max_slope_degrees, "max_slope_degrees", {0, 89});
+  };
+  const ParallelPolicy policy = policy_of(threads);
+  GroundObject found;
+  found.points = array.view.count;
+  if (how == GroundMethod::plane) {
+    GroundPlaneSettings settings;
+    set(settings);
+    if (!sensor.is_none()) refuse_value("sensor", "a plane has no use for it");
+    const py::gil_scoped_release unlocked;
+    split_ground(array.view, settings, found.split);
+  } else if (how == GroundMethod::zones) {
+    GroundZonesSettings settings;
+    set(settings);
+    if (!sensor.is_none()) settings.sensor = vector3(sensor, "sensor");
+    const py::gil_scoped_release unlocked;
+    GroundZones().split(array.view, settings, found.split, policy);
+  } else {
+    refuse_value("method", "'none' is not one of plane, zones");
+  }
+  found.split.scratch = {};
+  return found;
+}
+
+py::object mask_of(const GroundObject& found) {
+  std::vector<std::uint8_t> mask(found.points);
+  for (const std::int32_t i : found.split.ground)
+    mask[static_cast<std::size_t>(i)] = 1;
+  return take(std::move(mask)).attr("view")("bool");
+}
+
+py::dict statistics_of(py::handle points, py::handle threads) {
+  const PointArray array = points_of(points);
+  const ParallelPolicy policy = policy_of(threads);
+  CloudStatistics found;
+  {
+    const py::gil_scoped_release unlocked;
+    found = cloud_statistics(array.view, policy);
+  }
+  py::dict said("box"_a = to_python(found.box), "nonfinite"_a = found.nonfinite, "zero"_a = found.zero);
+  said["spacing"] = found.spacing ? py::object(py::float_(*found.spacing)) : py::none();
+  return said;
+}
+
+py::object cluster_at(const py::object& self, std::int64_t i) {
+  const auto& found = self.cast<const ClustersObject&>().found;
+  const auto size = static_cast<std::int64_t>(found.size());
+  if (i < -size || i >= size)
+    throw py::index_error("cluster " + std::to_string(i) + " of " + std::to_string(size));
+  const auto at = static_cast<std::size_t>(i < 0 ? i + size : i);
+  return view_of_part(found.cluster(at), found.cluster_size(at), self);
+}
+
+py::tuple state_of(const ClustersObject& c) {
+  const Clusters& f = c.found;
+  const py::tuple counts = py::make_tuple(f.small_points, f.large_points, f.noise_points, f.class_points);
+  return py::make_tuple(
+      c.points, py::array_t<std::int32_t>(static_cast<py::ssize_t>(f.indices.size()), f.indices.data()),
+      py::array_t<std::uint64_t>(static_cast<py::ssize_t>(f.offsets.size()), f.offsets.data()), counts,
+      py::array_t<std::int64_t>(static_cast<py::ssize_t>(c.class_of.size()), c.class_of.data()));
+}
+
+template <typename T>
+std::vector<T> list_of(const py::handle& array) {
+  const auto values = py::array_t<T, py::array::c_style>(py::reinterpret_borrow<py::object>(array));
+  return {values.data(), values.data() + values.size()};
+}
+
+ClustersObject from_state(const py::tuple& state) {
+  ClustersObject c;
+  c.points = state[0].cast<std::size_t>();
+  c.found.indices = list_of<std::int32_t>(state[1]);
+  c.found.offsets = list_of<std::size_t>(state[2]);
+  const py::tuple counts = state[3];
+  c.found.small_points = counts[0].cast<std::size_t>();
+  c.found.large_points = counts[1].cast<std::size_t>();
+  c.found.noise_points = counts[2].cast<std::size_t>();
+  c.found.class_points = counts[3].cast<std::size_t>();
+  c.class_of = list_of<std::int64_t>(state[4]);
+  const auto in_cloud = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < c.points; };
+  if (c.found.offsets.empty() || c.found.offsets.back() != c.found.indices.size() ||
+      !std::is_sorted(c.found.offsets.begin(), c.found.offsets.end()) ||
+      !std::all_of(c.found.indices.begin(), c.found.indices.end(), in_cloud))
+    throw py::value_error("Clusters: a state that is none of theirs");
+  c.label_points();
+  return c;
+}
+
+py::tuple state_of_ground(const GroundObject& g) {
+  const GroundSplit& s = g.split;
+  const auto array = [](const std::vector<std::int32_t>& list) {
+    return py::array_t<std::int32_t>(static_cast<py::ssize_t>(list.size()), list.data());
+  };
+  return py::make_tuple(g.points, s.found, array_of(s.normal), s.offset, array(s.ground), array(s.rest));
+}
+
+GroundObject ground_from_state(const py::tuple& state) {
+  GroundObject g;
+  g.points = state[0].cast<std::size_t>();
+  g.split.found = state[1].cast<bool>();
+  g.split.normal = vector3(state[2], "normal");
+  g.split.offset = state[3].cast<double>();
+  g.split.ground = list_of<std::int32_t>(state[4]);
+  g.split.rest = list_of<std::int32_t>(state[5]);
+  for (const auto* list : {&g.split.ground, &g.split.rest}) {
+    for (const std::int32_t i : *list) {
+      if (i < 0 || static_cast<std::size_t>(i) >= g.points)
+        throw py::value_error("Ground: a state that is none of its own");
+    }
+  }
+  return g;
+}
+
+std::string repr_of_clusters(const ClustersObject& c) {
+  std::string said =
+      "Clusters(" + std::to_string(c.found.size()) + " of " + std::to_string(c.points) + " points";
+  const auto add = [&](const char* what, std::size_t n) {
+    if (n > 0) said.append(", ").append(what).append("=").append(std::to_string(n));
+  };
+  if (c.found.size() > 0) add("largest", c.found.cluster_size(0));
+  add("small_points", c.found.small_points);
+  add("large_points", c.found.large_points);
+  add("noise_points", c.found.noise_points);
+  add("class_points", c.found.class_points);
+  return said + ')';
+}
+
+void bind_clusters(py::module_& module) {
+  using C = ClustersObject;
+  py::class_<C>(module, "Clusters", clusters_doc)
+      .def_property_readonly(
+          "labels", [](const py::object& self) { return view_of_vector(self.cast<const C&>().labels, self); },
+          "(N,) int32: the number of each point's cluster, -1 for none.")
+      .def_property_readonly(
+          "indices",
+          [](const py::object& self) { return view_of_vector(self.cast<const C&>().found.indices, self); },
+          "int32: point numbers of all clusters in turn, ascending in each.")
+      .def_property_readonly(
+          "offsets",
+          [](const py::object& self) { return view_of_vector(self.cast<const C&>().found.offsets, self); },
+          "Where each cluster begins in indices; one more than there are clusters.")
+      .def_property_readonly(
+          "classes",
+          [](const py::object& self) { return view_of_vector(self.cast<const C&>().class_of, self); },
+          "int64: the class of each cluster; empty without classes.")
+      .def_property_readonly(
+          "small_points", [](const C& c) { return c.found.small_points; },
+          "Points in clusters of fewer than min_size.")
+      .def_property_readonly(
+          "large_points", [](const C& c) { return c.found.large_points; },
+          "Points in clusters of more than max_size.")
+      .def_property_readonly(
+          "noise_points", [](const C& c) { return c.found.noise_points; },
+          "Points neither core nor near to a core point.")
+      .def_property_readonly(
+          "class_points", [](const C& c) { return c.found.class_points; },
+          "Points of classes that are dropped.")
+      .def("__len__", [](const C& c) { return c.found.size(); })
+      .def("__getitem__", cluster_at)
+      .def("__repr__", repr_of_clusters)
+      .def(py::pickle([](const C& c) { return state_of(c); },
+                      [](const py::tuple& state) { return from_state(state); }));
+  module.def("cluster", find_clusters, "points"_a, "tolerance"_a, py::kw_only(), "min_size"_a = 1,
+             "max_size"_a = py::none(), "min_points"_a = 1, "tolerance_per_metre"_a = 0,
+             "oversized"_a = "drop", "classes"_a = py::none(), "class_settings"_a = py::none(),
+             "threads"_a = 1, cluster_doc);
+}
+
+void bind_ground(py::module_& module) {
+  using G = GroundObject;
+  py::class_<G>(module, "Ground", ground_class_doc)
+      .def_property_readonly(
+          "found", [](const G& g) { return g.split.found; }, "Whether there is a ground.")
+      .def_property_readonly(
+          "normal", [](const G& g) { return array_of(g.split.normal); },
+          "Unit, on the upper side of the plane; 0 if there is none.")
+      .def_property_readonly(
+          "offset", [](const G& g) { return g.split.offset; },
+          "The height of p above the plane is normal . p - offset.")
+      .def_property_readonly(
+          "ground",
+          [](const py::object& self) { return view_of_vector(self.cast<const G&>().split.ground, self); },
+          "int32: numbers of the ground's points.")
+      .def_property_readonly(
+          "rest",
+          [](const py::object& self) { return view_of_vector(self.cast<const G&>().split.rest, self); },
+          "int32: numbers of the other finite points.")
+      .def_property_readonly("mask", mask_of, "(N,) bool: which points are ground.")
+      .def(py::pickle([](const G& g) { return state_of_ground(g); },
+                      [](const py::tuple& state) { return ground_from_state(state); }))
+      .def("__repr__", [](const G& g) {
+        return "Ground(found=" + std::string(g.split.found ? "True" : "False") +
+               ", ground=" + std::to_string(g.split.ground.size()) +
+               ", rest=" + std::to_string(g.split.rest.size()) + " points)";
+      });
+  module.def("ground", find_ground, "points"_a, "method"_a = "zones", py::kw_only(), "up"_a = "z",
+             "sensor"_a = py::none(), "sensor_height"_a = py::none(), "distance"_a = py::none(),
+             "max_slope_degrees"_a = py::none(), "threads"_a = 1, ground_doc);
+}
+
+}  // namespace
+
+void bind_segmentation(py::module_& module) {
+  bind_clusters(module);
+  bind_ground(module);
+  module.def("statistics", statistics_of, "points"_a, py::kw_only(), "threads"_a = 1, statistics_doc);
+}
+
+}  // namespace pcl_bv::python

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A class for each shape: its numbers, named as in files.
+
+#include "bind.h"
+#include "read_shapes.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+using namespace py::literals;
+
+template <typename Shape>
+ShapeObject<Shape> object_of(Shape shape) {
+  ShapeObject<Shape> object;
+  object.value = std::move(shape);
+  return object;
+}
+
+/// The class, with pickling by what its constructor takes: `make` is that constructor.
+template <typename Shape, typename Make>
+py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const char* name, const char* doc,
+                                                  Make make) {
+  py::class_<ShapeObject<Shape>, VolumeObject> type(module, name, doc);
+  type.def(py::pickle(
+      [](const ShapeObject<Shape>& v) { return py::make_tuple(arguments_of(v.shape()), fit_state(v)); },
+      [make](const py::tuple& state) {
+        ShapeObject<Shape> object = object_of(make(py::tuple(state[0])));
+        set_fit_state(py::tuple(state[1]), object);
+        return object;
+      }));
+  return type;
+}
+
+/// A number of the constructor's as a property: `i` is its place in arguments_of().
+template <typename Shape, typename Class>
+void property(Class& type, const char* name, std::size_t i, const char* doc) {
+  type.def_property_readonly(
+      name, [i](const ShapeObject<Shape>& v) { return py::object(arguments_of(v.shape())[i]); }, doc);
+}
+
+/// Whether points are in both; merge() and extend(), which give new volumes.
+template <typename Shape, typename Class>
+void bind_merging(Class& type) {
+  type.def(
+      "overlaps",
+      [](const ShapeObject<Shape>& a, const ShapeObject<Shape>& b) { return a.shape().overlaps(b.shape()); },
+      "other"_a, py::pos_only(), overlaps_doc);
+  type.def(
+      "merge",
+      [](const ShapeObject<Shape>& a, const ShapeObject<Shape>& b) {
+        if constexpr (std::is_same_v<Shape, Obb>) {
+          return object_of(a.shape().merged(b.shape()));
+        } else {
+          return object_of(Shape(a.shape()).merge(b.shape()));
+        }
+      },
+      "other"_a, py::pos_only(), merge_doc);
+}
+
+template <typename Shape, typename Class>
+void bind_extend(Class& type) {
+  type.def(
+      "extend",
+      [](const ShapeObject<Shape>& v, py::handle points) {
+        const py::array_t<double> numbers = doubles(points, "points");
+        if (numbers.size() % 3 != 0 || numbers.ndim() > 2 || numbers.shape(numbers.ndim() - 1) != 3)
+          refuse_value("points", "(3,) or (N, 3) numbers are wanted, not " + shown(points));
+        Shape grown = v.shape();
+        for (py::ssize_t i = 0; i < numbers.size(); i += 3)
+          grown.extend(Eigen::Map<const Eigen::Vector3d>(numbers.data() + i));
+        return object_of(std::move(grown));
+      },
+      "points"_a, py::pos_only(), extend_doc);
+}
+
+void bind_boxes(py::module_& module) {
+  auto aabb = bind<Aabb>(module, "Aabb", aabb_doc, [](const py::tuple& a) { return make_aabb(a[0], a[1]); });
+  aabb.def(py::init([](py::handle min, py::handle max) { return object_of(make_aabb(min, max)); }), "min"_a,
+           "max"_a, init_doc(aabb_doc).c_str());
+  property<Aabb>(aabb, "min", 0, "The lower corner.");
+  property<Aabb>(aabb, "max", 1, "The upper corner.");
+  bind_merging<Aabb>(aabb);
+  bind_extend<Aabb>(aabb);
+
+  auto obb = bind<Obb>(module, "Obb", obb_doc, [](const py::tuple& a) { return make_obb(a[0], a[1], a[2]); });
+  obb.def(py::init([](py::handle center, py::handle axes, py::handle half_extents) {
+            return object_of(make_obb(center, axes, half_extents));
+          }),
+          "center"_a, "axes"_a, "half_extents"_a, init_doc(obb_doc).c_str());
+  property<Obb>(obb, "axes", 1, "(3, 3): axes[i] is a unit vector.");
+  property<Obb>(obb, "half_extents", 2, "Half the size along each axis.");
+  obb.def_property_readonly(
+      "quaternion",
+      [](const ShapeObject<Obb>& v) {
+        return array_of(Eigen::MatrixXd(v.shape().quaternion().coeffs())).attr("ravel")();
+      },
+      "x, y, z, w of the rotation from the box's axes to the frame.");
+  obb.def_property_readonly(
+      "pose", [](const ShapeObject<Obb>& v) { return array_of(Eigen::MatrixXd(v.shape().pose().matrix())); },
+      "(4, 4): from the box's own coordinates to the frame.");
+  bind_merging<Obb>(obb);
+}
+
+void bind_slabs(py::module_& module) {
+  auto kdop =
+      bind<Kdop>(module, "Kdop", kdop_doc, [](const py::tuple& a) { return make_kdop(a[0], a[1], a[2]); });
+  kdop.def(py::init([](py::handle directions, py::handle min, py::handle max) {
+             return object_of(make_kdop(directions, min, max));
+           }),
+           "directions"_a, "min"_a, "max"_a, init_doc(kdop_doc).c_str());
+  property<Kdop>(kdop, "directions", 0, "(n, 3): those of the slabs, not of unit length.");
+  property<Kdop>(kdop, "min", 1, "(n,): the least directions[i] . p of each slab.");
+  property<Kdop>(kdop, "max", 2, "(n,): the greatest.");
+  kdop.def(
+      "tightened", [](const ShapeObject<Kdop>& v) { return object_of(v.shape().tightened()); },
+      tightened_doc);
+  bind_merging<Kdop>(kdop);
+  bind_extend<Kdop>(kdop);
+
+  auto hull = bind<Hull>(module, "Hull", hull_doc,
+                         [](const py::tuple& a) { return make_hull(a[0], a[1], a[2], a[3]); });
+  hull.def(py::init([](py::handle vertices, py::handle faces, py::handle planes, py::handle rank) {
+             return object_of(make_hull(vertices, faces, planes, rank));
+           }),
+           "vertices"_a, "faces"_a, "planes"_a, "rank"_a = 3, init_doc(hull_doc).c_str());
+  property<Hull>(hull, "vertices", 0, "(V, 3): the extreme points.");
+  property<Hull>(hull, "faces", 1,
+                 "(F, 3): vertex numbers, counter-clockwise seen from outside; none if it is flat.");
+  property<Hull>(hull, "planes", 2, "(P, 4): nx, ny, nz, d with n . p <= d for each point p of the hull.");
+  property<Hull>(hull, "rank", 3, "Dimensions that it spans, 0 to 3.");
+}
+
+void bind_round(py::module_& module) {
+  auto sphere =
+      bind<Sphere>(module, "Sphere", sphere_doc, [](const py::tuple& a) { return make_sphere(a[0], a[1]); });
+  sphere.def(
+      py::init([](py::handle center, py::handle radius) { return object_of(make_sphere(center, radius)); }),
+      "center"_a, "radius"_a, init_doc(sphere_doc).c_str());
+  property<Sphere>(sphere, "radius", 1, "-1 if it is empty.");
+  bind_merging<Sphere>(sphere);
+  bind_extend<Sphere>(sphere);
+
+  auto cylinder = bind<Cylinder>(module, "Cylinder", cylinder_doc,
+                                 [](const py::tuple& a) { return make_cylinder(a[0], a[1], a[2], a[3]); });
+  cylinder.def(py::init([](py::handle center, py::handle axis, py::handle radius, py::handle half_height) {
+                 return object_of(make_cylinder(center, axis, radius, half_height));
+               }),
+               "center"_a, "axis"_a, "radius"_a, "half_height"_a, init_doc(cylinder_doc).c_str());
+  property<Cylinder>(cylinder, "axis", 1, "A unit vector.");
+  property<Cylinder>(cylinder, "radius", 2, "-1 if it is empty.");
+  property<Cylinder>(cylinder, "half_height", 3, "Half the length along the axis.");
+
+  auto capsule = bind<Capsule>(module, "Capsule", capsule_doc,
+                               [](const py::tuple& a) { return make_capsule(a[0], a[1], a[2]); });
+  capsule.def(py::init([](py::handle a, py::handle b, py::handle radius) {
+                return object_of(make_capsule(a, b, radius));
+              }),
+              "a"_a, "b"_a, "radius"_a, init_doc(capsule_doc).c_str());
+  property<Capsule>(capsule, "a", 0, "One end of the segment.");
+  property<Capsule>(capsule, "b", 1, "Its other end.");
+  property<Capsule>(capsule, "radius", 2, "-1 if it is empty.");
+
+  auto ellipsoid = bind<Ellipsoid>(module, "Ellipsoid", ellipsoid_doc,
+                                   [](const py::tuple& a) { return make_ellipsoid(a[0], a[1], a[2]); });
+  ellipsoid.def(py::init([](py::handle center, py::handle axes, py::handle radii) {
+                  return object_of(make_ellipsoid(center, axes, radii));
+                }),
+                "center"_a, "axes"_a, "radii"_a, init_doc(ellipsoid_doc).c_str());
+  property<Ellipsoid>(ellipsoid, "axes", 1, "(3, 3): axes[i] is a unit vector.");
+  property<Ellipsoid>(ellipsoid, "radii", 2, "Along each axis.");
+}
+
+}  // namespace
+
+void bind_shapes(py::module_& module) {
+  bind_boxes(module);
+  bind_slabs(module);
+  bind_round(module);
+}
+
+}  // namespace pcl_bv::python

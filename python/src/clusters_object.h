@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include "pcl_bv/segmentation/euclidean_clusters.h"
+#include "pcl_bv/segmentation/ground_plane.h"
+#include "precompiled.h"
+
+namespace pcl_bv::python {
+
+/// Clusters as Python holds them.
+struct ClustersObject {
+  Clusters found;
+  std::size_t points = 0;
+  std::vector<std::int64_t> class_of{};  ///< Empty without classes.
+  std::vector<std::int32_t> labels{};    ///< Of all points; -1: none.
+
+  void label_points() {
+    labels.assign(points, -1);
+    for (std::size_t id = 0; id < found.size(); ++id) {
+      for (std::size_t i = found.offsets[id]; i < found.offsets[id + 1]; ++i)
+        labels[static_cast<std::size_t>(found.indices[i])] = static_cast<std::int32_t>(id);
+    }
+  }
+};
+
+/// Which points are ground, and the plane near the sensor.
+struct GroundObject {
+  GroundSplit split;
+  std::size_t points = 0;
+};
+
+}  // namespace pcl_bv::python

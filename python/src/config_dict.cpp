@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Dicts become YAML's text, so that the reader of configuration files judges both.
+
+#include "config_dict.h"
+
+#include "arguments.h"
+#include "pcl_bv/nodes/settings.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+constexpr const char* the_name = "Pipeline";
+
+std::string quoted(const std::string& text) {
+  std::string yaml = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') yaml += '\\';
+    if (static_cast<unsigned char>(c) < ' ') {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
+      yaml += code;
+    } else {
+      yaml += c;
+    }
+  }
+  return yaml + '"';
+}
+
+std::string yaml_of(py::handle value, const std::string& key);
+
+template <typename Sequence>
+std::string yaml_list(const Sequence& list, const std::string& key) {
+  std::string yaml;
+  for (const py::handle element : list)
+    yaml.append(yaml.empty() ? "" : ", ").append(yaml_of(element, key));
+  return '[' + yaml + ']';
+}
+
+std::string yaml_map(const py::dict& map, const std::string& prefix) {
+  std::string yaml;
+  for (const auto& [name, value] : map) {
+    if (!PyUnicode_Check(name.ptr())) refuse_type(the_name, "a key, a text,", name);
+    const auto key = name.cast<std::string>();
+    yaml.append(yaml.empty() ? "" : ", ").append(quoted(key)).append(": ");
+    yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key);
+  }
+  return '{' + yaml + '}';
+}
+
+std::string yaml_of(py::handle value, const std::string& key) {
+  if (value.is_none()) return "null";
+  if (PyBool_Check(value.ptr())) return value.ptr() == Py_True ? "true" : "false";
+  if (PyUnicode_Check(value.ptr())) return quoted(value.cast<std::string>());
+  if (PyLong_Check(value.ptr())) return py::str(value).cast<std::string>();
+  if (PyFloat_Check(value.ptr())) {
+    const std::string text = to_text(value.cast<double>());
+    return text == "inf" || text == "-inf" ? (text[0] == '-' ? "-.inf" : ".inf")
+           : text == "nan"                 ? ".nan"
+                                           : text;
+  }
+  if (py::isinstance<py::dict>(value)) return yaml_map(py::reinterpret_borrow<py::dict>(value), key);
+  if (py::isinstance<py::list>(value)) return yaml_list(py::reinterpret_borrow<py::list>(value), key);
+  if (py::isinstance<py::tuple>(value)) return yaml_list(py::reinterpret_borrow<py::tuple>(value), key);
+  if (py::hasattr(value, "tolist"))
+    return yaml_of(value.attr("tolist")(), key);  // numpy's arrays and numbers
+  if (py::hasattr(value, "__fspath__")) return quoted(path(value, key.c_str()).string());
+  refuse_type(key.c_str(), "a number, a text, a list or a dict", value);
+}
+
+/// Regions by volumes, which no file can say: taken out of the settings, and a name left in their place.
+class RegionVolumes {
+ public:
+  explicit RegionVolumes(const py::dict& settings) : settings_(settings) {
+    if (!settings.contains("filter") || !py::isinstance<py::dict>(settings["filter"])) return;
+    py::dict filter = settings["filter"].attr("copy")();
+    if (!filter.contains("regions") || !py::isinstance<py::list>(filter["regions"])) return;
+    py::list regions;
+    for (const py::handle each : py::list(filter["regions"])) {
+      volumes_.emplace_back();
+      if (py::isinstance<py::dict>(each) && each.contains("volumes")) {
+        py::dict region = each.attr("copy")();
+        for (const NumberedVolume& one : volumes_of(region.attr("pop")("volumes"), "filter.regions: volumes"))
+          volumes_.back().push_back(one.volume->value);
+        if (volumes_.back().empty()) refuse_value("filter.regions", "a region with an empty list of volumes");
+        region["file"] = "volumes";
+        regions.append(region);
+      } else {
+        regions.append(each);
+      }
+    }
+    filter["regions"] = regions;
+    settings_ = settings.attr("copy")();
+    settings_["filter"] = filter;
+  }
+
+  const py::dict& settings() const { return settings_; }
+
+  void put_into(std::vector<RegionConfig>& regions) {
+    for (std::size_t i = 0; i < volumes_.size(); ++i) {
+      if (volumes_[i].empty()) continue;
+      regions[i].file.clear();
+      regions[i].volumes = std::move(volumes_[i]);
+    }
+  }
+
+ private:
+  py::dict settings_;
+  std::vector<std::vector<AnyVolume>> volumes_;  // of each region in turn; none: it has a file
+};
+
+/// Without "Pipeline: line 1: ", which means nothing to who gave a dict.
+StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
+  try {
+    RegionVolumes regions(settings);
+    StreamConfig config = parse_stream_config(yaml_map(regions.settings(), ""), the_name, defaults);
+    regions.put_into(config.pipeline.filter.regions);
+    return config;
+  } catch (const ConfigError& error) {
+    std::string said = error.what();
+    for (const std::string& prefix : {std::string(the_name) + ": ", std::string("line 1: ")}) {
+      if (said.rfind(prefix, 0) == 0) said.erase(0, prefix.size());
+    }
+    throw py::value_error(said);
+  }
+}
+
+StreamConfig read_config(py::handle config, const StreamConfig& defaults) {
+  if (config.is_none()) return defaults;
+  if (py::isinstance<py::dict>(config)) return read_dict(py::reinterpret_borrow<py::dict>(config), defaults);
+  if (PyUnicode_Check(config.ptr())) {
+    const auto text = config.cast<std::string>();
+    if (text.find_first_of("\n:{") != std::string::npos) return parse_stream_config(text, the_name, defaults);
+  } else if (!py::hasattr(config, "__fspath__")) {
+    refuse_type("config", "a dict, YAML or a path", config);
+  }
+  return read_stream_config(path(config, "config"), defaults);
+}
+
+// A value as Python has it, such that read_dict() takes it back.
+py::object python_value(bool value) {
+  return py::bool_(value);
+}
+py::object python_value(double value) {
+  return py::float_(value);
+}
+py::object python_value(std::size_t value) {
+  if (value == std::numeric_limits<std::size_t>::max()) return py::str("unlimited");
+  return py::int_(value);
+}
+py::object python_value(const std::string& name) {
+  return py::str(name);
+}
+py::object python_value(const FieldName& field) {
+  return py::str(field.name);
+}
+py::object python_value(const Eigen::Vector3d& v) {
+  return py::str(to_text(v));
+}
+py::object python_value(const std::vector<std::string>& names) {
+  py::list list;
+  for (const std::string& name : names)
+    list.append(name);
+  return list;
+}
+template <typename T>
+py::object python_value(const std::optional<T>& value) {
+  if (!value) return py::none();
+  if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
+    return py::list(py::make_tuple(value->x(), value->y(), value->z()));
+  } else {
+    return python_value(*value);
+  }
+}
+py::object python_value(const std::vector<RegionConfig>& regions) {
+  py::list list;
+  for (const RegionConfig& region : regions) {
+    py::dict said;
+    if (region.volumes.empty()) {
+      said["file"] = region.file.string();
+    } else {
+      py::list volumes;
+      for (const AnyVolume& volume : region.volumes)
+        volumes.append(to_python(AnyVolume(volume)));
+      said["volumes"] = volumes;
+    }
+    said["keep"] = region.keep;
+    said["padding"] = region.padding;
+    list.append(said);
+  }
+  return list;
+}
+py::object python_value(const std::vector<ClassConfig>& classes) {
+  py::list list;
+  for (const ClassConfig& own : classes) {
+    py::dict said;
+    const auto say = [&](const char* key, const auto& value) {
+      if (value) said[key] = python_value(*value);
+    };
+    said["value"] = own.value;
+    said["drop"] = own.drop;
+    say("tolerance", own.tolerance);
+    say("min_size", own.min_size);
+    say("max_size", own.max_size);
+    if (!own.volumes.empty()) said["volumes"] = python_value(own.volumes);
+    list.append(said);
+  }
+  return list;
+}
+template <typename Choice>
+std::enable_if_t<std::is_enum_v<Choice>, py::object> python_value(Choice choice) {
+  return py::str(to_text(choice));
+}
+
+template <typename T>
+std::string range_text(const Setting& setting, const T& /*value*/) {
+  constexpr bool real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
+  if constexpr (real || std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>) {
+    const auto& [least, most, closed] = setting.range;
+    return (closed ? ", >= " : ", > ") + to_text(least) + (most < kFinite ? ", <= " + to_text(most) : "");
+  }
+  return "";
+}
+
+}  // namespace
+
+PipelineConfig config_of(py::handle config, py::handle preset, const py::dict& settings) {
+  StreamConfig defaults;
+  if (!preset.is_none()) {
+    try {
+      apply_preset(text(preset, "preset"), defaults.pipeline);
+    } catch (const std::invalid_argument& error) {
+      refuse_value("preset", error.what());
+    }
+  }
+  return read_dict(settings, read_config(config, defaults)).pipeline;
+}
+
+py::dict dict_of(const PipelineConfig& config) {
+  py::dict all;
+  visit_pipeline(config, [&](const Setting& setting, const auto& value) {
+    const std::size_t dot = setting.key.find('.');
+    const std::string key(setting.key.substr(dot == std::string_view::npos ? 0 : dot + 1));
+    if (dot == std::string_view::npos) {
+      all[py::str(key)] = python_value(value);
+      return;
+    }
+    const py::str stage(std::string(setting.key.substr(0, dot)));
+    if (!all.contains(stage)) all[stage] = py::dict();
+    all[stage][py::str(key)] = python_value(value);
+  });
+  return all;
+}
+
+std::string settings_text() {
+  std::string text;
+  const PipelineConfig defaults;
+  visit_pipeline(defaults, [&](const Setting& setting, const auto& value) {
+    std::string said = to_text(value);
+    if (said == "null" || said.empty()) said = setting.unset.empty() ? "none" : std::string(setting.unset);
+    text.append("    ").append(setting.key).append(" = ").append(said);
+    if (!setting.unit.empty()) text.append(" [").append(setting.unit).append("]");
+    text.append(range_text(setting, value)).append("\n        ").append(setting.about).append("\n");
+  });
+  return text;
+}
+
+}  // namespace pcl_bv::python

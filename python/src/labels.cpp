@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "labels.h"
+
+#include <numeric>
+
+#include "arrays.h"
+
+namespace pcl_bv::python {
+namespace {
+
+/// Stable. Labels that are not much greater than there are points, as those of clusters, are counted: O(n).
+void sort_by_label(const std::vector<std::int64_t>& of, std::vector<std::int32_t>& numbers) {
+  const auto label_of = [&](std::int32_t i) { return of[static_cast<std::size_t>(i)]; };
+  std::int64_t greatest = -1;
+  for (const std::int32_t i : numbers)
+    greatest = std::max(greatest, label_of(i));
+  if (greatest >= static_cast<std::int64_t>(of.size())) {
+    std::stable_sort(numbers.begin(), numbers.end(),
+                     [&](std::int32_t a, std::int32_t b) { return label_of(a) < label_of(b); });
+    return;
+  }
+  std::vector<std::size_t> next(static_cast<std::size_t>(greatest + 2));
+  for (const std::int32_t i : numbers)
+    ++next[static_cast<std::size_t>(label_of(i)) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::int32_t> sorted(numbers.size());
+  for (const std::int32_t i : numbers)
+    sorted[next[static_cast<std::size_t>(label_of(i))]++] = i;
+  numbers.swap(sorted);
+}
+
+}  // namespace
+
+LabelGroups::LabelGroups(py::handle labels, const PointView& points) {
+  const py::object given = py::hasattr(labels, "labels") ? py::object(labels.attr("labels"))
+                                                         : py::reinterpret_borrow<py::object>(labels);
+  std::vector<std::int64_t> of = integers(given, "labels", points.count);
+  const bool as_written =
+      py::isinstance<py::array>(given) && given.attr("dtype").attr("char").cast<std::string>() == "I";
+  if (as_written) {
+    for (std::int64_t& label : of)
+      label = static_cast<std::int32_t>(label);
+  }
+  if (points.count > std::numeric_limits<std::int32_t>::max())
+    refuse_value("labels", "more than 2147483647 points cannot be told apart");
+  const py::gil_scoped_release unlocked;
+  numbers_.reserve(of.size());
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (of[i] >= 0) numbers_.push_back(static_cast<std::int32_t>(i));
+  }
+  const auto label_of = [&](std::int32_t i) { return of[static_cast<std::size_t>(i)]; };
+  sort_by_label(of, numbers_);
+  for (std::size_t begin = 0, end = 0; begin < numbers_.size(); begin = end) {
+    labels_.push_back(label_of(numbers_[begin]));
+    while (end < numbers_.size() && label_of(numbers_[end]) == labels_.back())
+      ++end;
+    PointView& view = views_.emplace_back(points);
+    view.indices = numbers_.data() + begin;
+    view.count = end - begin;
+  }
+}
+
+}  // namespace pcl_bv::python

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "bind.h"
+#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/nodes/frame_source.h"
+#include "pcl_bv/nodes/stream_config.h"
+
+namespace pcl_bv::python {
+namespace {
+
+void translate(std::exception_ptr error) {
+  try {
+    if (error) std::rethrow_exception(error);
+  } catch (const IoError& e) {
+    PyErr_SetString(PyExc_OSError, e.what());
+  } catch (const FrameError& e) {
+    PyErr_SetString(PyExc_OSError, e.what());
+  } catch (const MessageError& e) {
+    PyErr_SetString(PyExc_OSError, e.what());
+  } catch (const ConfigError& e) {
+    PyErr_SetString(PyExc_ValueError, e.what());
+  }
+}
+
+}  // namespace
+
+std::string init_doc(std::string_view class_doc) {
+  const std::size_t begin = class_doc.find('(') + 1;
+  return "__init__(self, " + std::string(class_doc.substr(begin, class_doc.find('\n') - begin)) + "\n--\n\n";
+}
+
+}  // namespace pcl_bv::python
+
+PYBIND11_MODULE(_pcl_bv, module) {
+  using namespace pcl_bv::python;
+  pybind11::options options;
+  options.disable_function_signatures();
+  pybind11::register_local_exception_translator(translate);
+  module.attr("__version__") = PCL_BV_VERSION;
+  for (const auto bind : {bind_volumes, bind_shapes, bind_fit, bind_partial, bind_segmentation, bind_result,
+                          bind_pipeline, bind_picture, bind_read})
+    bind(module);
+  pybind11::list sets;
+  for (const pcl_bv::Isa isa : pcl_bv::usable_isas())
+    sets.append(std::string(pcl_bv::isa_name(isa)));
+  module.attr("instruction_sets") = pybind11::tuple(sets);
+}

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "read_shapes.h"
+
+#include "arguments.h"
+#include "arrays.h"
+
+namespace pcl_bv::python {
+namespace {
+
+constexpr NumberRange any_number{-kNoLimit, kNoLimit};
+
+double real(py::handle value, const char* name) {
+  return number(value, name, any_number);
+}
+
+/// Numbers that may be NaN or infinite, as those of empty volumes are: the constructors judge them.
+Eigen::Vector3d three_numbers(py::handle value, const char* name) {
+  const py::array_t<double> numbers = doubles(value, name);
+  if (numbers.size() != 3) refuse_value(name, "three numbers are wanted, not " + shown(value));
+  return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
+}
+
+/// (n, columns) numbers; nothing for an empty list.
+py::array_t<double> table(py::handle value, const char* name, py::ssize_t columns) {
+  const py::array_t<double> numbers = doubles(value, name);
+  if (numbers.size() > 0 && (numbers.ndim() != 2 || numbers.shape(1) != columns))
+    refuse_value(name, "(n, " + std::to_string(columns) + ") numbers are wanted, not " + shown(value));
+  return numbers;
+}
+
+std::vector<Eigen::Vector3d> vectors(py::handle value, const char* name) {
+  const py::array_t<double> numbers = table(value, name, 3);
+  std::vector<Eigen::Vector3d> list;
+  for (py::ssize_t i = 0; i < numbers.size(); i += 3)
+    list.emplace_back(Eigen::Map<const Eigen::Vector3d>(numbers.data() + i));
+  return list;
+}
+
+/// Rows are axes, columns are what Eigen's side has.
+Eigen::Matrix3d axes(py::handle value) {
+  const std::vector<Eigen::Vector3d> rows = vectors(value, "axes");
+  if (rows.size() != 3) refuse_value("axes", "(3, 3) numbers are wanted, not " + shown(value));
+  Eigen::Matrix3d m;
+  m << rows[0], rows[1], rows[2];
+  return m;
+}
+
+SlabVector slabs(py::handle value, const char* name) {
+  const py::array_t<double> numbers = doubles(value, name);
+  if (numbers.size() > static_cast<py::ssize_t>(KdopSet::max_size)) refuse_value(name, "more than 49 slabs");
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
+}
+
+/// The built-in one of these directions, if there is one.
+std::shared_ptr<const KdopSet> set_of(std::vector<Eigen::Vector3d> directions) {
+  const auto own = std::make_shared<const KdopSet>(std::move(directions));
+  for (const DirectionSet set :
+       {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18, DirectionSet::dop26}) {
+    if (*KdopSet::of(set) == *own) return KdopSet::of(set);
+  }
+  return own;
+}
+
+}  // namespace
+
+Aabb make_aabb(py::handle min, py::handle max) {
+  return {three_numbers(min, "min"), three_numbers(max, "max")};
+}
+Obb make_obb(py::handle center, py::handle axes_rows, py::handle half_extents) {
+  return {three_numbers(center, "center"), axes(axes_rows), three_numbers(half_extents, "half_extents")};
+}
+Kdop make_kdop(py::handle directions, py::handle min, py::handle max) {
+  return {set_of(vectors(directions, "directions")), slabs(min, "min"), slabs(max, "max")};
+}
+Sphere make_sphere(py::handle center, py::handle radius) {
+  return {three_numbers(center, "center"), real(radius, "radius")};
+}
+Cylinder make_cylinder(py::handle center, py::handle axis, py::handle radius, py::handle half_height) {
+  return {three_numbers(center, "center"), three_numbers(axis, "axis"), real(radius, "radius"),
+          real(half_height, "half_height")};
+}
+Capsule make_capsule(py::handle a, py::handle b, py::handle radius) {
+  return {three_numbers(a, "a"), three_numbers(b, "b"), real(radius, "radius")};
+}
+Ellipsoid make_ellipsoid(py::handle center, py::handle axes_rows, py::handle radii) {
+  return {three_numbers(center, "center"), axes(axes_rows), three_numbers(radii, "radii")};
+}
+Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::handle rank) {
+  const py::array_t<double> corners = table(faces, "faces", 3), sides = table(planes, "planes", 4);
+  std::vector<Hull::Triangle> triangles;
+  for (py::ssize_t i = 0; i < corners.size(); i += 3) {
+    Hull::Triangle& triangle = triangles.emplace_back();
+    std::transform(corners.data() + i, corners.data() + i + 3, triangle.begin(), [](double number) {
+      return static_cast<std::int32_t>(std::clamp(number, -1.0, 2147483647.0));
+    });
+  }
+  std::vector<HullPlane> half_spaces;
+  for (py::ssize_t i = 0; i < sides.size(); i += 4)
+    half_spaces.push_back({Eigen::Map<const Eigen::Vector3d>(sides.data() + i), sides.data()[i + 3]});
+  return {vectors(vertices, "vertices"), std::move(triangles), std::move(half_spaces),
+          static_cast<int>(whole_number(rank, "rank", {0, 3}))};
+}
+
+}  // namespace pcl_bv::python

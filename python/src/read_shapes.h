@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Volumes from the arguments of their constructors, and what these are documented to be.
+#pragma once
+
+#include "precompiled.h"
+
+namespace pcl_bv::python {
+
+namespace py = pybind11;
+
+Aabb make_aabb(py::handle min, py::handle max);
+Obb make_obb(py::handle center, py::handle axes, py::handle half_extents);
+Kdop make_kdop(py::handle directions, py::handle min, py::handle max);
+Sphere make_sphere(py::handle center, py::handle radius);
+Cylinder make_cylinder(py::handle center, py::handle axis, py::handle radius, py::handle half_height);
+Capsule make_capsule(py::handle a, py::handle b, py::handle radius);
+Ellipsoid make_ellipsoid(py::handle center, py::handle axes, py::handle radii);
+Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::handle rank);
+
+inline constexpr const char* aabb_doc = R"(Aabb(min, max)
+--
+
+An axis-aligned box: min <= p <= max in each coordinate. Any min above its max: the empty box.
+
+>>> import pcl_bv
+>>> box = pcl_bv.Aabb([0, 0, 0], [1, 2, 3])
+>>> box.volume, box.center
+(6.0, array([0.5, 1. , 1.5]))
+)";
+
+inline constexpr const char* obb_doc = R"(Obb(center, axes, half_extents)
+--
+
+An oriented box: |axes[i] . (p - center)| <= half_extents[i]. Axes are orthonormal to 1e-12, else ValueError.
+
+>>> import numpy, pcl_bv
+>>> pcl_bv.Obb([0, 0, 0], numpy.eye(3), [3, 2, 1]).volume
+48.0
+)";
+
+inline constexpr const char* kdop_doc = R"(Kdop(directions, min, max)
+--
+
+A k-DOP: min[i] <= directions[i] . p <= max[i] for each of 3 to 49 directions. Any min above its max: empty.
+
+>>> import numpy, pcl_bv
+>>> pcl_bv.Kdop(numpy.eye(3), [0, 0, 0], [1, 1, 1])
+Kdop(k=6, volume=1)
+)";
+
+inline constexpr const char* sphere_doc = R"(Sphere(center, radius)
+--
+
+A solid sphere: |p - center| <= radius. A negative radius: the empty sphere.
+
+>>> import pcl_bv
+>>> pcl_bv.Sphere([1, 2, 3], 4)
+Sphere(center=[1, 2, 3], radius=4)
+)";
+
+inline constexpr const char* cylinder_doc = R"(Cylinder(center, axis, radius, half_height)
+--
+
+A cylinder: at most radius from the axis and half_height from the centre along it. An axis is made unit.
+
+>>> import pcl_bv
+>>> pcl_bv.Cylinder([0, 0, 0], [0, 0, 2], 1, 3).axis
+array([0., 0., 1.])
+)";
+
+inline constexpr const char* capsule_doc = R"(Capsule(a, b, radius)
+--
+
+A capsule: at most radius from the segment between a and b. A negative radius: the empty capsule.
+
+>>> import pcl_bv
+>>> pcl_bv.Capsule([0, 0, 0], [0, 0, 2], 1).aabb()
+Aabb(min=[-1, -1, -1], max=[1, 1, 3])
+)";
+
+inline constexpr const char* ellipsoid_doc = R"(Ellipsoid(center, axes, radii)
+--
+
+An ellipsoid: sum over i of ((axes[i] . (p - center)) / radii[i])^2 <= 1; a radius of 0: flat along that axis.
+
+>>> import numpy, pcl_bv
+>>> pcl_bv.Ellipsoid([0, 0, 0], numpy.eye(3), [3, 2, 1]).contains([3, 0, 0])
+True
+)";
+
+inline constexpr const char* hull_doc = R"(Hull(vertices, faces, planes, rank=3)
+--
+
+A convex hull: n . p <= d for each plane nx, ny, nz, d. Vertices and faces are what is measured and drawn.
+
+>>> import pcl_bv
+>>> hull = pcl_bv.fit([[0., 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], 'hull')
+>>> hull.vertices.shape, hull.faces.shape, hull.planes.shape, hull.rank
+((4, 3), (4, 3), (4, 4), 3)
+)";
+
+inline constexpr const char* overlaps_doc = R"(overlaps(self, other, /)
+--
+
+Whether the two, of one class, have a point in common; errs only towards True. False if either is empty.
+
+>>> import pcl_bv
+>>> pcl_bv.Sphere([0, 0, 0], 1).overlaps(pcl_bv.Sphere([0, 0, 2], 1))
+True
+)";
+
+inline constexpr const char* merge_doc = R"(merge(self, other, /)
+--
+
+A new volume around both, of the same class; the other one, if one is empty. Neither changes.
+
+Boxes and k-DOPs are exact, spheres grow by their rounding, oriented boxes are not the smallest there are.
+
+>>> import pcl_bv
+>>> pcl_bv.Aabb([0, 0, 0], [1, 1, 1]).merge(pcl_bv.Aabb([2, 0, 0], [3, 1, 1]))
+Aabb(min=[0, 0, 0], max=[3, 1, 1])
+)";
+
+inline constexpr const char* extend_doc = R"(extend(self, points, /)
+--
+
+A new volume that holds the points, too: three numbers, or (N, 3). Those that are not finite are ignored.
+
+>>> import pcl_bv
+>>> pcl_bv.Aabb([0, 0, 0], [1, 1, 1]).extend([5, 0, 0])
+Aabb(min=[0, 0, 0], max=[5, 1, 1])
+)";
+
+inline constexpr const char* tightened_doc = R"(tightened(self, /)
+--
+
+The same k-DOP with each slab moved in to where it reaches, as after merging or moving.
+
+>>> import numpy, pcl_bv
+>>> loose = pcl_bv.Kdop([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [0] * 4, [1, 1, 1, 9])
+>>> bool(loose.tightened().max[3] < 3.1)
+True
+)";
+
+}  // namespace pcl_bv::python

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The frame's array goes with the result: its picture is of those points.
+
+#include "result_state.h"
+
+#include "config_dict.h"
+#include "volume_object.h"
+
+namespace pcl_bv::python {
+namespace {
+
+template <typename T>
+py::array_t<T> array(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+template <typename T>
+std::vector<T> vector(const py::object& values) {
+  const auto numbers = py::array_t<T, py::array::c_style>(values);
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+py::tuple counts(const Counts& c) {
+  return py::make_tuple(c.nonfinite, c.range, c.ground, c.small, c.large, c.noise, c.inside, c.of_class);
+}
+Counts counts(const py::tuple& t) {
+  const auto n = [&](std::size_t i) { return t[i].cast<std::size_t>(); };
+  return {n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7)};
+}
+
+py::tuple times(const StageTimes& ms) {
+  return py::make_tuple(ms.decode, ms.filter, ms.ground, ms.cluster, ms.fit, ms.track, ms.total);
+}
+StageTimes times(const py::tuple& t) {
+  const auto n = [&](std::size_t i) { return t[i].cast<double>(); };
+  return {n(0), n(1), n(2), n(3), n(4), n(5), n(6)};
+}
+
+py::object track(const std::optional<TrackEntry>& t) {
+  if (!t) return py::none();
+  return py::make_tuple(t->id, t->age, array_of(t->velocity), t->moving,
+                        py::array_t<double>(4, t->pose.data()),
+                        py::array_t<double>(21, t->covariance.data()));
+}
+std::optional<TrackEntry> track(py::handle state) {
+  if (state.is_none()) return {};
+  const auto t = state.cast<py::tuple>();
+  TrackEntry entry{t[0].cast<std::uint32_t>(), t[1].cast<std::size_t>()};
+  entry.velocity = vector3(t[2], "velocity");
+  entry.moving = t[3].cast<bool>();
+  const std::vector<double> pose = vector<double>(t[4]), covariance = vector<double>(t[5]);
+  if (pose.size() != entry.pose.size() || covariance.size() != entry.covariance.size())
+    throw py::value_error("Result: a state that is none of its own");
+  std::copy(pose.begin(), pose.end(), entry.pose.begin());
+  std::copy(covariance.begin(), covariance.end(), entry.covariance.begin());
+  return entry;
+}
+
+/// Of those that were wanted an object, which keeps what the fit said; None of the others.
+py::list volumes(const FrameResult& result) {
+  py::list list(result.volumes.size());
+  for (std::size_t i = 0; i < result.volumes.size(); ++i) {
+    const std::size_t m = i % result.methods.size();
+    if (result.has(i / result.methods.size(), m)) {
+      list[i] = to_python(AnyVolume(result.volumes[i]), result.methods[m], result.results[i]);
+    } else {
+      list[i] = py::none();
+    }
+  }
+  return list;
+}
+
+/// The numbers of a result hang together; those of a state may not.
+void require_sound(const FrameResult& result, std::size_t points) {
+  const Clusters& c = result.clusters;
+  const auto in_cloud = [&](const std::vector<std::int32_t>& list) {
+    return std::all_of(list.begin(), list.end(),
+                       [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < points; });
+  };
+  const bool sound =
+      result.points == points && !c.offsets.empty() && std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
+      (c.indices.empty() || c.offsets.back() == c.indices.size()) && c.offsets.back() <= points &&
+      in_cloud(c.indices) && in_cloud(result.kept) && in_cloud(result.ground.ground) &&
+      in_cloud(result.ground.rest) && (result.tracks.empty() || result.tracks.size() == c.size()) &&
+      (result.class_of.empty() || result.class_of.size() == c.size()) &&
+      result.volumes.size() == c.size() * result.methods.size();
+  if (!sound) throw py::value_error("Result: a state that is none of its own");
+}
+
+void take_volumes(const py::list& state, FrameResult& result) {
+  for (const py::handle each : state) {
+    result.wanted.push_back(each.is_none() ? 0 : 1);
+    if (each.is_none()) {
+      result.volumes.emplace_back();
+      result.results.emplace_back();
+    } else {
+      const VolumeObject& volume = volume_of(each, "volumes");
+      result.volumes.push_back(volume.value);
+      result.results.push_back(volume.fit);
+    }
+  }
+}
+
+/// What the filter kept, also where the pipeline made no list of it: then all of that is one cluster.
+std::vector<std::int32_t> kept(const ResultObject& self) {
+  if (!self.result.filtered) return self.result.kept;
+  const std::vector<std::uint32_t> labels = labels_of(self.frame(), self.result);
+  std::vector<std::int32_t> numbers;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == 0) numbers.push_back(static_cast<std::int32_t>(i));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
+  const FrameResult& r = self->result;
+  py::dict state;
+  state["header"] = py::make_tuple(r.header.seq, r.header.stamp_ns, r.header.frame_id, r.header.number);
+  state["config"] = dict_of(*r.config);
+  state["points"] = self->points.owner;
+  state["pose"] = self->pose ? py::object(array_of(Eigen::MatrixXd(self->pose->matrix()))) : py::none();
+  state["counts"] = counts(r.counts);
+  state["kept"] = array(kept(*self));
+  const GroundSplit& g = r.ground;
+  state["ground"] = py::make_tuple(g.found, array_of(g.normal), g.offset, array(g.ground), array(g.rest));
+  state["clusters"] = py::make_tuple(array(r.clusters.indices), array(r.clusters.offsets), array(r.class_of));
+  py::list names, tracks;
+  for (const Method* method : r.methods)
+    names.append(std::string(method->name));
+  for (const auto& each : r.tracks)
+    tracks.append(track(each));
+  state["tracks"] = tracks;
+  state["methods"] = names;
+  state["volumes"] = volumes(r);
+  state["ms"] = times(r.ms);
+  return state;
+}
+
+std::shared_ptr<ResultObject> result_of_state(const py::dict& state) {
+  const auto self = std::make_shared<ResultObject>();
+  FrameResult& r = self->result;
+  self->points = points_of(state["points"]);
+  if (!state["pose"].is_none()) self->pose = Pose(isometry(state["pose"], "pose").matrix());
+  const py::tuple header = state["header"], ground = state["ground"], clusters = state["clusters"];
+  r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), header[2].cast<std::string>(),
+              header[3].cast<std::uint64_t>()};
+  r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
+  r.points = self->points.view.count;
+  r.counts = counts(py::tuple(state["counts"]));
+  r.kept = vector<std::int32_t>(state["kept"]);
+  r.ground.found = ground[0].cast<bool>();
+  r.ground.normal = vector3(ground[1], "normal");
+  r.ground.offset = ground[2].cast<double>();
+  r.ground.ground = vector<std::int32_t>(ground[3]);
+  r.ground.rest = vector<std::int32_t>(ground[4]);
+  r.clusters.indices = vector<std::int32_t>(clusters[0]);
+  r.clusters.offsets = vector<std::size_t>(clusters[1]);
+  r.class_of = vector<std::int64_t>(clusters[2]);
+  for (const py::handle each : py::list(state["tracks"]))
+    r.tracks.push_back(track(each));
+  for (const py::handle name : py::list(state["methods"]))
+    r.methods.push_back(method_of(name));
+  take_volumes(state["volumes"], r);
+  r.ms = times(py::tuple(state["ms"]));
+  require_sound(r, self->points.view.count);
+  return self;
+}
+
+}  // namespace pcl_bv::python

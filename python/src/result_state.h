@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Results as pickle keeps them.
+#pragma once
+
+#include "result_object.h"
+
+namespace pcl_bv::python {
+
+py::dict state_of_result(const std::shared_ptr<ResultObject>& result);
+std::shared_ptr<ResultObject> result_of_state(const py::dict& state);
+
+}  // namespace pcl_bv::python

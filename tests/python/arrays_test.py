@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+# SPDX-License-Identifier: BSD-3-Clause
+import unittest
+
+import numpy as np
+from numpy.lib.stride_tricks import as_strided
+
+import pcl_bv
+from clouds import normal
+
+
+def records(points, layout):
+    """Points as records of these (name, type) in a row, with 7 in what is no coordinate."""
+    array = np.full(len(points), 7, dtype=layout)
+    for k, name in enumerate("xyz"):
+        array[name] = points[:, k]
+    return array
+
+
+class Arrays(unittest.TestCase):
+    def same(self, array, expected, **options):
+        self.assertEqual(pcl_bv.fit(array, "dop26", **options), pcl_bv.fit(expected.copy(), "dop26",
+            **options))
+        self.assertEqual(pcl_bv.fit(array, "sphere", **options), pcl_bv.fit(expected.copy(), "sphere",
+            **options))
+
+    def test_any_layout_gives_the_volume_of_its_points(self):
+        for dtype in (np.float32, np.float64):
+            for count in (1, 2, 3, 17, 1000):
+                points = normal(count, count, dtype)
+                wide = np.full((count, 7), 99, dtype)
+                wide[:, 1:4] = points
+                for array in (wide[:, 1:4], wide[:, 1:], points[::-1], np.asfortranarray(points), points[::2],
+                              np.repeat(points, 2, axis=0)[::2], points.astype(points.dtype.newbyteorder())):
+                    self.same(array, np.ascontiguousarray(array[:, :3], dtype))
+
+    def test_rows_at_the_end_of_a_page_are_not_read_beyond(self):
+        import mmap
+        for dtype, columns in ((np.float32, 3), (np.float64, 3), (np.float32, 4)):
+            size = np.dtype(dtype).itemsize
+            # Two pages, of which the second may not be read.
+            memory = mmap.mmap(-1, 2 * mmap.PAGESIZE)
+            whole = np.frombuffer(memory, np.uint8)
+            import ctypes
+            libc = ctypes.CDLL(None, use_errno=True)
+            page = whole.ctypes.data + mmap.PAGESIZE
+            self.assertEqual(libc.mprotect(ctypes.c_void_p(page), mmap.PAGESIZE, 0), 0)
+            count = 64  # whole vectors, whose last load would reach farthest
+            begin = mmap.PAGESIZE - count * columns * size + (columns - 3) * size
+            array = as_strided(whole[begin:begin + size].view(dtype), (count, 3), (columns * size, size))
+            array[:] = normal(count, 5, dtype)
+            self.same(array, array)
+            labels = np.arange(count) % 3
+            self.assertEqual(pcl_bv.fit(array, "obb", labels), pcl_bv.fit(array.copy(), "obb", labels))
+            self.assertEqual(list(pcl_bv.cluster(array, 0.5).labels), list(pcl_bv.cluster(array.copy(),
+                0.5).labels))
+            libc.mprotect(ctypes.c_void_p(page), mmap.PAGESIZE, 3)
+
+    def test_records_are_seen_by_the_names_of_their_fields(self):
+        points = normal(500, 8)
+        for f in ("<f4", "<f8", ">f4"):
+            for layout in ([("x", f), ("y", f), ("z", f)],
+                           [("i", "<u2"), ("x", f), ("y", f), ("z", f), ("ring", "u1")],
+                           [("z", f), ("y", f), ("x", f)],
+                           [("x", f), ("y", "<f8"), ("z", f)]):
+                array = records(points, layout)
+                expected = np.stack([array["x"], array["y"], array["z"]], axis=1)
+                wide = np.result_type(expected.dtype, array["y"].dtype).newbyteorder("=")
+                self.same(array, expected.astype(wide))
+
+    def test_an_organised_cloud_is_its_rows(self):
+        image = normal(600, 9, np.float32).reshape(20, 30, 3)
+        self.same(image, image.reshape(-1, 3))
+        self.assertEqual(pcl_bv.fit(records(normal(600, 9), [("x", "f4"), ("y", "f4"), ("z",
+            "f4")]).reshape(20, 30), "obb"),
+                         pcl_bv.fit(image, "obb"))
+
+    def test_views_are_not_copied(self):
+        """What is written into the array shows in a picture that is drawn later."""
+        points = normal(200, 10, np.float32)
+        for array in (points, np.hstack([points, points])[:, :3],
+                      records(points, [("x", "f4"), ("y", "f4"), ("z", "f4"), ("i", "f4")])):
+            picture = pcl_bv.show(array, width=64, height=64)
+            before = picture.png()
+            if array.dtype.names:
+                array["x"] = 0
+            else:
+                array[:, 0] = 0
+            self.assertNotEqual(picture.png(), before)
+        copied = np.asfortranarray(points + 1)
+        picture = pcl_bv.show(copied, width=64, height=64)
+        before = picture.png()
+        copied[:] = 0
+        self.assertEqual(picture.png(), before)
+
+    def test_arrays_that_may_not_be_written_and_lists_work(self):
+        points = normal(50, 11)
+        points.flags.writeable = False
+        self.same(points, points)
+        self.assertEqual(pcl_bv.fit(points.tolist(), "obb"), pcl_bv.fit(points, "obb"))
+        self.assertEqual(pcl_bv.fit(memoryview(points), "obb"), pcl_bv.fit(points, "obb"))
+
+    def test_rows_that_are_not_finite_are_dropped_and_counted(self):
+        points = normal(100, 12)
+        points[10] = [np.nan, 0, 0]
+        points[20] = [0, np.inf, 0]
+        box = pcl_bv.fit(points, "aabb")
+        self.assertEqual((box.used, box.dropped), (98, 2))
+        good = np.delete(points, [10, 20], axis=0)
+        self.assertEqual(box, pcl_bv.fit(good, "aabb"))
+
+    def test_no_point_gives_an_empty_volume_that_says_so(self):
+        for array in (np.zeros((0, 3)), np.zeros((0, 5), np.float32)[:, 1:4], np.full((4, 3), np.nan)):
+            for method in pcl_bv.methods():
+                volume = pcl_bv.fit(array, method)
+                self.assertTrue(volume.empty)
+                self.assertEqual(volume.status, "no_valid_points")
+                self.assertEqual(volume.volume, 0)
+        self.assertEqual(pcl_bv.fit(np.zeros((0, 3)), "aabb", labels=[]), {})
+        self.assertEqual(len(pcl_bv.cluster(np.zeros((0, 3)), 1)), 0)
+
+    def test_labels_of_any_integers_are_taken(self):
+        points = normal(6, 13)
+        expected = {0: pcl_bv.fit(points[:2], "aabb"), 4: pcl_bv.fit(points[2:4], "aabb")}
+        for dtype in (np.int8, np.int16, np.int32, np.int64):
+            self.assertEqual(pcl_bv.fit(points, "aabb", np.array([0, 0, 4, 4, -1, -2], dtype)), expected)
+        far = [pcl_bv.fit(points, "aabb", np.array([10**15, 5, 5, 10**15, 7, 7])), pcl_bv.fit(points, "aabb",
+            [2, 0, 0, 2, 1, 1])]
+        self.assertEqual(list(far[0]), [5, 7, 10**15])
+        self.assertEqual([far[0][5], far[0][7], far[0][10**15]], list(far[1].values()))
+        written = np.array([0, 0, 4, 4, 4294967295, 4294967294], np.uint32)
+        self.assertEqual(pcl_bv.fit(points, "aabb", written), expected)
+        clusters = pcl_bv.cluster([[0.0, 0, 0], [9, 0, 0], [0.1, 0, 0]], 0.5)
+        self.assertEqual(list(pcl_bv.fit([[0.0, 0, 0], [9, 0, 0], [0.1, 0, 0]], "aabb", clusters)), [0, 1])
+
+
+if __name__ == "__main__":
+    unittest.main()
