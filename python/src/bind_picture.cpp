@@ -10,6 +10,7 @@
 #include "pcl_bv/report/meshes.h"
 #include "picture_object.h"
 #include "raw_cloud_array.h"
+#include "view_html.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
@@ -123,12 +124,17 @@ void write_anything(py::handle file, py::handle what, py::handle labels) {
     const py::gil_scoped_release unlocked;
     return write_picture(place, of.picture);
   }
+  if (extension == ".html") {
+    if (!py::isinstance<ResultObject>(what)) refuse_type("what", "a Result, for a .html file,", what);
+    const auto result = what.cast<std::shared_ptr<ResultObject>>();
+    return write_file_atomically(place, page_of_result(*result, kMostPointsOfAPage));
+  }
   const Reported found = reported(what);
   if (extension == ".json" || extension == ".jsonl") return write_file_atomically(place, json_text(found));
   if (extension == ".csv") return write_file_atomically(place, csv_text(found));
   const std::optional<MeshFormat> format = mesh_format(place);
   if (!format)
-    refuse_value("path", "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .pcd");
+    refuse_value("path", "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
   const py::gil_scoped_release unlocked;
   write_volumes(place, found.clusters, *format);
 }
@@ -187,7 +193,7 @@ Writes a file, whole or not at all, of the kind that its extension names.
 
 .json, .csv, .ply, .vtp, .png, .svg: a Result, a volume, a list of volumes, or a dict of these by label, as
     fit() gives; .json and .csv as pcd_bv writes them (of a Result as bv_stream), .ply and .vtp their meshes.
-.png, .svg: also a Picture.
+.png, .svg: also a Picture. .html: a Result, as the page of Result.page().
 .pcd: points, as fit() takes them; records with all their fields. labels: an integer for each point, which
     becomes the field `label`.
 

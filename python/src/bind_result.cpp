@@ -8,6 +8,7 @@
 #include "picture_object.h"
 #include "result_object.h"
 #include "result_state.h"
+#include "view_html.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
@@ -200,6 +201,29 @@ A Picture of the points, clusters in colours, and the volumes. view: 'iso', 'top
 Picture(640 x 400, 18847 points)
 )";
 
+constexpr const char* page_doc = R"(page(self, /)
+--
+
+The page of the live view with this frame in it, as the text of an HTML file that needs nothing else: to
+turn, to zoom, to ask for an object's numbers. Of more than 500000 points some are left out. A notebook
+shows the same with at most 50000 points; write('x.html', result) makes the file.
+
+>>> import numpy, pcl_bv
+>>> points = numpy.random.default_rng(1).normal(size=(500, 3)) + [5, 0, 0]
+>>> pcl_bv.Pipeline(ground={'method': 'none'}).process(points).page()[:15]
+'<!DOCTYPE html>'
+)";
+
+// Of 20 bytes each in the notebook's file.
+constexpr std::size_t kMostPointsOfACell = 50'000;
+
+std::string in_a_notebook(const std::string& page) {
+  std::string cell = R"(<iframe style="width: 100%; height: 32em; border: 0" sandbox="allow-scripts" srcdoc=")";
+  for (const char c : page)
+    c == '"' ? cell += "&quot;" : c == '&' ? cell += "&amp;" : cell += c;
+  return cell + "\"></iframe>";
+}
+
 void bind_cluster(py::module_& module) {
   py::class_<ClusterObject>(module, "Cluster", cluster_class_doc)
       .def_readonly("id", &ClusterObject::id, "Its number in the frame: the largest is 0.")
@@ -253,8 +277,10 @@ void bind_result(py::module_& module) {
             return picture_of_result(r, picture_size(view, width, height));
           },
           py::kw_only(), "view"_a = "iso", "width"_a = 1600, "height"_a = 1000, result_picture_doc)
-      // A notebook takes the first of these that it knows; a page that can be turned goes here, as
-      // _repr_html_.
+      .def(
+          "page", [](const Shared& r) { return page_of_result(*r, kMostPointsOfAPage); }, page_doc)
+      .def("_repr_html_",
+           [](const Shared& r) { return in_a_notebook(page_of_result(*r, kMostPointsOfACell)); })
       .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })
       .def("__len__", [](const Shared& r) { return r->result.clusters.size(); })
       .def("__repr__", repr_of_result)

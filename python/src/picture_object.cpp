@@ -4,6 +4,7 @@
 #include "picture_object.h"
 
 #include "arguments.h"
+#include "view_html.h"
 
 namespace pcl_bv::python {
 
@@ -32,6 +33,17 @@ py::bytes PictureObject::png() const {
 std::string PictureObject::svg() const {
   const py::gil_scoped_release unlocked;
   return picture_svg(picture);
+}
+
+std::string page_of_result(const ResultObject& object, std::size_t most_points) {
+  const py::gil_scoped_release unlocked;
+  const Frame frame = object.frame();
+  Report report;
+  report.file = frame.header.frame_id.empty() ? "cloud" : frame.header.frame_id;
+  report.points = object.result.points;
+  report.counts = object.result.counts;
+  report.clusters = entries_of(object.result);
+  return view_html(frame, object.result, report, labels_of(frame, object.result), most_points);
 }
 
 PictureObject picture_of_result(const std::shared_ptr<const ResultObject>& result, const PictureSize& size) {

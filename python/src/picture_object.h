@@ -25,6 +25,9 @@ struct PictureObject {
   std::string svg() const;
 };
 
+/// The page of the live view with a result, as HTML.
+std::string page_of_result(const ResultObject& result, std::size_t most_points);
+
 PictureObject picture_of_result(const std::shared_ptr<const ResultObject>& result, const PictureSize& size);
 
 }  // namespace pcl_bv::python

@@ -44,8 +44,8 @@ class PagePoints {
       : frame_(frame), labels_(labels), origin_(origin) {}
 
   /// Evenly chosen among all, which may be read from a file.
-  void add_all() {
-    const std::size_t count = frame_.points.count, wanted = std::min(count, kMostPointsOfAPage);
+  void add_all(std::size_t most_points) {
+    const std::size_t count = frame_.points.count, wanted = std::min(count, most_points);
     std::size_t number = 0;
     for (std::size_t chunk = 0; chunk < chunk_count(count); ++chunk) {
       const LoadedPoints loaded = load_chunk(frame_.points, chunk);
@@ -95,10 +95,10 @@ std::string list(const Eigen::Vector3d& v) {
 }  // namespace
 
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
-                      const std::vector<std::uint32_t>& labels) {
+                      const std::vector<std::uint32_t>& labels, std::size_t most_points) {
   const Eigen::Vector3d origin = middle_of(result);
   PagePoints points(frame, labels, origin);
-  points.add_all();
+  points.add_all(most_points);
   const std::string data =
       "<script id=\"data\" type=\"application/json\">{\"report\":" + in_html(report_json(report)) +
       ",\"origin\":" + list(origin) + ",\"shown\":" + std::to_string(points.shown) +

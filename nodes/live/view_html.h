@@ -20,6 +20,6 @@ inline constexpr std::size_t kMostPointsOfAPage = 500'000;
 /// The page as HTML. `labels` as labels_of() has them; empty: all points are of cluster 0. Coordinates become
 /// float32 relative to whole numbers near their middle.
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
-                      const std::vector<std::uint32_t>& labels);
+                      const std::vector<std::uint32_t>& labels, std::size_t most_points = kMostPointsOfAPage);
 
 }  // namespace pcl_bv
