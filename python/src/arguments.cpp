@@ -73,13 +73,13 @@ std::filesystem::path path(py::handle value, const char* name) {
 Eigen::Vector3d vector3(py::handle value, const char* name) {
   const auto numbers = doubles(value, name);
   if (numbers.size() != 3) refuse_value(name, "three numbers are wanted, not " + shown(value));
-  const Eigen::Vector3d v(numbers.data()[0], numbers.data()[1], numbers.data()[2]);
+  Eigen::Vector3d v(numbers.data()[0], numbers.data()[1], numbers.data()[2]);
   if (!v.allFinite()) refuse_value(name, shown(value) + " is not finite");
   return v;
 }
 
 Eigen::Vector3d up_argument(py::handle value) {
-  const Eigen::Vector3d up =
+  Eigen::Vector3d up =
       PyUnicode_Check(value.ptr()) ? word<Eigen::Vector3d>(value, "up") : vector3(value, "up");
   const std::string problem = problem_of(Setting{"up", "", ""}, up);
   if (!problem.empty()) refuse_value("up", problem);

@@ -48,7 +48,7 @@ std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle pres
 std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle points, py::handle stamp_ns,
                                             py::handle frame_id, py::handle seq, py::handle pose,
                                             py::handle classes) {
-  const auto result = std::make_shared<ResultObject>();
+  auto result = std::make_shared<ResultObject>();
   result->points = points_of(points);
   if (!pose.is_none()) result->pose = Pose(isometry(pose, "pose").matrix());
   Frame frame = result->frame();

@@ -11,7 +11,7 @@
 namespace pcl_bv::python {
 namespace {
 
-void translate(std::exception_ptr error) {
+void translate(std::exception_ptr error) {  // NOLINT(performance-unnecessary-value-param): pybind11's type
   try {
     if (error) std::rethrow_exception(error);
   } catch (const IoError& e) {

@@ -24,7 +24,7 @@ Eigen::Vector3d three_numbers(py::handle value, const char* name) {
 
 /// (n, columns) numbers; nothing for an empty list.
 py::array_t<double> table(py::handle value, const char* name, py::ssize_t columns) {
-  const py::array_t<double> numbers = doubles(value, name);
+  py::array_t<double> numbers = doubles(value, name);
   if (numbers.size() > 0 && (numbers.ndim() != 2 || numbers.shape(1) != columns))
     refuse_value(name, "(n, " + std::to_string(columns) + ") numbers are wanted, not " + shown(value));
   return numbers;
@@ -55,7 +55,7 @@ SlabVector slabs(py::handle value, const char* name) {
 
 /// The built-in one of these directions, if there is one.
 std::shared_ptr<const KdopSet> set_of(std::vector<Eigen::Vector3d> directions) {
-  const auto own = std::make_shared<const KdopSet>(std::move(directions));
+  auto own = std::make_shared<const KdopSet>(std::move(directions));
   for (const DirectionSet set :
        {DirectionSet::dop6, DirectionSet::dop14, DirectionSet::dop18, DirectionSet::dop26}) {
     if (*KdopSet::of(set) == *own) return KdopSet::of(set);

@@ -140,7 +140,7 @@ py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
 }
 
 std::shared_ptr<ResultObject> result_of_state(const py::dict& state) {
-  const auto self = std::make_shared<ResultObject>();
+  auto self = std::make_shared<ResultObject>();
   FrameResult& r = self->result;
   self->points = points_of(state["points"]);
   if (!state["pose"].is_none()) self->pose = Pose(isometry(state["pose"], "pose").matrix());

@@ -80,7 +80,7 @@ py::object to_python(AnyVolume&& volume, const Method* method, const EstimationR
   return std::visit(
       [&](auto&& shape) -> py::object {
         ShapeObject<std::decay_t<decltype(shape)>> object;
-        object.value = std::move(shape);
+        object.value = std::forward<decltype(shape)>(shape);
         object.method = method;
         object.fit = fit;
         return py::cast(std::move(object));
