@@ -93,7 +93,8 @@ def beside_open3d(cloud):
         their_largest.get_minimal_oriented_bounding_box
         if hasattr(their_largest,
                    "get_minimal_oriented_bounding_box") else their_largest.get_oriented_bounding_box, 7)
-    row("obb-pca" + of, lambda: pcl_bv.fit(largest, "obb-pca"), their_largest.get_oriented_bounding_box, 15)
+    row("obb-pca (Open3D: of the hull's vertices)" + of, lambda: pcl_bv.fit(largest, "obb-pca"),
+        their_largest.get_oriented_bounding_box, 15)
     row("hull" + of, lambda: pcl_bv.fit(largest, "hull"), their_largest.compute_convex_hull, 15)
     row(f"aabb, {len(points)} points", lambda: pcl_bv.fit(points, "aabb"),
         theirs.get_axis_aligned_bounding_box, 31)
