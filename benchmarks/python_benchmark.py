@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Calls from Python, and Open3D's in the same run: python_benchmark.py [FOLDER OF THE PACKAGE [CLOUD]].
 
-Medians (minima), one thread of ours. Ours and Open3D's take turns, so that a busy machine slows both. CLOUD: any
+Medians (minima), one thread of ours. Ours and Open3D's take turns: a busy machine slows both. CLOUD: any
 file or recording; else a street as a LiDAR of 64 beams sees it. Open3D's rows need Debian's python3-open3d.
 """
 
