@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Calls from Python, and Open3D's in the same run: python_benchmark.py [FOLDER OF THE PACKAGE [CLOUD]].
 
-Medians (minima), one thread of ours. Ours and Open3D's take turns, so that a busy machine slows both. CLOUD: any
+Medians (minima), one thread of ours. Ours and Open3D's take turns: a busy machine slows both. CLOUD: any
 file or recording; else a street as a LiDAR of 64 beams sees it. Open3D's rows need Debian's python3-open3d.
 """
 
@@ -93,7 +93,8 @@ def beside_open3d(cloud):
         their_largest.get_minimal_oriented_bounding_box
         if hasattr(their_largest,
                    "get_minimal_oriented_bounding_box") else their_largest.get_oriented_bounding_box, 7)
-    row("obb-pca" + of, lambda: pcl_bv.fit(largest, "obb-pca"), their_largest.get_oriented_bounding_box, 15)
+    row("obb-pca (Open3D: of the hull's vertices)" + of, lambda: pcl_bv.fit(largest, "obb-pca"),
+        their_largest.get_oriented_bounding_box, 15)
     row("hull" + of, lambda: pcl_bv.fit(largest, "hull"), their_largest.compute_convex_hull, 15)
     row(f"aabb, {len(points)} points", lambda: pcl_bv.fit(points, "aabb"),
         theirs.get_axis_aligned_bounding_box, 31)
