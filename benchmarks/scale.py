@@ -74,10 +74,6 @@ def median(runs, what):
     return statistics.median(getattr(run, what) for run in runs)
 
 
-def least(runs, what):
-    return min(getattr(run, what) for run in runs)
-
-
 def merging(build, folder, work):
     """Bytes of a share's results and seconds to read and merge one more of them."""
     files = []
@@ -104,9 +100,8 @@ class Model:
     def __init__(self, runs, points, size, merge):
         one, rounds = runs[ONE_PASS, 1], runs[ROUNDS, 1]
         self.rounds = int(median(rounds, "rounds"))
-        # Of the processor: on a quiet machine, from the page cache, the seconds of one rank.
-        self.read = least(one, "work") / points
-        self.ask = max(0.0, least(rounds, "work") - least(one, "work")) / points / max(1, self.rounds)
+        self.read = median(one, "seconds") / points
+        self.ask = max(0.0, median(rounds, "seconds") - median(one, "seconds")) / points / max(1, self.rounds)
         self.size, self.merge = size, merge
 
     def per_point(self):
