@@ -107,8 +107,8 @@ void Server::settings(const std::string&, std::int64_t) {
   in_its_thread([this] { hub_.tell_settings(); });
 }
 
-void Server::offer(std::shared_ptr<RemoteSettings> settings) {
-  in_its_thread([this, settings = std::move(settings)] { hub_.offer(settings); });
+void Server::offer(const std::shared_ptr<RemoteSettings>& settings) {
+  in_its_thread([this, settings] { hub_.offer(settings); });
 }
 
 void Server::notice(const std::string& line) {

@@ -30,7 +30,7 @@ class Server final : public MessageCarrier {
   bool wanted(std::size_t topic) const override;
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) override;
   void settings(const std::string& yaml, std::int64_t stamp_ns) override;
-  void offer(std::shared_ptr<RemoteSettings> settings) override;
+  void offer(const std::shared_ptr<RemoteSettings>& settings) override;
   void notice(const std::string& line) override;
   std::vector<std::string> take_remarks() override;
   void close() override;

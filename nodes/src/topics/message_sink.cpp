@@ -60,7 +60,7 @@ class MessageSink final : public FrameSink {
     carrier_->notice("frame " + std::to_string(frame.header.seq) + " is lost: " + reason);
     if (wanted(frames_topic_)) send_frame(report_of_lost(frame, reason));
   }
-  void offer(std::shared_ptr<RemoteSettings> settings) override { carrier_->offer(std::move(settings)); }
+  void offer(const std::shared_ptr<RemoteSettings>& settings) override { carrier_->offer(settings); }
   std::vector<std::string> take_remarks() override { return carrier_->take_remarks(); }
   void close() override { carrier_->close(); }
 

@@ -40,7 +40,7 @@ class FrameSink {
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
   /// Before the first frame: settings that those who read the results may see and change.
-  virtual void offer(std::shared_ptr<RemoteSettings> /*settings*/) {}
+  virtual void offer(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
   /// What was noticed and harms no frame, since the last call: a line each, for people.
   virtual std::vector<std::string> take_remarks() { return {}; }

@@ -39,7 +39,7 @@ class MessageCarrier {
   virtual void settings(const std::string& /*yaml*/, std::int64_t /*stamp_ns*/) {}
 
   /// As FrameSink::offer().
-  virtual void offer(std::shared_ptr<RemoteSettings> /*settings*/) {}
+  virtual void offer(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
   /// Something that people should know now: a line.
   virtual void notice(const std::string& /*line*/) {}
