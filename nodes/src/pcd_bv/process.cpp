@@ -125,7 +125,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
   Frame frame;
   frame.points = loaded.xyz();
-  if (const RawCloud& cloud = loaded.cloud(); cloud.data.size() > 0)
+  if (const RawCloud& cloud = loaded.cloud(); !cloud.data.empty())
     frame.intensity = intensity_of(cloud.fields, cloud.data.data(), cloud.point_step);
   if (const auto& field = options.pipeline.cluster.class_field)
     frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(loaded.cloud(), field->name));

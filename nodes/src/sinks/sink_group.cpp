@@ -40,7 +40,7 @@ void SinkGroup::add(const SinkDescription& description) {
   try {
     add(name, make_sink(description));
     for (const std::string& remark : members_.back()->sink->take_remarks())
-      say_(name + ": " + remark);
+      say_(std::string(name).append(": ").append(remark));
   } catch (const IoError& error) {
     throw IoError(name + ": " + error.what());
   }
