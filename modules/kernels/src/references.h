@@ -4,6 +4,7 @@
 // The scalar references: plain loops that say what the vectors of each kernel must agree with.
 #pragma once
 
+#include "nearest_kept.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/half_spaces.h"
@@ -32,6 +33,11 @@ std::size_t list_reaching_reference(const PointView& block, const KeptBounds& ke
                                     const DistanceCenter& center, double limit, std::uint32_t* positions);
 std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
                                    FloatFilter filter, std::uint32_t* positions);
+
+bool any_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit);
+void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit,
+                            std::vector<Neighbor>& found);
+void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept);
 
 Moments block_moments_reference(const PointView& block);
 

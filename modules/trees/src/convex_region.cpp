@@ -9,13 +9,10 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "vectors.h"
 
 namespace pcl_bv {
 namespace {
-
-Coordinates coordinates(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 Direction direction(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};

@@ -41,11 +41,15 @@ Sphere around(const Sphere& big, const Sphere& small) {
   return {center, std::max(reach(big), reach(small))};
 }
 
-// |a - b| <= r, or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2 by 5; the limit loses 3
-// at most, 5 where r is itself a rounded sum. 16 covers both.
+// Of squared distances, for |a - b| <= r or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2 by 5;
+// the limit loses 3 at most, 5 where r is itself a rounded sum. 16 covers both.
+double square_within_rounding(double r) {
+  return r * r * (1 + 0x1p-49) + kSmallestNormal;
+}
+
 bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r) {
   const Eigen::Vector3d q = a - b;
-  return dot3(q, q) <= r * r * (1 + 0x1p-49) + kSmallestNormal;
+  return dot3(q, q) <= square_within_rounding(r);
 }
 
 // Around the point of the line that is nearest the centre, as computed. With q = origin - center, its place
@@ -82,6 +86,10 @@ Sphere::Sphere(const Eigen::Vector3d& center, double radius) : Sphere() {
 bool Sphere::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   return !empty() && within_rounding(point, center_, radius_);
+}
+
+double Sphere::contained_square() const {
+  return empty() ? -1 : square_within_rounding(radius_);
 }
 
 double Sphere::volume() const {

@@ -44,6 +44,9 @@ class Sphere {
   /// for a point with a NaN.
   bool contains(const Eigen::Vector3d& point) const;
 
+  /// What contains() compares squared distances with; -1 if empty.
+  double contained_square() const;
+
   double volume() const;        ///< In cubed units; 0 if empty.
   double surface_area() const;  ///< In squared units; 0 if empty.
 

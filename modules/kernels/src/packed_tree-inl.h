@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Distances of a place to the boxes of a group and to the points of a packet.
+
+// Included once per target by Highway's foreach_target.h.
+#if defined(PCL_BV_PACKED_TREE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PCL_BV_PACKED_TREE_INL_H_
+#undef PCL_BV_PACKED_TREE_INL_H_
+#else
+#define PCL_BV_PACKED_TREE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <type_traits>
+
+#include "box_probe.h"
+#include "load-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET != HWY_SCALAR
+
+using Floats = hn::CappedTag<float, kTreeWidth>;
+// Of as many lanes as Floats has, or of half as many.
+using Doubles = hn::CappedTag<double, 8>;
+
+/// The lanes of a mask, at most 16, as bits. No more bytes are read than were written: reading others waits for the
+/// store.
+template <class D>
+HWY_INLINE std::uint32_t bits_of_lanes(D d, hn::Mask<D> mask) {
+  static_assert(hn::MaxLanes(d) <= 16);
+  std::conditional_t<hn::MaxLanes(d) <= 8, std::uint8_t, std::uint16_t> bits = 0;
+  hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
+}
+
+template <class D>
+HWY_INLINE V<D> sum_of_squares(V<D> x, V<D> y, V<D> z) {
+  return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+}
+
+/// How far the boxes k, k + 1, ... of a group are along an axis; 0 where the place may be between their sides.
+template <class D>
+HWY_INLINE V<D> gap(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k) {
+  const auto below = hn::Sub(hn::Load(d, group.low[axis] + k), hn::Set(d, probe.high[axis]));
+  const auto above = hn::Sub(hn::Set(d, probe.low[axis]), hn::Load(d, group.high[axis] + k));
+  return hn::Max(hn::Max(below, above), hn::Zero(d));
+}
+
+template <class D>
+HWY_INLINE V<D> nearest_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
+  return sum_of_squares<D>(gap(d, group, probe, 0, k), gap(d, group, probe, 1, k), gap(d, group, probe, 2, k));
+}
+
+template <class D>
+HWY_INLINE V<D> reach(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k) {
+  const auto to_low = hn::Sub(hn::Set(d, probe.high[axis]), hn::Load(d, group.low[axis] + k));
+  const auto to_high = hn::Sub(hn::Load(d, group.high[axis] + k), hn::Set(d, probe.low[axis]));
+  return hn::Max(to_low, to_high);
+}
+
+template <class D>
+HWY_INLINE V<D> farthest_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
+  return sum_of_squares<D>(reach(d, group, probe, 0, k), reach(d, group, probe, 1, k), reach(d, group, probe, 2, k));
+}
+
+/// Those of the first `count` boxes of a group that are not too far.
+HWY_INLINE std::uint32_t near_boxes(const BoxGroup& group, const BoxProbe& probe, std::size_t count) {
+  const Floats d;
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
+    const auto near = hn::Le(nearest_squares(d, group, probe, k), hn::Set(d, probe.outer));
+    bits |= bits_of_lanes(d, near) << k;
+  }
+  return bits & ((1U << count) - 1);
+}
+
+/// Whether a box of the group is so near that all of it counts. Empty boxes are infinitely far.
+HWY_INLINE bool holds_a_box(const BoxGroup& group, const BoxProbe& probe) {
+  const Floats d;
+  for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
+    const auto far = farthest_squares(d, group, probe, k);
+    if (!hn::AllFalse(d, hn::Le(far, hn::Set(d, probe.inner)))) return true;
+  }
+  return false;
+}
+
+template <class D>
+HWY_INLINE V<D> load_as_double(D d, const double* from) {
+  return hn::Load(d, from);
+}
+
+template <class D>
+HWY_INLINE V<D> load_as_double(D d, const float* from) {
+  return hn::PromoteTo(d, hn::Load(hn::Rebind<float, D>(), from));
+}
+
+/// Squared distances, as Neighbor says, of the points k, k + 1, ... of a packet.
+template <class D, typename T>
+HWY_INLINE V<D> packet_squares(D d, const PointPacket<T>& packet, const Coordinates& center, std::size_t k) {
+  return sum_of_squares<D>(hn::Sub(load_as_double(d, packet.at(0, k)), hn::Set(d, center.x)),
+                           hn::Sub(load_as_double(d, packet.at(1, k)), hn::Set(d, center.y)),
+                           hn::Sub(load_as_double(d, packet.at(2, k)), hn::Set(d, center.z)));
+}
+
+/// The points of a packet within the limit; writes all squared distances if `squares` is not null.
+template <typename T>
+HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordinates& center, double limit,
+                                     double* squares) {
+  const Doubles d;
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
+    const auto square = packet_squares(d, packet, center, k);
+    if (squares != nullptr) hn::Store(square, d, squares + k);
+    bits |= bits_of_lanes(d, hn::Le(square, hn::Set(d, limit))) << k;
+  }
+  return bits;
+}
+
+#endif  // HWY_TARGET != HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <bit>
+
+#include "pcl_bv/kernels/packed_tree.h"
+#include "references.h"
+#include "targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tree_balls.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "packed_tree-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pcl_bv {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET != HWY_SCALAR
+
+// Calls take(packet) for the packets whose boxes are not too far, and before that look(group) for the groups that
+// such a box is in; true as soon as one of them says so.
+template <typename Look, typename Take>
+HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Look& look, const Take& take) {
+  struct Open {
+    std::size_t first;   // what bit 0 stands for
+    std::uint32_t bits;  // still to be visited
+  };
+  Open open[BoxLevels::kMostLevels + 1];
+  std::size_t level = boxes.levels;  // whose items are the groups of the topmost
+  open[level] = {0, (1U << boxes.below[level]) - 1};
+  for (;;) {
+    while (open[level].bits == 0) {
+      if (level++ == boxes.levels) return false;
+    }
+    std::uint32_t& bits = open[level].bits;
+    const std::size_t item = open[level].first + static_cast<std::size_t>(std::countr_zero(bits));
+    bits &= bits - 1;
+    if (level == 0) {
+      if (take(item)) return true;
+      continue;
+    }
+    --level;
+    const BoxGroup& group = boxes.groups[boxes.first[level] + item];
+    const std::size_t first = item * kTreeWidth;
+    open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth))};
+    if (open[level].bits != 0 && look(group)) return true;
+  }
+}
+
+template <typename T>
+bool any_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packets, const Coordinates& center,
+            double limit) {
+  const BoxProbe probe(tree.boxes, center, limit);
+  return walk(
+      tree.boxes, probe, [&](const BoxGroup& group) { return holds_a_box(group, probe); },
+      [&](std::size_t packet) { return near_points(packets[packet], center, limit, nullptr) != 0; });
+}
+
+bool any_in_ball(const PackedTree& tree, const Coordinates& center, double limit) {
+  return tree.scalar == ScalarType::float32 ? any_of(tree, tree.floats, center, limit)
+                                            : any_of(tree, tree.doubles, center, limit);
+}
+
+template <typename T>
+void list_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packets, const Coordinates& center,
+             double limit, std::vector<Neighbor>& found) {
+  HWY_ALIGN double squares[kTreeWidth];
+  walk(
+      tree.boxes, BoxProbe(tree.boxes, center, limit), [](const BoxGroup&) { return false; },
+      [&](std::size_t packet) {
+        const std::int32_t* const numbers = tree.numbers.data() + packet * kTreeWidth;
+        for (std::uint32_t bits = near_points(packets[packet], center, limit, squares); bits != 0;
+             bits &= bits - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+          found.push_back({numbers[lane], squares[lane]});
+        }
+        return false;
+      });
+}
+
+void list_in_ball(const PackedTree& tree, const Coordinates& center, double limit,
+                  std::vector<Neighbor>& found) {
+  if (tree.scalar == ScalarType::float32) {
+    list_of(tree, tree.floats, center, limit, found);
+  } else {
+    list_of(tree, tree.doubles, center, limit, found);
+  }
+}
+
+#endif  // HWY_TARGET != HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pcl_bv
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pcl_bv {
+
+bool any_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit) {
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(any_in_ball, &any_in_ball_reference);
+  return tree.count != 0 && kTable[isa](tree, center, limit);
+}
+
+void list_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit,
+                  std::vector<Neighbor>& found) {
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_in_ball, &list_in_ball_reference);
+  if (tree.count != 0) kTable[isa](tree, center, limit, found);
+}
+
+}  // namespace pcl_bv
+#endif  // HWY_ONCE

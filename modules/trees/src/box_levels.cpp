@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "box_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_bv {
+namespace {
+
+// As many groups as this are visited one after another: boxes around them would seldom spare one.
+constexpr std::size_t kTopGroups = 2;
+
+std::size_t groups_of(std::size_t below) {
+  return (below + kTreeWidth - 1) / kTreeWidth;
+}
+
+// What rounding to float, and the two roundings before, may have cost. Denormal floats have an error of their own.
+float doubt(float rounded) {
+  return std::abs(rounded) * 0x1p-22F + std::numeric_limits<float>::min();
+}
+
+const BoxGroup& empty_group() {
+  static const BoxGroup group = [] {
+    BoxGroup made;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::fill_n(made.low[axis], kTreeWidth, std::numeric_limits<float>::infinity());
+      std::fill_n(made.high[axis], kTreeWidth, -std::numeric_limits<float>::infinity());
+    }
+    return made;
+  }();
+  return group;
+}
+
+}  // namespace
+
+void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds) {
+  boxes.levels = 0;
+  boxes.first[0] = 0;
+  boxes.below[0] = items;
+  if (items == 0) {
+    boxes.groups.clear();
+    return;
+  }
+  do {
+    const std::size_t groups = groups_of(boxes.below[boxes.levels]);
+    ++boxes.levels;
+    boxes.first[boxes.levels] = boxes.first[boxes.levels - 1] + groups;
+    boxes.below[boxes.levels] = groups;
+  } while (boxes.below[boxes.levels] > kTopGroups);
+  boxes.groups.assign(boxes.first[boxes.levels], empty_group());
+  if (!(bounds.low.x <= bounds.high.x)) return;  // there are items, but nowhere
+  double half = 0;
+  const auto middle = [&half](double low, double high) {
+    const double at = low / 2 + high / 2;
+    half = std::max({half, high - at, at - low});
+    return at;
+  };
+  boxes.origin = {middle(bounds.low.x, bounds.high.x), middle(bounds.low.y, bounds.high.y),
+                  middle(bounds.low.z, bounds.high.z)};
+  // Smaller clouds than 2^-400 lie in one box: their squares would leave the range of double.
+  boxes.scale = std::ldexp(1.0, half > 0x1p-400 ? -std::ilogb(half) - 1 : 0);
+}
+
+void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, const Coordinates& high) {
+  BoxGroup& group = boxes.groups[item / kTreeWidth];
+  const std::size_t k = item % kTreeWidth;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto least = static_cast<float>((low[axis] - boxes.origin[axis]) * boxes.scale);
+    const auto most = static_cast<float>((high[axis] - boxes.origin[axis]) * boxes.scale);
+    group.low[axis][k] = least - doubt(least);
+    group.high[axis][k] = most + doubt(most);
+  }
+}
+
+void raise_levels(BoxLevels& boxes) {
+  for (std::size_t level = 1; level < boxes.levels; ++level) {
+    for (std::size_t item = 0; item < boxes.below[level]; ++item) {
+      const BoxGroup& from = boxes.groups[boxes.first[level - 1] + item];
+      BoxGroup& to = boxes.groups[boxes.first[level] + item / kTreeWidth];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        to.low[axis][item % kTreeWidth] = *std::min_element(from.low[axis], from.low[axis] + kTreeWidth);
+        to.high[axis][item % kTreeWidth] = *std::max_element(from.high[axis], from.high[axis] + kTreeWidth);
+      }
+    }
+  }
+}
+
+}  // namespace pcl_bv

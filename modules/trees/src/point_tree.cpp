@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/trees/point_tree.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "tree_build.h"
+#include "vectors.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t kMostPoints = std::numeric_limits<std::int32_t>::max();
+
+void require_usable(const PointView& points, const Execution& execution) {
+  if (points.source != nullptr) throw std::invalid_argument("PointTree: the points must be in memory");
+  if (points.count > kMostPoints || points.first > kMostPoints - points.count) {
+    std::ostringstream what;
+    what << "PointTree: point numbers must be from 0 to 2147483646, not " << points.count << " from "
+         << points.first << " on";
+    throw std::invalid_argument(what.str());
+  }
+  if (execution.supports != nullptr) throw std::invalid_argument("PointTree: takes no supports");
+}
+
+// What |place - p|^2, rounded, may be.
+double square_limit(double distance) {
+  if (!(distance >= 0)) throw std::invalid_argument("PointTree: a distance must be 0 or more");
+  return distance * distance;
+}
+
+}  // namespace
+
+struct PointTree::Scratch : TreeScratch {};
+
+void PointTree::assign(const PointView& points, const Execution& execution) {
+  const FloatEnvironment environment;
+  require_usable(points, execution);
+  if (!kept_.scratch) kept_.scratch = std::make_shared<Scratch>();
+  try {
+    build_tree(points, execution.parallel, *kept_.scratch, tree_);
+  } catch (...) {
+    tree_ = {};
+    throw;
+  }
+  dropped_ = points.count - tree_.count;
+  isa_ = execution.isa;
+}
+
+void PointTree::refit(const PointView& cloud, const Execution& execution) {
+  const FloatEnvironment environment;
+  require_usable(cloud, execution);
+  if (cloud.indices != nullptr || cloud.scalar != tree_.scalar)
+    throw std::invalid_argument("PointTree: refit() takes a whole cloud, of the scalar type of the tree's");
+  const auto lacks = [&](std::int32_t number) {
+    return number >= 0 && static_cast<std::size_t>(number) - cloud.first >= cloud.count;
+  };
+  if (const auto at = std::find_if(tree_.numbers.begin(), tree_.numbers.end(), lacks); at != tree_.numbers.end()) {
+    throw std::invalid_argument("PointTree: refit() to a cloud that has no point " + std::to_string(*at));
+  }
+  refit_tree(cloud, execution.parallel, tree_);
+}
+
+std::optional<Neighbor> PointTree::nearest(const Eigen::Vector3d& place, double max_distance) const {
+  std::vector<Neighbor> found;
+  nearest(place, 1, found, max_distance);
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+void PointTree::nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<Neighbor>& found,
+                        double max_distance) const {
+  const FloatEnvironment environment;
+  const double limit = square_limit(max_distance);
+  found.clear();
+  if (is_valid(coordinates(place))) list_nearest(isa_, tree_, coordinates(place), k, limit, found);
+}
+
+void PointTree::near(const Eigen::Vector3d& place, double distance, std::vector<Neighbor>& found) const {
+  const FloatEnvironment environment;
+  const double limit = square_limit(distance);
+  found.clear();
+  if (is_valid(coordinates(place))) list_in_ball(isa_, tree_, coordinates(place), limit, found);
+}
+
+bool PointTree::any_inside(const Sphere& sphere) const {
+  const FloatEnvironment environment;
+  return !sphere.empty() && any_in_ball(isa_, tree_, coordinates(sphere.center()), sphere.contained_square());
+}
+
+}  // namespace pcl_bv

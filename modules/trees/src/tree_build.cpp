@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tree_build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "box_levels.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/parallel/parts.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr PlaceBounds kNowhere = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+
+template <typename T>
+std::vector<PointPacket<T>>& packets_of(PackedTree& tree) {
+  if constexpr (sizeof(T) == 4) {
+    return tree.floats;
+  } else {
+    return tree.doubles;
+  }
+}
+
+// Of some T, which a Coordinates would make doubles.
+template <typename T>
+struct Extremes {
+  static constexpr T kMost = std::numeric_limits<T>::infinity();
+  T low[3] = {kMost, kMost, kMost}, high[3] = {-kMost, -kMost, -kMost};
+
+  void add(std::size_t axis, T value) {
+    low[axis] = value < low[axis] ? value : low[axis];
+    high[axis] = value > high[axis] ? value : high[axis];
+  }
+  // -0 is 0: that of equal values which is kept depends on the order.
+  PlaceBounds bounds() const {
+    return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}};
+  }
+};
+
+void widen(PlaceBounds& bounds, const PlaceBounds& other) {
+  bounds.low = {std::min(bounds.low.x, other.low.x), std::min(bounds.low.y, other.low.y),
+                std::min(bounds.low.z, other.low.z)};
+  bounds.high = {std::max(bounds.high.x, other.high.x), std::max(bounds.high.y, other.high.y),
+                 std::max(bounds.high.z, other.high.z)};
+}
+
+struct LoadPart {
+  std::size_t begin = 0, end = 0;
+  std::size_t valid = 0;  // of its points; they are stored from `begin` on
+  PlaceBounds bounds{};
+};
+
+template <typename T>
+void load_part(const PointView& points, LoadPart& part, LoadedPlaces<T>& to) {
+  Extremes<T> extremes;
+  std::size_t place = part.begin;
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    T xyz[3];
+    load_point(points, i, xyz);
+    if (!is_valid({xyz[0], xyz[1], xyz[2]})) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      to.axis[axis][place] = xyz[axis];
+      extremes.add(axis, xyz[axis]);
+    }
+    to.numbers[place++] = static_cast<std::int32_t>(points.index(i));
+  }
+  part.valid = place - part.begin;
+  part.bounds = extremes.bounds();
+}
+
+template <typename T>
+void load(const PointView& points, const ParallelPolicy& policy, LoadedPlaces<T>& to) {
+  for (std::vector<T>& axis : to.axis)
+    axis.resize(points.count);
+  to.numbers.resize(points.count);
+  Parts<LoadPart> parts;
+  parts.cut(points.count, policy);
+  parts.for_each(policy, [&](LoadPart& part) { load_part(points, part, to); });
+  to.count = 0;
+  to.bounds = kNowhere;
+  for (const LoadPart& part : parts) {
+    if (to.count != part.begin) {
+      for (std::vector<T>& axis : to.axis)
+        std::copy_n(axis.data() + part.begin, part.valid, axis.data() + to.count);
+      std::copy_n(to.numbers.data() + part.begin, part.valid, to.numbers.data() + to.count);
+    }
+    to.count += part.valid;
+    widen(to.bounds, part.bounds);
+  }
+}
+
+template <typename T>
+PlaceBounds bounds_of(const PointPacket<T>& packet) {
+  Extremes<T> extremes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t k = 0; k < kTreeWidth; ++k)
+      extremes.add(axis, *packet.at(axis, k));  // a NaN is neither less nor greater
+  }
+  return extremes.bounds();
+}
+
+struct PacketPart {
+  std::size_t begin = 0, end = 0;  // packets
+  PlaceBounds bounds{};
+};
+
+// Calls fill(p, packet) for all packets, and then sets the boxes around what is in them.
+template <typename T, typename Fill>
+void fill_packets(PackedTree& tree, const ParallelPolicy& policy, const Fill& fill) {
+  std::vector<PointPacket<T>>& packets = packets_of<T>(tree);
+  Parts<PacketPart> parts;
+  parts.cut(packets.size(), policy);
+  parts.for_each(policy, [&](PacketPart& part) {
+    part.bounds = kNowhere;
+    for (std::size_t p = part.begin; p < part.end; ++p) {
+      fill(p, packets[p]);
+      widen(part.bounds, bounds_of(packets[p]));
+    }
+  });
+  PlaceBounds all = kNowhere;
+  for (const PacketPart& part : parts)
+    widen(all, part.bounds);
+  reset_levels(tree.boxes, packets.size(), all);
+  parts.for_each(policy, [&](const PacketPart& part) {
+    for (std::size_t p = part.begin; p < part.end; ++p) {
+      const PlaceBounds box = bounds_of(packets[p]);
+      if (box.low.x <= box.high.x) set_item_box(tree.boxes, p, box.low, box.high);
+    }
+  });
+  raise_levels(tree.boxes);
+}
+
+template <typename T>
+void build(const PointView& points, const ParallelPolicy& policy, LoadedPlaces<T>& loaded, SpatialOrder& order,
+           PackedTree& tree) {
+  load(points, policy, loaded);
+  order.sort(loaded.places(), loaded.bounds, policy);
+  tree.count = loaded.count;
+  const std::size_t packets = (loaded.count + kTreeWidth - 1) / kTreeWidth;
+  packets_of<T>(tree).resize(packets);
+  tree.numbers.resize(packets * kTreeWidth);
+  fill_packets<T>(tree, policy, [&](std::size_t p, PointPacket<T>& packet) {
+    const std::size_t count = std::min(kTreeWidth, loaded.count - p * kTreeWidth);
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
+      const bool there = k < count;
+      const std::size_t from = there ? order[p * kTreeWidth + k] : 0;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        *packet.at(axis, k) = there ? loaded.axis[axis][from] : std::numeric_limits<T>::quiet_NaN();
+      tree.numbers[p * kTreeWidth + k] = there ? loaded.numbers[from] : -1;
+    }
+  });
+}
+
+template <typename T>
+void refit(const PointView& cloud, const ParallelPolicy& policy, PackedTree& tree) {
+  fill_packets<T>(tree, policy, [&](std::size_t p, PointPacket<T>& packet) {
+    for (std::size_t k = 0; k < kTreeWidth && p * kTreeWidth + k < tree.count; ++k) {
+      T xyz[3];
+      load_point(cloud, static_cast<std::size_t>(tree.numbers[p * kTreeWidth + k]) - cloud.first, xyz);
+      const bool valid = is_valid({xyz[0], xyz[1], xyz[2]});
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        *packet.at(axis, k) = valid ? xyz[axis] : std::numeric_limits<T>::quiet_NaN();
+    }
+  });
+}
+
+}  // namespace
+
+void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree) {
+  tree.scalar = points.scalar;
+  if (points.scalar == ScalarType::float32) {
+    tree.doubles.clear();
+    build(points, policy, scratch.floats, scratch.order, tree);
+  } else {
+    tree.floats.clear();
+    build(points, policy, scratch.doubles, scratch.order, tree);
+  }
+}
+
+void refit_tree(const PointView& cloud, const ParallelPolicy& policy, PackedTree& tree) {
+  if (tree.scalar == ScalarType::float32) {
+    refit<float>(cloud, policy, tree);
+  } else {
+    refit<double>(cloud, policy, tree);
+  }
+}
+
+}  // namespace pcl_bv
