@@ -20,6 +20,8 @@ class NearestKept {
     kept_.clear();
   }
 
+  std::size_t most() const { return most_; }
+
   /// What is farther is not wanted any more.
   double limit() const { return limit_; }
 

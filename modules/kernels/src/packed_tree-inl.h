@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cstdint>
 #include <type_traits>
 
@@ -121,6 +122,39 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
     bits |= bits_of_lanes(d, hn::Le(square, hn::Set(d, limit))) << k;
   }
   return bits;
+}
+
+/// Calls take(packet) for the packets whose boxes are not too far, and before that look(group) for the groups that
+/// such a box is in; true as soon as one of them says so. Both may narrow the probe.
+template <typename Look, typename Take>
+HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Look& look, const Take& take) {
+  struct Open {
+    std::size_t first;   // what bit 0 stands for
+    std::uint32_t bits;  // still to be visited
+  };
+  Open open[BoxLevels::kMostLevels];
+  const std::size_t top = boxes.levels - 1;
+  std::size_t level = top;
+  // The topmost boxes, if few, would seldom spare one.
+  open[level] = {0, boxes.below[top] <= 4 ? (1U << boxes.below[top]) - 1
+                                          : near_boxes(boxes.groups.back(), probe, boxes.below[top])};
+  for (;;) {
+    while (open[level].bits == 0) {
+      if (level++ == top) return false;
+    }
+    std::uint32_t& bits = open[level].bits;
+    const std::size_t item = open[level].first + static_cast<std::size_t>(std::countr_zero(bits));
+    bits &= bits - 1;
+    if (level == 0) {
+      if (take(item)) return true;
+      continue;
+    }
+    --level;
+    const BoxGroup& group = boxes.groups[boxes.first[level] + item];
+    const std::size_t first = item * kTreeWidth;
+    open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth))};
+    if (open[level].bits != 0 && look(group)) return true;
+  }
 }
 
 #endif  // HWY_TARGET != HWY_SCALAR

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <bit>
+#include <limits>
 
 #include "nearest_kept.h"
 #include "pcl_bv/kernels/packed_tree.h"
@@ -21,66 +22,77 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// What is still to be visited, the nearest last.
-struct Pending {
-  float square;
-  std::uint32_t level;
-  std::size_t item;
+// A group's boxes that are still to be visited, and how far they are.
+struct Opened {
+  HWY_ALIGN float squares[kTreeWidth];
+  std::uint32_t bits;
+  std::size_t first;  // what box 0 holds
 };
 
-// Each level adds 16 at most, of which one is taken before the next level adds some.
-using PendingStack = Pending[(BoxLevels::kMostLevels + 1) * kTreeWidth];
-
-// Puts the near boxes of a group on top of the stack, the nearest last. Returns the new size.
-HWY_INLINE std::size_t push_near(const BoxLevels& boxes, const BoxProbe& probe, std::uint32_t level,
-                                 std::size_t group, PendingStack& stack, std::size_t size) {
+HWY_INLINE void open_group(const BoxLevels& boxes, const BoxProbe& probe, std::size_t level, std::size_t item,
+                           Opened& opened) {
   const Floats d;
-  HWY_ALIGN float squares[kTreeWidth];
-  const BoxGroup& sides = boxes.groups[boxes.first[level] + group];
+  const BoxGroup& group = boxes.groups[boxes.first[level] + item];
+  opened.first = item * kTreeWidth;
   std::uint32_t bits = 0;
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
-    const auto square = nearest_squares(d, sides, probe, k);
-    hn::Store(square, d, squares + k);
+    const auto square = nearest_squares(d, group, probe, k);
+    hn::Store(square, d, opened.squares + k);
     bits |= bits_of_lanes(d, hn::Le(square, hn::Set(d, probe.outer))) << k;
   }
-  const std::size_t first = group * kTreeWidth;
-  bits &= (1U << HWY_MIN(boxes.below[level] - first, kTreeWidth)) - 1;
-  const std::size_t bottom = size;
-  for (; bits != 0; bits &= bits - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-    std::size_t place = size++;
-    for (; place > bottom && stack[place - 1].square < squares[k]; --place)
-      stack[place] = stack[place - 1];
-    stack[place] = {squares[k], level, first + k};
-  }
-  return size;
+  opened.bits = bits & ((1U << HWY_MIN(boxes.below[level] - opened.first, kTreeWidth)) - 1);
 }
 
+// The nearest of them, or kTreeWidth; forgets those that are too far by now.
+HWY_INLINE std::size_t take_nearest(Opened& opened, float outer) {
+  std::size_t nearest = kTreeWidth;
+  float least = outer;
+  std::uint32_t near = 0;
+  for (std::uint32_t bits = opened.bits; bits != 0; bits &= bits - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    const float square = opened.squares[k];
+    near |= square <= outer ? bits & -bits : 0;
+    nearest = square <= least ? k : nearest;
+    least = square <= least ? square : least;
+  }
+  opened.bits = near & ~(1U << nearest);
+  return nearest;
+}
+
+template <typename T>
+HWY_INLINE void offer_packet(const PackedTree& tree, const PointPacket<T>& packet, std::size_t number,
+                             const Coordinates& center, NearestKept& kept, BoxProbe& probe) {
+  HWY_ALIGN double squares[kTreeWidth];
+  std::uint32_t bits = near_points(packet, center, kept.limit(), squares);
+  if (bits == 0) return;
+  const std::int32_t* const numbers = tree.numbers.data() + number * kTreeWidth;
+  for (; bits != 0; bits &= bits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    if (squares[lane] <= kept.limit()) kept.offer({numbers[lane], squares[lane]});
+  }
+  probe.narrow(kept.limit());
+}
+
+// Depth first, the nearest box first.
 template <typename T>
 void nearest_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packets, const Coordinates& center,
                 NearestKept& kept) {
   const BoxLevels& boxes = tree.boxes;
   BoxProbe probe(boxes, center, kept.limit());
-  PendingStack stack;
-  std::size_t size = 0;
-  for (std::size_t group = 0; group < boxes.below[boxes.levels]; ++group)
-    stack[size++] = {0, static_cast<std::uint32_t>(boxes.levels), group};
-  HWY_ALIGN double squares[kTreeWidth];
-  while (size > 0) {
-    const Pending next = stack[--size];
-    if (!(next.square <= probe.outer)) continue;
-    if (next.level > 0) {
-      size = push_near(boxes, probe, next.level - 1, next.item, stack, size);
-      continue;
+  Opened opened[BoxLevels::kMostLevels];
+  const std::size_t top = boxes.levels - 1;
+  std::size_t level = top;
+  open_group(boxes, probe, level, 0, opened[level]);
+  while (level <= top) {
+    const std::size_t k = take_nearest(opened[level], probe.outer);
+    if (k == kTreeWidth) {
+      ++level;
+    } else if (const std::size_t item = opened[level].first + k; level == 0) {
+      offer_packet(tree, packets[item], item, center, kept, probe);
+    } else {
+      --level;
+      open_group(boxes, probe, level, item, opened[level]);
     }
-    std::uint32_t bits = near_points(packets[next.item], center, kept.limit(), squares);
-    if (bits == 0) continue;
-    const std::int32_t* const numbers = tree.numbers.data() + next.item * kTreeWidth;
-    for (; bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      if (squares[lane] <= kept.limit()) kept.offer({numbers[lane], squares[lane]});
-    }
-    probe.narrow(kept.limit());
   }
 }
 

@@ -39,7 +39,7 @@ struct alignas(64) PointPacket {
 };
 
 /// Groups of boxes around items in a row, level by level: box k of group g of level 0 holds item 16 g + k, of
-/// level n group 16 g + k of level n - 1. Boxes are in a frame of their own, in which all coordinates are within 1
+/// level n group 16 g + k of level n - 1; the topmost level is one group. Boxes are in a frame of their own, in which all coordinates are within 1
 /// of 0: a place p of the items is at (p - origin) * scale there. They are rounded outward.
 struct BoxLevels {
   static constexpr std::size_t kMostLevels = 9;
