@@ -59,16 +59,33 @@ HWY_INLINE V<D> nearest_squares(D d, const BoxGroup& group, const BoxProbe& prob
   return sum_of_squares<D>(gap(d, group, probe, 0, k), gap(d, group, probe, 1, k), gap(d, group, probe, 2, k));
 }
 
+/// Squares of how far the nearer side of each box across an axis is at most, and the farther one. Boxes were rounded
+/// outward by up to 2^-20: as far inside a side is a point.
 template <class D>
-HWY_INLINE V<D> reach(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k) {
-  const auto to_low = hn::Sub(hn::Set(d, probe.high[axis]), hn::Load(d, group.low[axis] + k));
-  const auto to_high = hn::Sub(hn::Load(d, group.high[axis] + k), hn::Set(d, probe.low[axis]));
-  return hn::Max(to_low, to_high);
+HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k,
+                             V<D>& nearer, V<D>& farther) {
+  const auto low = hn::Load(d, group.low[axis] + k), high = hn::Load(d, group.high[axis] + k);
+  const auto least = hn::Set(d, probe.low[axis]), most = hn::Set(d, probe.high[axis]);
+  const auto to_low = hn::Max(hn::Sub(most, low), hn::Sub(low, least));
+  const auto to_high = hn::Max(hn::Sub(high, least), hn::Sub(most, high));
+  const auto near = hn::Add(hn::Min(to_low, to_high), hn::Set(d, 0x1p-20F));
+  const auto far = hn::Max(to_low, to_high);
+  nearer = hn::Mul(near, near);
+  farther = hn::Mul(far, far);
 }
 
+/// A box around points has one on each side, so one that is no farther than the farthest place of the nearer side
+/// across x; and so for y and z (Roussopoulos et al. 1995). The least of the three.
 template <class D>
-HWY_INLINE V<D> farthest_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
-  return sum_of_squares<D>(reach(d, group, probe, 0, k), reach(d, group, probe, 1, k), reach(d, group, probe, 2, k));
+HWY_INLINE V<D> reached_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
+  V<D> near_x, near_y, near_z, far_x, far_y, far_z;
+  side_squares(d, group, probe, 0, k, near_x, far_x);
+  side_squares(d, group, probe, 1, k, near_y, far_y);
+  side_squares(d, group, probe, 2, k, near_z, far_z);
+  const auto across_x = hn::Add(near_x, hn::Add(far_y, far_z));
+  const auto across_y = hn::Add(near_y, hn::Add(far_x, far_z));
+  const auto across_z = hn::Add(near_z, hn::Add(far_x, far_y));
+  return hn::Min(hn::Min(across_x, across_y), across_z);
 }
 
 /// Those of the first `count` boxes of a group that are not too far.
@@ -82,12 +99,12 @@ HWY_INLINE std::uint32_t near_boxes(const BoxGroup& group, const BoxProbe& probe
   return bits & ((1U << count) - 1);
 }
 
-/// Whether a box of the group is so near that all of it counts. Empty boxes are infinitely far.
-HWY_INLINE bool holds_a_box(const BoxGroup& group, const BoxProbe& probe) {
+/// Whether a box of the group is so near that a point in it must be. Empty boxes are infinitely far.
+HWY_INLINE bool surely_near(const BoxGroup& group, const BoxProbe& probe) {
   const Floats d;
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
-    const auto far = farthest_squares(d, group, probe, k);
-    if (!hn::AllFalse(d, hn::Le(far, hn::Set(d, probe.inner)))) return true;
+    const auto reached = reached_squares(d, group, probe, k);
+    if (!hn::AllFalse(d, hn::Le(reached, hn::Set(d, probe.inner)))) return true;
   }
   return false;
 }

@@ -25,7 +25,7 @@ bool any_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packets, 
             double limit) {
   const BoxProbe probe(tree.boxes, center, limit);
   return walk(
-      tree.boxes, probe, [&](const BoxGroup& group) { return holds_a_box(group, probe); },
+      tree.boxes, probe, [&](const BoxGroup& group) { return surely_near(group, probe); },
       [&](std::size_t packet) { return near_points(packets[packet], center, limit, nullptr) != 0; });
 }
 
