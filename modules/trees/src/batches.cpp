@@ -8,6 +8,7 @@
 
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "square_limit.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -57,25 +58,19 @@ void list_for_each(const PointView& places, const Execution& execution, Neighbor
     found.neighbors.insert(found.neighbors.end(), block.begin(), block.end());
 }
 
-template <typename Volume>
-void any_of_each(const PointTree& tree, const std::vector<Volume>& volumes, std::vector<std::uint8_t>& inside,
-                 const Execution& execution) {
-  inside.resize(volumes.size());
-  ask_blocks(volumes.size(), execution, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      inside[i] = static_cast<std::uint8_t>(tree.any_inside(volumes[i]));
-  });
-}
-
 }  // namespace
 
+// The kernels themselves: a FloatEnvironment for each question would be an eighth of its time.
 void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found, double max_distance,
              const Execution& execution) {
   require_in_memory(places);
-  found.assign(places.count, {-1, std::numeric_limits<double>::infinity()});
+  const Neighbor none{-1, std::numeric_limits<double>::infinity()};
+  const double limit = square_limit(max_distance);
+  found.assign(places.count, none);
   ask_blocks(places.count, execution, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (const auto neighbor = tree.nearest(place_of(places, i), max_distance)) found[i] = *neighbor;
+      const Coordinates place = load_point(places, i);
+      if (is_valid(place)) found[i] = find_nearest(execution.isa, tree.packed(), place, limit).value_or(none);
     }
   });
 }
@@ -97,12 +92,24 @@ void near(const PointTree& tree, const PointView& places, double distance, Neigh
 
 void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
                 const Execution& execution) {
-  any_of_each(tree, spheres, inside, execution);
+  inside.resize(spheres.size());
+  ask_blocks(spheres.size(), execution, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Sphere& sphere = spheres[i];
+      inside[i] = static_cast<std::uint8_t>(
+          !sphere.empty() &&
+          any_in_ball(execution.isa, tree.packed(), coordinates(sphere.center()), sphere.contained_square()));
+    }
+  });
 }
 
 void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes, std::vector<std::uint8_t>& inside,
                 const Execution& execution) {
-  any_of_each(tree, volumes, inside, execution);
+  inside.resize(volumes.size());
+  ask_blocks(volumes.size(), execution, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      inside[i] = static_cast<std::uint8_t>(tree.any_inside(volumes[i]));
+  });
 }
 
 }  // namespace pcl_bv

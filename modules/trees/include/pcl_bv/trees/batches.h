@@ -22,7 +22,7 @@ struct NeighborLists {
 
 /// The nearest point of each place, as PointTree::nearest(); index -1 and distance infinity where there is none.
 /// Replaces the contents of `found`. Throws std::invalid_argument unless the places are in memory, and what
-/// nearest() throws. Instruction sets are the tree's, not those of `execution`.
+/// nearest() throws.
 void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found,
              double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
 
