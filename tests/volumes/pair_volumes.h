@@ -59,8 +59,10 @@ struct Form {
         set(kdop_sets()[static_cast<std::size_t>(random.uniform(0, 6))]) {
     size += Vector3d::Constant(0.05);
     if (random.uniform(0, 1) < 0.3) axes = orthonormal_axes(Eigen::Matrix3d::Identity());
-    for (int i = 0; i < 12; ++i)
+    for (int i = 0; i < 6; ++i) {  // around the middle
       points.push_back(random.vector(1).normalized());
+      points.push_back(-points.back());
+    }
   }
 
   /// About a place, half of `t` wide or a few times that; grows with t.

@@ -194,7 +194,7 @@ TEST(Pairs, AVolumeMeetsItselfAndWhatItHolds) {
 TEST(Pairs, PointsAreAsFarApartAsTheyAre) {
   for_all_pairs([&](int i, int j) {
     const Vector3d p(1, 2, 3), q(3, 5, 9);  // 7 apart
-    EXPECT_NEAR(distance(testing::point_volume(i, p), testing::point_volume(j, q)), 7, 7e-15);
+    EXPECT_NEAR(distance(testing::point_volume(i, p), testing::point_volume(j, q)), 7, 3e-14);
     EXPECT_LE(distance(testing::point_volume(i, p), testing::point_volume(j, q)), 7);
     EXPECT_FALSE(overlaps(testing::point_volume(i, p), testing::point_volume(j, q)));
     expect_touch(testing::point_volume(i, p), testing::point_volume(j, p));

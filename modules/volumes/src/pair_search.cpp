@@ -74,6 +74,7 @@ class PairSearch {
       found_ = gap.bound;
       if (gap.whole) return found_;
     }
+    found_ = std::max(found_, apart_by_size());
     if (!done()) search<double>();
     if (!done() && !settled()) search<DoubleDouble>();
     return found_;
@@ -81,6 +82,13 @@ class PairSearch {
 
  private:
   bool done() const { return meet_ || (goal_ == Goal::enough && found_ > bound_); }
+
+  // What balls around the origins tell, which most pairs of a scene are far outside of.
+  double apart_by_size() const {
+    const double reach = add_up(add_up(a_.size, b_.size), radii_);
+    const double apart = length3(delta_) * (1 - 0x1p-49) - reach;
+    return apart > 0 ? apart * (1 - 0x1p-52) : 0;
+  }
 
   // Whether more digits could tell more than the rounding of sizes.
   bool settled() const {
