@@ -69,12 +69,12 @@ class PairSearch {
 
   double run() {
     if (meet_) return 0;
-    if (a_.shape.kind == b_.shape.kind && a_.turn == nullptr && b_.turn == nullptr) {
+    found_ = apart_by_size();
+    if (!done() && a_.shape.kind == b_.shape.kind && a_.turn == nullptr && b_.turn == nullptr) {
       const Gap gap = a_.shape.parallel_gap(b_.shape);
-      found_ = gap.bound;
-      if (gap.whole) return found_;
+      found_ = std::max(found_, gap.bound);
+      if (gap.whole) return gap.bound;
     }
-    found_ = std::max(found_, apart_by_size());
     if (!done()) search<double>();
     if (!done() && !settled()) search<DoubleDouble>();
     return found_;

@@ -100,8 +100,10 @@ class KdopShape final : public PolytopeShape {
     if (*kdop_.set() != *b.set()) return {0, false};
     double best = 0;
     for (std::size_t i = 0; i < kdop_.size(); ++i) {
-      const double apart = std::max(-add_up(kdop_.max(i), -b.min(i)), -add_up(b.max(i), -kdop_.min(i)));
-      if (apart > 0) best = std::max(best, apart / norm_up(kdop_.set()->direction(i)) * (1 - 0x1p-51));
+      double apart = 0;
+      if (b.min(i) > kdop_.max(i)) apart = -add_up(kdop_.max(i), -b.min(i));
+      if (kdop_.min(i) > b.max(i)) apart = -add_up(b.max(i), -kdop_.min(i));
+      if (apart > 0) best = std::max(best, apart / length3(kdop_.set()->direction(i)) * (1 - 0x1p-49));
     }
     return {best, false};
   }
