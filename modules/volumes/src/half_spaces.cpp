@@ -16,12 +16,12 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// The dual simplex method. Each step lets the half-space that the corner is farthest beyond take the place
-/// of one of the three, such that the weights stay >= 0: what they prove only becomes better.
-class HalfSpaces::Simplex {
+/// The dual simplex method (Lemke 1954). Each step lets the half-space that the corner is farthest beyond
+/// take the place of one of the three, such that the weights stay >= 0: what they prove only becomes better.
+class HalfSpaces::DualSimplex {
  public:
   /// Offsets are seen from a point near the corner that is looked for: there they lose no digits.
-  Simplex(const HalfSpaces& all, const Eigen::Vector3d& direction, const Eigen::Vector3d& near)
+  DualSimplex(const HalfSpaces& all, const Eigen::Vector3d& direction, const Eigen::Vector3d& near)
       : all_(all), direction_(direction), slack_(all.size()) {
     const std::size_t count = all.size();
     for (std::size_t i = 0; i < count; ++i)
@@ -141,7 +141,8 @@ void HalfSpaces::reserve(std::size_t count) {
 void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& origin) {
   const double largest = std::max({std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])});
   if (!(largest > 0)) return;
-  const double unit = std::ldexp(1.0, std::clamp(std::ilogb(largest), -1000, 1000));
+  double unit = std::ldexp(1.0, std::clamp(std::ilogb(largest), -1000, 1000));
+  if (Eigen::Vector3d(normal / unit) * unit != normal) unit = 1;  // a component would underflow
   const double local = divide_up(Expansion().add(offset).add_dot(-normal, origin).up(), unit);
   const Eigen::Vector3d scaled = normal / unit;
   if (!std::isfinite(local)) return;
@@ -170,12 +171,13 @@ bool HalfSpaces::enclose(double guess) {
       for (std::size_t i = 0; i < size(); ++i)
         visit(i);
     };
-    const Simplex simplex(*this, direction, Eigen::Vector3d::Zero());
+    const DualSimplex simplex(*this, direction, Eigen::Vector3d::Zero());
     proofs[side] = prove(simplex.solve(start(direction), 0x1p-50 * guess, every), direction, usable);
+    if (!std::isfinite(proofs[side].reach) || !proofs[side].residual.allFinite()) return false;
     reach = std::max(reach, proofs[side].reach);
     residual = std::max(residual, taxicab3(proofs[side].residual));
   }
-  if (!(residual <= 0.25) || !std::isfinite(reach)) return false;
+  if (residual > 0.25) return false;
   const double most = reach / (1 - residual) * (1 + 0x1p-50);
   for (std::size_t side = 0; side < box_sides; ++side) {
     const double rest = taxicab3(proofs[side].residual) * most * (1 + 0x1p-50) + kSmallestNormal;
@@ -221,14 +223,14 @@ HalfSpaces::Proof HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& d
 double HalfSpaces::bound(const Basis& basis, const Eigen::Vector3d& direction) const {
   const auto [reach, residual] = prove(basis, direction, size());
   const double rest = dot3(residual, widest_) * (1 + 0x1p-50) + kSmallestNormal;
-  return reach + rest + 0x1p-52 * (std::abs(reach) + rest);
+  return reach + rest + 0x1p-51 * (std::abs(reach) + rest);
 }
 
 // First by the half-spaces at the vertex, which are enough unless rounding hides a short edge.
 double HalfSpaces::reach_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
   const double extent = std::max({widest_[0], widest_[1], widest_[2]});
   const double tolerance = 0x1p-51 * extent;
-  const Simplex simplex(*this, direction, vertex);
+  const DualSimplex simplex(*this, direction, vertex);
   const std::vector<std::size_t> tight = simplex.tight(0x1p-34 * extent);
   const auto near = [&](const auto& visit) {
     for (const std::size_t i : tight)

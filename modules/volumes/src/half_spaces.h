@@ -12,7 +12,7 @@
 namespace pcl_bv::volumes_internal {
 
 /// Half-spaces n . q <= offset, with q seen from an origin near by, and a box as the last six of them: q_k <=
-/// offset for k = 0, 1, 2, then -q_k <= offset. The largest component of each n is from 1 to 2 in magnitude.
+/// offset for k = 0, 1, 2, then -q_k <= offset. Normals are multiplied by powers of two, to be about 1 long.
 class HalfSpaces {
  public:
   static constexpr std::size_t box_sides = 6;
@@ -50,7 +50,7 @@ class HalfSpaces {
     Eigen::Vector3d residual;
   };
 
-  class Simplex;
+  class DualSimplex;
 
   Basis start(const Eigen::Vector3d& direction) const;
   Proof prove(const Basis& basis, const Eigen::Vector3d& direction, std::size_t usable) const;

@@ -118,6 +118,8 @@ class PairSearch {
     return times(Real(scale_), w);
   }
 
+  // Ends where the points of the simplex prove that no direction is better, where rounding lets it go no
+  // further, and where the two are known to meet.
   template <typename Real>
   void search() {
     using P = Precision<Real>;
@@ -127,14 +129,10 @@ class PairSearch {
     for (int step = 0; step < 100; ++step) {
       const Vector<Real> w = support<Real>(d);
       const double gap = static_cast<double>(inner(w, Vector<Real>{Real(d[0]), Real(d[1]), Real(d[2])}));
-      if (gap > best) {
-        best = gap;
-        direction_ = d;
-      }
-      if (gap / scale_ - radii_ > bound_ && !(found_ > bound_)) {
-        prove(d);
-        if (done()) return;
-      }
+      if (gap > best) direction_ = d;
+      best = std::max(best, gap);
+      if (gap / scale_ - radii_ > bound_ && !(found_ > bound_)) prove(d);
+      if (done()) return;
       const bool reached = upper < kInfinity && upper - gap <= 0x1p-44 * upper + P::rounding;
       if (reached || simplex.has(w)) break;
       simplex.add(w);
@@ -215,7 +213,7 @@ double Placed::reach_up(const Eigen::Vector3d& d) const {
   }
   const double reach = shape.reach_up(turned_back(*turn, d));
   const double lost = 0x1p-51 * terms * shape.size + kSmallestNormal;
-  return reach + lost + 0x1p-52 * (std::abs(reach) + lost);
+  return reach + lost + 0x1p-51 * (std::abs(reach) + lost);
 }
 
 double lower_bound(const Placed& a, const Placed& b, Goal goal, double bound) {
