@@ -92,12 +92,30 @@ struct Components {
   double residual = 0;
 };
 
+// The columns q_i with axis i . q_i = 1, across the other axes, for the axes in columns: to 1e-24 the axes
+// and what they lack of being orthonormal, once.
+Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
+  Eigen::Matrix3d result = axes;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double off = (i == j ? 1.0 : 0.0) - dot3(axes.col(i), axes.col(j));
+      for (int k = 0; k < 3; ++k)
+        result(k, i) += off * axes(k, j);
+    }
+  }
+  return result;
+}
+
+Eigen::Vector3d combined(const Eigen::Matrix3d& columns, const Eigen::Vector3d& s) {
+  return {dot3(columns.row(0), s), dot3(columns.row(1), s), dot3(columns.row(2), s)};
+}
+
 // How much longer q can be than its components along axes that are orthonormal to 1e-12.
 constexpr double kSkewed = 1 + 0x1p-36;
 
 class TurnedBoxShape final : public Shape {
  public:
-  explicit TurnedBoxShape(const Obb& box) : axes_(box.axes()), half_(box.half_extents()) {
+  explicit TurnedBoxShape(const Obb& box) : axes_(box.axes()), dual_(dual(axes_)), half_(box.half_extents()) {
     origin = box.center();
     size = length3(half_) * kSkewed;
   }
@@ -105,8 +123,8 @@ class TurnedBoxShape final : public Shape {
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     Eigen::Vector3d s;
     for (int i = 0; i < 3; ++i)
-      s[i] = dot3(axes_.col(i), d) < 0 ? -half_[i] : half_[i];
-    return {dot3(axes_.row(0), s), dot3(axes_.row(1), s), dot3(axes_.row(2), s)};
+      s[i] = dot3(dual_.col(i), d) < 0 ? -half_[i] : half_[i];
+    return combined(dual_, s);
   }
 
   double reach_up(const Eigen::Vector3d& d) const override {
@@ -118,14 +136,14 @@ class TurnedBoxShape final : public Shape {
   Eigen::Vector3d mark() const override { return half_; }
 
  private:
-  Eigen::Matrix3d axes_;
+  Eigen::Matrix3d axes_, dual_;
   Eigen::Vector3d half_;
 };
 
 // With s_i = axis i . q, sum y_i s_i = sum (y_i r_i)(s_i / r_i) <= |(y_i r_i)| by Cauchy and Schwarz.
 class EllipsoidShape final : public Shape {
  public:
-  explicit EllipsoidShape(const Ellipsoid& e) : axes_(e.axes()), radii_(e.radii()) {
+  explicit EllipsoidShape(const Ellipsoid& e) : axes_(e.axes()), dual_(dual(axes_)), radii_(e.radii()) {
     origin = e.center();
     size = std::max({radii_[0], radii_[1], radii_[2]}) * kSkewed;
   }
@@ -133,12 +151,12 @@ class EllipsoidShape final : public Shape {
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     Eigen::Vector3d s;
     for (int i = 0; i < 3; ++i)
-      s[i] = radii_[i] * dot3(axes_.col(i), d);
+      s[i] = radii_[i] * dot3(dual_.col(i), d);
     const double length = length3(s);
     if (!(length > 0)) return Eigen::Vector3d::Zero();
     for (int i = 0; i < 3; ++i)
       s[i] = radii_[i] * (s[i] / length);
-    return {dot3(axes_.row(0), s), dot3(axes_.row(1), s), dot3(axes_.row(2), s)};
+    return combined(dual_, s);
   }
 
   double reach_up(const Eigen::Vector3d& d) const override {
@@ -150,7 +168,7 @@ class EllipsoidShape final : public Shape {
   Eigen::Vector3d mark() const override { return radii_; }
 
  private:
-  Eigen::Matrix3d axes_;
+  Eigen::Matrix3d axes_, dual_;
   Eigen::Vector3d radii_;
 };
 
