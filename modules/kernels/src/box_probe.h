@@ -21,7 +21,7 @@ namespace pcl_bv {
 struct BoxProbe {
   float low[3], high[3];
   float outer;  ///< No point of a box whose nearest place is farther has a squared distance within the limit.
-  float inner;  ///< All points of a box whose farthest place is as near have one. Negative: never.
+  float inner;  ///< A point that is as near in this frame surely has one. Negative: never.
   double unit;  ///< Squared distances there of squared distances here.
 
   BoxProbe(const BoxLevels& boxes, const Coordinates& center, double limit) : unit(boxes.scale * boxes.scale) {

@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cstdint>
 #include <type_traits>
 
@@ -58,16 +59,33 @@ HWY_INLINE V<D> nearest_squares(D d, const BoxGroup& group, const BoxProbe& prob
   return sum_of_squares<D>(gap(d, group, probe, 0, k), gap(d, group, probe, 1, k), gap(d, group, probe, 2, k));
 }
 
+/// Squares of how far the nearer side of each box across an axis is at most, and the farther one. Boxes were rounded
+/// outward by up to 2^-20: as far inside a side is a point.
 template <class D>
-HWY_INLINE V<D> reach(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k) {
-  const auto to_low = hn::Sub(hn::Set(d, probe.high[axis]), hn::Load(d, group.low[axis] + k));
-  const auto to_high = hn::Sub(hn::Load(d, group.high[axis] + k), hn::Set(d, probe.low[axis]));
-  return hn::Max(to_low, to_high);
+HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k,
+                             V<D>& nearer, V<D>& farther) {
+  const auto low = hn::Load(d, group.low[axis] + k), high = hn::Load(d, group.high[axis] + k);
+  const auto least = hn::Set(d, probe.low[axis]), most = hn::Set(d, probe.high[axis]);
+  const auto to_low = hn::Max(hn::Sub(most, low), hn::Sub(low, least));
+  const auto to_high = hn::Max(hn::Sub(high, least), hn::Sub(most, high));
+  const auto near = hn::Add(hn::Min(to_low, to_high), hn::Set(d, 0x1p-20F));
+  const auto far = hn::Max(to_low, to_high);
+  nearer = hn::Mul(near, near);
+  farther = hn::Mul(far, far);
 }
 
+/// A box around points has one on each side, so one that is no farther than the farthest place of the nearer side
+/// across x; and so for y and z (Roussopoulos et al. 1995). The least of the three.
 template <class D>
-HWY_INLINE V<D> farthest_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
-  return sum_of_squares<D>(reach(d, group, probe, 0, k), reach(d, group, probe, 1, k), reach(d, group, probe, 2, k));
+HWY_INLINE V<D> reached_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
+  V<D> near_x, near_y, near_z, far_x, far_y, far_z;
+  side_squares(d, group, probe, 0, k, near_x, far_x);
+  side_squares(d, group, probe, 1, k, near_y, far_y);
+  side_squares(d, group, probe, 2, k, near_z, far_z);
+  const auto across_x = hn::Add(near_x, hn::Add(far_y, far_z));
+  const auto across_y = hn::Add(near_y, hn::Add(far_x, far_z));
+  const auto across_z = hn::Add(near_z, hn::Add(far_x, far_y));
+  return hn::Min(hn::Min(across_x, across_y), across_z);
 }
 
 /// Those of the first `count` boxes of a group that are not too far.
@@ -81,12 +99,12 @@ HWY_INLINE std::uint32_t near_boxes(const BoxGroup& group, const BoxProbe& probe
   return bits & ((1U << count) - 1);
 }
 
-/// Whether a box of the group is so near that all of it counts. Empty boxes are infinitely far.
-HWY_INLINE bool holds_a_box(const BoxGroup& group, const BoxProbe& probe) {
+/// Whether a box of the group is so near that a point in it must be. Empty boxes are infinitely far.
+HWY_INLINE bool surely_near(const BoxGroup& group, const BoxProbe& probe) {
   const Floats d;
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
-    const auto far = farthest_squares(d, group, probe, k);
-    if (!hn::AllFalse(d, hn::Le(far, hn::Set(d, probe.inner)))) return true;
+    const auto reached = reached_squares(d, group, probe, k);
+    if (!hn::AllFalse(d, hn::Le(reached, hn::Set(d, probe.inner)))) return true;
   }
   return false;
 }
@@ -121,6 +139,39 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
     bits |= bits_of_lanes(d, hn::Le(square, hn::Set(d, limit))) << k;
   }
   return bits;
+}
+
+/// Calls take(packet) for the packets whose boxes are not too far, and before that look(group) for the groups that
+/// such a box is in; true as soon as one of them says so. Both may narrow the probe.
+template <typename Look, typename Take>
+HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Look& look, const Take& take) {
+  struct Open {
+    std::size_t first;   // what bit 0 stands for
+    std::uint32_t bits;  // still to be visited
+  };
+  Open open[BoxLevels::kMostLevels];
+  const std::size_t top = boxes.levels - 1;
+  std::size_t level = top;
+  // The topmost boxes, if few, would seldom spare one.
+  open[level] = {0, boxes.below[top] <= 4 ? (1U << boxes.below[top]) - 1
+                                          : near_boxes(boxes.groups.back(), probe, boxes.below[top])};
+  for (;;) {
+    while (open[level].bits == 0) {
+      if (level++ == top) return false;
+    }
+    std::uint32_t& bits = open[level].bits;
+    const std::size_t item = open[level].first + static_cast<std::size_t>(std::countr_zero(bits));
+    bits &= bits - 1;
+    if (level == 0) {
+      if (take(item)) return true;
+      continue;
+    }
+    --level;
+    const BoxGroup& group = boxes.groups[boxes.first[level] + item];
+    const std::size_t first = item * kTreeWidth;
+    open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth))};
+    if (open[level].bits != 0 && look(group)) return true;
+  }
 }
 
 #endif  // HWY_TARGET != HWY_SCALAR

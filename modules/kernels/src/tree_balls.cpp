@@ -20,42 +20,12 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Calls take(packet) for the packets whose boxes are not too far, and before that look(group) for the groups that
-// such a box is in; true as soon as one of them says so.
-template <typename Look, typename Take>
-HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Look& look, const Take& take) {
-  struct Open {
-    std::size_t first;   // what bit 0 stands for
-    std::uint32_t bits;  // still to be visited
-  };
-  Open open[BoxLevels::kMostLevels + 1];
-  std::size_t level = boxes.levels;  // whose items are the groups of the topmost
-  open[level] = {0, (1U << boxes.below[level]) - 1};
-  for (;;) {
-    while (open[level].bits == 0) {
-      if (level++ == boxes.levels) return false;
-    }
-    std::uint32_t& bits = open[level].bits;
-    const std::size_t item = open[level].first + static_cast<std::size_t>(std::countr_zero(bits));
-    bits &= bits - 1;
-    if (level == 0) {
-      if (take(item)) return true;
-      continue;
-    }
-    --level;
-    const BoxGroup& group = boxes.groups[boxes.first[level] + item];
-    const std::size_t first = item * kTreeWidth;
-    open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth))};
-    if (open[level].bits != 0 && look(group)) return true;
-  }
-}
-
 template <typename T>
 bool any_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packets, const Coordinates& center,
             double limit) {
   const BoxProbe probe(tree.boxes, center, limit);
   return walk(
-      tree.boxes, probe, [&](const BoxGroup& group) { return holds_a_box(group, probe); },
+      tree.boxes, probe, [&](const BoxGroup& group) { return surely_near(group, probe); },
       [&](std::size_t packet) { return near_points(packets[packet], center, limit, nullptr) != 0; });
 }
 

@@ -49,34 +49,34 @@ bool visit(const PackedTree& tree, std::size_t level, std::size_t item, const Co
   return false;
 }
 
-template <typename Limit, typename Take>
-bool visit_all(const PackedTree& tree, const Coordinates& center, const Limit& limit, const Take& take) {
-  const std::size_t top = tree.boxes.levels;
-  for (std::size_t group = 0; group < tree.boxes.below[top]; ++group) {
-    if (visit(tree, top, group, center, limit, take)) return true;
-  }
-  return false;
+template <typename Kept>
+void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept) {
+  visit(tree, tree.boxes.levels, 0, center, [&] { return kept.limit(); }, [&](const Neighbor& neighbor) {
+    kept.offer(neighbor);
+    return false;
+  });
 }
 
 }  // namespace
 
 bool any_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit) {
-  return visit_all(tree, center, [&] { return limit; }, [](const Neighbor&) { return true; });
+  return visit(tree, tree.boxes.levels, 0, center, [&] { return limit; }, [](const Neighbor&) { return true; });
 }
 
 void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit,
                             std::vector<Neighbor>& found) {
-  visit_all(tree, center, [&] { return limit; }, [&](const Neighbor& neighbor) {
+  visit(tree, tree.boxes.levels, 0, center, [&] { return limit; }, [&](const Neighbor& neighbor) {
     found.push_back(neighbor);
     return false;
   });
 }
 
 void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept) {
-  visit_all(tree, center, [&] { return kept.limit(); }, [&](const Neighbor& neighbor) {
-    kept.offer(neighbor);
-    return false;
-  });
+  visit_nearest(tree, center, kept);
+}
+
+void find_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestOne& kept) {
+  visit_nearest(tree, center, kept);
 }
 
 }  // namespace pcl_bv

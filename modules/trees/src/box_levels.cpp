@@ -10,9 +10,6 @@
 namespace pcl_bv {
 namespace {
 
-// As many groups as this are visited one after another: boxes around them would seldom spare one.
-constexpr std::size_t kTopGroups = 2;
-
 std::size_t groups_of(std::size_t below) {
   return (below + kTreeWidth - 1) / kTreeWidth;
 }
@@ -49,7 +46,7 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds
     ++boxes.levels;
     boxes.first[boxes.levels] = boxes.first[boxes.levels - 1] + groups;
     boxes.below[boxes.levels] = groups;
-  } while (boxes.below[boxes.levels] > kTopGroups);
+  } while (boxes.below[boxes.levels] > 1);
   boxes.groups.assign(boxes.first[boxes.levels], empty_group());
   if (!(bounds.low.x <= bounds.high.x)) return;  // there are items, but nowhere
   double half = 0;

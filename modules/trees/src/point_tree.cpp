@@ -68,9 +68,10 @@ void PointTree::refit(const PointView& cloud, const Execution& execution) {
 }
 
 std::optional<Neighbor> PointTree::nearest(const Eigen::Vector3d& place, double max_distance) const {
-  std::vector<Neighbor> found;
-  nearest(place, 1, found, max_distance);
-  return found.empty() ? std::nullopt : std::optional(found.front());
+  const FloatEnvironment environment;
+  const double limit = square_limit(max_distance);
+  if (!is_valid(coordinates(place))) return std::nullopt;
+  return find_nearest(isa_, tree_, coordinates(place), limit);
 }
 
 void PointTree::nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<Neighbor>& found,

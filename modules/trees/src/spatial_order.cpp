@@ -4,187 +4,172 @@
 #include "spatial_order.h"
 
 #include <algorithm>
-#include <utility>
+#include <array>
+#include <limits>
 
-#include "pcl_bv/parallel/parts.h"
+#include "pcl_bv/kernels/packed_tree.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {
 namespace {
 
-constexpr unsigned kBits = 10;          // of a cell's number along an axis
-constexpr std::size_t kCrowd = 64;      // points that a cell may hold unsorted
-constexpr int kDepth = 8;               // cubes in cubes
-constexpr std::size_t kFew = 1024;      // what std::sort does in less time than three passes over 1024 counters
+constexpr std::size_t kParts = 4;
+constexpr std::size_t kMostBins = 1024;
+// Runs of fewer items are one thread's.
+constexpr std::size_t kShared = 4096;
 
-// The number, on Hilbert's curve, of a cell. Skilling 2004: AxestoTranspose, then the bits of the three in turn.
-inline std::uint32_t hilbert_number(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  for (std::uint32_t q = 1U << (kBits - 1); q > 1; q >>= 1) {
-    const std::uint32_t below = q - 1;
-    const auto turn = [&](std::uint32_t& axis) {
-      const std::uint32_t invert = (axis & q) != 0 ? below : 0;
-      const std::uint32_t swap = (x ^ axis) & below & ~invert;
-      x ^= invert | swap;
-      axis ^= swap;
-    };
-    x ^= (x & q) != 0 ? below : 0;
-    turn(y);
-    turn(z);
-  }
-  y ^= x;
-  z ^= y;
-  std::uint32_t flip = 0;
-  for (std::uint32_t q = 1U << (kBits - 1); q > 1; q >>= 1)
-    flip ^= (z & q) != 0 ? q - 1 : 0;
-  const auto spread = [&](std::uint32_t axis) {
-    std::uint32_t v = axis ^ flip;
-    v = (v | v << 16) & 0x030000FFU;
-    v = (v | v << 8) & 0x0300F00FU;
-    v = (v | v << 4) & 0x030C30C3U;
-    return (v | v << 2) & 0x09249249U;
-  };
-  return spread(x) << 2 | spread(y) << 1 | spread(z);
-}
+// A run of items, where they are and where they go next; the bins have room for as many.
+template <typename T>
+struct Run {
+  PlacedItem<T>* items;
+  PlacedItem<T>* other;
+  std::uint16_t* bins;
+  std::size_t count;
+  bool in_place;  // whether `items`, not `other`, is where the order is to be
 
-// Cells of a cube around places.
-struct Cube {
-  Coordinates low;
-  double cells;  // a unit of length
-
-  explicit Cube(const PlaceBounds& bounds) : low(bounds.low) {
-    const double extent = std::max({bounds.high.x - low.x, bounds.high.y - low.y, bounds.high.z - low.z});
-    cells = extent > 1e-290 ? ((1U << kBits) - 0x1p-20) / extent : 0;
-  }
-
-  // Of a valid place within the bounds. `place` by value: so the loop over places is one of vectors.
-  std::uint32_t cell(double x, double y, double z) const {
-    return hilbert_number(static_cast<std::uint32_t>(static_cast<std::int32_t>((x - low.x) * cells)),
-                          static_cast<std::uint32_t>(static_cast<std::int32_t>((y - low.y) * cells)),
-                          static_cast<std::uint32_t>(static_cast<std::int32_t>((z - low.z) * cells)));
+  Run part(std::size_t begin, std::size_t end) const {
+    return {other + begin, items + begin, bins + begin, end - begin, !in_place};
   }
 };
 
-std::uint64_t keyed(std::uint32_t key, std::uint32_t number) {
-  return std::uint64_t{key} << 32 | number;
-}
-
-std::uint32_t key_of(std::uint64_t keyed) {
-  return static_cast<std::uint32_t>(keyed >> 32);
-}
-
-std::uint32_t number_of(std::uint64_t keyed) {
-  return static_cast<std::uint32_t>(keyed);
-}
-
-struct SortPart {
-  std::size_t begin = 0, end = 0;
-  std::array<std::uint32_t, 1U << kBits> places{};
+// The longest side of the box around a run.
+struct Side {
+  int axis;
+  double low, length;
 };
-
-// By `kBits` bits of the key from `shift` on; what is equal there stays as it is.
-void sort_pass(const std::uint64_t* from, std::uint64_t* to, unsigned shift, Parts<SortPart>& parts,
-               const ParallelPolicy& policy) {
-  const auto digit = [shift](std::uint64_t keyed) { return keyed >> (32 + shift) & ((1U << kBits) - 1); };
-  parts.for_each(policy, [&](SortPart& part) {
-    part.places.fill(0);
-    for (std::size_t i = part.begin; i < part.end; ++i)
-      ++part.places[digit(from[i])];
-  });
-  std::uint32_t place = 0;
-  for (std::size_t value = 0; value < 1U << kBits; ++value) {
-    for (SortPart& part : parts)
-      place += std::exchange(part.places[value], place);
-  }
-  parts.for_each(policy, [&](SortPart& part) {
-    for (std::size_t i = part.begin; i < part.end; ++i)
-      to[part.places[digit(from[i])]++] = from[i];
-  });
-}
-
-void sort_keyed(std::uint64_t* keyed, std::uint64_t* buffer, std::size_t count, const ParallelPolicy& policy) {
-  if (count <= kFew) {
-    std::sort(keyed, keyed + count);
-    return;
-  }
-  Parts<SortPart> parts;
-  parts.cut(count, policy);
-  sort_pass(keyed, buffer, 0, parts, policy);
-  sort_pass(buffer, keyed, kBits, parts, policy);
-  sort_pass(keyed, buffer, 2 * kBits, parts, policy);
-  parts.for_each(policy, [&](const SortPart& part) {
-    std::copy(buffer + part.begin, buffer + part.end, keyed + part.begin);
-  });
-}
-
-// Calls run(begin, end) for the cells that hold more than kCrowd.
-template <typename Run>
-void for_each_crowd(const std::uint64_t* keyed, std::size_t begin, std::size_t end, const Run& run) {
-  for (std::size_t i = begin; i < end;) {
-    std::size_t next = i + 1;
-    while (next < end && key_of(keyed[next]) == key_of(keyed[i]))
-      ++next;
-    if (next - i > kCrowd) run(i, next);
-    i = next;
-  }
-}
 
 template <typename T>
-PlaceBounds bounds_of(const ItemPlaces<T>& places, const std::uint64_t* keyed, std::size_t count) {
+Side longest_side(const Run<T>& run) {
   T low[3], high[3];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const T* const at = places.axis[axis];
-    low[axis] = high[axis] = at[number_of(keyed[0])];
-    for (std::size_t i = 1; i < count; ++i) {
-      low[axis] = std::min(low[axis], at[number_of(keyed[i])]);
-      high[axis] = std::max(high[axis], at[number_of(keyed[i])]);
+  for (int k = 0; k < 3; ++k)
+    low[k] = high[k] = run.items[0].place[k];
+  for (std::size_t i = 1; i < run.count; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const T at = run.items[i].place[k];
+      low[k] = at < low[k] ? at : low[k];
+      high[k] = at > high[k] ? at : high[k];
     }
   }
-  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+  Side side{0, 0, -1};
+  for (int k = 0; k < 3; ++k) {
+    const double length = static_cast<double>(high[k]) - static_cast<double>(low[k]);
+    if (length > side.length) side = {k, static_cast<double>(low[k]), length};
+  }
+  return side;
 }
 
-// Sorts places that are in one cell, in the order of their numbers, by the cells of a cube around them.
-template <typename T>
-void sort_crowd(const ItemPlaces<T>& places, std::uint64_t* crowd, std::uint64_t* buffer, std::size_t count,
-                int depth) {
-  const Cube cube(bounds_of(places, crowd, count));
-  if (cube.cells == 0 || depth == kDepth) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t number = number_of(crowd[i]);
-    crowd[i] = keyed(cube.cell(places.axis[0][number], places.axis[1][number], places.axis[2][number]), number);
+// Where the parts of a run begin, and where the last one ends.
+struct Cuts {
+  std::array<std::size_t, kParts + 1> at{};
+  std::size_t parts;
+
+  explicit Cuts(std::size_t count) {
+    std::size_t unit = kTreeWidth;
+    while (unit * kTreeWidth < count)
+      unit *= kTreeWidth;
+    const std::size_t units = (count + unit - 1) / unit;
+    parts = std::min(units, kParts);
+    for (std::size_t p = 0; p < parts; ++p)
+      at[p] = units * p / parts * unit;
+    at[parts] = count;
   }
-  sort_keyed(crowd, buffer, count, Serial{});
-  for_each_crowd(crowd, 0, count, [&](std::size_t begin, std::size_t end) {
-    sort_crowd(places, crowd + begin, buffer + begin, end - begin, depth + 1);
-  });
+};
+
+// Writes each item's bin, ascending along the side, and counts them.
+template <typename T>
+void fill_bins(const Run<T>& run, const Side& side, std::size_t bins, std::uint32_t* counts) {
+  std::fill_n(counts, bins, 0U);
+  // Rounding may take the last place to the end of the last bin, not beyond.
+  const double per_length = (static_cast<double>(bins) - 0x1p-20) / side.length;
+  for (std::size_t i = 0; i < run.count; ++i) {
+    const double along = static_cast<double>(run.items[i].place[side.axis]) - side.low;
+    const auto bin = static_cast<std::uint16_t>(static_cast<std::int32_t>(along * per_length));
+    run.bins[i] = bin;
+    ++counts[bin];
+  }
+}
+
+// Where the bins that a cut goes through, and the bins between those, begin.
+struct Buckets {
+  std::array<std::uint8_t, kMostBins> of_bin;
+  std::array<std::size_t, 2 * kParts> begin{};
+  std::array<std::size_t, kParts + 1> of_cut{};  // of the bin that it goes through
+
+  Buckets(const Cuts& cuts, std::size_t bins, const std::uint32_t* counts) {
+    std::size_t place = 0, bucket = 0, cut = 1;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      const std::size_t end = place + counts[bin];
+      const bool through = cut < cuts.parts && cuts.at[cut] < end;
+      if (through && place > begin[bucket]) begin[++bucket] = place;
+      of_bin[bin] = static_cast<std::uint8_t>(bucket);
+      if (through) {
+        for (; cut < cuts.parts && cuts.at[cut] < end; ++cut)
+          of_cut[cut] = bucket;
+        begin[++bucket] = end;
+      }
+      place = end;
+    }
+    std::fill(begin.begin() + static_cast<std::ptrdiff_t>(bucket) + 1, begin.end(), place);
+  }
+};
+
+template <typename T>
+void move_items(const Run<T>& run, const Buckets& buckets) {
+  std::array<std::size_t, 2 * kParts> place = buckets.begin;
+  for (std::size_t i = 0; i < run.count; ++i)
+    run.other[place[buckets.of_bin[run.bins[i]]]++] = run.items[i];
+}
+
+// Moves the items to `other`, those of each part to where it is.
+template <typename T>
+void cut(const Run<T>& run, const Side& side, const Cuts& cuts) {
+  std::array<std::uint32_t, kMostBins> counts;
+  const std::size_t bins = std::min(kMostBins, run.count);
+  fill_bins(run, side, bins, counts.data());
+  const Buckets buckets(cuts, bins, counts.data());
+  move_items(run, buckets);
+  const auto precedes = [axis = side.axis](const PlacedItem<T>& a, const PlacedItem<T>& b) {
+    return a.place[axis] < b.place[axis] || (a.place[axis] == b.place[axis] && a.number < b.number);
+  };
+  for (std::size_t c = 1; c < cuts.parts; ++c) {
+    const std::size_t bucket = buckets.of_cut[c];
+    const std::size_t begin = std::max(buckets.begin[bucket], cuts.at[c - 1]);
+    std::nth_element(run.other + begin, run.other + cuts.at[c], run.other + buckets.begin[bucket + 1], precedes);
+  }
+}
+
+template <typename T>
+void sort_run(const Run<T>& run, const ParallelPolicy& policy) {
+  const Side side = run.count > kTreeWidth ? longest_side(run) : Side{0, 0, 0};
+  if (!(side.length > 1e-290)) {  // few, or all in one place
+    if (!run.in_place) std::copy_n(run.items, run.count, run.other);
+    return;
+  }
+  const Cuts cuts(run.count);
+  cut(run, side, cuts);
+  const auto sort_part = [&](std::size_t p, const ParallelPolicy& parts_policy) {
+    sort_run(run.part(cuts.at[p], cuts.at[p + 1]), parts_policy);
+  };
+  for (std::size_t p = 0; p < cuts.parts; ++p)
+    sort_part(p, policy);
 }
 
 }  // namespace
 
 template <typename T>
-void SpatialOrder::sort(const ItemPlaces<T>& places, const PlaceBounds& bounds, const ParallelPolicy& policy) {
-  count_ = places.count;
-  keyed_.resize(count_);
-  buffer_.resize(count_);
-  Parts<SortPart> parts;
-  parts.cut(count_, policy);
-  const Cube cube(bounds);
-  parts.for_each(policy, [&](const SortPart& part) {
-    const T* const x = places.axis[0];
-    const T* const y = places.axis[1];
-    const T* const z = places.axis[2];
-    for (std::size_t i = part.begin; i < part.end; ++i)
-      keyed_[i] = keyed(cube.cell(x[i], y[i], z[i]), static_cast<std::uint32_t>(i));
-  });
-  sort_keyed(keyed_.data(), buffer_.data(), count_, policy);
-  std::vector<std::pair<std::size_t, std::size_t>> crowds;
-  for_each_crowd(keyed_.data(), 0, count_,
-                 [&](std::size_t begin, std::size_t end) { crowds.emplace_back(begin, end); });
-  for_each_chunk(policy, crowds.size(), [&](std::size_t c) {
-    const auto [begin, end] = crowds[c];
-    sort_crowd(places, keyed_.data() + begin, buffer_.data() + begin, end - begin, 1);
-  });
+PlacedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
+  items_.resize(count);
+  buffer_.resize(count);
+  bins_.resize(count);
+  return items_.data();
 }
 
-template void SpatialOrder::sort(const ItemPlaces<float>&, const PlaceBounds&, const ParallelPolicy&);
-template void SpatialOrder::sort(const ItemPlaces<double>&, const PlaceBounds&, const ParallelPolicy&);
+template <typename T>
+void SpatialOrder<T>::sort(std::size_t count, const ParallelPolicy& policy) {
+  if (count != 0) sort_run<T>({items_.data(), buffer_.data(), bins_.data(), count, true}, policy);
+}
+
+template class SpatialOrder<float>;
+template class SpatialOrder<double>;
 
 }  // namespace pcl_bv

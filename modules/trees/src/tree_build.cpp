@@ -51,46 +51,32 @@ void widen(PlaceBounds& bounds, const PlaceBounds& other) {
 struct LoadPart {
   std::size_t begin = 0, end = 0;
   std::size_t valid = 0;  // of its points; they are stored from `begin` on
-  PlaceBounds bounds{};
 };
 
 template <typename T>
-void load_part(const PointView& points, LoadPart& part, LoadedPlaces<T>& to) {
-  Extremes<T> extremes;
+void load_part(const PointView& points, LoadPart& part, PlacedItem<T>* to) {
   std::size_t place = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    T xyz[3];
-    load_point(points, i, xyz);
-    if (!is_valid({xyz[0], xyz[1], xyz[2]})) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      to.axis[axis][place] = xyz[axis];
-      extremes.add(axis, xyz[axis]);
-    }
-    to.numbers[place++] = static_cast<std::int32_t>(points.index(i));
+    PlacedItem<T>& item = to[place];
+    load_point(points, i, item.place);
+    item.number = static_cast<std::int32_t>(points.index(i));
+    if (is_valid({item.place[0], item.place[1], item.place[2]})) ++place;
   }
   part.valid = place - part.begin;
-  part.bounds = extremes.bounds();
 }
 
+// Returns how many are valid.
 template <typename T>
-void load(const PointView& points, const ParallelPolicy& policy, LoadedPlaces<T>& to) {
-  for (std::vector<T>& axis : to.axis)
-    axis.resize(points.count);
-  to.numbers.resize(points.count);
+std::size_t load(const PointView& points, const ParallelPolicy& policy, PlacedItem<T>* to) {
   Parts<LoadPart> parts;
   parts.cut(points.count, policy);
   parts.for_each(policy, [&](LoadPart& part) { load_part(points, part, to); });
-  to.count = 0;
-  to.bounds = kNowhere;
+  std::size_t count = 0;
   for (const LoadPart& part : parts) {
-    if (to.count != part.begin) {
-      for (std::vector<T>& axis : to.axis)
-        std::copy_n(axis.data() + part.begin, part.valid, axis.data() + to.count);
-      std::copy_n(to.numbers.data() + part.begin, part.valid, to.numbers.data() + to.count);
-    }
-    to.count += part.valid;
-    widen(to.bounds, part.bounds);
+    if (count != part.begin) std::copy_n(to + part.begin, part.valid, to + count);
+    count += part.valid;
   }
+  return count;
 }
 
 template <typename T>
@@ -135,22 +121,24 @@ void fill_packets(PackedTree& tree, const ParallelPolicy& policy, const Fill& fi
 }
 
 template <typename T>
-void build(const PointView& points, const ParallelPolicy& policy, LoadedPlaces<T>& loaded, SpatialOrder& order,
-           PackedTree& tree) {
-  load(points, policy, loaded);
-  order.sort(loaded.places(), loaded.bounds, policy);
-  tree.count = loaded.count;
-  const std::size_t packets = (loaded.count + kTreeWidth - 1) / kTreeWidth;
+void build(const PointView& points, const ParallelPolicy& policy, SpatialOrder<T>& order, PackedTree& tree) {
+  tree.count = load(points, policy, order.reset(points.count));
+  order.sort(tree.count, policy);
+  const std::size_t packets = (tree.count + kTreeWidth - 1) / kTreeWidth;
   packets_of<T>(tree).resize(packets);
   tree.numbers.resize(packets * kTreeWidth);
   fill_packets<T>(tree, policy, [&](std::size_t p, PointPacket<T>& packet) {
-    const std::size_t count = std::min(kTreeWidth, loaded.count - p * kTreeWidth);
-    for (std::size_t k = 0; k < kTreeWidth; ++k) {
-      const bool there = k < count;
-      const std::size_t from = there ? order[p * kTreeWidth + k] : 0;
+    const std::size_t first = p * kTreeWidth, count = std::min(kTreeWidth, tree.count - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const PlacedItem<T>& item = order[first + k];
       for (std::size_t axis = 0; axis < 3; ++axis)
-        *packet.at(axis, k) = there ? loaded.axis[axis][from] : std::numeric_limits<T>::quiet_NaN();
-      tree.numbers[p * kTreeWidth + k] = there ? loaded.numbers[from] : -1;
+        *packet.at(axis, k) = item.place[axis];
+      tree.numbers[first + k] = static_cast<std::int32_t>(item.number);
+    }
+    for (std::size_t k = count; k < kTreeWidth; ++k) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        *packet.at(axis, k) = std::numeric_limits<T>::quiet_NaN();
+      tree.numbers[first + k] = -1;
     }
   });
 }
@@ -174,10 +162,10 @@ void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScrat
   tree.scalar = points.scalar;
   if (points.scalar == ScalarType::float32) {
     tree.doubles.clear();
-    build(points, policy, scratch.floats, scratch.order, tree);
+    build(points, policy, scratch.floats, tree);
   } else {
     tree.floats.clear();
-    build(points, policy, scratch.doubles, scratch.order, tree);
+    build(points, policy, scratch.doubles, tree);
   }
 }
 

@@ -3,10 +3,6 @@
 
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/packed_tree.h"
 #include "pcl_bv/kernels/point_view.h"
@@ -14,21 +10,10 @@
 
 namespace pcl_bv {
 
-/// A view's valid points, an array for each axis, and what sorting them needs.
-template <typename T>
-struct LoadedPlaces {
-  std::array<std::vector<T>, 3> axis;
-  std::vector<std::int32_t> numbers;
-  PlaceBounds bounds{};
-  std::size_t count = 0;
-
-  ItemPlaces<T> places() const { return {{axis[0].data(), axis[1].data(), axis[2].data()}, count}; }
-};
-
+/// What sorting points needs.
 struct TreeScratch {
-  LoadedPlaces<float> floats;
-  LoadedPlaces<double> doubles;
-  SpatialOrder order;
+  SpatialOrder<float> floats;
+  SpatialOrder<double> doubles;
 };
 
 /// Replaces the tree by one of the view's valid points.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pcl_bv/kernels/isa.h"
@@ -39,7 +40,7 @@ struct alignas(64) PointPacket {
 };
 
 /// Groups of boxes around items in a row, level by level: box k of group g of level 0 holds item 16 g + k, of
-/// level n group 16 g + k of level n - 1. Boxes are in a frame of their own, in which all coordinates are within 1
+/// level n group 16 g + k of level n - 1; the topmost level is one group. Boxes are in a frame of their own, in which all coordinates are within 1
 /// of 0: a place p of the items is at (p - origin) * scale there. They are rounded outward.
 struct BoxLevels {
   static constexpr std::size_t kMostLevels = 9;
@@ -86,13 +87,16 @@ inline bool operator<(const Neighbor& a, const Neighbor& b) {
          (a.squared_distance == b.squared_distance && a.index < b.index);
 }
 
-/// Whether a point has a squared distance, as Neighbor says, of at most `limit`. These three give the same for
-/// every `isa`. They run in the caller's floating-point environment: hold a FloatEnvironment. The centre is valid.
+/// Whether a point has a squared distance, as Neighbor says, of at most `limit`. These four give the same for every
+/// `isa`. They run in the caller's floating-point environment: hold a FloatEnvironment. The centre is valid.
 bool any_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit);
 
 /// Appends all such points, in the tree's order.
 void list_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit,
                   std::vector<Neighbor>& found);
+
+/// The first of all such points in Neighbor's order, if there is one.
+std::optional<Neighbor> find_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit);
 
 /// Of all such points the `most` nearest, ascending: replaces what is in `found`.
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most, double limit,
