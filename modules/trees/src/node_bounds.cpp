@@ -196,36 +196,6 @@ NodeShapes::Ball NodeShapes::joined(const Ball* balls, std::size_t count) {
   return all;
 }
 
-bool NodeShapes::near(std::size_t shape, const FramePlace& place) const {
-  return distance(shape, place) <= 0;
-}
-
-bool NodeShapes::near(std::size_t shape, const BoxQuery& box) const {
-  if (!slabs_.empty()) {
-    const Slabs& slabs = slabs_[shape];
-    for (std::size_t i = 3; i < kSlabs; ++i) {
-      const Place d = cube_direction(i);
-      double low = -0x1p-40,
-             high = 0x1p-40;  // of sums below 2^3 in magnitude, or so far off that it does not matter
-      for (std::size_t k = 0; k < 3; ++k) {
-        low += d[k] > 0 ? box.low[k] : -box.high[k];
-        high += d[k] > 0 ? box.high[k] : -box.low[k];
-      }
-      if (!(low <= slabs.max[i] && high >= slabs.min[i])) return false;
-    }
-  } else if (!balls_.empty()) {
-    const Ball& ball = balls_[shape];
-    double squares = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double q =
-          std::max({0.0, double{box.low[k]} - ball.center[k], double{ball.center[k]} - box.high[k]});
-      squares += q * q;
-    }
-    return ball.radius >= 0 && squares <= double{ball.radius} * ball.radius * (1 + 0x1p-40);
-  }
-  return true;
-}
-
 double NodeShapes::distance(std::size_t shape, const FramePlace& place) const {
   double farthest = 0;
   if (!slabs_.empty()) {

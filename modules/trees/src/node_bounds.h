@@ -40,11 +40,8 @@ class NodeShapes {
 
   bool none() const { return slabs_.empty() && balls_.empty(); }
 
-  /// The shape of box k of group g is number 16 g + k. Each errs only towards near: whether a place, or any
-  /// of a box, may be inside; a lower bound of the distance; of t where the ray enters, infinity if it
-  /// misses.
-  bool near(std::size_t shape, const FramePlace& place) const;
-  bool near(std::size_t shape, const BoxQuery& box) const;
+  /// The shape of box k of group g is number 16 g + k. A lower bound of the distance from a place, 0 where
+  /// the place may be inside; of t where a ray enters, infinity if it misses.
   double distance(std::size_t shape, const FramePlace& place) const;
   double enter(std::size_t shape, const FrameRay& ray) const;
 

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Along an axis a volume's box says how far it reaches. For another direction the volume is turned, so that
-// it becomes an axis: transformed() holds the image by exact arithmetic on the stored matrix, and so does its
-// box.
+// Each step rounds up. Along an axis a volume's box says how far it reaches.
 
 #include "reaches.h"
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
@@ -25,59 +22,12 @@ Eigen::Vector3d cube_vector(std::size_t i) {
   return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
 }
 
-// A rotation whose first rows are directions of the cube, made shorter; from row 1 on maybe others.
-struct Turn {
-  Eigen::Isometry3d rotation = Eigen::Isometry3d::Identity();
-  std::vector<std::size_t> directions;
-
-  Turn(const Eigen::Vector3d& a, const Eigen::Vector3d& b, std::vector<std::size_t> to)
-      : directions(std::move(to)) {
-    rotation.linear().row(0) = unit3(a).transpose();
-    rotation.linear().row(1) = unit3(b).transpose();
-    rotation.linear().row(2) = unit3(cross3(a, b)).transpose();
-  }
-};
-
-// One for each of the directions through the corners, then one for each two through the edges.
-const std::vector<Turn>& turns() {
-  static const std::vector<Turn> made = [] {
-    std::vector<Turn> all;
-    for (std::size_t i = 3; i < 7; ++i)
-      all.emplace_back(cube_vector(i), cross3(cube_vector(i), Eigen::Vector3d(Eigen::Vector3d::UnitX())),
-                       std::vector{i});
-    for (std::size_t i = 7; i < 13; i += 2)
-      all.emplace_back(cube_vector(i), cube_vector(i + 1), std::vector{i, i + 1});
-    return all;
-  }();
-  return made;
+double dot_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return Expansion().add_dot(a, b).up();
 }
 
-// Of n . p, if n' . p is at most `reach` for an n' that is nearly parallel, and |p[k]| at most size[k].
-double reach_along(const Eigen::Vector3d& n, const Eigen::Vector3d& row, double reach,
-                   const Eigen::Vector3d& size) {
-  const double weight = dot3(n, row) / dot3(row, row);
-  Expansion bound;
-  bound.add_product(weight, reach);
-  for (int k = 0; k < 3; ++k) {
-    const double rest = Expansion().add(n[k]).add_product(-weight, row[k]).magnitude_up();
-    bound.add(multiply_up(rest, size[k]));
-  }
-  return bound.up();
-}
-
-void add_turned(const AnyVolume& volume, const Aabb& box, std::size_t count, Reaches& found) {
-  const Eigen::Vector3d size = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
-  for (const Turn& turn : turns()) {
-    if (turn.directions.front() >= count) continue;
-    const Aabb turned = aabb(transformed(volume, turn.rotation));
-    for (std::size_t k = 0; k < turn.directions.size(); ++k) {
-      const std::size_t i = turn.directions[k];
-      const auto axis = static_cast<int>(k);
-      const Eigen::Vector3d n = cube_vector(i), row = turn.rotation.linear().row(axis).transpose();
-      found.up[i] = reach_along(n, row, turned.max()[axis], size);
-      found.down[i] = reach_along(n, row, -turned.min()[axis], size);
-    }
-  }
+double length_up(const Eigen::Vector3d& v) {
+  return sqrt_up(dot_up(v, v));
 }
 
 void add_axes(const Aabb& box, Reaches& found) {
@@ -85,6 +35,65 @@ void add_axes(const Aabb& box, Reaches& found) {
     found.up[k] = box.max()[static_cast<int>(k)];
     found.down[k] = -box.min()[static_cast<int>(k)];
   }
+}
+
+// How far n . q reaches, for q from the centre of the volume on; the same for -n.
+double half_width_up(const Eigen::Vector3d& n, const Sphere& sphere) {
+  return multiply_up(length_up(n), sphere.radius());
+}
+
+// n = sum of w[i] a[i] + rest, and |a[i] . q| is known; |q[k]| is at most half[k].
+template <typename Along>
+double half_width_up(const Eigen::Vector3d& n, const Eigen::Matrix3d& axes, const Eigen::Vector3d& half,
+                     const Along& along) {
+  const Eigen::Vector3d weights(dot3(n, axes.col(0)), dot3(n, axes.col(1)), dot3(n, axes.col(2)));
+  double sum = along(weights);
+  for (int k = 0; k < 3; ++k) {
+    Expansion rest;
+    rest.add(n[k]);
+    for (int i = 0; i < 3; ++i)
+      rest.add_product(-weights[i], axes(k, i));
+    sum = add_up(sum, multiply_up(rest.magnitude_up(), half[k]));
+  }
+  return sum;
+}
+
+// The half sizes of a box about the centre.
+Eigen::Vector3d half_box(const Eigen::Vector3d& center, const Aabb& box) {
+  Eigen::Vector3d half;
+  for (int k = 0; k < 3; ++k)
+    half[k] = std::max(add_up(box.max()[k], -center[k]), add_up(center[k], -box.min()[k]));
+  return half;
+}
+
+double half_width_up(const Eigen::Vector3d& n, const Obb& box) {
+  return half_width_up(
+      n, box.axes(), half_box(box.center(), box.aabb()),
+      [&](const Eigen::Vector3d& weights) { return dot_up(weights.cwiseAbs(), box.half_extents()); });
+}
+
+// By Cauchy's inequality.
+double half_width_up(const Eigen::Vector3d& n, const Ellipsoid& ellipsoid) {
+  const Eigen::Vector3d half = half_box(ellipsoid.center(), ellipsoid.aabb());
+  return half_width_up(n, ellipsoid.axes(), half, [&](const Eigen::Vector3d& weights) {
+    Eigen::Vector3d parts;
+    for (int i = 0; i < 3; ++i)
+      parts[i] = multiply_up(std::abs(weights[i]), ellipsoid.radii()[i]);
+    return length_up(parts);
+  });
+}
+
+// q is a part along the axis, of at most half_height, and one across, of at most the radius: there n may be
+// taken without any multiple of the axis.
+double half_width_up(const Eigen::Vector3d& n, const Cylinder& cylinder) {
+  const Eigen::Vector3d& a = cylinder.axis();
+  const double along = Expansion().add_dot(n, a).magnitude_up() * (1 + 0x1p-48),
+               weight = dot3(n, a) / dot3(a, a);
+  Eigen::Vector3d across;
+  for (int k = 0; k < 3; ++k)
+    across[k] = Expansion().add(n[k]).add_product(-weight, a[k]).magnitude_up();
+  return add_up(multiply_up(along, cylinder.half_height()),
+                multiply_up(length_up(across), cylinder.radius()));
 }
 
 struct Measure {
@@ -117,12 +126,32 @@ struct Measure {
 
   Reaches operator()(const Hull& hull) const { return of_planes(PlaneBody(hull)); }
 
+  Reaches operator()(const Capsule& capsule) const {
+    return centered(capsule.aabb(), [&](const Eigen::Vector3d& n) {
+      return std::max(reach_up(n, capsule.a(), capsule.radius()), reach_up(n, capsule.b(), capsule.radius()));
+    });
+  }
+
+  // Sphere, Obb, Cylinder, Ellipsoid.
   template <typename Shape>
   Reaches operator()(const Shape& shape) const {
+    return centered(shape.aabb(), [&](const Eigen::Vector3d& n) {
+      return Expansion().add_dot(n, shape.center()).add(half_width_up(n, shape)).up();
+    });
+  }
+
+  static double reach_up(const Eigen::Vector3d& n, const Eigen::Vector3d& center, double radius) {
+    return Expansion().add_dot(n, center).add(multiply_up(length_up(n), radius)).up();
+  }
+
+  template <typename Reach>
+  Reaches centered(const Aabb& box, const Reach& reach) const {
     Reaches found;
-    const Aabb box = shape.aabb();
     add_axes(box, found);
-    add_turned(shape, box, count, found);
+    for (std::size_t i = 3; i < count; ++i) {
+      found.up[i] = reach(cube_vector(i));
+      found.down[i] = reach(-cube_vector(i));
+    }
     return found;
   }
 

@@ -4,7 +4,6 @@
 #include "region_runs.h"
 
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "pcl_bv/kernels/chunks.h"
@@ -18,7 +17,7 @@ using Chosen = std::vector<std::uint32_t>;
 
 // A run that reaches more regions than this is no run of neighbours: sorting its points, some 15 ns each,
 // costs less than that many tests of them.
-constexpr std::size_t kManyReached = 64;
+constexpr std::size_t kManyReached = 128;
 constexpr std::size_t kRunsOfSample = 16;
 
 void choose(const VolumeBoxes& boxes, const RunBox& run, Chosen& chosen) {
@@ -46,11 +45,22 @@ struct Runs {
 // A chunk's valid points, sorted.
 template <typename T>
 struct SortedPoints {
-  std::array<std::vector<T>, 3> axis;
-  std::vector<std::uint32_t> numbers;
-  std::vector<T> packed;
+  SpatialOrder<T> order;
   std::vector<std::uint8_t> states;
-  SpatialOrder order;
+
+  // Returns how many there are.
+  std::size_t load(const PointView& points) {
+    PlacedItem<T>* const items = order.reset(points.count);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.count; ++i) {
+      PlacedItem<T>& item = items[count];
+      load_point(points, i, item.place);
+      item.number = static_cast<std::int32_t>(i);
+      count += is_valid({item.place[0], item.place[1], item.place[2]});
+    }
+    order.sort(count, Serial{});
+    return count;
+  }
 };
 
 // Kept by each thread: fresh memory of a megabyte costs more than what is done in it.
@@ -98,48 +108,17 @@ void states_in_order(UsableIsa isa, const PointView& points, const RegionTests& 
 }
 
 template <typename T>
-void load(const PointView& points, SortedPoints<T>& to, PlaceBounds& bounds) {
-  for (auto& axis : to.axis)
-    axis.clear();
-  to.numbers.clear();
-  constexpr T most = std::numeric_limits<T>::infinity();
-  T low[3] = {most, most, most}, high[3] = {-most, -most, -most};
-  for (std::size_t i = 0; i < points.count; ++i) {
-    T p[3];
-    load_point(points, i, p);
-    if (!is_valid({p[0], p[1], p[2]})) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-      to.axis[k].push_back(p[k]);
-    }
-    to.numbers.push_back(static_cast<std::uint32_t>(i));
-  }
-  bounds = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-}
-
-template <typename T>
 void states_sorted(UsableIsa isa, const PointView& points, const RegionTests& regions,
                    const VolumeBoxes& boxes, Runs& runs, SortedPoints<T>& sorted, std::uint8_t* states) {
-  PlaceBounds bounds{};
-  load(points, sorted, bounds);
-  const std::size_t count = sorted.numbers.size();
+  const std::size_t count = sorted.load(points);
   std::fill(states, states + points.count, static_cast<std::uint8_t>(RegionState::outside));
   if (count == 0) return;
-  sorted.order.sort(
-      ItemPlaces<T>{{sorted.axis[0].data(), sorted.axis[1].data(), sorted.axis[2].data()}, count}, bounds,
-      Serial{});
-  sorted.packed.resize(3 * count);
   sorted.states.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t k = 0; k < 3; ++k)
-      sorted.packed[3 * i + k] = sorted.axis[k][sorted.order[i]];
-  }
-  const PointView view = PointView::of(sorted.packed.data(), 3 * sizeof(T), count);
+  const PointView view = PointView::of(sorted.order[0].place, sizeof(PlacedItem<T>), count);
   runs.measure(isa, view);
   states_in_order(isa, view, regions, boxes, runs, sorted.states.data());
   for (std::size_t i = 0; i < count; ++i)
-    states[sorted.numbers[sorted.order[i]]] = sorted.states[i];
+    states[sorted.order[i].number] = sorted.states[i];
 }
 
 }  // namespace

@@ -41,20 +41,19 @@ PlaceBounds extent_of(const AnyVolume& volume) {
 void VolumeBoxes::build(const std::vector<PlaceBounds>& extents, const ParallelPolicy& policy) {
   const PlaceBounds all = around(extents);
   const Coordinates nowhere = is_somewhere(all) ? all.low : Coordinates{0, 0, 0};
-  std::array<std::vector<double>, 3> centers;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const PlaceBounds& extent : extents) {
-      const double middle = extent.low[axis] / 2 + extent.high[axis] / 2;
-      centers[axis].push_back(has_box(extent) ? middle : nowhere[axis]);
+  SpatialOrder<double> order;
+  PlacedItem<double>* const items = order.reset(extents.size());
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    items[i].number = static_cast<std::int64_t>(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double middle = extents[i].low[axis] / 2 + extents[i].high[axis] / 2;
+      items[i].place[axis] = has_box(extents[i]) ? middle : nowhere[axis];
     }
   }
-  SpatialOrder order;
-  const ItemPlaces<double> places = {{centers[0].data(), centers[1].data(), centers[2].data()},
-                                     extents.size()};
-  order.sort(places, is_somewhere(all) ? all : PlaceBounds{nowhere, nowhere}, policy);
+  order.sort(extents.size(), policy);
   order_.resize(extents.size());
   for (std::size_t item = 0; item < extents.size(); ++item)
-    order_[item] = order[item];
+    order_[item] = static_cast<std::uint32_t>(order[item].number);
   refit(extents);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What trees of volumes share: boxes of boxes around them, along Hilbert's curve, and the walk through them.
+// What trees of volumes share: boxes of boxes around them, and the walk through them.
 #pragma once
 
 #include <algorithm>

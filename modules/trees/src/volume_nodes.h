@@ -24,18 +24,25 @@ struct VolumeTree::Nodes {
 
   const AnyVolume& volume(std::uint32_t number) const { return volumes[number]; }
 
-  /// Calls visit(number of the volume) for those that may have something in a box or near a place, and those
-  /// without a box; ends where it returns true.
-  template <typename Visit>
-  bool visit_near(const BoxQuery& query, const Visit& visit) const {
-    return visit_if(
-        query, [&](std::size_t shape) { return shapes.near(shape, query); }, visit);
-  }
+  /// Calls visit(number of the volume) for those that may hold a place, and those without a box; ends where
+  /// it returns true.
   template <typename Visit>
   bool visit_near(const Coordinates& place, const Visit& visit) const {
     const FramePlace at(boxes, place);
-    return visit_if(
-        boxes.query(place, place), [&](std::size_t shape) { return shapes.near(shape, at); }, visit);
+    const BoxQuery query = boxes.query(place, place);
+    if (shapes.none()) return boxes.visit(query, visit);
+    for (const std::uint32_t number : boxes.everywhere()) {
+      if (visit(number)) return true;
+    }
+    const auto pick = [&](std::size_t group) {
+      std::uint32_t bits = overlapping(boxes.levels().groups[group], query);
+      for (std::uint32_t rest = bits; rest != 0; rest &= rest - 1) {
+        const int k = std::countr_zero(rest);
+        if (shapes.distance(group * kTreeWidth + static_cast<std::size_t>(k), at) > 0) bits &= ~(1U << k);
+      }
+      return bits;
+    };
+    return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.number(item)); });
   }
 
   /// Calls visit(number) for the volumes whose bound(group, k) is at most limit(), which visit may lower: at
@@ -48,22 +55,6 @@ struct VolumeTree::Nodes {
   }
 
  private:
-  template <typename Near, typename Visit>
-  bool visit_if(const BoxQuery& query, const Near& near, const Visit& visit) const {
-    for (const std::uint32_t number : boxes.everywhere()) {
-      if (visit(number)) return true;
-    }
-    const auto pick = [&](std::size_t group) {
-      std::uint32_t bits = overlapping(boxes.levels().groups[group], query);
-      for (std::uint32_t rest = shapes.none() ? 0 : bits; rest != 0; rest &= rest - 1) {
-        const int k = std::countr_zero(rest);
-        if (!near(group * kTreeWidth + static_cast<std::size_t>(k))) bits &= ~(1U << k);
-      }
-      return bits;
-    };
-    return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.number(item)); });
-  }
-
   template <typename Bound, typename Limit, typename Visit>
   void descend(std::size_t level, std::size_t group, const Bound& bound, const Limit& limit,
                const Visit& visit) const {

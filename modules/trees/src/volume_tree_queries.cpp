@@ -147,12 +147,12 @@ void VolumeTree::all_touching(const Aabb& box, std::vector<std::int32_t>& indice
   const FloatEnvironment environment;
   indices.clear();
   if (box.empty()) return;
-  nodes_->visit_near(nodes_->boxes.query(coordinates(box.min()), coordinates(box.max())),
-                     [&](std::uint32_t number) {
-                       if (aabb(nodes_->volumes[number]).overlaps(box))
-                         indices.push_back(static_cast<std::int32_t>(number));
-                       return false;
-                     });
+  nodes_->boxes.visit(nodes_->boxes.query(coordinates(box.min()), coordinates(box.max())),
+                      [&](std::uint32_t number) {
+                        if (aabb(nodes_->volumes[number]).overlaps(box))
+                          indices.push_back(static_cast<std::int32_t>(number));
+                        return false;
+                      });
   std::sort(indices.begin(), indices.end());
 }
 
@@ -166,11 +166,9 @@ void VolumeTree::all_overlapping(const AnyVolume& volume, std::vector<std::int32
     return false;
   };
   const PlaceBounds extent = extent_of(volume);
-  const BoxQuery query = nodes_->boxes.query(extent.low, extent.high);
-  if (const auto* const kdop = std::get_if<Kdop>(&volume); kdop == nullptr) {
-    nodes_->visit_near(query, ask);
-  } else if (has_axes(*kdop->set())) {
-    nodes_->boxes.visit(query, ask);
+  const auto* const kdop = std::get_if<Kdop>(&volume);
+  if (kdop == nullptr || has_axes(*kdop->set())) {
+    nodes_->boxes.visit(nodes_->boxes.query(extent.low, extent.high), ask);
   } else {
     visit_all(nodes_->volumes, ask);
   }

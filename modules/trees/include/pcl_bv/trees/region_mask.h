@@ -55,7 +55,7 @@ class RegionMask {
             const Execution& execution = {}) const;
 
   /// Regions from which on a tree is faster.
-  static constexpr std::size_t kFewRegions = 24;
+  static constexpr std::size_t kFewRegions = 12;
 
  private:
   void mark_chunk(const PointView& points, std::uint8_t* marks, const Execution& execution) const;

@@ -43,7 +43,8 @@ struct Ray {
   Eigen::Vector3d direction;  ///< Of any length, which is the unit of where a hit is.
 };
 
-/// Volumes of any kinds, along Hilbert's curve, with boxes around 16, around 16 of those and so on.
+/// Volumes of any kinds in the order of a balanced k-d tree of their middles, with boxes around 16, around 16 of those
+/// and so on.
 ///
 /// Volumes are named by their numbers in the list that they came in. Each question is decided by the volumes'
 /// own verbs, as if all were asked one after another: bounds only spare those on which the answer cannot
