@@ -50,9 +50,13 @@ TEST(EuclideanClusters, CountThePointsOfDroppedClusters) {
 }
 
 TEST(EuclideanClusters, AreNoneBeforeAnyAreFound) {
-  EXPECT_EQ(Clusters().size(), 0U);
-  EXPECT_EQ(Clusters().small_points, 0U);
-  EXPECT_EQ(Clusters().large_points, 0U);
+  const Clusters clusters;
+  EXPECT_EQ(clusters.size(), 0U);
+  EXPECT_THAT(clusters.offsets, ElementsAre(0U));
+  EXPECT_EQ(clusters.small_points, 0U);
+  EXPECT_EQ(clusters.large_points, 0U);
+  EXPECT_EQ(clusters.noise_points, 0U);
+  EXPECT_EQ(clusters.class_points, 0U);
 }
 
 TEST(EuclideanClusters, AreNoneWithoutValidPoints) {
