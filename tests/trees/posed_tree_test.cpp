@@ -54,7 +54,7 @@ TEST(PosedTree, FindsNothingThatIsClearlyOutside) {
   Random random(2);
   const auto cloud = test::gaussian<float>(5000, 3);
   const PointTree tree(cloud.view());
-  for (const AnyVolume& volume : volumes_of_every_kind(random, {"unit", 1, 0})) {
+  for (const AnyVolume& volume : volumes_of_every_kind(random, {"unit", 0, 1})) {
     const Eigen::Isometry3d pose = random.isometry(1);
     std::vector<std::int32_t> found;
     PosedTree(tree, pose).all_inside(volume, found);
