@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "half_spaces.h"
@@ -96,30 +97,65 @@ TEST(PairBounds, HoldForImagesUnderAnyMatrix) {
   });
 }
 
-// Neighbouring faces of a round body with many corners are nearly parallel.
-TEST(PairBounds, OfManyHalfSpacesAreTightAtEveryCorner) {
+// Where three planes meet, by Cramer's rule; none where they are not independent.
+std::optional<ExactPoint> corner_of(const HullPlane& a, const HullPlane& b, const HullPlane& c) {
+  const auto cross = [](const ExactPoint& u, const ExactPoint& v) -> ExactPoint {
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  };
+  const ExactPoint n = testing::exact(a.normal), m = testing::exact(b.normal), l = testing::exact(c.normal);
+  const ExactPoint ml = cross(m, l), ln = cross(l, n), nm = cross(n, m);
+  const Rational determinant = testing::product(n, ml);
+  if (determinant == 0) return std::nullopt;
+  ExactPoint corner;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] =
+        (Rational(a.offset) * ml[k] + Rational(b.offset) * ln[k] + Rational(c.offset) * nm[k]) / determinant;
+  }
+  return corner;
+}
+
+// Of all triples of planes.
+std::vector<ExactPoint> corners_of(const std::vector<HullPlane>& planes) {
+  std::vector<ExactPoint> corners;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    for (std::size_t j = i + 1; j < planes.size(); ++j) {
+      for (std::size_t k = j + 1; k < planes.size(); ++k) {
+        const auto corner = corner_of(planes[i], planes[j], planes[k]);
+        const auto holds_it = [&](const HullPlane& p) {
+          return dot(p.normal, *corner) <= Rational(p.offset);
+        };
+        if (corner && std::all_of(planes.begin(), planes.end(), holds_it)) corners.push_back(*corner);
+      }
+    }
+  }
+  return corners;
+}
+
+// Faces of a round body with many corners are nearly parallel: here by 1, 1e-3 and 1e-5.
+TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
   Random random(kSeed);
-  for (const double width : {1.0, 1e-3}) {  // of the cap that the normals are in
+  for (const double width : {1.0, 1e-3, 1e-5}) {
     volumes_internal::HalfSpaces half_spaces;
-    std::vector<HullPlane> planes;
-    for (int i = 0; i < 200; ++i) {
-      const Vector3d n = i < 6 ? Vector3d((i < 3 ? 1 : -1) * Vector3d::Unit(i % 3))
-                               : Vector3d(Vector3d::UnitZ() + random.vector(width)).normalized();
-      planes.push_back({n, 1});
-      half_spaces.add(n, 1, Vector3d::Zero());
+    std::vector<HullPlane> planes;  // tangent to the unit ball
+    for (int i = 0; i < 18; ++i) {
+      const Vector3d axis = (i < 3 ? 1 : -1) * Vector3d::Unit(i % 3);
+      planes.push_back({i < 6 ? axis : (Vector3d::UnitZ() + random.vector(width)).normalized(), 1});
+      half_spaces.add(planes.back().normal, planes.back().offset, Vector3d::Zero());
     }
     ASSERT_TRUE(half_spaces.enclose(4));
-    for (int round = 0; round < 200; ++round) {
+    const std::vector<ExactPoint> corners = corners_of(planes);
+    for (int round = 0; round < 50; ++round) {
       const Vector3d d = (Vector3d::UnitZ() + random.vector(width)).normalized();
-      // No corner is known here: the nearest face does, and all half-spaces then have their turn.
-      const double reach = half_spaces.reach_up(d, d);
-      EXPECT_GE(reach, 1 - 1e-15);  // all hold the unit ball
-      EXPECT_LE(half_spaces.reach_up(d, reach * d), reach + 1e-13);
-    }
-    for (std::size_t i = 6; i < planes.size(); ++i) {  // tangent planes of the ball
-      const double reach = half_spaces.reach_up(planes[i].normal, planes[i].normal);
-      EXPECT_GE(reach, 1 - 1e-15);
-      EXPECT_LE(reach, 1 + 1e-14);
+      const auto nearer = [&](const ExactPoint& p, const ExactPoint& q) { return dot(d, p) < dot(d, q); };
+      const ExactPoint best = *std::max_element(corners.begin(), corners.end(), nearer);
+      const Vector3d vertex(static_cast<double>(best[0]), static_cast<double>(best[1]),
+                            static_cast<double>(best[2]));
+      const Rational expected = dot(d, best);
+      for (const Vector3d& hint : {vertex, Vector3d(Vector3d::Zero())}) {  // a wrong one costs time only
+        const Rational reach(half_spaces.reach_up(d, hint));
+        EXPECT_GE(reach, expected);
+        EXPECT_LE(static_cast<double>(reach - expected), hint == vertex ? 1e-14 : 1e-9) << width;
+      }
     }
   }
 }
