@@ -13,18 +13,17 @@ SweepWindow::SweepWindow(std::size_t sweeps) : capacity_(sweeps) {
 }
 
 void SweepWindow::add(const PointView& points, const Execution& execution) {
-  // Numbers wrap: first + PointView::first is what counts.
+  if (points.count > 0 && points_ > 0 && points.scalar != scalar_)
+    throw std::invalid_argument("SweepWindow: has sweeps of floats and doubles");
+  // The view's own numbers are taken off again: unsigned ones wrap.
   const std::size_t number = static_cast<std::size_t>(first_) + points_;
   const Partial sweep(points, number - points.first, execution);
   Partial merged = newest_merged_;
   merged.merge(sweep);
-  if (!oldest_.empty()) {  // of the same type of numbers?
-    Partial all = oldest_.front().merged;
-    all.merge(sweep);
-  }
   newest_.push_back({sweep, points.count});
   newest_merged_ = std::move(merged);
   points_ += points.count;
+  if (points.count > 0) scalar_ = points.scalar;
   all_.reset();
   if (size() > capacity_) drop_oldest();
 }
