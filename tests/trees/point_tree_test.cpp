@@ -18,6 +18,7 @@
 #include "clouds.h"
 #include "executions.h"
 #include "flush_to_zero.h"
+#include "pcl_bv/volumes/pairs.h"
 
 namespace pcl_bv {
 
@@ -229,6 +230,35 @@ TYPED_TEST(PointTreeOf, ListsTheSamePointsAsContains) {
         EXPECT_GT(some, volumes.size() / 2) << scale.name;
       }
     }
+  }
+}
+
+TEST(PointTree, HasThePointNearestToAVolumeAsIfEachWereAsked) {
+  Random random(20);
+  for (const Scale& scale : scales()) {
+    if (scale.extent < 1e-100 || scale.extent > 1e38) continue;
+    test::TestCloud<double> cloud;
+    for (int i = 0; i < 500; ++i) {
+      const Vector3d p = random.point({"", scale.offset, 6 * scale.extent});
+      cloud.xyz.insert(cloud.xyz.end(), p.begin(), p.end());
+    }
+    const EachPoint points(cloud.view());
+    const PointTree tree(cloud.view());
+    for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
+      const ConvexBody body(volume);
+      PointDistance expected{-1, kInfinity};
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const double d = distance(body, points.places()[i]);
+        if (d < expected.distance) expected = {static_cast<std::int32_t>(i), d};
+      }
+      const auto found = tree.nearest_to(volume);
+      ASSERT_TRUE(found.has_value());
+      EXPECT_EQ(found->index, expected.index) << shape_name(volume) << ", " << scale.name;
+      EXPECT_EQ(found->distance, expected.distance);
+      EXPECT_EQ(tree.nearest_to(volume, expected.distance)->index, expected.index);
+      EXPECT_FALSE(expected.distance > 0 && tree.nearest_to(volume, 0.999 * expected.distance));
+    }
+    EXPECT_FALSE(tree.nearest_to(Sphere()));
   }
 }
 
