@@ -33,12 +33,13 @@ struct Case {
   std::vector<float> radii;
 };
 
-PointsXyz::Ptr sweep_of_a_lidar() {
+// Without dead beams, and of its points those above this height over the sensor.
+PointsXyz::Ptr sweep_of_a_lidar(double height) {
   const RawCloud raw = read_cloud(std::string(std::getenv("PCL_BV_DATA")) + "/lidar_sequence/0000000000.pcd");
   const PointsXyz::Ptr cloud(new PointsXyz);
   for (std::size_t i = 0; i < raw.xyz().count; ++i) {
     const Coordinates p = load_point(raw.xyz(), i);
-    if (p.x != 0 || p.y != 0 || p.z != 0)
+    if (p.z > height && (p.x != 0 || p.y != 0 || p.z != 0))
       cloud->push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
   }
   return cloud;
@@ -61,7 +62,8 @@ const std::vector<Case>& cases() {
       p.z = 1;
     made.push_back({"flat", flat, nullptr, {0.05F, 0.1F}});
     if (std::getenv("PCL_BV_DATA") != nullptr) {
-      made.push_back({"a recorded sweep", sweep_of_a_lidar(), nullptr, {0.1F, 0.3F}});
+      made.push_back({"a recorded sweep", sweep_of_a_lidar(-100), nullptr, {0.1F, 0.3F}});
+      made.push_back({"what stands in it", sweep_of_a_lidar(-1.4), nullptr, {0.2F, 0.5F}});
     }
     return made;
   }();
@@ -132,7 +134,7 @@ IndexSets clusters_by(const SearchXyz::Ptr& tree, const Case& one, float toleran
 
 TEST(PointTreeSearchAsPcl, GivesEuclideanClusterExtractionTheSameClusters) {
   for (const Case& one : cases()) {
-    if (one.cloud->size() > 50'000) continue;  // over whose ground PCL takes a minute
+    if (one.name == "a recorded sweep") continue;  // over whose ground PCL takes a minute
     for (const float tolerance : one.radii) {
       SCOPED_TRACE(one.name + ", tolerance " + std::to_string(tolerance));
       const IndexSets expected = clusters_by(std::make_shared<Theirs>(false), one, tolerance);

@@ -199,8 +199,8 @@ TEST(PointTreeSearch, IsSharedByThreadsThatAskIt) {
   std::vector<std::thread> threads;
   std::vector<int> wrong(4, 0);
   for (std::size_t t = 0; t < wrong.size(); ++t) {
-    threads.emplace_back([&, t] {
-      for (int i = 0; i < 400; ++i) {
+    threads.emplace_back([&, t] {  // for long enough that they meet: a tenth of a second
+      for (int i = 0; i < 20'000; ++i) {
         const int j = (i + 100 * static_cast<int>(t)) % 400;
         wrong[t] += !(within(tree, 41 * j, 0.7) == expected[static_cast<std::size_t>(j)]);
         wrong[t] += nearest(tree, 41 * j, 3).count != 3;
