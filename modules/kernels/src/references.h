@@ -38,6 +38,7 @@ bool any_in_ball_reference(const PackedTree& tree, const Coordinates& center, do
 void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit,
                             std::vector<Neighbor>& found);
 void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept);
+void find_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestOne& kept);
 
 Moments block_moments_reference(const PointView& block);
 

@@ -49,6 +49,14 @@ bool visit(const PackedTree& tree, std::size_t level, std::size_t item, const Co
   return false;
 }
 
+template <typename Kept>
+void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept) {
+  visit(tree, tree.boxes.levels, 0, center, [&] { return kept.limit(); }, [&](const Neighbor& neighbor) {
+    kept.offer(neighbor);
+    return false;
+  });
+}
+
 }  // namespace
 
 bool any_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit) {
@@ -64,10 +72,11 @@ void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, d
 }
 
 void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept) {
-  visit(tree, tree.boxes.levels, 0, center, [&] { return kept.limit(); }, [&](const Neighbor& neighbor) {
-    kept.offer(neighbor);
-    return false;
-  });
+  visit_nearest(tree, center, kept);
+}
+
+void find_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestOne& kept) {
+  visit_nearest(tree, center, kept);
 }
 
 }  // namespace pcl_bv

@@ -39,12 +39,16 @@ double square_limit(double distance) {
 
 struct PointTree::Scratch : TreeScratch {};
 
+PointTree::Scratch& PointTree::scratch() {
+  if (!kept_.scratch) kept_.scratch = std::make_shared<Scratch>();
+  return *kept_.scratch;
+}
+
 void PointTree::assign(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
   require_usable(points, execution);
-  if (!kept_.scratch) kept_.scratch = std::make_shared<Scratch>();
   try {
-    build_tree(points, execution.parallel, *kept_.scratch, tree_);
+    build_tree(points, execution.parallel, scratch(), tree_);
   } catch (...) {
     tree_ = {};
     throw;
@@ -64,13 +68,14 @@ void PointTree::refit(const PointView& cloud, const Execution& execution) {
   if (const auto at = std::find_if(tree_.numbers.begin(), tree_.numbers.end(), lacks); at != tree_.numbers.end()) {
     throw std::invalid_argument("PointTree: refit() to a cloud that has no point " + std::to_string(*at));
   }
-  refit_tree(cloud, execution.parallel, tree_);
+  refit_tree(cloud, execution.parallel, scratch(), tree_);
 }
 
 std::optional<Neighbor> PointTree::nearest(const Eigen::Vector3d& place, double max_distance) const {
-  std::vector<Neighbor> found;
-  nearest(place, 1, found, max_distance);
-  return found.empty() ? std::nullopt : std::optional(found.front());
+  const FloatEnvironment environment;
+  const double limit = square_limit(max_distance);
+  if (!is_valid(coordinates(place))) return std::nullopt;
+  return find_nearest(isa_, tree_, coordinates(place), limit);
 }
 
 void PointTree::nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<Neighbor>& found,

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pcl_bv/kernels/isa.h"
@@ -86,13 +87,16 @@ inline bool operator<(const Neighbor& a, const Neighbor& b) {
          (a.squared_distance == b.squared_distance && a.index < b.index);
 }
 
-/// Whether a point has a squared distance, as Neighbor says, of at most `limit`. These three give the same for
-/// every `isa`. They run in the caller's floating-point environment: hold a FloatEnvironment. The centre is valid.
+/// Whether a point has a squared distance, as Neighbor says, of at most `limit`. These four give the same for every
+/// `isa`. They run in the caller's floating-point environment: hold a FloatEnvironment. The centre is valid.
 bool any_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit);
 
 /// Appends all such points, in the tree's order.
 void list_in_ball(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit,
                   std::vector<Neighbor>& found);
+
+/// The first of all such points in Neighbor's order, if there is one.
+std::optional<Neighbor> find_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, double limit);
 
 /// Of all such points the `most` nearest, ascending: replaces what is in `found`.
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most, double limit,

@@ -81,7 +81,8 @@ class PointTree {
 
   /// Where a sphere whose centre moves along origin + t direction, t >= 0, first touches a point: the least enter
   /// of Sphere(point, radius).intersect(origin, direction), of equal ones that of the smallest number. A ray is a
-  /// sphere of a small radius. Throws what these do for a direction or a radius that is none.
+  /// sphere of a small radius. None for numbers that are not finite. Throws std::invalid_argument for a radius that is
+  /// not from 0 to 1e100.
   std::optional<PointHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                     double radius) const;
 
@@ -99,6 +100,8 @@ class PointTree {
     KeptScratch& operator=(KeptScratch&&) = default;
     std::shared_ptr<Scratch> scratch;
   };
+
+  Scratch& scratch();
 
   PackedTree tree_;
   UsableIsa isa_ = Isa::scalar;
