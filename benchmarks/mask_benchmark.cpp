@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Which of 300 k points are inside ten padded volumes, beside a loop over contains(), in turns: `ratio` says
-// how many times faster the mask is. Rows are mask/SCENE/ISA/n:POINTS/threads:N, and /wait:POLICY.
+// how many times faster the mask is. Rows are mask/SCENE/ISA/n:POINTS/threads:N, and /wait:POLICY. Rows
+// mask/street/... and mask/shuffled/... are of many regions, beside masks of a few of them each, which test
+// all points against all.
 
+#include <cmath>
 #include <random>
+#include <set>
 #include <stdexcept>
 
 #include "pcl_bv/trees/region_mask.h"
@@ -74,6 +78,58 @@ void add_mask(const std::string& scene, Isa isa, unsigned threads) {
   });
 }
 
+// The links and others like them, each about the first point of a square of ground of 2 m, chosen at random:
+// as objects that are tracked stand in a street.
+std::vector<Region> regions_about(const PointView& points, std::size_t count) {
+  std::mt19937_64 random(2);
+  std::set<std::pair<double, double>> taken;
+  std::vector<Region> regions = links();
+  while (regions.size() < count) {
+    const Coordinates p = load_point(points, random() % points.count);
+    if (!taken.emplace(std::floor(p.x / 2), std::floor(p.y / 2)).second) continue;
+    Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
+    const AnyVolume& link = regions[regions.size() % 10].volume;
+    move.translation() = Eigen::Vector3d(p.x, p.y, p.z) - center(link);
+    regions.push_back({transformed(link, move), 0.3});
+  }
+  return regions;
+}
+
+void add_many(const std::string& scene, Isa isa, std::size_t count, unsigned threads) {
+  const std::string row = "mask/" + scene + '/' + std::string(isa_name(isa)) +
+                          "/n:300032/regions:" + std::to_string(count) +
+                          "/threads:" + std::to_string(threads) + (threads == 1 ? "" : wait_policy());
+  add_turns(row, kPairs, [=](benchmark::State& state) {
+    auto made = scene_of("sweep");
+    if (scene == "shuffled") std::shuffle(made.begin(), made.end(), std::mt19937_64(3));
+    const PointView points = PointView::of(made.points.data()->data, sizeof(pcl::PointXYZ), made.size());
+    const std::vector<Region> regions = regions_about(points, count);
+    std::vector<RegionMask> few;
+    for (std::size_t i = 0; i < count; i += RegionMask::kFewRegions) {
+      const std::size_t end = std::min(count, i + RegionMask::kFewRegions);
+      few.emplace_back(std::vector(regions.begin() + static_cast<std::ptrdiff_t>(i),
+                                   regions.begin() + static_cast<std::ptrdiff_t>(end)));
+    }
+    const RegionMask mask(regions);
+    const Execution execution{policy_of(threads), isa};
+    std::vector<std::uint8_t> expected, part, inside;
+    const auto by_few = [&] {
+      expected.assign(points.count, 0);
+      for (const RegionMask& some : few) {
+        some.mark(points, part, execution);
+        for (std::size_t i = 0; i < points.count; ++i)
+          expected[i] |= part[i];
+      }
+    };
+    by_few();
+    mask.mark(points, inside, execution);
+    if (inside != expected) throw std::logic_error("other points are inside");
+    compare(state, by_few, [&] { mask.mark(points, inside, execution); });
+    state.counters["points"] = static_cast<double>(points.count);
+    state.counters["inside"] = static_cast<double>(std::count(inside.begin(), inside.end(), 1));
+  });
+}
+
 }  // namespace
 }  // namespace pcl_bv::bench
 
@@ -84,6 +140,13 @@ int main(int argc, char** argv) {
       for (const unsigned threads : {1U, 2U})
         add_mask(scene, isa, threads);
     }
+  }
+  for (const std::string scene : {"street", "shuffled"}) {
+    for (const pcl_bv::Isa isa : pcl_bv::usable_isas()) {
+      for (const std::size_t regions : {std::size_t{100}, std::size_t{1000}})
+        add_many(scene, isa, regions, 1);
+    }
+    add_many(scene, pcl_bv::usable_isas().back(), 1000, 2);
   }
   return run_program(argc, argv);
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "region_tests.h"
+#include "run_extremes.h"
 #include "square.h"
 
 namespace pcl_bv {
@@ -122,14 +123,16 @@ RegionState state_in(const RegionTest<T>& test, const T (&p)[3]) {
   return test.shape == RegionShape::planes ? state_in_planes(test, q) : state_in_body(test, q);
 }
 
-template <typename T>
-RegionState state_of_point(const RegionTestsOf<T>& all, const T (&p)[3]) {
+// `test` says which region is the k-th one.
+template <typename T, typename Test>
+RegionState state_of_point(const RegionTestsOf<T>& all, std::size_t count, const Test& test,
+                           const T (&p)[3]) {
   RegionState result = RegionState::outside;
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(p[k] >= all.low[k] && p[k] <= all.high[k])) return result;
   }
-  for (const RegionTest<T>& test : all.regions) {
-    const RegionState state = state_in(test, p);
+  for (std::size_t k = 0; k < count; ++k) {
+    const RegionState state = state_in(test(k), p);
     if (state != RegionState::outside) result = state;
     if (state == RegionState::inside) break;
   }
@@ -158,12 +161,38 @@ std::size_t list_outside_reference(const PointView& points, const HalfSpaces& in
 }
 
 void region_states_reference(const PointView& points, const RegionTests::Prepared& regions,
-                             std::uint8_t* states) {
+                             const ChosenRegions* chosen, std::uint8_t* states) {
   for_scalar(points, [&]<typename T>() {
-    for (std::size_t i = 0; i < points.count; ++i) {
-      T p[3];
-      load_point(points, i, p);
-      states[i] = static_cast<std::uint8_t>(state_of_point(regions.of<T>(), p));
+    const RegionTestsOf<T>& all = regions.of<T>();
+    const auto each = [&](std::size_t count, const auto& test) {
+      for (std::size_t i = 0; i < points.count; ++i) {
+        T p[3];
+        load_point(points, i, p);
+        states[i] = static_cast<std::uint8_t>(state_of_point(all, count, test, p));
+      }
+    };
+    if (chosen == nullptr) {
+      each(all.regions.size(), [&](std::size_t k) -> const RegionTest<T>& { return all.regions[k]; });
+    } else {
+      each(chosen->count,
+           [&](std::size_t k) -> const RegionTest<T>& { return all.regions[chosen->places[k]]; });
+    }
+  });
+}
+
+void run_boxes_reference(const PointView& points, RunBox* boxes) {
+  for_scalar(points, [&]<typename T>() {
+    for (std::size_t begin = 0; begin < points.count; begin += kRunPoints) {
+      RunExtremes<T> extremes;
+      for (std::size_t i = begin; i < std::min(begin + kRunPoints, points.count); ++i) {
+        T p[3];
+        load_point(points, i, p);
+        for (std::size_t k = 0; k < 3; ++k) {
+          extremes.low[k] = p[k] < extremes.low[k] ? p[k] : extremes.low[k];
+          extremes.high[k] = p[k] > extremes.high[k] ? p[k] : extremes.high[k];
+        }
+      }
+      boxes[begin / kRunPoints] = extremes.box();
     }
   });
 }

@@ -10,6 +10,7 @@
 #include "pcl_bv/kernels/half_spaces.h"
 #include "pcl_bv/kernels/moments.h"
 #include "pcl_bv/kernels/region_states.h"
+#include "pcl_bv/kernels/run_boxes.h"
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/kernels/support.h"
 
@@ -23,7 +24,8 @@ SlabExtents slab_extents_reference(const PointView& points, const Coordinates& o
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
                                    std::uint32_t* positions);
 void region_states_reference(const PointView& points, const RegionTests::Prepared& regions,
-                             std::uint8_t* states);
+                             const ChosenRegions* chosen, std::uint8_t* states);
+void run_boxes_reference(const PointView& points, RunBox* boxes);
 
 /// Writes the points as groups; the `pad`-th one (if there is any) fills the last group.
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);

@@ -23,6 +23,9 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
+// Tests between two looks whether the others can still change anything.
+constexpr std::size_t kBetweenLooks = 4;
+
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE hn::Mask<D> lanes_in_box(D d, const T (&low)[3], const T (&high)[3], V<D> x, V<D> y, V<D> z) {
   const auto in_x = hn::And(hn::Ge(x, hn::Set(d, low[0])), hn::Le(x, hn::Set(d, high[0])));
@@ -84,7 +87,6 @@ HWY_INLINE void judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> 
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void judge_planes(D d, const RegionTest<T>& test, hn::Mask<D> asked, V<D> x, V<D> y, V<D> z,
                              hn::Mask<D>& inside, hn::Mask<D>& outside) {
-  constexpr std::size_t kBetweenLooks = 4;
   const auto doubt = hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, test.slope));
   inside = asked;
   outside = hn::AndNot(asked, asked);
@@ -159,8 +161,10 @@ HWY_INLINE void store_states(D d, hn::Mask<D> inside, hn::Mask<D> unclear, std::
   }
 }
 
-template <Layout layout, typename T>
-void states_of(const PointView& points, const RegionTestsOf<T>& all, std::uint8_t* states) {
+// Of all regions, or of those chosen: `chosen` is then not null.
+template <Layout layout, bool all_regions, typename T>
+void states_of(const PointView& points, const RegionTestsOf<T>& all,
+               [[maybe_unused]] const ChosenRegions* chosen, std::uint8_t* states) {
   const Tag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   std::fill_n(states, points.count, std::uint8_t{0});  // outside
@@ -170,16 +174,31 @@ void states_of(const PointView& points, const RegionTestsOf<T>& all, std::uint8_
     const auto near = lanes_in_box(d, all.low, all.high, x, y, z);
     if (hn::AllFalse(d, near)) continue;
     auto inside = hn::AndNot(near, near), unclear = inside;
-    for (const RegionTest<T>& test : all.regions)
-      test_region(d, test, near, x, y, z, inside, unclear);
+    if constexpr (all_regions) {
+      for (const RegionTest<T>& test : all.regions)
+        test_region(d, test, near, x, y, z, inside, unclear);
+    } else {
+      for (std::size_t k = 0; k < chosen->count;) {
+        const std::size_t end = HWY_MIN(k + kBetweenLooks, chosen->count);
+        for (; k < end; ++k)
+          test_region(d, all.regions[chosen->places[k]], near, x, y, z, inside, unclear);
+        if (hn::AllFalse(d, hn::AndNot(inside, near))) break;
+      }
+    }
     if (hn::AllFalse(d, hn::Or(inside, unclear))) continue;
     store_states<layout>(d, inside, unclear, HWY_MIN(lanes, points.count - i), states + i);
   }
 }
 
-void region_states(const PointView& points, const RegionTests::Prepared& regions, std::uint8_t* states) {
-  for_layout(points,
-             [&]<Layout layout, typename T>() { states_of<layout, T>(points, regions.of<T>(), states); });
+void region_states(const PointView& points, const RegionTests::Prepared& regions, const ChosenRegions* chosen,
+                   std::uint8_t* states) {
+  for_layout(points, [&]<Layout layout, typename T>() {
+    if (chosen == nullptr) {
+      states_of<layout, true, T>(points, regions.of<T>(), nullptr, states);
+    } else {
+      states_of<layout, false, T>(points, regions.of<T>(), chosen, states);
+    }
+  });
 }
 
 #endif  // HWY_TARGET != HWY_SCALAR
@@ -191,10 +210,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions, std::uint8_t* states) {
+namespace {
+
+void run(UsableIsa isa, const PointView& points, const RegionTests& regions, const ChosenRegions* chosen,
+         std::uint8_t* states) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(region_states, &region_states_reference);
   require_in_memory(points);
-  kTable[isa](points, regions.prepared(), states);
+  kTable[isa](points, regions.prepared(), chosen, states);
+}
+
+}  // namespace
+
+void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions, std::uint8_t* states) {
+  run(isa, points, regions, nullptr, states);
+}
+
+void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions,
+                   const ChosenRegions& chosen, std::uint8_t* states) {
+  run(isa, points, regions, &chosen, states);
 }
 
 }  // namespace pcl_bv

@@ -3,12 +3,14 @@
 
 #include "convex_region.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "grown.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "plane_body.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -68,7 +70,17 @@ class Planes {
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
   }
 
-  const ConvexRegion& region() const { return region_; }
+  // Where planes along the axes leave the region open, all of them together may not.
+  template <typename Volume>
+  const ConvexRegion& region_within(const Volume& volume) {
+    const Coordinates &low = region_.low, &high = region_.high;
+    if (std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z}) < kInfinity) return region_;
+    if (const auto box = PlaneBody(volume).box()) {
+      region_.low = coordinates(box->min().cwiseMax(vector(low)));
+      region_.high = coordinates(box->max().cwiseMin(vector(high)));
+    }
+    return region_;
+  }
 
  private:
   static void bound(const Eigen::Vector3d& n, double offset, double& low, double& high, int axis) {
@@ -93,14 +105,14 @@ ConvexRegion region_of(const Kdop& kdop) {
     planes.add(kdop.set()->direction(i), kdop.max(i));
     planes.add(-kdop.set()->direction(i), -kdop.min(i));
   }
-  return planes.region();
+  return planes.region_within(kdop);
 }
 
 ConvexRegion region_of(const Hull& hull) {
   Planes planes(hull.aabb());
   for (const HullPlane& plane : hull.planes())
     planes.add(plane.normal, plane.offset);
-  return planes.region();
+  return planes.region_within(hull);
 }
 
 ConvexRegion region_of(const Sphere& sphere) {

@@ -10,6 +10,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "square_limit.h"
 #include "tree_build.h"
 #include "vectors.h"
 
@@ -27,12 +28,6 @@ void require_usable(const PointView& points, const Execution& execution) {
     throw std::invalid_argument(what.str());
   }
   if (execution.supports != nullptr) throw std::invalid_argument("PointTree: takes no supports");
-}
-
-// What |place - p|^2, rounded, may be.
-double square_limit(double distance) {
-  if (!(distance >= 0)) throw std::invalid_argument("PointTree: a distance must be 0 or more");
-  return distance * distance;
 }
 
 }  // namespace

@@ -9,26 +9,16 @@
 #include "volume_walk.h"
 
 namespace pcl_bv {
-namespace {
-
-template <typename Found>
-bool walk(UsableIsa isa, const PackedTree& tree, const AnyVolume& volume, const Found& found) {
-  if (empty(volume)) return false;
-  const FloatEnvironment environment;
-  const VolumeProbe probe(volume);
-  return VolumeWalk<Found>(isa, tree, probe, found).run();
-}
-
-}  // namespace
-
 bool PointTree::any_inside(const AnyVolume& volume) const {
   if (const auto* const sphere = std::get_if<Sphere>(&volume)) return any_inside(*sphere);
-  return walk(isa_, tree_, volume, [](std::size_t, std::uint32_t) { return true; });
+  const FloatEnvironment environment;
+  return walk_inside(isa_, tree_, volume, [](std::size_t, std::uint32_t) { return true; });
 }
 
 std::size_t PointTree::count_inside(const AnyVolume& volume) const {
+  const FloatEnvironment environment;
   std::size_t count = 0;
-  walk(isa_, tree_, volume, [&](std::size_t, std::uint32_t bits) {
+  walk_inside(isa_, tree_, volume, [&](std::size_t, std::uint32_t bits) {
     count += static_cast<std::size_t>(std::popcount(bits));
     return false;
   });
@@ -36,8 +26,9 @@ std::size_t PointTree::count_inside(const AnyVolume& volume) const {
 }
 
 void PointTree::all_inside(const AnyVolume& volume, std::vector<std::int32_t>& indices) const {
+  const FloatEnvironment environment;
   indices.clear();
-  walk(isa_, tree_, volume, [&](std::size_t packet, std::uint32_t bits) {
+  walk_inside(isa_, tree_, volume, [&](std::size_t packet, std::uint32_t bits) {
     for (; bits != 0; bits &= bits - 1)
       indices.push_back(tree_.numbers[packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(bits))]);
     return false;

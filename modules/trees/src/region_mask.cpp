@@ -13,6 +13,9 @@
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "region_runs.h"
+#include "vectors.h"
+#include "volume_boxes.h"
 
 namespace pcl_bv {
 namespace {
@@ -38,16 +41,47 @@ RegionTests tests_of(const std::vector<AnyVolume>& volumes) {
   return RegionTests(regions);
 }
 
+std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volumes) {
+  const FloatEnvironment environment;
+  std::vector<PlaceBounds> extents;
+  for (const AnyVolume& volume : volumes)
+    extents.push_back(extent_of(volume));
+  auto boxes = std::make_shared<VolumeBoxes>();
+  boxes->build(extents, Serial{});
+  return boxes;
+}
+
 }  // namespace
 
 RegionMask::RegionMask(const std::vector<Region>& regions)
-    : volumes_(grown_volumes(regions)), tests_(tests_of(volumes_)) {}
+    : volumes_(grown_volumes(regions)), tests_(tests_of(volumes_)) {
+  if (volumes_.size() > kFewRegions) boxes_ = boxes_of(volumes_);
+}
 
 bool RegionMask::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
-  return is_valid({point.x(), point.y(), point.z()}) &&
-         std::any_of(volumes_.begin(), volumes_.end(),
-                     [&](const AnyVolume& volume) { return pcl_bv::contains(volume, point); });
+  const Coordinates place = coordinates(point);
+  if (!is_valid(place)) return false;
+  const auto ask = [&](const AnyVolume& volume) { return pcl_bv::contains(volume, point); };
+  if (!boxes_) return std::any_of(volumes_.begin(), volumes_.end(), ask);
+  return boxes_->visit(boxes_->query(place, place),
+                       [&](std::uint32_t number) { return ask(volumes_[number]); });
+}
+
+void RegionMask::mark_chunk(const PointView& points, std::uint8_t* marks, const Execution& execution) const {
+  if (boxes_) {
+    region_states_by_runs(execution.isa, points, tests_, *boxes_, marks);
+  } else {
+    region_states(execution.isa, points, tests_, marks);
+  }
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const void* const unclear =
+        std::memchr(marks + i, static_cast<int>(RegionState::unclear), points.count - i);
+    if (unclear == nullptr) break;
+    i = static_cast<std::size_t>(static_cast<const std::uint8_t*>(unclear) - marks);
+    const Coordinates p = load_point(points, i);
+    marks[i] = contains({p.x, p.y, p.z});
+  }
 }
 
 void RegionMask::mark(const PointView& points, std::vector<std::uint8_t>& inside,
@@ -59,17 +93,7 @@ void RegionMask::mark(const PointView& points, std::vector<std::uint8_t>& inside
   for_each_chunk(limit_threads(execution.parallel, std::max(threads, 1U)), chunks, [&](std::size_t chunk) {
     const FloatEnvironment environment;
     const LoadedPoints part = load_chunk(points, chunk);
-    const PointView& here = part.view();
-    std::uint8_t* const marks = inside.data() + chunk * kChunkPoints;
-    region_states(execution.isa, here, tests_, marks);
-    for (std::size_t i = 0; i < here.count; ++i) {
-      const void* const unclear =
-          std::memchr(marks + i, static_cast<int>(RegionState::unclear), here.count - i);
-      if (unclear == nullptr) break;
-      i = static_cast<std::size_t>(static_cast<const std::uint8_t*>(unclear) - marks);
-      const Coordinates p = load_point(here, i);
-      marks[i] = contains({p.x, p.y, p.z});
-    }
+    mark_chunk(part.view(), inside.data() + chunk * kChunkPoints, execution);
   });
 }
 

@@ -105,4 +105,12 @@ class VolumeWalk {
   const Found& found_;
 };
 
+/// The same for any volume.
+template <typename Found>
+bool walk_inside(UsableIsa isa, const PackedTree& tree, const AnyVolume& volume, const Found& found) {
+  if (empty(volume)) return false;
+  const VolumeProbe probe(volume);
+  return VolumeWalk<Found>(isa, tree, probe, found).run();
+}
+
 }  // namespace pcl_bv

@@ -69,4 +69,14 @@ enum class RegionState : std::uint8_t {
 /// memory.
 void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions, std::uint8_t* states);
 
-}  // namespace pcl_bv
+/// Some of the regions, by their places among those of RegionTests.
+struct ChosenRegions {
+  const std::uint32_t* places;
+  std::size_t count;
+};
+
+/// Likewise, as if there were no other regions.
+void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions,
+                   const ChosenRegions& chosen, std::uint8_t* states);
+
+}  // namespace gnu::visibility("default")]]pcl_bv

@@ -86,8 +86,9 @@ class PointTree {
   std::optional<PointHit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                     double radius) const;
 
-  /// What the tree is made of, for those who walk it themselves.
+  /// What the tree is made of, and the instruction set of its questions, for those who walk it themselves.
   const PackedTree& packed() const { return tree_; }
+  UsableIsa isa() const { return isa_; }
 
  private:
   // What building needs, kept for the next cloud; not copied.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "pcl_bv/fitting/execution.h"
@@ -15,6 +16,8 @@
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
+
+class VolumeBoxes;
 
 /// A volume, grown by `padding` (in the points' unit, 0 to 1e100) in every direction. Empty ones stay empty.
 ///
@@ -45,14 +48,21 @@ class RegionMask {
 
   /// Sets inside[i] to 1 where contains() holds for the i-th visited point, else to 0, and its size to
   /// points.count; a NaN or an infinity is inside nothing. The same for every Execution, whose supports are
-  /// not asked. Allocates nothing but what `inside` lacks. Throws what a PointSource throws.
-  /// O(points * regions) at worst; regions whose boxes are elsewhere cost little.
+  /// not asked. Throws what a PointSource throws. Up to kFewRegions every point is tested against all of
+  /// them, where those whose boxes are elsewhere cost little, and nothing is allocated but what `inside`
+  /// lacks. More of them are in a tree, which runs of points are looked up in.
   void mark(const PointView& points, std::vector<std::uint8_t>& inside,
             const Execution& execution = {}) const;
 
+  /// Regions from which on a tree is faster.
+  static constexpr std::size_t kFewRegions = 12;
+
  private:
+  void mark_chunk(const PointView& points, std::uint8_t* marks, const Execution& execution) const;
+
   std::vector<AnyVolume> volumes_;  // grown
   RegionTests tests_;
+  std::shared_ptr<const VolumeBoxes> boxes_;  // null if there are few
 };
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

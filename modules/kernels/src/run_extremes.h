@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "pcl_bv/kernels/run_boxes.h"
+#include "pcl_bv/numeric/directed.h"
+
+namespace pcl_bv {
+
+/// A RunBox in the points' own type.
+template <typename T>
+struct RunExtremes {
+  static constexpr T kMost = std::numeric_limits<T>::infinity();
+  T low[3] = {kMost, kMost, kMost}, high[3] = {-kMost, -kMost, -kMost};
+
+  // Never -0: which of the two zeros is kept depends on the order.
+  RunBox box() const {
+    RunBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if constexpr (sizeof(T) == 4) {
+        box.low[k] = low[k] + T(0);
+        box.high[k] = high[k] + T(0);
+      } else {
+        box.low[k] = float_down(low[k]) + 0.0F;
+        box.high[k] = float_up(high[k]) + 0.0F;
+      }
+    }
+    return box;
+  }
+};
+
+}  // namespace pcl_bv

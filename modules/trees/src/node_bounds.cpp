@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// All sums here are of some terms below a few times 1 + |place|, in double, so off by less than 2^-45 of
+// that: the slack, 2^-20 of it, covers them twice over.
+
+#include "node_bounds.h"
+
+#include <cmath>
+
+#include "grown.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "vectors.h"
+
+namespace pcl_bv {
+namespace {
+
+using Place = std::array<double, 3>;
+
+constexpr std::size_t kSlabs = 7;
+
+Place cube_direction(std::size_t i) {
+  const CubeDirection& d = kCubeDirections[i];
+  return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
+}
+
+// As far as contains() may hold for a volume that is somewhere.
+AnyVolume with_margin(const AnyVolume& volume) {
+  const Aabb box = aabb(volume);
+  const double size = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  return grown(volume, 0x1p-40 * size + 0x1p-480);
+}
+
+// Clips [enter, exit] to the t with low <= start + t slope <= high.
+void clip(double start, double slope, double low, double high, double& enter, double& exit) {
+  if (slope == 0) {
+    if (start < low || start > high) exit = -kInfinity;
+    return;
+  }
+  const double a = (low - start) / slope, b = (high - start) / slope;
+  enter = std::max(enter, std::min(a, b));
+  exit = std::min(exit, std::max(a, b));
+}
+
+// Infinity if nothing is left of t >= 0; what underflow may have added there is kept.
+double entered(const FrameRay& ray, double enter, double exit) {
+  return enter - ray.margin <= exit + ray.margin ? std::max(0.0, enter - ray.margin) : kInfinity;
+}
+
+}  // namespace
+
+FramePlace::FramePlace(const VolumeBoxes& boxes, const Coordinates& place) {
+  double farthest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    at[axis] = boxes.to_frame(place[axis], axis);
+    farthest = std::max(farthest, std::abs(at[axis]));
+  }
+  slack = VolumeBoxes::slack(farthest);
+}
+
+FrameRay::FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction)
+    : from(boxes, origin) {
+  const double greatest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+  const int length = std::ilogb(greatest);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    u[axis] = std::ldexp(direction[axis], -length);
+  exponent = length + std::ilogb(boxes.levels().scale);
+  margin = std::ldexp(0x1p-1020, exponent);
+}
+
+double FrameRay::time(double t) const {
+  return std::ldexp(t, exponent);
+}
+
+double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k) {
+  double enter = 0, exit = kInfinity;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    clip(ray.from.at[axis], ray.u[axis], group.low[axis][k] - ray.from.slack,
+         group.high[axis][k] + ray.from.slack, enter, exit);
+  }
+  return entered(ray, enter, exit);
+}
+
+template <typename Shape, typename Item, typename Join>
+void NodeShapes::fill(std::vector<Shape>& shapes, const BoxLevels& levels, const ParallelPolicy& policy,
+                      const Item& item, const Join& join) {
+  shapes.assign(levels.groups.size() * kTreeWidth, Shape());
+  if (levels.levels == 0) return;
+  const std::size_t items = levels.below[0];
+  for_each_chunk(policy, (items + kVolumesOfChunk - 1) / kVolumesOfChunk, [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    for (std::size_t i = chunk * kVolumesOfChunk; i < std::min(items, (chunk + 1) * kVolumesOfChunk); ++i)
+      shapes[i] = item(i);
+  });
+  for (std::size_t level = 1; level < levels.levels; ++level) {
+    for (std::size_t i = 0; i < levels.below[level]; ++i) {
+      const Shape* const below = shapes.data() + (levels.first[level - 1] + i) * kTreeWidth;
+      shapes[levels.first[level] * kTreeWidth + i] = join(below, kTreeWidth);
+    }
+  }
+}
+
+void NodeShapes::measure(NodeBounds kind, const VolumeBoxes& boxes, const std::vector<AnyVolume>& volumes,
+                         const ParallelPolicy& policy) {
+  const auto has_box = [&](std::size_t item) {
+    const BoxGroup& group = boxes.levels().groups[item / kTreeWidth];
+    return group.low[0][item % kTreeWidth] <= group.high[0][item % kTreeWidth];
+  };
+  if (kind == NodeBounds::dop14) {
+    fill(
+        slabs_, boxes.levels(), policy,
+        [&](std::size_t item) {
+          return has_box(item) ? slabs_of(boxes, volumes[boxes.number(item)]) : Slabs();
+        },
+        [](const Slabs* slabs, std::size_t count) {
+          Slabs all;
+          for (std::size_t k = 0; k < count; ++k)
+            all.merge(slabs[k]);
+          return all;
+        });
+  } else if (kind == NodeBounds::sphere) {
+    fill(
+        balls_, boxes.levels(), policy,
+        [&](std::size_t item) {
+          return has_box(item) ? ball_of(boxes, volumes[boxes.number(item)]) : Ball();
+        },
+        [](const Ball* balls, std::size_t count) { return joined(balls, count); });
+  }
+}
+
+NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume& volume) {
+  const double scale = boxes.levels().scale;
+  Slabs slabs;
+  slabs.min.fill(-std::numeric_limits<float>::infinity());
+  slabs.max.fill(std::numeric_limits<float>::infinity());
+  if (aabb(volume).empty()) return slabs;  // a k-DOP of slabs that miss each other
+  const SlabBounds<kSlabs, double> bounds(with_margin(volume));
+  if (bounds.empty()) return slabs;
+  for (std::size_t i = 0; i < kSlabs; ++i) {
+    const Place d = cube_direction(i);
+    Expansion origin;
+    for (std::size_t k = 0; k < 3; ++k)
+      origin.add(-d[k] * boxes.levels().origin[k]);
+    slabs.max[i] = float_up(multiply_up(Expansion(origin).add(bounds.max[i]).up(), scale));
+    slabs.min[i] = float_down(-multiply_up(-Expansion(origin).add(bounds.min[i]).down(), scale));
+  }
+  return slabs;
+}
+
+NodeShapes::Ball NodeShapes::ball_of(const VolumeBoxes& boxes, const AnyVolume& volume) {
+  const PlaceBounds extent = extent_of(volume);
+  const Eigen::Vector3d size = vector(extent.high) - vector(extent.low);
+  double radius = 0.5 * norm3(size) * (1 + 0x1p-40);
+  Eigen::Vector3d center = 0.5 * vector(extent.low) + 0.5 * vector(extent.high);
+  if (const auto* const sphere = std::get_if<Sphere>(&volume)) {
+    const AnyVolume all = with_margin(volume);
+    radius = std::get<Sphere>(all).radius();
+    center = sphere->center();
+  }
+  Ball ball;
+  for (std::size_t k = 0; k < 3; ++k)
+    ball.center[k] = static_cast<float>(boxes.to_frame(center[static_cast<Eigen::Index>(k)], k));
+  ball.radius =
+      float_up(radius * boxes.levels().scale * (1 + 0x1p-20) + 0x1p-20);  // of it, and of the centre
+  return ball;
+}
+
+NodeShapes::Ball NodeShapes::joined(const Ball* balls, std::size_t count) {
+  double low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t axis = 0; axis < 3 && balls[k].radius >= 0; ++axis) {
+      low[axis] = std::min<double>(low[axis], balls[k].center[axis] - balls[k].radius);
+      high[axis] = std::max<double>(high[axis], balls[k].center[axis] + balls[k].radius);
+    }
+  }
+  Ball all;
+  if (!(low[0] <= high[0])) return all;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    all.center[axis] = static_cast<float>(0.5 * (low[axis] + high[axis]));
+  double radius = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (balls[k].radius < 0) continue;
+    double squares = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double q = static_cast<double>(balls[k].center[axis]) - all.center[axis];
+      squares += q * q;
+    }
+    radius = std::max(radius, std::sqrt(squares) + balls[k].radius);
+  }
+  all.radius = float_up(radius * (1 + 0x1p-30));
+  return all;
+}
+
+double NodeShapes::distance(std::size_t shape, const FramePlace& place) const {
+  double farthest = 0;
+  if (!slabs_.empty()) {
+    const Slabs& slabs = slabs_[shape];
+    for (std::size_t i = 3; i < kSlabs; ++i) {
+      const Place d = cube_direction(i);
+      const double s = dot3(d, place.at);
+      farthest = std::max(farthest, std::max(slabs.min[i] - s, s - slabs.max[i]) / 1.7320508075688774);
+    }
+  } else if (!balls_.empty()) {
+    const Ball& ball = balls_[shape];
+    if (ball.radius < 0) return kInfinity;
+    const Place q = {place.at[0] - ball.center[0], place.at[1] - ball.center[1],
+                     place.at[2] - ball.center[2]};
+    farthest = norm3(q) - ball.radius;
+  }
+  return std::max(0.0, farthest * (1 - 0x1p-40) - 2 * place.slack);
+}
+
+double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
+  double enter = 0, exit = kInfinity;
+  if (!slabs_.empty()) {
+    const Slabs& slabs = slabs_[shape];
+    for (std::size_t i = 3; i < kSlabs; ++i) {
+      const Place d = cube_direction(i);
+      clip(dot3(d, ray.from.at), dot3(d, ray.u), slabs.min[i] - 4 * ray.from.slack,
+           slabs.max[i] + 4 * ray.from.slack, enter, exit);
+    }
+  } else if (!balls_.empty()) {
+    const Ball& ball = balls_[shape];
+    if (ball.radius < 0) return kInfinity;
+    const Place q = {ball.center[0] - ray.from.at[0], ball.center[1] - ray.from.at[1],
+                     ball.center[2] - ray.from.at[2]};
+    const double radius = ball.radius + 4 * ray.from.slack, uu = dot3(ray.u, ray.u),
+                 nearest = dot3(q, ray.u) / uu;
+    const double least =
+        dot3(q, q) - nearest * nearest * uu;  // off by 2^-48 |q|^2; slack^2 is 2^-40 of it at least
+    const double half = radius * radius - least;
+    if (half < 0) return kInfinity;
+    const double reach = std::sqrt(half / uu) + 0x1p-40 * std::abs(nearest);
+    enter = std::max(0.0, nearest - reach);
+    exit = nearest + reach;
+  }
+  return entered(ray, enter, exit);
+}
+
+}  // namespace pcl_bv

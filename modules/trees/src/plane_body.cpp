@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Weak duality proves a bound: weights w >= 0 whose normals sum up to d, but for a residual r, give
+// d . p <= sum of w offset + |r|_1 |p|, whatever rounding did to the search for them. |p| is the greatest
+// coordinate. contains() and intersect() allow each plane less than 2^-46 |n| |p| besides, which the weights
+// multiply. With such bounds for the six directions along the axes, B at most and in doubt by e |p| at most,
+// |p| <= B + e |p|, so |p| <= 2 B.
+
+#include "plane_body.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t kFences = 6;
+// More says that planes are nearly parallel where the body ends: its end is then no place worth to know.
+constexpr double kMostDoubt = 0x1p-26;
+
+double greatest(const Eigen::Vector3d& v) {
+  return v.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+PlaneBody::PlaneBody(const Kdop& kdop) {
+  if (!set_out(kdop.aabb())) return;
+  for (std::size_t i = 0; i < kdop.size(); ++i) {
+    add(kdop.set()->direction(i), kdop.max(i));
+    add(-kdop.set()->direction(i), -kdop.min(i));
+  }
+  prove_box();
+}
+
+PlaneBody::PlaneBody(const Hull& hull) {
+  if (!set_out(hull.aabb())) return;
+  for (const HullPlane& plane : hull.planes())
+    add(plane.normal, plane.offset);
+  prove_box();
+}
+
+// Puts up the fences about where the body is thought to be.
+bool PlaneBody::set_out(const Aabb& about) {
+  if (about.empty()) return false;
+  origin_ = about.center();
+  const double farthest = std::max(greatest(about.min()), greatest(about.max()));
+  const Eigen::Vector3d margin =
+      Eigen::Vector3d::Constant((about.max() - about.min()).maxCoeff() + 0x1p-30 * farthest + 0x1p-900);
+  for (int k = 0; k < 3; ++k) {
+    add(Eigen::Vector3d::Unit(k), about.max()[k] + margin[k]);
+    add(-Eigen::Vector3d::Unit(k), margin[k] - about.min()[k]);
+  }
+  return true;
+}
+
+void PlaneBody::add(const Eigen::Vector3d& normal, double offset) {
+  if (normal.isZero(0)) return;  // says nothing of where the body ends
+  planes_.push_back({normal, offset});
+  local_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
+}
+
+bool PlaneBody::most_violated(const Eigen::Vector3d& point, std::size_t& side) const {
+  const double tolerance = 0x1p-44 * taxicab3(point);
+  double worst = 0;
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
+    const Eigen::Vector3d& n = planes_[i].normal;
+    const double length = norm3(n);
+    const double excess = (dot3(n, point) - local_[i]) / length - tolerance;
+    if (excess > worst) {
+      worst = excess;
+      side = i;
+    }
+  }
+  return worst > 0;
+}
+
+// The dual simplex method. Every step keeps the weights sound; the limit is against cycling.
+PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
+  Corner corner{{}, direction.cwiseAbs()};
+  for (std::size_t k = 0; k < 3; ++k)
+    corner.sides[k] = 2 * k + (direction[static_cast<Eigen::Index>(k)] < 0 ? 1 : 0);
+  for (std::size_t step = 0; step < 32 + planes_.size(); ++step) {
+    Eigen::Matrix3d normals;
+    Eigen::Vector3d offsets;
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t side = corner.sides[static_cast<std::size_t>(k)];
+      normals.row(k) = planes_[side].normal.transpose();
+      offsets[k] = local_[side];
+    }
+    const Eigen::Matrix3d inverse = normals.inverse();
+    std::size_t side = 0;
+    if (!most_violated(inverse * offsets, side)) break;
+    const Eigen::Vector3d share = inverse.transpose() * planes_[side].normal;
+    int leaving = -1;
+    double change = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (share[k] <= 0x1p-40 * greatest(share)) continue;
+      if (leaving < 0 || corner.weights[k] / share[k] < change) {
+        leaving = k;
+        change = corner.weights[k] / share[k];
+      }
+    }
+    if (leaving < 0) break;
+    corner.weights = (corner.weights - change * share).cwiseMax(0.0);
+    corner.weights[leaving] = change;
+    corner.sides[static_cast<std::size_t>(leaving)] = side;
+  }
+  return corner;
+}
+
+PlaneBody::Proof PlaneBody::prove(const Eigen::Vector3d& direction) const {
+  const Corner corner = farthest(direction);
+  Expansion bound, doubt;
+  std::array<Expansion, 3> residual;
+  for (std::size_t k = 0; k < 3; ++k)
+    residual[k].add(direction[static_cast<Eigen::Index>(k)]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double weight = corner.weights[static_cast<Eigen::Index>(i)];
+    if (corner.sides[i] < kFences || weight == 0) continue;
+    const HullPlane& plane = planes_[corner.sides[i]];
+    bound.add_product(weight, plane.offset).add(multiply_up(weight, kSmallestNormal));
+    doubt.add(multiply_up(weight, 0x1p-46 * greatest(plane.normal)));
+    for (std::size_t k = 0; k < 3; ++k)
+      residual[k].add_product(-weight, plane.normal[static_cast<Eigen::Index>(k)]);
+  }
+  for (const Expansion& part : residual)
+    doubt.add(part.magnitude_up());
+  return {bound.up(), doubt.up()};
+}
+
+void PlaneBody::prove_box() {
+  Eigen::Vector3d ends[2];
+  double reach = 0, doubt = 0;
+  Proof proofs[2][3];
+  for (int side = 0; side < 2; ++side) {
+    for (int k = 0; k < 3; ++k) {
+      const Proof proof = prove((side == 0 ? -1 : 1) * Eigen::Vector3d::Unit(k));
+      proofs[side][k] = proof;
+      if (!(proof.doubt <= kMostDoubt)) return;
+      reach = std::max(reach, std::abs(proof.bound));
+      doubt = std::max(doubt, proof.doubt);
+    }
+  }
+  size_ = 2 * reach;
+  for (int side = 0; side < 2; ++side) {
+    for (int k = 0; k < 3; ++k)
+      ends[side][k] = add_up(proofs[side][k].bound, multiply_up(proofs[side][k].doubt, size_));
+  }
+  if (!ends[0].allFinite() || !ends[1].allFinite()) return;
+  const Aabb box(-ends[0], ends[1]);
+  if (!box.empty()) box_ = box;  // empty: no point is in all planes, which contains() need not know
+}
+
+double PlaneBody::reach_up(const Eigen::Vector3d& direction) const {
+  if (!box_) return kInfinity;
+  const Proof proof = prove(direction);
+  if (!(proof.doubt <= kMostDoubt * taxicab3(direction))) return kInfinity;
+  return add_up(proof.bound, multiply_up(proof.doubt, size_));
+}
+
+std::optional<Aabb> PlaneBody::box() const {
+  return box_;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "region_runs.h"
+
+#include <array>
+#include <utility>
+
+#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/kernels/run_boxes.h"
+#include "spatial_order.h"
+
+namespace pcl_bv {
+namespace {
+
+using Chosen = std::vector<std::uint32_t>;
+
+// A run that reaches more regions than this is no run of neighbours: sorting its points, some 15 ns each,
+// costs less than that many tests of them.
+constexpr std::size_t kManyReached = 128;
+constexpr std::size_t kRunsOfSample = 16;
+
+void choose(const VolumeBoxes& boxes, const RunBox& run, Chosen& chosen) {
+  chosen.clear();
+  if (!(run.low[0] <= run.high[0] && run.low[1] <= run.high[1] && run.low[2] <= run.high[2])) return;
+  const BoxQuery query =
+      boxes.query({run.low[0], run.low[1], run.low[2]}, {run.high[0], run.high[1], run.high[2]});
+  boxes.visit(query, [&](std::uint32_t number) {
+    chosen.push_back(number);
+    return false;
+  });
+}
+
+struct Runs {
+  std::array<RunBox, kChunkPoints / kRunPoints> boxes;
+  std::size_t count;
+  Chosen chosen, next;  // regions
+
+  void measure(UsableIsa isa, const PointView& points) {
+    run_boxes(isa, points, boxes.data());
+    count = (points.count + kRunPoints - 1) / kRunPoints;
+  }
+};
+
+// A chunk's valid points, sorted.
+template <typename T>
+struct SortedPoints {
+  SpatialOrder<T> order;
+  std::vector<std::uint8_t> states;
+
+  // Returns how many there are.
+  std::size_t load(const PointView& points) {
+    PlacedItem<T>* const items = order.reset(points.count);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.count; ++i) {
+      PlacedItem<T>& item = items[count];
+      load_point(points, i, item.place);
+      item.number = static_cast<std::int32_t>(i);
+      count += is_valid({item.place[0], item.place[1], item.place[2]});
+    }
+    order.sort(count, Serial{});
+    return count;
+  }
+};
+
+// Kept by each thread: fresh memory of a megabyte costs more than what is done in it.
+struct Scratch {
+  Runs runs;
+  SortedPoints<float> floats;
+  SortedPoints<double> doubles;
+};
+
+Scratch& scratch() {
+  thread_local Scratch kept;
+  return kept;
+}
+
+bool are_neighbours(const VolumeBoxes& boxes, Runs& runs) {
+  const std::size_t step = std::max<std::size_t>(1, runs.count / kRunsOfSample);
+  std::size_t reached = 0, looked = 0;
+  for (std::size_t run = 0; run < runs.count; run += step, ++looked) {
+    choose(boxes, runs.boxes[run], runs.next);
+    reached += runs.next.size();
+  }
+  return reached <= kManyReached * looked;
+}
+
+void states_in_order(UsableIsa isa, const PointView& points, const RegionTests& regions,
+                     const VolumeBoxes& boxes, Runs& runs, std::uint8_t* states) {
+  runs.chosen.clear();
+  std::size_t begin = 0;  // of the points that runs.chosen is for
+  const auto flush = [&](std::size_t end) {
+    if (runs.chosen.empty()) {
+      std::fill(states + begin, states + end, static_cast<std::uint8_t>(RegionState::outside));
+    } else {
+      const ChosenRegions chosen = {runs.chosen.data(), runs.chosen.size()};
+      region_states(isa, points.slice(begin, end - begin), regions, chosen, states + begin);
+    }
+    begin = end;
+  };
+  for (std::size_t run = 0; run < runs.count; ++run) {
+    choose(boxes, runs.boxes[run], runs.next);
+    if (runs.next == runs.chosen) continue;
+    if (run > 0) flush(run * kRunPoints);
+    std::swap(runs.chosen, runs.next);
+  }
+  flush(points.count);
+}
+
+template <typename T>
+void states_sorted(UsableIsa isa, const PointView& points, const RegionTests& regions,
+                   const VolumeBoxes& boxes, Runs& runs, SortedPoints<T>& sorted, std::uint8_t* states) {
+  const std::size_t count = sorted.load(points);
+  std::fill(states, states + points.count, static_cast<std::uint8_t>(RegionState::outside));
+  if (count == 0) return;
+  sorted.states.resize(count);
+  const PointView view = PointView::of(sorted.order[0].place, sizeof(PlacedItem<T>), count);
+  runs.measure(isa, view);
+  states_in_order(isa, view, regions, boxes, runs, sorted.states.data());
+  for (std::size_t i = 0; i < count; ++i)
+    states[sorted.order[i].number] = sorted.states[i];
+}
+
+}  // namespace
+
+void region_states_by_runs(UsableIsa isa, const PointView& points, const RegionTests& regions,
+                           const VolumeBoxes& boxes, std::uint8_t* states) {
+  auto& [runs, floats, doubles] = scratch();
+  runs.measure(isa, points);
+  if (are_neighbours(boxes, runs)) {
+    states_in_order(isa, points, regions, boxes, runs, states);
+  } else if (points.scalar == ScalarType::float32) {
+    states_sorted(isa, points, regions, boxes, runs, floats, states);
+  } else {
+    states_sorted(isa, points, regions, boxes, runs, doubles, states);
+  }
+}
+
+}  // namespace pcl_bv

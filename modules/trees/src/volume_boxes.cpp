@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "volume_boxes.h"
+
+#include "convex_region.h"
+#include "pcl_bv/numeric/constants.h"
+#include "vectors.h"
+
+namespace pcl_bv {
+namespace {
+
+bool is_somewhere(const PlaceBounds& extent) {
+  return extent.low.x <= extent.high.x && extent.low.y <= extent.high.y && extent.low.z <= extent.high.z;
+}
+
+bool has_box(const PlaceBounds& extent) {
+  return is_somewhere(extent) && is_valid(extent.low) && is_valid(extent.high);
+}
+
+PlaceBounds around(const std::vector<PlaceBounds>& extents) {
+  PlaceBounds all = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (const PlaceBounds& extent : extents) {
+    if (!has_box(extent)) continue;
+    all.low = coordinates(vector(all.low).cwiseMin(vector(extent.low)));
+    all.high = coordinates(vector(all.high).cwiseMax(vector(extent.high)));
+  }
+  return all;
+}
+
+}  // namespace
+
+PlaceBounds extent_of(const AnyVolume& volume) {
+  const Aabb box = aabb(volume);
+  if (empty(volume)) return {coordinates(box.min()), coordinates(box.max())};
+  const ConvexRegion region = convex_region(volume);
+  return {coordinates(vector(region.low).cwiseMin(box.min())),
+          coordinates(vector(region.high).cwiseMax(box.max()))};
+}
+
+void VolumeBoxes::build(const std::vector<PlaceBounds>& extents, const ParallelPolicy& policy) {
+  const PlaceBounds all = around(extents);
+  const Coordinates nowhere = is_somewhere(all) ? all.low : Coordinates{0, 0, 0};
+  SpatialOrder<double> order;
+  PlacedItem<double>* const items = order.reset(extents.size());
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    items[i].number = static_cast<std::int64_t>(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double middle = extents[i].low[axis] / 2 + extents[i].high[axis] / 2;
+      items[i].place[axis] = has_box(extents[i]) ? middle : nowhere[axis];
+    }
+  }
+  order.sort(extents.size(), policy);
+  order_.resize(extents.size());
+  for (std::size_t item = 0; item < extents.size(); ++item)
+    order_[item] = static_cast<std::uint32_t>(order[item].number);
+  refit(extents);
+}
+
+void VolumeBoxes::refit(const std::vector<PlaceBounds>& extents) {
+  reset_levels(boxes_, extents.size(), around(extents));
+  everywhere_.clear();
+  for (std::size_t item = 0; item < extents.size(); ++item) {
+    const PlaceBounds& extent = extents[order_[item]];
+    if (has_box(extent)) {
+      set_item_box(boxes_, item, extent.low, extent.high);
+    } else if (is_somewhere(extent)) {
+      everywhere_.push_back(order_[item]);
+    }
+  }
+  std::sort(everywhere_.begin(), everywhere_.end());
+  raise_levels(boxes_);
+}
+
+BoxQuery VolumeBoxes::query(const Coordinates& low, const Coordinates& high) const {
+  BoxQuery query;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double least = to_frame(low[axis], axis), most = to_frame(high[axis], axis);
+    query.low[axis] = static_cast<float>(std::clamp(least - slack(least), -0x1p100, 0x1p100));
+    query.high[axis] = static_cast<float>(std::clamp(most + slack(most), -0x1p100, 0x1p100));
+  }
+  return query;
+}
+
+}  // namespace pcl_bv

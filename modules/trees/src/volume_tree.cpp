@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/trees/volume_tree.h"
+
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "volume_nodes.h"
+#include "volume_pairs.h"
+
+namespace pcl_bv {
+namespace {
+
+// Those whose ends of a ray may be farther from them than slack() covers.
+bool is_loose(const AnyVolume& volume) {
+  const auto* const ellipsoid = std::get_if<Ellipsoid>(&volume);
+  return ellipsoid != nullptr && !ellipsoid->empty() &&
+         !(ellipsoid->radii().maxCoeff() <= 0x1p20 * ellipsoid->radii().minCoeff());
+}
+
+void require_usable(const std::vector<AnyVolume>& volumes, const Execution& execution) {
+  if (volumes.size() > std::numeric_limits<std::int32_t>::max()) {
+    std::ostringstream what;
+    what << "VolumeTree: takes 0 to 2147483647 volumes, not " << volumes.size();
+    throw std::invalid_argument(what.str());
+  }
+  if (execution.supports != nullptr) throw std::invalid_argument("VolumeTree: takes no supports");
+}
+
+}  // namespace
+
+void VolumeTree::Nodes::measure(bool anew, const Execution& execution) {
+  std::vector<PlaceBounds> extents(volumes.size());
+  const std::size_t chunks = (volumes.size() + kVolumesOfChunk - 1) / kVolumesOfChunk;
+  for_each_chunk(execution.parallel, chunks, [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    const std::size_t end = std::min(volumes.size(), (chunk + 1) * kVolumesOfChunk);
+    for (std::size_t i = chunk * kVolumesOfChunk; i < end; ++i)
+      extents[i] = extent_of(volumes[i]);
+  });
+  if (anew) {
+    boxes.build(extents, execution.parallel);
+  } else {
+    boxes.refit(extents);
+  }
+  shapes.measure(kind, boxes, volumes, execution.parallel);
+  loose.clear();
+  for (std::uint32_t i = 0; i < volumes.size(); ++i) {
+    if (is_loose(volumes[i])) loose.push_back(i);
+  }
+}
+
+VolumeTree::VolumeTree() : nodes_(std::make_shared<Nodes>()) {}
+
+VolumeTree::VolumeTree(std::vector<AnyVolume> volumes, NodeBounds bounds, const Execution& execution)
+    : nodes_(std::make_shared<Nodes>()) {
+  const FloatEnvironment environment;
+  require_usable(volumes, execution);
+  nodes_->volumes = std::move(volumes);
+  nodes_->kind = bounds;
+  nodes_->measure(true, execution);
+}
+
+void VolumeTree::refit(std::vector<AnyVolume> volumes, const Execution& execution) {
+  const FloatEnvironment environment;
+  require_usable(volumes, execution);
+  if (volumes.size() != size()) {
+    std::ostringstream what;
+    what << "VolumeTree: refit() takes as many volumes as there are, " << size() << ", not "
+         << volumes.size();
+    throw std::invalid_argument(what.str());
+  }
+  auto nodes = std::make_shared<Nodes>();
+  nodes->volumes = std::move(volumes);
+  nodes->kind = nodes_->kind;
+  nodes->boxes = nodes_->boxes;
+  nodes->measure(false, execution);
+  nodes_ = std::move(nodes);
+}
+
+std::size_t VolumeTree::size() const {
+  return nodes_->volumes.size();
+}
+
+const std::vector<AnyVolume>& VolumeTree::volumes() const {
+  return nodes_->volumes;
+}
+
+NodeBounds VolumeTree::node_bounds() const {
+  return nodes_->kind;
+}
+
+void VolumeTree::first_containing(const PointView& points, std::vector<std::int32_t>& first,
+                                  const Execution& execution) const {
+  first.resize(points.count);
+  for_each_chunk(execution.parallel, chunk_count(points.count), [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    const LoadedPoints part = load_chunk(points, chunk);
+    std::vector<std::int32_t> indices;
+    for (std::size_t i = 0; i < part.view().count; ++i) {
+      const Coordinates p = load_point(part.view(), i);
+      all_containing({p.x, p.y, p.z}, indices);
+      first[chunk * kChunkPoints + i] = indices.empty() ? -1 : indices.front();
+    }
+  });
+}
+
+void VolumeTree::first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>& hits,
+                            const Execution& execution) const {
+  constexpr std::size_t of_chunk = 256;
+  hits.resize(rays.size());
+  for_each_chunk(execution.parallel, (rays.size() + of_chunk - 1) / of_chunk, [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    for (std::size_t i = chunk * of_chunk; i < std::min(rays.size(), (chunk + 1) * of_chunk); ++i)
+      hits[i] = first_hit(rays[i].origin, rays[i].direction).value_or(VolumeHit{-1, {}});
+  });
+}
+
+}  // namespace pcl_bv

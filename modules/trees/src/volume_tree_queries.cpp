@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cmath>
+#include <stdexcept>
+
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "vectors.h"
+#include "volume_nodes.h"
+#include "volume_pairs.h"
+
+namespace pcl_bv {
+namespace {
+
+bool before(const VolumeHit& a, const VolumeHit& b) {
+  return a.interval.enter < b.interval.enter || (a.interval.enter == b.interval.enter && a.index < b.index);
+}
+
+bool before(const VolumeDistance& a, const VolumeDistance& b) {
+  return a.distance < b.distance || (a.distance == b.distance && a.index < b.index);
+}
+
+std::uint32_t count_of(const std::vector<AnyVolume>& volumes) {
+  return static_cast<std::uint32_t>(volumes.size());
+}
+
+// Calls visit for all volumes: places and rays beyond 1e100 leave the range of what boxes are compared in.
+template <typename Visit>
+bool visit_all(const std::vector<AnyVolume>& volumes, const Visit& visit) {
+  for (std::uint32_t number = 0; number < count_of(volumes); ++number) {
+    if (visit(number)) return true;
+  }
+  return false;
+}
+
+template <typename Nodes, typename Visit>
+bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Visit& visit) {
+  const auto ask = [&](std::uint32_t number) {
+    return contains(nodes.volumes[number], point) && visit(number);
+  };
+  return is_valid(coordinates(point)) ? nodes.visit_near(coordinates(point), ask)
+                                      : visit_all(nodes.volumes, ask);
+}
+
+// Calls visit for the volumes that a ray may hit where their bound is at most limit(), t in the unit of the
+// ray; for some twice.
+template <typename Nodes, typename Limit, typename Visit>
+void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                 const Limit& limit, const Visit& visit) {
+  if (!origin.allFinite() || !direction.allFinite()) return;
+  if (!is_valid(coordinates(origin))) {
+    visit_all(nodes.volumes, [&](std::uint32_t number) { return visit(number), false; });
+    return;
+  }
+  if (direction.isZero(0)) {
+    nodes.visit_near(coordinates(origin), [&](std::uint32_t number) { return visit(number), false; });
+    return;
+  }
+  for (const std::uint32_t number : nodes.boxes.everywhere())
+    visit(number);
+  for (const std::uint32_t number : nodes.loose)
+    visit(number);
+  const FrameRay ray(nodes.boxes, coordinates(origin), coordinates(direction));
+  const auto bound = [&](std::size_t group, std::size_t k) {
+    const double enter = enter_box(ray, nodes.boxes.levels().groups[group], k);
+    if (nodes.shapes.none() || enter == kInfinity) return enter;
+    return std::max(enter, nodes.shapes.enter(group * kTreeWidth + k, ray));
+  };
+  nodes.descend(
+      bound, [&] { return ray.time(limit()); }, visit);
+}
+
+// Two k-DOPs of equal sets overlap if their slabs do, though they may be apart along another direction.
+bool has_axes(const KdopSet& set) {
+  int axes = 0;
+  for (std::size_t i = 0; i < set.size(); ++i)
+    axes |= set.direction(i) == Eigen::Vector3d::UnitX()   ? 1
+            : set.direction(i) == Eigen::Vector3d::UnitY() ? 2
+            : set.direction(i) == Eigen::Vector3d::UnitZ() ? 4
+                                                           : 0;
+  return axes == 7;
+}
+
+double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k) {
+  double squares = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double gap = std::max(group.low[axis][k] - place.at[axis], place.at[axis] - group.high[axis][k]);
+    squares += gap > 0 ? gap * gap : 0;
+  }
+  return std::max(0.0, std::sqrt(squares) * (1 - 0x1p-40) - 2 * place.slack);
+}
+
+void sort_unique(std::vector<VolumeHit>& hits) {
+  std::sort(hits.begin(), hits.end(),
+            [](const VolumeHit& a, const VolumeHit& b) { return a.index < b.index; });
+  hits.erase(std::unique(hits.begin(), hits.end(),
+                         [](const VolumeHit& a, const VolumeHit& b) { return a.index == b.index; }),
+             hits.end());
+}
+
+}  // namespace
+
+bool VolumeTree::any_containing(const Eigen::Vector3d& point) const {
+  const FloatEnvironment environment;
+  return visit_containing(*nodes_, point, [](std::uint32_t) { return true; });
+}
+
+void VolumeTree::all_containing(const Eigen::Vector3d& point, std::vector<std::int32_t>& indices) const {
+  const FloatEnvironment environment;
+  indices.clear();
+  visit_containing(*nodes_, point, [&](std::uint32_t number) {
+    indices.push_back(static_cast<std::int32_t>(number));
+    return false;
+  });
+  std::sort(indices.begin(), indices.end());
+}
+
+std::optional<VolumeHit> VolumeTree::first_hit(const Eigen::Vector3d& origin,
+                                               const Eigen::Vector3d& direction) const {
+  const FloatEnvironment environment;
+  std::optional<VolumeHit> first;
+  const auto limit = [&] { return first ? first->interval.enter : kInfinity; };
+  visit_along(*nodes_, origin, direction, limit, [&](std::uint32_t number) {
+    const auto interval = intersect(nodes_->volumes[number], origin, direction);
+    if (!interval) return;
+    const VolumeHit hit = {static_cast<std::int32_t>(number), *interval};
+    if (!first || before(hit, *first)) first = hit;
+  });
+  return first;
+}
+
+void VolumeTree::all_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                         std::vector<VolumeHit>& hits) const {
+  const FloatEnvironment environment;
+  hits.clear();
+  visit_along(
+      *nodes_, origin, direction, [] { return kInfinity; },
+      [&](std::uint32_t number) {
+        const auto interval = intersect(nodes_->volumes[number], origin, direction);
+        if (interval) hits.push_back({static_cast<std::int32_t>(number), *interval});
+      });
+  sort_unique(hits);
+}
+
+void VolumeTree::all_touching(const Aabb& box, std::vector<std::int32_t>& indices) const {
+  const FloatEnvironment environment;
+  indices.clear();
+  if (box.empty()) return;
+  nodes_->boxes.visit(nodes_->boxes.query(coordinates(box.min()), coordinates(box.max())),
+                      [&](std::uint32_t number) {
+                        if (aabb(nodes_->volumes[number]).overlaps(box))
+                          indices.push_back(static_cast<std::int32_t>(number));
+                        return false;
+                      });
+  std::sort(indices.begin(), indices.end());
+}
+
+void VolumeTree::all_overlapping(const AnyVolume& volume, std::vector<std::int32_t>& indices) const {
+  const FloatEnvironment environment;
+  indices.clear();
+  if (empty(volume)) return;
+  const auto ask = [&](std::uint32_t number) {
+    if (volumes_overlap(nodes_->volumes[number], volume))
+      indices.push_back(static_cast<std::int32_t>(number));
+    return false;
+  };
+  const PlaceBounds extent = extent_of(volume);
+  const auto* const kdop = std::get_if<Kdop>(&volume);
+  if (kdop == nullptr || has_axes(*kdop->set())) {
+    nodes_->boxes.visit(nodes_->boxes.query(extent.low, extent.high), ask);
+  } else {
+    visit_all(nodes_->volumes, ask);
+  }
+  std::sort(indices.begin(), indices.end());
+}
+
+std::optional<VolumeDistance> VolumeTree::nearest(const Eigen::Vector3d& point, double max_distance) const {
+  const FloatEnvironment environment;
+  if (!(max_distance >= 0)) throw std::invalid_argument("VolumeTree: a distance must be 0 or more");
+  std::optional<VolumeDistance> nearest;
+  const auto visit = [&](std::uint32_t number) {
+    if (empty(nodes_->volumes[number])) return false;
+    const VolumeDistance found = {static_cast<std::int32_t>(number),
+                                  distance(nodes_->volumes[number], point)};
+    if (found.distance <= max_distance && (!nearest || before(found, *nearest))) nearest = found;
+    return false;
+  };
+  if (!is_valid(coordinates(point))) {
+    visit_all(nodes_->volumes, visit);
+    return nearest;
+  }
+  for (const std::uint32_t number : nodes_->boxes.everywhere())
+    visit(number);
+  const FramePlace place(nodes_->boxes, coordinates(point));
+  const double scale = nodes_->boxes.levels().scale;
+  const auto bound = [&](std::size_t group, std::size_t k) {
+    const double box = distance_to_box(place, nodes_->boxes.levels().groups[group], k);
+    if (nodes_->shapes.none()) return box;
+    return std::max(box, nodes_->shapes.distance(group * kTreeWidth + k, place));
+  };
+  const auto limit = [&] { return (nearest ? nearest->distance : max_distance) * scale; };
+  nodes_->descend(bound, limit, visit);
+  return nearest;
+}
+
+}  // namespace pcl_bv
