@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "clouds.h"
+#include "flush_to_zero.h"
 #include "neighbours.h"
 #include "pcl_bv/kernels/isa.h"
 
@@ -158,6 +159,23 @@ TEST(PointTreeSearch, HasNoNeighboursForWhatPclAssertsAgainst) {
   EXPECT_EQ(nearest(tree, 9, 3).count, 3);
   tree.setInputCloud(nullptr);
   EXPECT_EQ(nearest(tree, cloud->front(), 3), Answer());
+}
+
+TEST(PointTreeSearch, AnswersTheSameInAHostThatHasSwitchedDenormalsOff) {
+  const PointsXyz::Ptr cloud = points_of(gaussian<float>(200, 3, 1e-41).xyz);
+  Tree tree;
+  tree.setInputCloud(cloud);
+  const Answer expected = nearest(tree, 5, 20), expected_near = within(tree, 5, 1e-41);
+  EXPECT_GT(expected_near.count, 5);
+  Answer found, found_near;
+  {
+    const FlushToZero host;
+    tree.setInputCloud(cloud);
+    found = nearest(tree, 5, 20);
+    found_near = within(tree, 5, 1e-41);
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(found_near, expected_near);
 }
 
 TEST(PointTreeSearch, KeepsItsCloudWhenAnIndexIsOutside) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pcl_bv/estimation/point_cloud_view.h"
+#include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/point_tree.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -83,6 +84,7 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   /// vectors hold.
   int nearestKSearch(const PointT& point, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override {
+    const FloatEnvironment environment;
     std::vector<Neighbor>& found = room();
     if (k > 0) tree_.nearest(place(point), static_cast<std::size_t>(k), found);
     return answer(found, k_indices, k_sqr_distances);
@@ -106,6 +108,7 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   /// are. Replaces what the vectors hold.
   int radiusSearch(const PointT& point, double radius, pcl::Indices& k_indices,
                    std::vector<float>& k_sqr_distances, unsigned int max_nn = 0) const override {
+    const FloatEnvironment environment;
     std::vector<Neighbor>& found = room();
     if (radius > 0) {
       const bool all = max_nn == 0 || max_nn >= tree_.size();
