@@ -176,6 +176,25 @@ TEST(RegionStates, OfDoublesAreTheSameOnEveryInstructionSet) {
   expect_the_same<double>();
 }
 
+TEST(RegionStates, OfChosenRegionsAreThoseOfTheseAloneOnEveryInstructionSet) {
+  const std::vector<ConvexRegion> all = mixed(1);
+  const RegionTests regions(all);
+  for (const auto& cloud : test::nasty_clouds<float>()) {
+    for (const std::vector<std::uint32_t>& places :
+         {std::vector<std::uint32_t>{}, {2}, {3, 0}, {1, 2, 3}, {0, 1, 2, 3, 0}}) {
+      std::vector<ConvexRegion> some;
+      for (const std::uint32_t place : places)
+        some.push_back(all[place]);
+      const States expected = states(Isa::scalar, cloud.view(), RegionTests(some));
+      for (const Isa isa : usable_isas()) {
+        States found(cloud.size(), 7);
+        region_states(isa, cloud.view(), regions, {places.data(), places.size()}, found.data());
+        ASSERT_EQ(found, expected) << isa_name(isa) << ", " << cloud.name << ", " << places.size();
+      }
+    }
+  }
+}
+
 TEST(RegionStates, AreSeldomUnclear) {
   for (const double place : {0.0, 5e6}) {
     std::vector<ConvexRegion> regions;

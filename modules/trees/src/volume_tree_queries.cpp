@@ -48,8 +48,7 @@ bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Vi
 template <typename Nodes, typename Limit, typename Visit>
 void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                  const Limit& limit, const Visit& visit) {
-  if (!origin.allFinite() || !direction.allFinite()) return;
-  if (!is_valid(coordinates(origin))) {
+  if (!is_valid(coordinates(origin)) || !direction.allFinite()) {
     visit_all(nodes.volumes, [&](std::uint32_t number) { return visit(number), false; });
     return;
   }

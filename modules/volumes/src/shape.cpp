@@ -186,7 +186,7 @@ class CylinderShape final : public Shape {
     const double along = dot3(axis_, d);
     const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));  // across the axis also where it is tiny
     const double length = length3(across);
-    const Eigen::Vector3d end = (along < 0 ? -half_height_ : half_height_) * axis_;
+    Eigen::Vector3d end = (along < 0 ? -half_height_ : half_height_) * axis_;
     if (!(length > 0)) return end;
     return end + across_ * Eigen::Vector3d(across / length);
   }

@@ -27,4 +27,4 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 Hull frustum(const Eigen::Isometry3d& pose, double near, double far, double horizontal_tan,
              double vertical_tan);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

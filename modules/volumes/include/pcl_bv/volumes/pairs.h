@@ -74,4 +74,4 @@ double distance(const ConvexBody& body, const Eigen::Vector3d& point);
 /// soon as that is known. True for a margin that is NaN, but for an empty body.
 bool within(const ConvexBody& a, const ConvexBody& b, double margin);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

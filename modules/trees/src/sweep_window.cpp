@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/trees/sweep_window.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace pcl_bv {
+
+SweepWindow::SweepWindow(std::size_t sweeps) : capacity_(sweeps) {
+  if (sweeps == 0) throw std::invalid_argument("SweepWindow: must hold 1 sweep or more, not 0");
+}
+
+void SweepWindow::add(const PointView& points, const Execution& execution) {
+  if (points.count > 0 && points_ > 0 && points.scalar != scalar_)
+    throw std::invalid_argument("SweepWindow: has sweeps of floats and doubles");
+  // The view's own numbers are taken off again: unsigned ones wrap.
+  const std::size_t number = static_cast<std::size_t>(first_) + points_;
+  const Partial sweep(points, number - points.first, execution);
+  Partial merged = newest_merged_;
+  merged.merge(sweep);
+  newest_.push_back({sweep, points.count});
+  newest_merged_ = std::move(merged);
+  points_ += points.count;
+  if (points.count > 0) scalar_ = points.scalar;
+  all_.reset();
+  if (size() > capacity_) drop_oldest();
+}
+
+void SweepWindow::drop_oldest() {
+  if (size() == 0) return;
+  if (oldest_.empty()) turn_over();
+  first_ += oldest_.back().points;
+  points_ -= oldest_.back().points;
+  oldest_.pop_back();
+  all_.reset();
+}
+
+void SweepWindow::turn_over() {
+  for (auto sweep = newest_.rbegin(); sweep != newest_.rend(); ++sweep) {
+    Partial merged = sweep->merged;
+    if (!oldest_.empty()) merged.merge(oldest_.back().merged);
+    oldest_.push_back({std::move(merged), sweep->points});
+  }
+  newest_.clear();
+  newest_merged_ = Partial();
+}
+
+const Partial& SweepWindow::all() const {
+  if (!all_) {
+    Partial all = newest_merged_;
+    if (!oldest_.empty()) all.merge(oldest_.back().merged);
+    all_ = std::move(all);
+  }
+  return *all_;
+}
+
+}  // namespace pcl_bv
