@@ -144,7 +144,7 @@ void expect_near_as_each(const PointTree& tree, const EachPoint& points, Questio
   const std::vector<Neighbor> all = points.near(place, std::numeric_limits<double>::infinity());
   EXPECT_EQ(tree.nearest(place), all.empty() ? std::nullopt : std::optional(all.front()));
   std::vector<Neighbor> found = {{7, 7}};
-  for (const std::size_t k : {0, 1, 2, 10, 33, 200}) {
+  for (const std::size_t k : {0, 1, 2, 10, 32, 33, 200}) {
     tree.nearest(place, k, found);
     EXPECT_EQ(found, std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(k, all.size()))));
     tree.nearest(place, k, found, distance);
@@ -152,6 +152,7 @@ void expect_near_as_each(const PointTree& tree, const EachPoint& points, Questio
   }
   const Sphere sphere(place, distance);
   EXPECT_EQ(tree.any_inside(sphere), !points.inside(sphere).empty());
+  EXPECT_EQ(tree.any_near(place, distance), !near.empty());
 }
 
 void expect_hits_as_each(const PointTree& tree, const EachPoint& points, Questions& questions) {

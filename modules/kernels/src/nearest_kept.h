@@ -30,49 +30,62 @@ class NearestOne {
   Neighbor best_;
 };
 
-/// The nearest few of them: in order while they are few, else as a heap. Moving up to 32 of 16 bytes costs less than a
-/// heap's branches.
+/// The nearest few of them. Up to 32 are kept in order: moving them costs less than choosing later. Of more, half as
+/// many again are collected before the nearest are chosen, so that a candidate costs a few nanoseconds.
 class NearestKept {
  public:
   NearestKept(std::size_t most, double limit, std::vector<Neighbor>& kept)
       : most_(most), limit_(limit), kept_(kept) {
     kept_.clear();
-    kept_.reserve(std::min<std::size_t>(most, 1024));
   }
 
   /// What is farther is not wanted any more.
   double limit() const { return limit_; }
 
   void offer(const Neighbor& candidate) {
-    if (kept_.size() == most_ && !(candidate < worst())) return;
-    if (in_order()) {
-      if (kept_.size() < most_) kept_.push_back(candidate);
-      std::size_t place = kept_.size() - 1;
-      for (; place > 0 && candidate < kept_[place - 1]; --place)
-        kept_[place] = kept_[place - 1];
-      kept_[place] = candidate;
+    if (most_ <= kFew) {
+      insert(candidate);
     } else {
-      if (kept_.size() == most_) {
-        std::pop_heap(kept_.begin(), kept_.end());
-        kept_.pop_back();
-      }
       kept_.push_back(candidate);
-      std::push_heap(kept_.begin(), kept_.end());
+      const bool first = kept_.size() == most_ && !full_;
+      if (first || kept_.size() >= most_ + most_ / 2) choose();
     }
-    if (kept_.size() == most_) limit_ = worst().squared_distance;
   }
 
   void finish() {
-    if (!in_order()) std::sort_heap(kept_.begin(), kept_.end());
+    if (most_ <= kFew) return;
+    if (kept_.size() > most_) choose();
+    std::sort(kept_.begin(), kept_.end());
   }
 
  private:
-  bool in_order() const { return most_ <= 32; }
-  const Neighbor& worst() const { return in_order() ? kept_.back() : kept_.front(); }
+  static constexpr std::size_t kFew = 32;
+
+  void insert(const Neighbor& candidate) {
+    if (kept_.size() < most_) {
+      kept_.push_back(candidate);
+    } else if (!(candidate < kept_.back())) {
+      return;
+    }
+    std::size_t place = kept_.size() - 1;
+    for (; place > 0 && candidate < kept_[place - 1]; --place)
+      kept_[place] = kept_[place - 1];
+    kept_[place] = candidate;
+    if (kept_.size() == most_) limit_ = kept_.back().squared_distance;
+  }
+
+  void choose() {
+    const auto last = kept_.begin() + static_cast<std::ptrdiff_t>(most_) - 1;
+    std::nth_element(kept_.begin(), last, kept_.end());
+    kept_.resize(most_);
+    limit_ = kept_.back().squared_distance;
+    full_ = true;
+  }
 
   std::size_t most_;
   double limit_;
   std::vector<Neighbor>& kept_;
+  bool full_ = false;
 };
 
 }  // namespace pcl_bv

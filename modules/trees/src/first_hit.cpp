@@ -64,7 +64,7 @@ std::array<float, kTreeWidth> enter_times(const BoxGroup& group, const RayProbe&
 class FirstHit {
  public:
   FirstHit(const PackedTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double radius)
-      : tree_(tree), origin_(origin), direction_(direction), radius_(radius), ray_(tree.boxes, origin, direction, radius) {}
+      : tree_(tree), origin_(origin), direction_(direction), unit_(direction.stableNormalized()), radius_(radius), ray_(tree.boxes, origin, direction, radius) {}
 
   std::optional<PointHit> run() {
     visit(tree_.boxes.levels - 1, 0);
@@ -97,20 +97,45 @@ class FirstHit {
 
   void ask_packet(std::size_t packet) {
     const std::size_t first = packet * kTreeWidth;
-    const PointView points = tree_.view();
-    for (std::size_t i = first; i < std::min(first + kTreeWidth, tree_.count); ++i) {
-      const Eigen::Vector3d place = vector(load_point(points, i));
-      if (!place.allFinite()) continue;
-      const auto inside = Sphere(place, radius_).intersect(origin_, direction_);
-      if (!inside) continue;
-      const PointHit hit{tree_.numbers[i], inside->enter};
-      if (best_.index < 0 || hit.t < best_.t || (hit.t == best_.t && hit.index < best_.index)) best_ = hit;
+    const auto ask = [&](const auto& points) {
+      std::array<bool, kTreeWidth> near = near_line(points);
+      for (std::size_t k = 0; k < kTreeWidth; ++k) {
+        if (near[k]) ask_point({*points.at(0, k), *points.at(1, k), *points.at(2, k)}, tree_.numbers[first + k]);
+      }
+    };
+    if (tree_.scalar == ScalarType::float32) {
+      ask(tree_.floats[packet]);
+    } else {
+      ask(tree_.doubles[packet]);
     }
     if (best_.index >= 0) latest_ = static_cast<float>(best_.t * ray_.time * (1 + 0x1p-16)) + ray_.pad;
   }
 
+  // Which points the whole line may come near; a NaN is near nothing. With q from the origin to the point, |q x d| is
+  // off by less than 2^-48 |q|_1 |d|, and what intersect() adds to a radius is less, too.
+  template <typename T>
+  std::array<bool, kTreeWidth> near_line(const PointPacket<T>& points) const {
+    std::array<bool, kTreeWidth> near;
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
+      const double x = *points.at(0, k) - origin_.x(), y = *points.at(1, k) - origin_.y(),
+                   z = *points.at(2, k) - origin_.z();
+      const double u = y * unit_.z() - z * unit_.y(), v = z * unit_.x() - x * unit_.z(),
+                   w = x * unit_.y() - y * unit_.x();
+      const double far = radius_ + 0x1p-40 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + 0x1p-400;
+      near[k] = (u * u + v * v) + w * w <= far * far;
+    }
+    return near;
+  }
+
+  void ask_point(const Eigen::Vector3d& place, std::int32_t number) {
+    const auto inside = Sphere(place, radius_).intersect(origin_, direction_);
+    if (!inside) return;
+    const PointHit hit{number, inside->enter};
+    if (best_.index < 0 || hit.t < best_.t || (hit.t == best_.t && hit.index < best_.index)) best_ = hit;
+  }
+
   const PackedTree& tree_;
-  Eigen::Vector3d origin_, direction_;
+  Eigen::Vector3d origin_, direction_, unit_;
   double radius_;
   RayProbe ray_;
   PointHit best_{-1, 0};

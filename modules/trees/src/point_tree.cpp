@@ -88,6 +88,12 @@ void PointTree::near(const Eigen::Vector3d& place, double distance, std::vector<
   if (is_valid(coordinates(place))) list_in_ball(isa_, tree_, coordinates(place), limit, found);
 }
 
+bool PointTree::any_near(const Eigen::Vector3d& place, double distance) const {
+  const FloatEnvironment environment;
+  const double limit = square_limit(distance);
+  return is_valid(coordinates(place)) && any_in_ball(isa_, tree_, coordinates(place), limit);
+}
+
 bool PointTree::any_inside(const Sphere& sphere) const {
   const FloatEnvironment environment;
   return !sphere.empty() && any_in_ball(isa_, tree_, coordinates(sphere.center()), sphere.contained_square());

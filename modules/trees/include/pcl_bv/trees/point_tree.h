@@ -74,6 +74,9 @@ class PointTree {
   /// All points within a distance, in no order that means something: replaces what is in `found`.
   void near(const Eigen::Vector3d& place, double distance, std::vector<Neighbor>& found) const;
 
+  /// Whether there is any point within a distance.
+  bool any_near(const Eigen::Vector3d& place, double distance) const;
+
   /// Whether contains() of the volume holds for any point. A view frustum is a Hull: frustum.h.
   bool any_inside(const Sphere& sphere) const;
   bool any_inside(const AnyVolume& volume) const;
