@@ -79,4 +79,4 @@ struct ChosenRegions {
 void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions,
                    const ChosenRegions& chosen, std::uint8_t* states);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

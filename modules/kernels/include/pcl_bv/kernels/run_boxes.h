@@ -24,4 +24,4 @@ struct RunBox {
 /// environment: hold a FloatEnvironment. Throws std::invalid_argument unless the points are in memory.
 void run_boxes(UsableIsa isa, const PointView& points, RunBox* boxes);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -81,4 +81,4 @@ class PointForest {
   std::uint64_t next_ = 0;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -65,4 +65,4 @@ class RegionMask {
   std::shared_ptr<const VolumeBoxes> boxes_;  // null if there are few
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -76,4 +76,4 @@ extern template struct SlabBounds<3, double>;
 extern template struct SlabBounds<7, double>;
 extern template struct SlabBounds<13, double>;
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

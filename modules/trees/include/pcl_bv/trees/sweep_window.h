@@ -68,4 +68,4 @@ class SweepWindow {
   mutable std::optional<Partial> all_;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

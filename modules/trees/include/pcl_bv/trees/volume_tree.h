@@ -110,4 +110,4 @@ class VolumeTree {
   std::shared_ptr<Nodes> nodes_;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

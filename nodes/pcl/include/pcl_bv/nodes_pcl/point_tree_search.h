@@ -177,4 +177,4 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   Execution execution_;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv
