@@ -39,6 +39,7 @@ class VolumeBoxes {
   void refit(const std::vector<PlaceBounds>& extents);
 
   const BoxLevels& levels() const { return boxes_; }
+  std::size_t size() const { return order_.size(); }
   std::uint32_t number(std::size_t item) const { return order_[item]; }
 
   /// Those without a box, ascending.
