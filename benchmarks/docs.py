@@ -19,6 +19,7 @@ import peer_tables
 import plots
 import tables
 import targets
+import tree_tables
 from results import Results, duration, number, table
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -87,13 +88,14 @@ def page(results, drawn):
     all_targets = targets.all_targets(results)
     blocks = {
         name: lambda f=f: f(results)
-        for module in (tables, paper_tables, peer_tables)
+        for module in (tables, paper_tables, peer_tables, tree_tables)
         for name, f in vars(module).items()
         if callable(f) and f.__module__ == module.__name__
     }
     blocks["targets"] = lambda: judging.targets_table(all_targets)
     blocks["misses"] = lambda: misses(results, all_targets)
-    for name in ("speed-aabb", "speed-dop26", "speed-all", "speed-up", "radii", "threads"):
+    trees = ("tree-build", "tree-nearest", "tree-any")
+    for name in ("speed-aabb", "speed-dop26", "speed-all", "speed-up", "radii", "threads", *trees):
         blocks["plot-" + name] = (
             lambda n=name: f"![{n}](benchmarks/{n}.svg)"
             if f"{n}.svg" in drawn

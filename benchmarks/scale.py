@@ -19,7 +19,7 @@ import subprocess
 import tempfile
 import time
 
-from plots import SERIES, Chart
+from svg import SERIES, Chart
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE, PLOT = ROOT / "docs/many-machines.md", ROOT / "docs/benchmarks/scale.svg"

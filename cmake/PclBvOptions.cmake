@@ -10,7 +10,7 @@ option(PCL_BV_BUILD_COMMANDS "Build the commands pcd_bv, bv_stream and synth" ${
 option(PCL_BV_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(PCL_BV_BUILD_BENCHMARKS "Build the benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(PCL_BV_INSTALL "Install the libraries, the commands and the CMake package" ${PROJECT_IS_TOP_LEVEL})
-option(PCL_BV_NODES_PCL "Build what needs more of PCL than its common library: grabbers, a live window" OFF)
+option(PCL_BV_NODES_PCL "Find what grabbers and a live window need of PCL, and test them" OFF)
 option(PCL_BV_LARGE_TESTS "Build the tests that write files of gigabytes" OFF)
 option(PCL_BV_FUZZ "Build only the fuzzers of the readers; needs clang" OFF)
 option(PCL_BV_UNITY "Compile the sources of a library together: a build from nothing is faster, one after a change slower" OFF)

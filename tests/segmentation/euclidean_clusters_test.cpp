@@ -11,6 +11,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "pcl_bv/segmentation/counts.h"
 #include "reference.h"
 
 namespace {
@@ -50,9 +51,20 @@ TEST(EuclideanClusters, CountThePointsOfDroppedClusters) {
 }
 
 TEST(EuclideanClusters, AreNoneBeforeAnyAreFound) {
-  EXPECT_EQ(Clusters().size(), 0U);
-  EXPECT_EQ(Clusters().small_points, 0U);
-  EXPECT_EQ(Clusters().large_points, 0U);
+  const Clusters clusters;
+  EXPECT_EQ(clusters.size(), 0U);
+  EXPECT_THAT(clusters.offsets, ElementsAre(0U));
+  EXPECT_EQ(clusters.small_points, 0U);
+  EXPECT_EQ(clusters.large_points, 0U);
+  EXPECT_EQ(clusters.noise_points, 0U);
+  EXPECT_EQ(clusters.class_points, 0U);
+}
+
+TEST(Counts, AreZeroUntilSomethingIsCounted) {
+  const Counts counts;
+  for (const std::size_t count : {counts.nonfinite, counts.range, counts.ground, counts.small, counts.large,
+                                  counts.noise, counts.inside, counts.of_class})
+    EXPECT_EQ(count, 0U);
 }
 
 TEST(EuclideanClusters, AreNoneWithoutValidPoints) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "allocations.h"
@@ -66,6 +67,9 @@ double bank_along_x(double x, double) {
 }
 double bank_along_y(double, double y) {
   return -1.7 + 0.45 * std::max(0.0, y - 5);
+}
+double mound(double x, double y) {
+  return -1.7 + 0.15 * std::clamp((3 - std::sqrt(x * x + y * y)) / 2.25, 0.0, 1.0);
 }
 double curb(double, double y) {
   return y > 4 || y < -3 ? -1.58 : -1.7;
@@ -192,6 +196,25 @@ TEST(GroundZones, GoOnBehindADitch) {
   const auto there = std::count_if(all.begin(), all.end(), behind);
   const auto found = std::count_if(result.ground.begin(), result.ground.end(), behind);
   EXPECT_GE(static_cast<double>(found), 0.99 * static_cast<double>(there));
+}
+
+// Within half a metre no ground is seen: a point there is 0.3 m above level ground, 0.15 m above the mound.
+TEST(GroundZones, RiseUnderTheSensorWithTheGroundAroundIt) {
+  GroundZonesSettings settings;
+  settings.distance = 0.2;
+  for (const Height height : {level, mound}) {
+    Cloud<float> cloud = ground_of(height);
+    for (double radius = 0.75; radius < 3; radius += 0.5) {
+      for (int i = 0; i < 512; ++i) {
+        const double angle = (i + 0.5) * std::numbers::pi / 256;
+        const double x = radius * std::cos(angle), y = radius * std::sin(angle);
+        cloud.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(height(x, y))});
+      }
+    }
+    cloud.push_back({0.3F, 0.1F, -1.4F});
+    const GroundSplit result = split(view(cloud), settings);
+    EXPECT_EQ(result.rest, numbers(height == mound ? cloud.size() : cloud.size() - 1, cloud.size()));
+  }
 }
 
 TEST(GroundZones, AreNoneWithoutPoints) {

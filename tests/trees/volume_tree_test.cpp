@@ -14,8 +14,8 @@
 #include "flush_to_zero.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/pairs.h"
 #include "scattered_volumes.h"
-#include "volume_pairs.h"
 
 namespace pcl_bv {
 namespace {
@@ -84,7 +84,7 @@ void expect_nearest(const VolumeTree& tree, const Volumes& volumes, const Vector
 void expect_meets(const VolumeTree& tree, const Volumes& volumes, const AnyVolume& volume) {
   Indices found;
   tree.all_overlapping(volume, found);
-  ASSERT_EQ(found, indices_where(volumes, [&](const AnyVolume& v) { return volumes_overlap(v, volume); }))
+  ASSERT_EQ(found, indices_where(volumes, [&](const AnyVolume& v) { return overlaps(v, volume); }))
       << shape_name(volume);
   const Aabb box = aabb(volume);
   tree.all_touching(box, found);

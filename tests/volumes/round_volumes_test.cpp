@@ -176,5 +176,18 @@ TEST(RoundVolumes, RaysEndInAnEllipsoidThatIsGreaterByNoMoreThanIsSaid) {
 INSTANTIATE_TEST_SUITE_P(All, RoundVolumesAtScales, ::testing::ValuesIn(testing::scales()),
                          [](const auto& scale) { return "n" + std::to_string(scale.index); });
 
+// Where subtracting what is along the axis leaves nothing but rounding.
+TEST(Cylinder, SupportAlongItsAxisIsOnAnEnd) {
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Cylinder c({0, 0, 0}, random.vector(1), 1, 1);
+    for (const double tilt : {0.0, 1e-15, 1e-9}) {
+      const Vector3d rim = c.support(c.axis() + tilt * random.vector(1));
+      EXPECT_NEAR(rim.dot(c.axis()), 1, 1e-15);
+      EXPECT_LE(rim.cross(c.axis()).norm(), 1 + 1e-15);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv

@@ -10,6 +10,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "square_limit.h"
 #include "tree_build.h"
 #include "vectors.h"
 
@@ -29,22 +30,20 @@ void require_usable(const PointView& points, const Execution& execution) {
   if (execution.supports != nullptr) throw std::invalid_argument("PointTree: takes no supports");
 }
 
-// What |place - p|^2, rounded, may be.
-double square_limit(double distance) {
-  if (!(distance >= 0)) throw std::invalid_argument("PointTree: a distance must be 0 or more");
-  return distance * distance;
-}
-
 }  // namespace
 
 struct PointTree::Scratch : TreeScratch {};
 
+PointTree::Scratch& PointTree::scratch() {
+  if (!kept_.scratch) kept_.scratch = std::make_shared<Scratch>();
+  return *kept_.scratch;
+}
+
 void PointTree::assign(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
   require_usable(points, execution);
-  if (!kept_.scratch) kept_.scratch = std::make_shared<Scratch>();
   try {
-    build_tree(points, execution.parallel, *kept_.scratch, tree_);
+    build_tree(points, execution.parallel, scratch(), tree_);
   } catch (...) {
     tree_ = {};
     throw;
@@ -64,7 +63,7 @@ void PointTree::refit(const PointView& cloud, const Execution& execution) {
   if (const auto at = std::find_if(tree_.numbers.begin(), tree_.numbers.end(), lacks); at != tree_.numbers.end()) {
     throw std::invalid_argument("PointTree: refit() to a cloud that has no point " + std::to_string(*at));
   }
-  refit_tree(cloud, execution.parallel, tree_);
+  refit_tree(cloud, execution.parallel, scratch(), tree_);
 }
 
 std::optional<Neighbor> PointTree::nearest(const Eigen::Vector3d& place, double max_distance) const {

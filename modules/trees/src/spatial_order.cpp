@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <iterator>
 
 #include "pcl_bv/kernels/packed_tree.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
@@ -15,22 +15,8 @@ namespace {
 
 constexpr std::size_t kParts = 4;
 constexpr std::size_t kMostBins = 1024;
-// Runs of fewer items are one thread's.
-constexpr std::size_t kShared = 4096;
-
-// A run of items, where they are and where they go next; the bins have room for as many.
-template <typename T>
-struct Run {
-  PlacedItem<T>* items;
-  PlacedItem<T>* other;
-  std::uint16_t* bins;
-  std::size_t count;
-  bool in_place;  // whether `items`, not `other`, is where the order is to be
-
-  Run part(std::size_t begin, std::size_t end) const {
-    return {other + begin, items + begin, bins + begin, end - begin, !in_place};
-  }
-};
+// Fewer items are sorted before another thread has come.
+constexpr std::size_t kFew = 8192;
 
 // The longest side of the box around a run.
 struct Side {
@@ -39,7 +25,7 @@ struct Side {
 };
 
 template <typename T>
-Side longest_side(const Run<T>& run) {
+Side longest_side(const ItemRun<T>& run) {
   T low[3], high[3];
   for (int k = 0; k < 3; ++k)
     low[k] = high[k] = run.items[0].place[k];
@@ -77,7 +63,7 @@ struct Cuts {
 
 // Writes each item's bin, ascending along the side, and counts them.
 template <typename T>
-void fill_bins(const Run<T>& run, const Side& side, std::size_t bins, std::uint32_t* counts) {
+void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::uint32_t* counts) {
   std::fill_n(counts, bins, 0U);
   // Rounding may take the last place to the end of the last bin, not beyond.
   const double per_length = (static_cast<double>(bins) - 0x1p-20) / side.length;
@@ -114,7 +100,7 @@ struct Buckets {
 };
 
 template <typename T>
-void move_items(const Run<T>& run, const Buckets& buckets) {
+void move_items(const ItemRun<T>& run, const Buckets& buckets) {
   std::array<std::size_t, 2 * kParts> place = buckets.begin;
   for (std::size_t i = 0; i < run.count; ++i)
     run.other[place[buckets.of_bin[run.bins[i]]]++] = run.items[i];
@@ -122,7 +108,7 @@ void move_items(const Run<T>& run, const Buckets& buckets) {
 
 // Moves the items to `other`, those of each part to where it is.
 template <typename T>
-void cut(const Run<T>& run, const Side& side, const Cuts& cuts) {
+void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   std::array<std::uint32_t, kMostBins> counts;
   const std::size_t bins = std::min(kMostBins, run.count);
   fill_bins(run, side, bins, counts.data());
@@ -138,8 +124,9 @@ void cut(const Run<T>& run, const Side& side, const Cuts& cuts) {
   }
 }
 
-template <typename T>
-void sort_run(const Run<T>& run, const ParallelPolicy& policy) {
+// Cuts a run and calls take(part) for its parts; a run that needs no cut is done.
+template <typename T, typename Take>
+void cut_run(const ItemRun<T>& run, const Take& take) {
   const Side side = run.count > kTreeWidth ? longest_side(run) : Side{0, 0, 0};
   if (!(side.length > 1e-290)) {  // few, or all in one place
     if (!run.in_place) std::copy_n(run.items, run.count, run.other);
@@ -147,11 +134,13 @@ void sort_run(const Run<T>& run, const ParallelPolicy& policy) {
   }
   const Cuts cuts(run.count);
   cut(run, side, cuts);
-  const auto sort_part = [&](std::size_t p, const ParallelPolicy& parts_policy) {
-    sort_run(run.part(cuts.at[p], cuts.at[p + 1]), parts_policy);
-  };
   for (std::size_t p = 0; p < cuts.parts; ++p)
-    sort_part(p, policy);
+    take(run.part(cuts.at[p], cuts.at[p + 1]));
+}
+
+template <typename T>
+void sort_run(const ItemRun<T>& run) {
+  cut_run(run, [](const ItemRun<T>& part) { sort_run(part); });
 }
 
 }  // namespace
@@ -166,7 +155,25 @@ PlacedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
 
 template <typename T>
 void SpatialOrder<T>::sort(std::size_t count, const ParallelPolicy& policy) {
-  if (count != 0) sort_run<T>({items_.data(), buffer_.data(), bins_.data(), count, true}, policy);
+  if (count == 0) return;
+  runs_.assign(1, {items_.data(), buffer_.data(), bins_.data(), count, true});
+  const std::size_t threads = std::min<std::size_t>(thread_count(policy), count / kFew);
+  if (threads > 1) share_out(4 * threads, policy);
+  for_each_chunk(policy, runs_.size(), [&](std::size_t r) { sort_run(runs_[r]); });
+}
+
+template <typename T>
+void SpatialOrder<T>::share_out(std::size_t runs, const ParallelPolicy& policy) {
+  while (!runs_.empty() && runs_.size() < runs) {
+    parts_.assign(runs_.size() * kParts, {});
+    for_each_chunk(policy, runs_.size(), [&](std::size_t r) {
+      std::size_t p = r * kParts;
+      cut_run(runs_[r], [&](const ItemRun<T>& part) { parts_[p++] = part; });
+    });
+    runs_.clear();
+    std::copy_if(parts_.begin(), parts_.end(), std::back_inserter(runs_),
+                 [](const ItemRun<T>& part) { return part.count > 0; });
+  }
 }
 
 template class SpatialOrder<float>;

@@ -25,6 +25,21 @@ struct PlaceBounds {
   Coordinates low, high;
 };
 
+/// Items in a row, where they are and where they go next; there are bins for as many.
+template <typename T>
+struct ItemRun {
+  PlacedItem<T>* items = nullptr;
+  PlacedItem<T>* other = nullptr;
+  std::uint16_t* bins = nullptr;
+  std::size_t count = 0;
+  bool in_place = true;  ///< Whether `items`, not `other`, is where the order is to be.
+
+  /// Of the items that went to `other`.
+  ItemRun part(std::size_t begin, std::size_t end) const {
+    return {other + begin, items + begin, bins + begin, end - begin, !in_place};
+  }
+};
+
 /// Sorts items as the leaves of a balanced k-d tree (Bentley 1975) lie in a row: the longest side of the box around
 /// the items is cut into up to four parts, so that each begins at a multiple of the greatest 16^k (k > 0) that is
 /// less than their number, and each part likewise. Items with equal coordinates go by their numbers. So the order
@@ -42,8 +57,11 @@ class SpatialOrder {
   const PlacedItem<T>& operator[](std::size_t place) const { return items_[place]; }
 
  private:
+  void share_out(std::size_t runs, const ParallelPolicy& policy);
+
   std::vector<PlacedItem<T>> items_, buffer_;
   std::vector<std::uint16_t> bins_;
+  std::vector<ItemRun<T>> runs_, parts_;  // for threads
 };
 
 }  // namespace pcl_bv

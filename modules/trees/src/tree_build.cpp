@@ -48,11 +48,6 @@ void widen(PlaceBounds& bounds, const PlaceBounds& other) {
                  std::max(bounds.high.z, other.high.z)};
 }
 
-struct LoadPart {
-  std::size_t begin = 0, end = 0;
-  std::size_t valid = 0;  // of its points; they are stored from `begin` on
-};
-
 template <typename T>
 void load_part(const PointView& points, LoadPart& part, PlacedItem<T>* to) {
   std::size_t place = part.begin;
@@ -67,8 +62,8 @@ void load_part(const PointView& points, LoadPart& part, PlacedItem<T>* to) {
 
 // Returns how many are valid.
 template <typename T>
-std::size_t load(const PointView& points, const ParallelPolicy& policy, PlacedItem<T>* to) {
-  Parts<LoadPart> parts;
+std::size_t load(const PointView& points, const ParallelPolicy& policy, Parts<LoadPart>& parts,
+                 PlacedItem<T>* to) {
   parts.cut(points.count, policy);
   parts.for_each(policy, [&](LoadPart& part) { load_part(points, part, to); });
   std::size_t count = 0;
@@ -89,16 +84,10 @@ PlaceBounds bounds_of(const PointPacket<T>& packet) {
   return extremes.bounds();
 }
 
-struct PacketPart {
-  std::size_t begin = 0, end = 0;  // packets
-  PlaceBounds bounds{};
-};
-
 // Calls fill(p, packet) for all packets, and then sets the boxes around what is in them.
 template <typename T, typename Fill>
-void fill_packets(PackedTree& tree, const ParallelPolicy& policy, const Fill& fill) {
+void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPart>& parts, const Fill& fill) {
   std::vector<PointPacket<T>>& packets = packets_of<T>(tree);
-  Parts<PacketPart> parts;
   parts.cut(packets.size(), policy);
   parts.for_each(policy, [&](PacketPart& part) {
     part.bounds = kNowhere;
@@ -121,13 +110,14 @@ void fill_packets(PackedTree& tree, const ParallelPolicy& policy, const Fill& fi
 }
 
 template <typename T>
-void build(const PointView& points, const ParallelPolicy& policy, SpatialOrder<T>& order, PackedTree& tree) {
-  tree.count = load(points, policy, order.reset(points.count));
+void build(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch, SpatialOrder<T>& order,
+           PackedTree& tree) {
+  tree.count = load(points, policy, scratch.loads, order.reset(points.count));
   order.sort(tree.count, policy);
   const std::size_t packets = (tree.count + kTreeWidth - 1) / kTreeWidth;
   packets_of<T>(tree).resize(packets);
   tree.numbers.resize(packets * kTreeWidth);
-  fill_packets<T>(tree, policy, [&](std::size_t p, PointPacket<T>& packet) {
+  fill_packets<T>(tree, policy, scratch.packets, [&](std::size_t p, PointPacket<T>& packet) {
     const std::size_t first = p * kTreeWidth, count = std::min(kTreeWidth, tree.count - first);
     for (std::size_t k = 0; k < count; ++k) {
       const PlacedItem<T>& item = order[first + k];
@@ -144,8 +134,8 @@ void build(const PointView& points, const ParallelPolicy& policy, SpatialOrder<T
 }
 
 template <typename T>
-void refit(const PointView& cloud, const ParallelPolicy& policy, PackedTree& tree) {
-  fill_packets<T>(tree, policy, [&](std::size_t p, PointPacket<T>& packet) {
+void refit(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree) {
+  fill_packets<T>(tree, policy, scratch.packets, [&](std::size_t p, PointPacket<T>& packet) {
     for (std::size_t k = 0; k < kTreeWidth && p * kTreeWidth + k < tree.count; ++k) {
       T xyz[3];
       load_point(cloud, static_cast<std::size_t>(tree.numbers[p * kTreeWidth + k]) - cloud.first, xyz);
@@ -162,18 +152,18 @@ void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScrat
   tree.scalar = points.scalar;
   if (points.scalar == ScalarType::float32) {
     tree.doubles.clear();
-    build(points, policy, scratch.floats, tree);
+    build(points, policy, scratch, scratch.floats, tree);
   } else {
     tree.floats.clear();
-    build(points, policy, scratch.doubles, tree);
+    build(points, policy, scratch, scratch.doubles, tree);
   }
 }
 
-void refit_tree(const PointView& cloud, const ParallelPolicy& policy, PackedTree& tree) {
+void refit_tree(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree) {
   if (tree.scalar == ScalarType::float32) {
-    refit<float>(cloud, policy, tree);
+    refit<float>(cloud, policy, scratch, tree);
   } else {
-    refit<double>(cloud, policy, tree);
+    refit<double>(cloud, policy, scratch, tree);
   }
 }
 

@@ -11,7 +11,6 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "volume_nodes.h"
-#include "volume_pairs.h"
 
 namespace pcl_bv {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/volumes/pairs.h"
 #include "vectors.h"
 #include "volume_nodes.h"
-#include "volume_pairs.h"
 
 namespace pcl_bv {
 namespace {
@@ -68,17 +68,6 @@ void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen:
   };
   nodes.descend(
       bound, [&] { return ray.time(limit()); }, visit);
-}
-
-// Two k-DOPs of equal sets overlap if their slabs do, though they may be apart along another direction.
-bool has_axes(const KdopSet& set) {
-  int axes = 0;
-  for (std::size_t i = 0; i < set.size(); ++i)
-    axes |= set.direction(i) == Eigen::Vector3d::UnitX()   ? 1
-            : set.direction(i) == Eigen::Vector3d::UnitY() ? 2
-            : set.direction(i) == Eigen::Vector3d::UnitZ() ? 4
-                                                           : 0;
-  return axes == 7;
 }
 
 double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k) {
@@ -159,18 +148,12 @@ void VolumeTree::all_overlapping(const AnyVolume& volume, std::vector<std::int32
   const FloatEnvironment environment;
   indices.clear();
   if (empty(volume)) return;
-  const auto ask = [&](std::uint32_t number) {
-    if (volumes_overlap(nodes_->volumes[number], volume))
-      indices.push_back(static_cast<std::int32_t>(number));
-    return false;
-  };
+  const ConvexBody body(volume);
   const PlaceBounds extent = extent_of(volume);
-  const auto* const kdop = std::get_if<Kdop>(&volume);
-  if (kdop == nullptr || has_axes(*kdop->set())) {
-    nodes_->boxes.visit(nodes_->boxes.query(extent.low, extent.high), ask);
-  } else {
-    visit_all(nodes_->volumes, ask);
-  }
+  nodes_->boxes.visit(nodes_->boxes.query(extent.low, extent.high), [&](std::uint32_t number) {
+    if (overlaps(ConvexBody(nodes_->volumes[number]), body)) indices.push_back(static_cast<std::int32_t>(number));
+    return false;
+  });
   std::sort(indices.begin(), indices.end());
 }
 

@@ -88,7 +88,8 @@ double Cylinder::surface_area() const {
 Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
-  const Eigen::Vector3d across = d - dot3(d, axis_) * axis_;
+  // Of d nearly along the axis, what is left of subtracting that would be rounding, in any direction.
+  const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));
   return center_ + (dot3(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
          radius_ * across.stableNormalized();
 }

@@ -87,7 +87,7 @@ class VolumeTree {
   /// Those whose aabb() overlaps the box.
   void all_touching(const Aabb& box, std::vector<std::int32_t>& indices) const;
 
-  /// Those that overlap the volume.
+  /// Those that overlap it, as overlaps() of pairs.h says; each whose box is near is made ready for that first.
   void all_overlapping(const AnyVolume& volume, std::vector<std::int32_t>& indices) const;
 
   /// That with the least distance() from the point, of equal ones the first, if it is at most max_distance.

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/trees/batches.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "square_limit.h"
+#include "vectors.h"
+
+namespace pcl_bv {
+namespace {
+
+// Questions that a thread takes at a time: some 20 us of them.
+constexpr std::size_t kBlock = 256;
+
+// Calls ask(begin, end) for blocks of `count` questions. Fewer than four are done before another thread has come.
+template <typename Ask>
+void ask_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
+  const std::size_t blocks = (count + kBlock - 1) / kBlock;
+  const auto threads = static_cast<unsigned>(std::clamp<std::size_t>(blocks / 4, 1, 1024));
+  for_each_chunk(limit_threads(execution.parallel, threads), blocks, [&](std::size_t block) {
+    const FloatEnvironment environment;
+    ask(block, block * kBlock, std::min(count, (block + 1) * kBlock));
+  });
+}
+
+void require_in_memory(const PointView& places) {
+  if (places.source != nullptr) throw std::invalid_argument("PointTree: the places must be in memory");
+}
+
+Eigen::Vector3d place_of(const PointView& places, std::size_t i) {
+  return vector(load_point(places, i));
+}
+
+// ask(place, found) for each place, and all that was found in a row.
+template <typename Ask>
+void list_for_each(const PointView& places, const Execution& execution, NeighborLists& found, const Ask& ask) {
+  require_in_memory(places);
+  std::vector<std::vector<Neighbor>> blocks((places.count + kBlock - 1) / kBlock);
+  found.first.assign(places.count + 1, 0);
+  ask_blocks(places.count, execution, [&](std::size_t block, std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> one;
+    for (std::size_t i = begin; i < end; ++i) {
+      ask(place_of(places, i), one);
+      found.first[i + 1] = one.size();
+      blocks[block].insert(blocks[block].end(), one.begin(), one.end());
+    }
+  });
+  for (std::size_t i = 0; i < places.count; ++i)
+    found.first[i + 1] += found.first[i];
+  found.neighbors.clear();
+  found.neighbors.reserve(found.first.back());
+  for (const std::vector<Neighbor>& block : blocks)
+    found.neighbors.insert(found.neighbors.end(), block.begin(), block.end());
+}
+
+}  // namespace
+
+// The kernels themselves: a FloatEnvironment for each question would be an eighth of its time.
+void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found, double max_distance,
+             const Execution& execution) {
+  require_in_memory(places);
+  const Neighbor none{-1, std::numeric_limits<double>::infinity()};
+  const double limit = square_limit(max_distance);
+  found.assign(places.count, none);
+  ask_blocks(places.count, execution, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Coordinates place = load_point(places, i);
+      if (is_valid(place)) found[i] = find_nearest(execution.isa, tree.packed(), place, limit).value_or(none);
+    }
+  });
+}
+
+void nearest(const PointTree& tree, const PointView& places, std::size_t k, NeighborLists& found,
+             double max_distance, const Execution& execution) {
+  list_for_each(places, execution, found, [&](const Eigen::Vector3d& place, std::vector<Neighbor>& one) {
+    tree.nearest(place, k, one, max_distance);
+  });
+}
+
+void near(const PointTree& tree, const PointView& places, double distance, NeighborLists& found,
+          const Execution& execution) {
+  list_for_each(places, execution, found, [&](const Eigen::Vector3d& place, std::vector<Neighbor>& one) {
+    tree.near(place, distance, one);
+    std::sort(one.begin(), one.end());
+  });
+}
+
+void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
+                const Execution& execution) {
+  inside.resize(spheres.size());
+  ask_blocks(spheres.size(), execution, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Sphere& sphere = spheres[i];
+      inside[i] = static_cast<std::uint8_t>(
+          !sphere.empty() &&
+          any_in_ball(execution.isa, tree.packed(), coordinates(sphere.center()), sphere.contained_square()));
+    }
+  });
+}
+
+void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes, std::vector<std::uint8_t>& inside,
+                const Execution& execution) {
+  inside.resize(volumes.size());
+  ask_blocks(volumes.size(), execution, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      inside[i] = static_cast<std::uint8_t>(tree.any_inside(volumes[i]));
+  });
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Sums of three in any order are good enough here: margins are a thousand times what rounding takes.
+
+#include "box_relation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pcl_bv/numeric/vector3.h"
+#include "vectors.h"
+
+namespace pcl_bv {
+namespace {
+
+// A box about its centre, seen from the region's, and by how much what is computed of both may be wrong.
+struct CenteredBox {
+  Eigen::Vector3d center, half;
+  double margin;
+
+  CenteredBox(const ConvexRegion& region, const PlainBox& box)
+      : center(0.5 * (box.low + box.high) - vector(region.center)), half(0.5 * (box.high - box.low)) {
+    const double size = taxicab3(box.low) + taxicab3(box.high) + taxicab3(region.center);
+    margin = 0x1p-38 * (size + region.radius) + 4 * region.doubt + 0x1p-480;
+  }
+
+  double along(const Direction& n) const { return dot3(n, center); }
+  double reach(const Direction& n) const {
+    return std::abs(n[0]) * half[0] + std::abs(n[1]) * half[1] + std::abs(n[2]) * half[2];
+  }
+};
+
+Relation relation_to_sides(const ConvexRegion& region, const PlainBox& box) {
+  bool inside = true;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    if (box.low[k] > region.high[axis] || box.high[k] < region.low[axis]) return Relation::apart;
+    inside = inside && box.low[k] >= region.low[axis] && box.high[k] <= region.high[axis];
+  }
+  return inside ? Relation::holds : Relation::crosses;
+}
+
+Relation relation_to_planes(const ConvexRegion& region, const CenteredBox& box) {
+  bool inside = true;
+  for (const HalfSpace& plane : region.planes) {
+    const Direction n = {plane.x, plane.y, plane.z};
+    const double at = box.along(n), reach = box.reach(n);
+    if (at - reach > plane.limit + box.margin) return Relation::apart;
+    inside = inside && at + reach < plane.limit - box.margin;
+  }
+  return inside ? Relation::holds : Relation::crosses;
+}
+
+Relation relation_to_ball(const ConvexRegion& region, const CenteredBox& box) {
+  const Eigen::Vector3d at = box.center.cwiseAbs();
+  const double nearest = (at - box.half).cwiseMax(0).norm(), farthest = (at + box.half).norm();
+  if (nearest > region.radius + box.margin) return Relation::apart;
+  return farthest < region.radius - box.margin ? Relation::holds : Relation::crosses;
+}
+
+double weighted_square(double weight, double beyond) {
+  return beyond > 0 ? weight * beyond * weight * beyond : 0;  // a weight may be infinite
+}
+
+// Slabs, and what is round: both by how far the box is along each axis at least and at most.
+Relation relation_to_body(const ConvexRegion& region, const CenteredBox& box) {
+  bool inside = true;
+  double least = 0, most = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double at = std::abs(box.along(region.axes[i])), reach = box.reach(region.axes[i]);
+    const double near = at - reach - box.margin, far = at + reach + box.margin;
+    if (near > region.slab[i]) return Relation::apart;
+    inside = inside && far < region.slab[i];
+    least += weighted_square(region.weight[i], near - region.core[i]);
+    most += weighted_square(region.weight[i], far - region.core[i]);
+  }
+  if (region.shape == RegionShape::slabs) return inside ? Relation::holds : Relation::crosses;
+  const double square = region.radius * region.radius;
+  if (least > square * (1 + 0x1p-38)) return Relation::apart;
+  return inside && most < square * (1 - 0x1p-38) ? Relation::holds : Relation::crosses;
+}
+
+}  // namespace
+
+PlainBox plain_box(const BoxLevels& boxes, const BoxGroup& group, std::size_t k) {
+  PlainBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double low = group.low[axis][k] / boxes.scale, high = group.high[axis][k] / boxes.scale;
+    box.low[axis] = boxes.origin[a] + low;
+    box.high[axis] = boxes.origin[a] + high;
+    box.low[axis] -= 0x1p-52 * std::abs(box.low[axis]);
+    box.high[axis] += 0x1p-52 * std::abs(box.high[axis]);
+  }
+  return box;
+}
+
+Relation relation(const ConvexRegion& region, const PlainBox& box) {
+  switch (region.shape) {
+    case RegionShape::box:
+      return relation_to_sides(region, box);
+    case RegionShape::planes:
+      return relation_to_planes(region, {region, box});
+    case RegionShape::ball:
+      return relation_to_ball(region, {region, box});
+    default:
+      return relation_to_body(region, {region, box});
+  }
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/trees/collision.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "grown.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/volumes/pairs.h"
+#include "tree_overlap.h"
+#include "turnable.h"
+#include "vectors.h"
+#include "volume_boxes.h"
+#include "volume_walk.h"
+
+namespace pcl_bv {
+namespace {
+
+void require(const Eigen::Isometry3d& pose, double margin) {
+  if (!pose.matrix().allFinite()) throw std::invalid_argument("within(): the pose must be finite");
+  if (margin >= 0 && margin <= kMaxCoordinate) return;
+  std::ostringstream what;
+  what << "within(): the margin must be from 0 to 1e100, not " << margin;
+  throw std::invalid_argument(what.str());
+}
+
+struct Prepared {
+  ConvexBody body;
+  AnyVolume turning;  // of a kind that can be turned, holding the volume
+
+  explicit Prepared(const AnyVolume& volume) : body(volume), turning(turnable(volume)) {}
+};
+
+// Of a volume where it is now.
+bool touches(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double margin) {
+  const ConvexBody body = volume.body.moved(pose);
+  const PointView places = points.packed().view();
+  return walk_inside(points.isa(), points.packed(), grown(transformed(volume.turning, pose), margin),
+                     [&](std::size_t packet, std::uint32_t bits) {
+                       for (; bits != 0; bits &= bits - 1) {
+                         const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+                         const Coordinates p = load_point(places, packet * kTreeWidth + lane);
+                         if (distance(body, vector(p)) <= margin) return true;
+                       }
+                       return false;
+                     });
+}
+
+// What is within `margin` of a volume where it is now is in here.
+PlaceBounds extent_near(const AnyVolume& turning, const Eigen::Isometry3d& pose, double margin) {
+  PlaceBounds box = extent_of(transformed(turning, pose));
+  box.low = {-add_up(-box.low.x, margin), -add_up(-box.low.y, margin), -add_up(-box.low.z, margin)};
+  box.high = {add_up(box.high.x, margin), add_up(box.high.y, margin), add_up(box.high.z, margin)};
+  return box;
+}
+
+}  // namespace
+
+struct MovingVolumes::State {
+  std::vector<AnyVolume> volumes;
+  std::vector<Prepared> prepared;
+  VolumeBoxes boxes;
+};
+
+MovingVolumes::MovingVolumes(std::vector<AnyVolume> volumes) {
+  const FloatEnvironment environment;
+  auto state = std::make_shared<State>();
+  state->volumes = std::move(volumes);
+  std::vector<PlaceBounds> extents;
+  for (const AnyVolume& volume : state->volumes) {
+    state->prepared.emplace_back(volume);
+    extents.push_back(extent_of(volume));
+  }
+  state->boxes.build(extents, Serial{});
+  state_ = std::move(state);
+}
+
+const std::vector<AnyVolume>& MovingVolumes::volumes() const {
+  return state_->volumes;
+}
+
+namespace {
+
+// Calls found(i) for the volumes that a point is near, ascending; ends where that returns true.
+template <typename Found>
+bool each_touched(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose, double margin,
+                  const Found& found) {
+  const FloatEnvironment environment;
+  require(pose, margin);
+  const std::vector<Prepared>& prepared = volumes.state().prepared;
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    if (touches(points, prepared[i], pose, margin) && found(static_cast<std::int32_t>(i))) return true;
+  }
+  return false;
+}
+
+// Calls found(i, j) for the pairs that are near, by j; ends where that returns true.
+template <typename Found>
+bool each_pair(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
+               double margin, const Found& found) {
+  const FloatEnvironment environment;
+  require(pose, margin);
+  const MovingVolumes::State &state = volumes.state(), &moving = others.state();
+  for (std::size_t j = 0; j < moving.prepared.size(); ++j) {
+    const Prepared& other = moving.prepared[j];
+    if (other.body.empty()) continue;
+    const PlaceBounds near = extent_near(other.turning, pose, margin);
+    const ConvexBody body = other.body.moved(pose);
+    const bool ended = state.boxes.visit(state.boxes.query(near.low, near.high), [&](std::uint32_t i) {
+      return within(state.prepared[i].body, body, margin) &&
+             found(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+    });
+    if (ended) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose, double margin) {
+  const FloatEnvironment environment;
+  require(pose, margin);
+  return !points.empty() && !others.empty() && trees_within(points, others, pose, margin);
+}
+
+bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose, double margin) {
+  return each_touched(points, volumes, pose, margin, [](std::int32_t) { return true; });
+}
+
+void list_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose, double margin,
+                 std::vector<std::int32_t>& touched) {
+  touched.clear();
+  each_touched(points, volumes, pose, margin, [&](std::int32_t i) {
+    touched.push_back(i);
+    return false;
+  });
+}
+
+bool within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose, double margin) {
+  return each_pair(volumes, others, pose, margin, [](std::int32_t, std::int32_t) { return true; });
+}
+
+void list_within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
+                 double margin, std::vector<std::pair<std::int32_t, std::int32_t>>& pairs) {
+  pairs.clear();
+  each_pair(volumes, others, pose, margin, [&](std::int32_t i, std::int32_t j) {
+    pairs.emplace_back(i, j);
+    return false;
+  });
+  std::sort(pairs.begin(), pairs.end());
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/trees/point_tree.h"
+#include "vectors.h"
+
+namespace pcl_bv {
+namespace {
+
+// A ray that is not finite meets nothing, and so do boxes and points beyond 2^60 times the cloud's size: there floats
+// tell nothing, so all is asked.
+constexpr double kFar = 0x1p60;
+
+// A moving sphere in the frame of the boxes, with the direction's longest coordinate from 1 to 2. All boxes are
+// greater by its radius and by `pad`, a thousand times what rounding to float moves a place along the ray.
+struct RayProbe {
+  float origin[3], inverse[3];
+  float pad;
+  double time;  // times in this frame of those asked about
+  bool near;    // whether boxes can spare points
+
+  RayProbe(const BoxLevels& boxes, const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double radius) {
+    const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
+    time = std::ldexp(boxes.scale, exponent);
+    double size = 1 + radius * boxes.scale;
+    for (int k = 0; k < 3; ++k) {
+      const double place = (from[k] - boxes.origin[static_cast<std::size_t>(k)]) * boxes.scale;
+      size += std::abs(place);
+      origin[k] = static_cast<float>(std::clamp(place, -kFar, kFar));
+      // A slope below 2^-40 is taken for that: it moves a place by no more than pad.
+      const double slope = std::ldexp(direction[k], -exponent);
+      inverse[k] = static_cast<float>(1 / (slope < 0 ? std::min(slope, -0x1p-40) : std::max(slope, 0x1p-40)));
+    }
+    pad = static_cast<float>(std::min(radius * boxes.scale + 0x1p-16 * size, kFar));
+    near = size < kFar && std::isfinite(time) && time > 0x1p-960;
+  }
+};
+
+// When the ray enters each box of a group, and infinity where it does not.
+std::array<float, kTreeWidth> enter_times(const BoxGroup& group, const RayProbe& ray) {
+  std::array<float, kTreeWidth> enter{}, leave;
+  leave.fill(std::numeric_limits<float>::infinity());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float* const low = ray.inverse[axis] > 0 ? group.low[axis] : group.high[axis];
+    const float* const high = ray.inverse[axis] > 0 ? group.high[axis] : group.low[axis];
+    const float pad = ray.inverse[axis] > 0 ? ray.pad : -ray.pad;
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
+      enter[k] = std::max(enter[k], (low[k] - pad - ray.origin[axis]) * ray.inverse[axis]);
+      leave[k] = std::min(leave[k], (high[k] + pad - ray.origin[axis]) * ray.inverse[axis]);
+    }
+  }
+  for (std::size_t k = 0; k < kTreeWidth; ++k)
+    enter[k] = enter[k] <= leave[k] ? enter[k] : std::numeric_limits<float>::infinity();
+  return enter;
+}
+
+class FirstHit {
+ public:
+  FirstHit(const PackedTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double radius)
+      : tree_(tree), origin_(origin), direction_(direction), radius_(radius), ray_(tree.boxes, origin, direction, radius) {}
+
+  std::optional<PointHit> run() {
+    visit(tree_.boxes.levels - 1, 0);
+    return best_.index < 0 ? std::nullopt : std::optional(best_);
+  }
+
+ private:
+  void visit(std::size_t level, std::size_t number) {
+    const BoxLevels& boxes = tree_.boxes;
+    const std::size_t first = number * kTreeWidth, count = std::min(kTreeWidth, boxes.below[level] - first);
+    const auto times = enter_times(boxes.groups[boxes.first[level] + number], ray_);
+    std::array<std::uint8_t, kTreeWidth> order;
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!ray_.near || times[k] < std::numeric_limits<float>::infinity()) order[found++] = static_cast<std::uint8_t>(k);
+    }
+    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(found), [&](std::uint8_t a, std::uint8_t b) {
+      return times[a] < times[b] || (times[a] == times[b] && a < b);
+    });
+    for (std::size_t i = 0; i < found; ++i) {
+      const std::size_t k = order[i];
+      if (ray_.near && times[k] > latest_) return;  // and all that follow
+      if (level > 0) {
+        visit(level - 1, first + k);
+      } else {
+        ask_packet(first + k);
+      }
+    }
+  }
+
+  void ask_packet(std::size_t packet) {
+    const std::size_t first = packet * kTreeWidth;
+    const PointView points = tree_.view();
+    for (std::size_t i = first; i < std::min(first + kTreeWidth, tree_.count); ++i) {
+      const Eigen::Vector3d place = vector(load_point(points, i));
+      if (!place.allFinite()) continue;
+      const auto inside = Sphere(place, radius_).intersect(origin_, direction_);
+      if (!inside) continue;
+      const PointHit hit{tree_.numbers[i], inside->enter};
+      if (best_.index < 0 || hit.t < best_.t || (hit.t == best_.t && hit.index < best_.index)) best_ = hit;
+    }
+    if (best_.index >= 0) latest_ = static_cast<float>(best_.t * ray_.time * (1 + 0x1p-16)) + ray_.pad;
+  }
+
+  const PackedTree& tree_;
+  Eigen::Vector3d origin_, direction_;
+  double radius_;
+  RayProbe ray_;
+  PointHit best_{-1, 0};
+  float latest_ = std::numeric_limits<float>::infinity();
+};
+
+// Of a sphere that does not move.
+std::optional<PointHit> lowest_inside(UsableIsa isa, const PackedTree& tree, const Sphere& sphere) {
+  std::vector<Neighbor> found;
+  list_in_ball(isa, tree, coordinates(sphere.center()), sphere.contained_square(), found);
+  if (found.empty()) return std::nullopt;
+  const auto lower = [](const Neighbor& a, const Neighbor& b) { return a.index < b.index; };
+  return PointHit{std::min_element(found.begin(), found.end(), lower)->index, 0};
+}
+
+}  // namespace
+
+std::optional<PointHit> PointTree::first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                             double radius) const {
+  const FloatEnvironment environment;
+  if (!(radius >= 0 && radius <= kMaxCoordinate))
+    throw std::invalid_argument("PointTree: the radius of a moving sphere must be from 0 to 1e100");
+  if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
+  if (direction.isZero(0)) return lowest_inside(isa_, tree_, Sphere(origin, radius));
+  return FirstHit(tree_, origin, direction, radius).run();
+}
+
+}  // namespace pcl_bv

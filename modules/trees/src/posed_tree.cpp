@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/trees/posed_tree.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "grown.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "turnable.h"
+
+namespace pcl_bv {
+namespace {
+
+void require_rigid(const Eigen::Isometry3d& pose) {
+  const Eigen::Matrix3d axes = pose.linear();
+  const Eigen::Matrix3d skew = axes.transpose() * axes - Eigen::Matrix3d::Identity();
+  if (!pose.matrix().allFinite() || !(skew.cwiseAbs().maxCoeff() <= 1e-6))
+    throw std::invalid_argument("PosedTree: a pose must be finite, its axes unit and orthogonal to 1e-6");
+}
+
+// The inverse of what is nearly a rotation, to rounding: the transpose, and one step of Newton's.
+Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
+  const Eigen::Matrix3d axes = pose.linear(), transposed = axes.transpose();
+  Eigen::Isometry3d back = Eigen::Isometry3d::Identity();
+  back.linear() = transposed * (2 * Eigen::Matrix3d::Identity() - axes * transposed);
+  back.translation() = -(back.linear() * pose.translation());
+  return back;
+}
+
+// An upper bound of |back (pose p) - p| for |p|_1 <= reach: what the products differ from the identity by, as computed
+// and by rounding.
+double difference(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, double reach) {
+  const Eigen::Matrix3d turned = back.linear() * pose.linear() - Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d shift = back.linear() * pose.translation() + back.translation();
+  const double place = taxicab3(pose.translation()) + taxicab3(back.translation());
+  return turned.cwiseAbs().sum() * reach + shift.lpNorm<1>() + 0x1p-46 * (reach + place) + 0x1p-480;
+}
+
+// The greatest |p|_1 of the tree's points, or more.
+double reach_of(const PackedTree& tree) {
+  const BoxLevels& boxes = tree.boxes;
+  if (tree.count == 0) return 0;
+  return (std::abs(boxes.origin.x) + std::abs(boxes.origin.y) + std::abs(boxes.origin.z)) + 6 / boxes.scale;
+}
+
+}  // namespace
+
+PosedTree::PosedTree(const PointTree& tree, const Eigen::Isometry3d& pose) : tree_(tree) {
+  const FloatEnvironment environment;
+  require_rigid(pose);
+  back_ = inverse(pose);
+  rounding_ = difference(back_, pose, reach_of(tree.packed()));
+}
+
+std::optional<Neighbor> PosedTree::nearest(const Eigen::Vector3d& place, double max_distance) const {
+  return tree_.nearest(back_ * place, max_distance);
+}
+
+void PosedTree::nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<Neighbor>& found,
+                        double max_distance) const {
+  tree_.nearest(back_ * place, k, found, max_distance);
+}
+
+void PosedTree::near(const Eigen::Vector3d& place, double distance, std::vector<Neighbor>& found) const {
+  tree_.near(back_ * place, distance, found);
+}
+
+bool PosedTree::any_inside(const AnyVolume& volume) const {
+  return tree_.any_inside(moved_back(volume));
+}
+
+std::size_t PosedTree::count_inside(const AnyVolume& volume) const {
+  return tree_.count_inside(moved_back(volume));
+}
+
+void PosedTree::all_inside(const AnyVolume& volume, std::vector<std::int32_t>& indices) const {
+  tree_.all_inside(moved_back(volume), indices);
+}
+
+std::optional<PointHit> PosedTree::first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                             double radius) const {
+  return tree_.first_hit(back_ * origin, back_.linear() * direction, radius);
+}
+
+AnyVolume PosedTree::moved_back(const AnyVolume& volume) const {
+  const FloatEnvironment environment;
+  return grown(transformed(turnable(volume), back_), rounding_);
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Weak duality does the work: weights w >= 0 with sum w_i n_i = d - r prove d.q <= sum w_i offset_i + r.q for
+// every q of the body. Plain double finds the weights; what they prove holds whatever rounding did to them.
+#include "half_spaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bounds.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv::volumes_internal {
+
+/// The dual simplex method (Lemke 1954). Each step lets the half-space that the corner is farthest beyond
+/// take the place of one of the three, such that the weights stay >= 0: what they prove only becomes better.
+class HalfSpaces::DualSimplex {
+ public:
+  /// Offsets are seen from a point near the corner that is looked for: there they lose no digits.
+  DualSimplex(const HalfSpaces& all, const Eigen::Vector3d& direction, const Eigen::Vector3d& near)
+      : all_(all), direction_(direction), slack_(all.size()) {
+    const std::size_t count = all.size();
+    for (std::size_t i = 0; i < count; ++i)
+      slack_[i] = all.offset_[i] - ((all.x_[i] * near[0] + all.y_[i] * near[1]) + all.z_[i] * near[2]);
+  }
+
+  /// The half-spaces whose boundary is no farther away than this, and the box.
+  std::vector<std::size_t> tight(double tolerance) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < slack_.size(); ++i) {
+      if (slack_[i] <= tolerance || i + box_sides >= slack_.size()) found.push_back(i);
+    }
+    return found;
+  }
+
+  /// Until no half-space of these is violated by more than the tolerance. The limit is against cycling, which
+  /// costs only tightness.
+  template <typename Candidates>
+  Basis solve(Basis basis, double tolerance, const Candidates& candidates) const {
+    for (int step = 0; step < 60; ++step) {
+      const Frame frame(all_, basis);
+      const Eigen::Vector3d corner =
+          frame.combine({slack_[basis.sides[0]], slack_[basis.sides[1]], slack_[basis.sides[2]]});
+      const std::size_t entering = most_violated(corner, tolerance, candidates);
+      if (entering == all_.size() || !frame.exchange(all_.normal(entering), entering, basis)) break;
+    }
+    return refined(basis);
+  }
+
+ private:
+  // The three normals of a basis and the rows of their inverse, times the determinant.
+  struct Frame {
+    Frame(const HalfSpaces& all, const Basis& basis) {
+      for (std::size_t k = 0; k < 3; ++k)
+        normals[k] = all.normal(basis.sides[k]);
+      for (std::size_t k = 0; k < 3; ++k)
+        crosses[k] = cross3(normals[(k + 1) % 3], normals[(k + 2) % 3]);
+      determinant = dot3(normals[0], crosses[0]);
+    }
+
+    Eigen::Vector3d combine(const Eigen::Vector3d& s) const {
+      return ((s[0] / determinant) * crosses[0] + (s[1] / determinant) * crosses[1]) +
+             (s[2] / determinant) * crosses[2];
+    }
+
+    Eigen::Vector3d shares(const Eigen::Vector3d& d) const {
+      return {dot3(crosses[0], d) / determinant, dot3(crosses[1], d) / determinant,
+              dot3(crosses[2], d) / determinant};
+    }
+
+    // False if none of the three can leave.
+    bool exchange(const Eigen::Vector3d& normal, std::size_t entering, Basis& basis) const {
+      const Eigen::Vector3d share = shares(normal);
+      const double negligible =
+          0x1p-40 * std::max({std::abs(share[0]), std::abs(share[1]), std::abs(share[2])});
+      int leaving = -1;
+      double step = kInfinity;
+      for (int k = 0; k < 3; ++k) {
+        if (!(share[k] > negligible)) continue;
+        const double ratio = basis.weights[k] / share[k];
+        if (ratio > step || (ratio == step && share[k] <= share[leaving])) continue;
+        leaving = k;
+        step = ratio;
+      }
+      if (leaving < 0) return false;
+      for (int k = 0; k < 3; ++k)
+        basis.weights[k] = std::max(0.0, basis.weights[k] - step * share[k]);
+      basis.weights[leaving] = step;
+      basis.sides[static_cast<std::size_t>(leaving)] = entering;
+      return true;
+    }
+
+    std::array<Eigen::Vector3d, 3> normals, crosses;
+    double determinant;
+  };
+
+  template <typename Candidates>
+  std::size_t most_violated(const Eigen::Vector3d& corner, double tolerance,
+                            const Candidates& candidates) const {
+    std::size_t found = all_.size();
+    double worst = tolerance;
+    candidates([&](std::size_t i) {
+      const double excess =
+          ((all_.x_[i] * corner[0] + all_.y_[i] * corner[1]) + all_.z_[i] * corner[2]) - slack_[i];
+      if (!(excess > worst)) return;
+      worst = excess;
+      found = i;
+    });
+    return found;
+  }
+
+  // Steps add up their rounding, and normals of neighbouring faces are nearly alike: of a direction as long
+  // as 1, weights left up to 3e-14 on bodies of 200 half-spaces, and leave 2e-15 once corrected by that.
+  Basis refined(Basis basis) const {
+    const Frame frame(all_, basis);
+    for (int round = 0; round < 2; ++round) {
+      Eigen::Vector3d rest = direction_;
+      for (int k = 0; k < 3; ++k)
+        rest -= basis.weights[k] * frame.normals[static_cast<std::size_t>(k)];
+      const Eigen::Vector3d more = frame.shares(rest);
+      for (int k = 0; k < 3; ++k)
+        basis.weights[k] = std::max(0.0, basis.weights[k] + more[k]);
+    }
+    return basis;
+  }
+
+  const HalfSpaces& all_;
+  const Eigen::Vector3d& direction_;
+  std::vector<double> slack_;
+};
+
+void HalfSpaces::reserve(std::size_t count) {
+  for (std::vector<double>* v : {&x_, &y_, &z_, &offset_})
+    v->reserve(count + box_sides);
+}
+
+void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& origin) {
+  const double largest = std::max({std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])});
+  if (!(largest > 0)) return;
+  double unit = std::ldexp(1.0, std::clamp(std::ilogb(largest), -1000, 1000));
+  if (Eigen::Vector3d(normal / unit) * unit != normal) unit = 1;  // a component would underflow
+  const double local = divide_up(Expansion().add(offset).add_dot(-normal, origin).up(), unit);
+  const Eigen::Vector3d scaled = normal / unit;
+  if (!std::isfinite(local)) return;
+  x_.push_back(scaled[0]);
+  y_.push_back(scaled[1]);
+  z_.push_back(scaled[2]);
+  offset_.push_back(local);
+}
+
+// The recession cone of a body whose directions +-e_k are all proven with residuals below 1 is {0}: for v in
+// it, with the largest component v_k = +-1, +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1 would follow. So
+// there is a largest |q|_inf, R, and R <= reach + |r|_1 R.
+bool HalfSpaces::enclose(double guess) {
+  const std::size_t usable = size();
+  for (int side = 0; side < 6; ++side) {
+    x_.push_back(side % 3 == 0 ? (side < 3 ? 1 : -1) : 0);
+    y_.push_back(side % 3 == 1 ? (side < 3 ? 1 : -1) : 0);
+    z_.push_back(side % 3 == 2 ? (side < 3 ? 1 : -1) : 0);
+    offset_.push_back(guess);
+  }
+  std::array<Proof, box_sides> proofs;
+  double reach = 0, residual = 0;
+  for (std::size_t side = 0; side < box_sides; ++side) {
+    const Eigen::Vector3d direction = normal(usable + side);
+    const auto every = [&](const auto& visit) {
+      for (std::size_t i = 0; i < size(); ++i)
+        visit(i);
+    };
+    const DualSimplex simplex(*this, direction, Eigen::Vector3d::Zero());
+    proofs[side] = prove(simplex.solve(start(direction), 0x1p-50 * guess, every), direction, usable);
+    if (!std::isfinite(proofs[side].reach) || !proofs[side].residual.allFinite()) return false;
+    reach = std::max(reach, proofs[side].reach);
+    residual = std::max(residual, taxicab3(proofs[side].residual));
+  }
+  if (residual > 0.25) return false;
+  const double most = reach / (1 - residual) * (1 + 0x1p-50);
+  for (std::size_t side = 0; side < box_sides; ++side) {
+    const double rest = taxicab3(proofs[side].residual) * most * (1 + 0x1p-50) + kSmallestNormal;
+    offset_[usable + side] = add_up(proofs[side].reach, rest);
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    widest_[static_cast<int>(k)] = std::max({0.0, offset_[usable + k], offset_[usable + k + 3]});
+  return true;
+}
+
+double HalfSpaces::radius_up() const {
+  return norm_up(widest_);
+}
+
+HalfSpaces::Basis HalfSpaces::start(const Eigen::Vector3d& direction) const {
+  Basis basis;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    basis.sides[axis] = size() - box_sides + axis + (direction[k] < 0 ? 3 : 0);
+    basis.weights[k] = std::abs(direction[k]);
+  }
+  return basis;
+}
+
+// The sums are off by 4.01 U (U = 2^-53) of their terms at most, 8 U also cover adding the bound.
+HalfSpaces::Proof HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& direction,
+                                    std::size_t usable) const {
+  Eigen::Vector3d rest = direction, terms = direction.cwiseAbs();
+  double reach = 0, magnitude = 0;
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t i = basis.sides[static_cast<std::size_t>(k)];
+    const double weight = basis.weights[k];
+    if (i >= usable || weight == 0) continue;
+    reach += weight * offset_[i];
+    magnitude += weight * std::abs(offset_[i]);
+    const Eigen::Vector3d part = weight * normal(i);
+    rest -= part;
+    terms += part.cwiseAbs();
+  }
+  return {reach + (0x1p-50 * magnitude + kSmallestNormal), rest.cwiseAbs() + 0x1p-50 * terms};
+}
+
+double HalfSpaces::bound(const Basis& basis, const Eigen::Vector3d& direction) const {
+  const auto [reach, residual] = prove(basis, direction, size());
+  const double rest = dot3(residual, widest_) * (1 + 0x1p-50) + kSmallestNormal;
+  return reach + rest + 0x1p-51 * (std::abs(reach) + rest);
+}
+
+// First by the half-spaces at the vertex, which are enough unless rounding hides a short edge.
+double HalfSpaces::reach_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
+  const double extent = std::max({widest_[0], widest_[1], widest_[2]});
+  const double tolerance = 0x1p-51 * extent;
+  const DualSimplex simplex(*this, direction, vertex);
+  const std::vector<std::size_t> tight = simplex.tight(0x1p-34 * extent);
+  const auto near = [&](const auto& visit) {
+    for (const std::size_t i : tight)
+      visit(i);
+  };
+  const Basis local = simplex.solve(start(direction), tolerance, near);
+  const double first = bound(local, direction);
+  if (first - dot3(direction, vertex) <= 0x1p-49 * extent) return first;
+  const auto every = [&](const auto& visit) {
+    for (std::size_t i = 0; i < size(); ++i)
+      visit(i);
+  };
+  return std::min(first, bound(simplex.solve(local, tolerance, every), direction));
+}
+
+}  // namespace pcl_bv::volumes_internal

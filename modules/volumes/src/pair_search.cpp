@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pair_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "double_double.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "simplex.h"
+
+namespace pcl_bv::volumes_internal {
+namespace {
+
+Eigen::Vector3d turned_back(const Eigen::Matrix3d& turn, const Eigen::Vector3d& d) {
+  return {dot3(turn.col(0), d), dot3(turn.col(1), d), dot3(turn.col(2), d)};
+}
+
+// What the two kinds of numbers need: how clearly the origin must be inside four points (coordinates are of
+// magnitudes below 4, so six products of three are off by 1e-13), what length is as good as 0, and what
+// absolute error a projection has.
+template <typename Real>
+struct Precision;
+template <>
+struct Precision<double> {
+  static constexpr double margin = 0x1p-36, nothing = 0x1p-36, rounding = 0x1p-51;
+};
+template <>
+struct Precision<DoubleDouble> {
+  static constexpr double margin = 0, nothing = 0x1p-96, rounding = 0x1p-100;
+};
+
+// b + delta - a.
+Vector<double> difference(const Eigen::Vector3d& delta, const Eigen::Vector3d&, const Eigen::Vector3d& b,
+                          const Eigen::Vector3d& a, double) {
+  return {delta[0] + (b[0] - a[0]), delta[1] + (b[1] - a[1]), delta[2] + (b[2] - a[2])};
+}
+
+Vector<DoubleDouble> difference(const Eigen::Vector3d& delta, const Eigen::Vector3d& rest,
+                                const Eigen::Vector3d& b, const Eigen::Vector3d& a, DoubleDouble) {
+  Vector<DoubleDouble> result;
+  for (int k = 0; k < 3; ++k)
+    result[static_cast<std::size_t>(k)] = (exact_sum(delta[k], rest[k]) + exact_sum(b[k], -a[k]));
+  return result;
+}
+
+class PairSearch {
+ public:
+  PairSearch(const Placed& a, const Placed& b, Goal goal, double bound)
+      : a_(a), b_(b), goal_(goal), bound_(bound), radii_(add_up(a.radius, b.radius)) {
+    double extent = std::max(a.size, b.size);
+    for (int k = 0; k < 3; ++k) {
+      const DoubleDouble apart = exact_sum(b.origin[k], -a.origin[k]);
+      delta_[k] = apart.hi;
+      delta_rest_[k] = apart.lo;
+      extent = std::max(extent, std::abs(delta_[k]));
+    }
+    // Also where something overflows, and where it is not known how far a body reaches.
+    meet_ = !(extent > 0 && std::isfinite(extent) && std::isfinite(radii_));
+    if (meet_) return;
+    scale_ = std::ldexp(1.0, -std::max(std::ilogb(extent), -1000));
+    const double length = length3(delta_);
+    direction_ = length > 0 ? Eigen::Vector3d(delta_ / length) : Eigen::Vector3d(Eigen::Vector3d::UnitX());
+  }
+
+  double run() {
+    if (meet_) return 0;
+    found_ = apart_by_size();
+    if (!done() && a_.shape.kind == b_.shape.kind && a_.turn == nullptr && b_.turn == nullptr) {
+      const Gap gap = a_.shape.parallel_gap(b_.shape);
+      found_ = std::max(found_, gap.bound);
+      if (gap.whole) return gap.bound;
+    }
+    if (!done()) search<double>();
+    if (!done() && !settled()) search<DoubleDouble>();
+    return found_;
+  }
+
+ private:
+  bool done() const { return meet_ || (goal_ == Goal::enough && found_ > bound_); }
+
+  // What balls around the origins tell, which most pairs of a scene are far outside of.
+  double apart_by_size() const {
+    const double reach = add_up(add_up(a_.size, b_.size), radii_);
+    const double apart = length3(delta_) * (1 - 0x1p-49) - reach;
+    return apart > 0 ? apart * (1 - 0x1p-52) : 0;
+  }
+
+  // Whether more digits could tell more than the rounding of sizes.
+  bool settled() const {
+    const double sizes = (a_.size + b_.size) + radii_;
+    return upper_ - radii_ - found_ <= 0x1p-42 * upper_ + 0x1p-46 * sizes;
+  }
+
+  // The gap along d, of length about 1, in exact arithmetic at least. Delta is off by U of itself, products
+  // and sums by 3.01 U; each further step by U of its result.
+  double certified(const Eigen::Vector3d& d) const {
+    const double x = d[0] * delta_[0], y = d[1] * delta_[1], z = d[2] * delta_[2];
+    const double reach_a = a_.reach_up(d), reach_b = b_.reach_up(-d);
+    const double terms =
+        ((std::abs(x) + std::abs(y)) + std::abs(z)) + (std::abs(reach_a) + std::abs(reach_b));
+    const double gap = (((x + y) + z) - reach_a) - reach_b - 0x1p-50 * terms;
+    if (!(gap > 0)) return 0;
+    const double apart = gap / norm3(d) * (1 - 0x1p-50) - radii_;
+    return apart > 0 ? apart * (1 - 0x1p-52) : 0;
+  }
+
+  void prove(const Eigen::Vector3d& d) { found_ = std::max(found_, certified(d)); }
+
+  // The point of b - a that is least along d.
+  template <typename Real>
+  Vector<Real> support(const Eigen::Vector3d& d) const {
+    const Vector<Real> w = difference(delta_, delta_rest_, b_.support(-d), a_.support(d), Real());
+    return times(Real(scale_), w);
+  }
+
+  // Ends where the points of the simplex prove that no direction is better, where rounding lets it go no
+  // further, and where the two are known to meet.
+  template <typename Real>
+  void search() {
+    using P = Precision<Real>;
+    Simplex<Real> simplex;
+    Eigen::Vector3d d = direction_;
+    double best = -kInfinity, upper = kInfinity;
+    for (int step = 0; step < 100; ++step) {
+      const Vector<Real> w = support<Real>(d);
+      const double gap = static_cast<double>(inner(w, Vector<Real>{Real(d[0]), Real(d[1]), Real(d[2])}));
+      if (gap > best) direction_ = d;
+      best = std::max(best, gap);
+      if (gap / scale_ - radii_ > bound_ && !(found_ > bound_)) prove(d);
+      if (done()) return;
+      const bool reached = upper < kInfinity && upper - gap <= 0x1p-44 * upper + P::rounding;
+      if (reached || simplex.has(w)) break;
+      simplex.add(w);
+      const auto foot = simplex.reduce(P::margin);
+      if (!foot) {
+        meet_ = !(found_ > 0);
+        return;
+      }
+      const double length = std::sqrt(static_cast<double>(inner(*foot, *foot)));
+      if (!(length < upper)) break;
+      upper = length;
+      if (near_enough(length)) return;
+      if (length < P::nothing) break;
+      for (std::size_t k = 0; k < 3; ++k)
+        d[static_cast<int>(k)] = static_cast<double>((*foot)[k]) / length;
+    }
+    upper_ = std::min(upper_, upper / scale_);
+    prove(direction_);
+  }
+
+  // Two points of the bodies that are nearer than what is asked for, by more than rounding.
+  bool near_enough(double length) {
+    if (goal_ == Goal::best && found_ > 0) return false;
+    meet_ = length / scale_ * (1 + 0x1p-40) < radii_ + (goal_ == Goal::enough ? bound_ : 0);
+    return meet_;
+  }
+
+  const Placed &a_, &b_;
+  const Goal goal_;
+  const double bound_, radii_;
+  Eigen::Vector3d delta_, delta_rest_;
+  double scale_ = 1;           // a power of two that brings lengths to about 1
+  Eigen::Vector3d direction_;  // to begin with, then the best of a search
+  bool meet_ = false;          // or they are near enough
+  double found_ = 0;           // the best bound that is proven
+  double upper_ = kInfinity;   // the distance of two points of the cores, to rounding
+};
+
+// Each body in its own numbers, so that the order of two does not depend on how they were asked about.
+auto key(const Placed& p) {
+  const Eigen::Vector3d mark = p.shape.mark();
+  return std::array{static_cast<double>(p.shape.kind),
+                    p.origin[0],
+                    p.origin[1],
+                    p.origin[2],
+                    p.radius,
+                    p.size,
+                    mark[0],
+                    mark[1],
+                    mark[2]};
+}
+
+}  // namespace
+
+Placed::Placed(const ConvexBody& body)
+    : shape(*body.shape_),
+      turn(body.turned_ ? &body.turn_ : nullptr),
+      origin(body.origin_),
+      size(body.size_),
+      radius(body.radius_) {}
+
+Placed::Placed(const Shape& point, const Eigen::Vector3d& at)
+    : shape(point), turn(nullptr), origin(at), size(0), radius(0) {}
+
+Eigen::Vector3d Placed::support(const Eigen::Vector3d& d) const {
+  if (turn == nullptr) return shape.support(d);
+  const Eigen::Vector3d q = shape.support(turned_back(*turn, d));
+  return {dot3(turn->row(0), q), dot3(turn->row(1), q), dot3(turn->row(2), q)};
+}
+
+// d . (turn q) = (turn' d) . q, and what rounding takes from turn' d is less than 4 U of its terms.
+double Placed::reach_up(const Eigen::Vector3d& d) const {
+  if (turn == nullptr) return shape.reach_up(d);
+  double terms = 0;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i)
+      terms += std::abs((*turn)(i, j) * d[i]);
+  }
+  const double reach = shape.reach_up(turned_back(*turn, d));
+  const double lost = 0x1p-51 * terms * shape.size + kSmallestNormal;
+  return reach + lost + 0x1p-51 * (std::abs(reach) + lost);
+}
+
+double lower_bound(const Placed& a, const Placed& b, Goal goal, double bound) {
+  return key(b) < key(a) ? PairSearch(b, a, goal, bound).run() : PairSearch(a, b, goal, bound).run();
+}
+
+}  // namespace pcl_bv::volumes_internal

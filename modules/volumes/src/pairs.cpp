@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/volumes/pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bounds.h"
+#include "pair_search.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "shape.h"
+
+namespace pcl_bv {
+
+using namespace volumes_internal;
+
+namespace {
+
+// a b as rounded, and an upper bound of how much a vector as long as 1 can differ by it.
+struct Product {
+  Eigen::Matrix3d matrix;
+  double error;
+};
+
+Product multiply(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  Product product{Eigen::Matrix3d::Zero(), 0};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      Expansion exact;
+      exact.add_dot(a.row(i), b.col(j));
+      product.matrix(i, j) = exact.value();
+      product.error = add_up(product.error, exact.add(-product.matrix(i, j)).magnitude_up());
+    }
+  }
+  return product;
+}
+
+}  // namespace
+
+ConvexBody::ConvexBody()
+    : turn_(Eigen::Matrix3d::Identity()),
+      origin_(Eigen::Vector3d::Constant(kNan)),
+      radius_(-1),
+      size_(0),
+      turned_(false) {}
+
+ConvexBody::ConvexBody(const AnyVolume& volume) : ConvexBody() {
+  const FloatEnvironment environment;
+  shape_ = make_shape(volume);
+  if (!shape_) return;
+  origin_ = shape_->origin;
+  radius_ = shape_->radius;
+  size_ = shape_->size;
+}
+
+// M (origin + turn q + e) + t, with |e| <= radius, is the moved origin and the product's turn of q to their
+// rounding, and no further from that than M stretches e.
+ConvexBody ConvexBody::moved(const Eigen::Isometry3d& transform) const {
+  const FloatEnvironment environment;
+  if (empty()) return *this;
+  ConvexBody result = *this;
+  const Eigen::Matrix3d m = transform.linear();
+  const MovedPoint origin = move_point(transform, origin_);
+  const double stretch = stretch_up(m);
+  double lost = origin.error;
+  result.turn_ = m;
+  if (turned_) {
+    const Product product = multiply(m, turn_);
+    result.turn_ = product.matrix;
+    lost = add_up(lost, multiply_up(product.error, shape_->size));
+  }
+  result.origin_ = origin.point;
+  result.radius_ = add_up(multiply_up(radius_, stretch), lost);
+  result.size_ = add_up(multiply_up(size_, stretch), lost);
+  result.turned_ = true;
+  return result;
+}
+
+bool overlaps(const ConvexBody& a, const ConvexBody& b) {
+  const FloatEnvironment environment;
+  return !a.empty() && !b.empty() && !(lower_bound(Placed(a), Placed(b), Goal::enough, 0) > 0);
+}
+
+double distance(const ConvexBody& a, const ConvexBody& b) {
+  const FloatEnvironment environment;
+  if (a.empty() || b.empty()) return kInfinity;
+  return lower_bound(Placed(a), Placed(b), Goal::best, 0);
+}
+
+double distance(const ConvexBody& body, const Eigen::Vector3d& point) {
+  const FloatEnvironment environment;
+  if (point.hasNaN()) return kNan;
+  if (body.empty() || !point.allFinite()) return kInfinity;
+  static const std::shared_ptr<const Shape> shape = make_shape(Sphere(Eigen::Vector3d::Zero(), 0));
+  return lower_bound(Placed(body), Placed(*shape, point), Goal::best, 0);
+}
+
+bool within(const ConvexBody& a, const ConvexBody& b, double margin) {
+  const FloatEnvironment environment;
+  if (a.empty() || b.empty()) return margin == kInfinity;
+  if (margin < 0) return false;
+  return !(lower_bound(Placed(a), Placed(b), Goal::enough, margin) > margin);
+}
+
+bool overlaps(const AnyVolume& a, const AnyVolume& b) {
+  return overlaps(ConvexBody(a), ConvexBody(b));
+}
+
+double distance(const AnyVolume& a, const AnyVolume& b) {
+  return distance(ConvexBody(a), ConvexBody(b));
+}
+
+}  // namespace pcl_bv

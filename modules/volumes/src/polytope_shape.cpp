@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Bodies of half-spaces, k-DOPs and hulls: their corners propose, the half-spaces answer.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "bounds.h"
+#include "half_spaces.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "polytope.h"
+#include "shape.h"
+
+namespace pcl_bv::volumes_internal {
+namespace {
+
+class PolytopeShape : public Shape {
+ public:
+  Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
+    std::size_t best = 0;
+    double greatest = -kInfinity;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const double reach = (x_[i] * d[0] + y_[i] * d[1]) + z_[i] * d[2];
+      if (reach > greatest) {
+        greatest = reach;
+        best = i;
+      }
+    }
+    return {x_[best], y_[best], z_[best]};
+  }
+
+  double reach_up(const Eigen::Vector3d& d) const override { return half_spaces_.reach_up(d, support(d)); }
+
+  Eigen::Vector3d mark() const override { return {x_.front(), y_.front(), z_.front()}; }
+
+ protected:
+  // Corners are seen from `from`.
+  void set_corners(const Eigen::Vector3d& from, const std::vector<Eigen::Vector3d>& corners) {
+    Eigen::Vector3d low = corners.front(), high = corners.front();
+    for (const Eigen::Vector3d& v : corners) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    origin = from + (0.5 * low + 0.5 * high);
+    const Eigen::Vector3d shift = from - origin;
+    for (const Eigen::Vector3d& v : corners) {
+      x_.push_back(v[0] + shift[0]);
+      y_.push_back(v[1] + shift[1]);
+      z_.push_back(v[2] + shift[2]);
+    }
+    // Half-spaces leave room of the rounding of coordinates about the corners, which may be one point.
+    const Eigen::Vector3d at = origin.cwiseAbs();
+    guess_ = 2 * (high - low).maxCoeff() + 0x1p-40 * at.maxCoeff() + kSmallestNormal;
+  }
+
+  void enclose() { size = half_spaces_.enclose(guess_) ? half_spaces_.radius_up() : kInfinity; }
+
+  HalfSpaces half_spaces_;
+
+ private:
+  std::vector<double> x_, y_, z_;
+  double guess_ = 0;
+};
+
+class HullShape final : public PolytopeShape {
+ public:
+  explicit HullShape(const Hull& hull) {
+    set_corners(hull.vertices().front(), [&] {
+      std::vector<Eigen::Vector3d> corners = hull.vertices();
+      for (Eigen::Vector3d& v : corners)
+        v -= hull.vertices().front();
+      return corners;
+    }());
+    half_spaces_.reserve(hull.planes().size());
+    for (const HullPlane& plane : hull.planes())
+      half_spaces_.add(plane.normal, plane.offset, origin);
+    enclose();
+  }
+};
+
+class KdopShape final : public PolytopeShape {
+ public:
+  KdopShape(const Kdop& kdop, const Polytope& polytope) : kdop_(kdop) {
+    set_corners(polytope.origin, polytope.vertices);
+    half_spaces_.reserve(2 * kdop.size());
+    for (std::size_t i = 0; i < kdop.size(); ++i) {
+      half_spaces_.add(kdop.set()->direction(i), kdop.max(i), origin);
+      half_spaces_.add(-kdop.set()->direction(i), -kdop.min(i), origin);
+    }
+    enclose();
+  }
+
+  Gap parallel_gap(const Shape& other) const override {
+    const Kdop& b = static_cast<const KdopShape&>(other).kdop_;
+    if (*kdop_.set() != *b.set()) return {0, false};
+    double best = 0;
+    for (std::size_t i = 0; i < kdop_.size(); ++i) {
+      double apart = 0;
+      if (b.min(i) > kdop_.max(i)) apart = -add_up(kdop_.max(i), -b.min(i));
+      if (kdop_.min(i) > b.max(i)) apart = -add_up(b.max(i), -kdop_.min(i));
+      if (apart > 0) best = std::max(best, apart / length3(kdop_.set()->direction(i)) * (1 - 0x1p-49));
+    }
+    return {best, false};
+  }
+
+ private:
+  Kdop kdop_;
+};
+
+}  // namespace
+
+std::shared_ptr<Shape> make_polytope(const Hull& hull) {
+  return std::make_shared<HullShape>(hull);
+}
+
+// Slabs that miss each other by rounding have no corners, and may have a point: their box has both.
+std::shared_ptr<Shape> make_polytope(const Kdop& kdop) {
+  Polytope polytope = intersect_slabs(kdop);
+  if (polytope.vertices.empty()) {
+    if (kdop.tightened().empty()) return nullptr;
+    const Aabb box = kdop.aabb();
+    if (box.empty()) return nullptr;
+    polytope.vertices.clear();
+    for (const Eigen::Vector3d& corner : box.corners())
+      polytope.vertices.push_back(corner - polytope.origin);
+  }
+  return std::make_shared<KdopShape>(kdop, polytope);
+}
+
+}  // namespace pcl_bv::volumes_internal

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/trees/posed_tree.h"
+
+#include <gtest/gtest.h>
+
+#include "any_volumes.h"
+#include "clouds.h"
+#include "pcl_bv/trees/batches.h"
+
+namespace pcl_bv {
+namespace {
+
+using namespace testing;
+
+// Whether the volume holds the image by exact arithmetic, for the kinds that have judges in rationals.
+bool surely_inside(const AnyVolume& volume, const ExactPoint& p) {
+  return std::visit([&](const auto& shape) { return !shape.empty() && inside(shape, p); }, volume);
+}
+
+TEST(PosedTree, MissesNoPointWhoseImageIsInsideByExactArithmetic) {
+  Random random(1);
+  for (const Scale& scale : scales()) {
+    if (scale.extent < 1e-30 || scale.extent > 1e30) continue;  // transformed() multiplies
+    std::size_t inside_count = 0;
+    for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
+      const Eigen::Isometry3d pose = random.isometry(scale.extent);
+      test::TestCloud<double> cloud;
+      for (const Vector3d& p : points_about(random, volume, 1e-3 * scale.extent, 20)) {
+        const Vector3d moved_back = pose.inverse() * p;
+        cloud.xyz.insert(cloud.xyz.end(), moved_back.begin(), moved_back.end());
+      }
+      const PointTree tree(cloud.view());
+      const PosedTree posed(tree, pose);
+      std::vector<std::int32_t> found;
+      posed.all_inside(volume, found);
+      EXPECT_EQ(posed.count_inside(volume), found.size());
+      EXPECT_EQ(posed.any_inside(volume), !found.empty());
+      for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Coordinates p = load_point(cloud.view(), i);
+        if (!surely_inside(volume, image(pose, exact(Vector3d(p.x, p.y, p.z))))) continue;
+        ++inside_count;
+        ASSERT_TRUE(std::binary_search(found.begin(), found.end(), static_cast<std::int32_t>(i)))
+            << shape_name(volume) << ", " << scale.name;
+      }
+    }
+    EXPECT_GT(inside_count, 100U) << scale.name;
+  }
+}
+
+// Far away from the surface there is nothing that rounding could add.
+TEST(PosedTree, FindsNothingThatIsClearlyOutside) {
+  Random random(2);
+  const auto cloud = test::gaussian<float>(5000, 3);
+  const PointTree tree(cloud.view());
+  for (const AnyVolume& volume : volumes_of_every_kind(random, {"unit", 0, 1})) {
+    const Eigen::Isometry3d pose = random.isometry(1);
+    std::vector<std::int32_t> found;
+    PosedTree(tree, pose).all_inside(volume, found);
+    for (const std::int32_t i : found) {
+      const Coordinates p = load_point(cloud.view(), static_cast<std::size_t>(i));
+      ASSERT_LE(distance(volume, pose * Vector3d(p.x, p.y, p.z)), 1e-9) << shape_name(volume);
+    }
+  }
+}
+
+TEST(PosedTree, HasTheNeighboursOfAMovedCloud) {
+  Random random(4);
+  const auto cloud = test::gaussian<double>(2000, 5);
+  const Eigen::Isometry3d pose = random.isometry(3);
+  test::TestCloud<double> moved;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Coordinates p = load_point(cloud.view(), i);
+    const Vector3d image = pose * Vector3d(p.x, p.y, p.z);
+    moved.xyz.insert(moved.xyz.end(), image.begin(), image.end());
+  }
+  const PointTree tree(cloud.view()), other(moved.view());
+  const PosedTree posed(tree, pose);
+  for (int round = 0; round < 100; ++round) {
+    const Vector3d place = pose * random.vector(3), direction = random.vector(1);
+    std::vector<Neighbor> found, expected;
+    posed.nearest(place, 10, found);
+    other.nearest(place, 10, expected);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].index, expected[i].index);
+      EXPECT_NEAR(found[i].squared_distance, expected[i].squared_distance, 1e-12);
+    }
+    EXPECT_EQ(posed.nearest(place)->index, expected.front().index);
+    const auto hit = posed.first_hit(place, direction, 0.1), there = other.first_hit(place, direction, 0.1);
+    ASSERT_EQ(hit.has_value(), there.has_value());
+    EXPECT_EQ(hit.value_or(PointHit{-1, 0}).index, there.value_or(PointHit{-1, 0}).index);
+  }
+}
+
+TEST(PosedTree, RefusesAPoseThatIsNotRigid) {
+  const PointTree tree;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose(0, 0) = 2;
+  EXPECT_THROW(PosedTree(tree, pose), std::invalid_argument);
+  pose(0, 0) = kNan;
+  EXPECT_THROW(PosedTree(tree, pose), std::invalid_argument);
+}
+
+TEST(Batches, AnswerEachQuestionAsIfItWereTheOnlyOne) {
+  const auto cloud = test::gaussian<float>(20'000, 6), places = test::gaussian<float>(3000, 7, 1.5);
+  const PointTree tree(cloud.view());
+  for (const ParallelPolicy& policy : {ParallelPolicy(Serial{}), ParallelPolicy(Threads{3})}) {
+    std::vector<Neighbor> one, found;
+    NeighborLists few, all;
+    nearest(tree, places.view(), found, 0.1, {policy});
+    nearest(tree, places.view(), 7, few, 0.5, {policy});
+    near(tree, places.view(), 0.2, all, {policy});
+    ASSERT_EQ(found.size(), places.size());
+    std::vector<Sphere> spheres;
+    std::vector<AnyVolume> boxes;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Coordinates c = load_point(places.view(), i);
+      const Vector3d place(c.x, c.y, c.z);
+      spheres.emplace_back(place, 0.05);
+      boxes.emplace_back(Aabb(place, place + Vector3d::Constant(0.1)));
+      const auto nearest_one = tree.nearest(place, 0.1);
+      EXPECT_EQ(found[i].index, nearest_one ? nearest_one->index : -1);
+      tree.nearest(place, 7, one, 0.5);
+      ASSERT_EQ(few.first[i + 1] - few.first[i], one.size());
+      for (std::size_t k = 0; k < one.size(); ++k)
+        EXPECT_EQ(few.neighbors[few.first[i] + k].index, one[k].index);
+      tree.near(place, 0.2, one);
+      std::sort(one.begin(), one.end());
+      ASSERT_EQ(all.first[i + 1] - all.first[i], one.size());
+      for (std::size_t k = 0; k < one.size(); ++k)
+        EXPECT_EQ(all.neighbors[all.first[i] + k].index, one[k].index);
+    }
+    std::vector<std::uint8_t> in_spheres, in_boxes;
+    any_inside(tree, spheres, in_spheres, {policy});
+    any_inside(tree, boxes, in_boxes, {policy});
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      ASSERT_EQ(in_spheres[i], tree.any_inside(spheres[i]));
+      ASSERT_EQ(in_boxes[i], tree.any_inside(boxes[i]));
+    }
+  }
+  NeighborLists none;
+  near(tree, PointView{}, 1, none);
+  EXPECT_EQ(none.first, std::vector<std::size_t>{0});
+}
+
+}  // namespace
+}  // namespace pcl_bv
