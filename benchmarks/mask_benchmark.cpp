@@ -11,6 +11,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "convex_region.h"
+#include "grown.h"
+#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "rows.h"
 
@@ -104,27 +108,26 @@ void add_many(const std::string& scene, Isa isa, std::size_t count, unsigned thr
     if (scene == "shuffled") std::shuffle(made.begin(), made.end(), std::mt19937_64(3));
     const PointView points = PointView::of(made.points.data()->data, sizeof(pcl::PointXYZ), made.size());
     const std::vector<Region> regions = regions_about(points, count);
-    std::vector<RegionMask> few;
-    for (std::size_t i = 0; i < count; i += RegionMask::kFewRegions) {
-      const std::size_t end = std::min(count, i + RegionMask::kFewRegions);
-      few.emplace_back(std::vector(regions.begin() + static_cast<std::ptrdiff_t>(i),
-                                   regions.begin() + static_cast<std::ptrdiff_t>(end)));
-    }
+    std::vector<ConvexRegion> convex;
+    for (const auto& [volume, padding] : regions)
+      convex.push_back(convex_region(grown(volume, padding)));
+    const RegionTests tests(convex);
     const RegionMask mask(regions);
     const Execution execution{policy_of(threads), isa};
-    std::vector<std::uint8_t> expected, part, inside;
-    const auto by_few = [&] {
-      expected.assign(points.count, 0);
-      for (const RegionMask& some : few) {
-        some.mark(points, part, execution);
-        for (std::size_t i = 0; i < points.count; ++i)
-          expected[i] |= part[i];
-      }
+    std::vector<std::uint8_t> expected(points.count), inside;
+    const auto against_all = [&] {
+      for_each_chunk(execution.parallel, chunk_count(points.count), [&](std::size_t chunk) {
+        const std::size_t begin = chunk * kChunkPoints, n = std::min(kChunkPoints, points.count - begin);
+        region_states(isa, points.slice(begin, n), tests, expected.data() + begin);
+      });
     };
-    by_few();
+    against_all();
     mask.mark(points, inside, execution);
-    if (inside != expected) throw std::logic_error("other points are inside");
-    compare(state, by_few, [&] { mask.mark(points, inside, execution); });
+    for (std::size_t i = 0; i < points.count; ++i) {
+      if (expected[i] != static_cast<std::uint8_t>(RegionState::unclear) && inside[i] != expected[i])
+        throw std::logic_error("other points are inside");
+    }
+    compare(state, against_all, [&] { mask.mark(points, inside, execution); });
     state.counters["points"] = static_cast<double>(points.count);
     state.counters["inside"] = static_cast<double>(std::count(inside.begin(), inside.end(), 1));
   });

@@ -161,21 +161,27 @@ std::size_t list_outside_reference(const PointView& points, const HalfSpaces& in
 }
 
 void region_states_reference(const PointView& points, const RegionTests::Prepared& regions,
-                             const ChosenRegions* chosen, std::uint8_t* states) {
+                             std::uint8_t* states) {
   for_scalar(points, [&]<typename T>() {
     const RegionTestsOf<T>& all = regions.of<T>();
-    const auto each = [&](std::size_t count, const auto& test) {
-      for (std::size_t i = 0; i < points.count; ++i) {
-        T p[3];
-        load_point(points, i, p);
-        states[i] = static_cast<std::uint8_t>(state_of_point(all, count, test, p));
-      }
-    };
-    if (chosen == nullptr) {
-      each(all.regions.size(), [&](std::size_t k) -> const RegionTest<T>& { return all.regions[k]; });
-    } else {
-      each(chosen->count,
-           [&](std::size_t k) -> const RegionTest<T>& { return all.regions[chosen->places[k]]; });
+    const auto test = [&](std::size_t k) -> const RegionTest<T>& { return all.regions[k]; };
+    for (std::size_t i = 0; i < points.count; ++i) {
+      T p[3];
+      load_point(points, i, p);
+      states[i] = static_cast<std::uint8_t>(state_of_point(all, all.regions.size(), test, p));
+    }
+  });
+}
+
+void chosen_states_reference(const PointView& points, const RegionTests::Prepared& regions,
+                             const ChosenRegions& chosen, std::uint8_t* states) {
+  for_scalar(points, [&]<typename T>() {
+    const RegionTestsOf<T>& all = regions.of<T>();
+    const auto test = [&](std::size_t k) -> const RegionTest<T>& { return all.regions[chosen.places[k]]; };
+    for (std::size_t i = 0; i < points.count; ++i) {
+      T p[3];
+      load_point(points, i, p);
+      states[i] = static_cast<std::uint8_t>(state_of_point(all, chosen.count, test, p));
     }
   });
 }

@@ -24,7 +24,9 @@ SlabExtents slab_extents_reference(const PointView& points, const Coordinates& o
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
                                    std::uint32_t* positions);
 void region_states_reference(const PointView& points, const RegionTests::Prepared& regions,
-                             const ChosenRegions* chosen, std::uint8_t* states);
+                             std::uint8_t* states);
+void chosen_states_reference(const PointView& points, const RegionTests::Prepared& regions,
+                             const ChosenRegions& chosen, std::uint8_t* states);
 void run_boxes_reference(const PointView& points, RunBox* boxes);
 
 /// Writes the points as groups; the `pad`-th one (if there is any) fills the last group.

@@ -15,7 +15,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "load-inl.h"
+#include "region_tests-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {
@@ -23,148 +23,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Tests between two looks whether the others can still change anything.
-constexpr std::size_t kBetweenLooks = 4;
-
-template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE hn::Mask<D> lanes_in_box(D d, const T (&low)[3], const T (&high)[3], V<D> x, V<D> y, V<D> z) {
-  const auto in_x = hn::And(hn::Ge(x, hn::Set(d, low[0])), hn::Le(x, hn::Set(d, high[0])));
-  const auto in_y = hn::And(hn::Ge(y, hn::Set(d, low[1])), hn::Le(y, hn::Set(d, high[1])));
-  const auto in_z = hn::And(hn::Ge(z, hn::Set(d, low[2])), hn::Le(z, hn::Set(d, high[2])));
-  return hn::And(hn::And(in_x, in_y), in_z);
-}
-
-template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE V<D> along(D d, const T (&n)[3], V<D> x, V<D> y, V<D> z) {
-  return hn::Add(hn::Add(hn::Mul(hn::Set(d, n[0]), x), hn::Mul(hn::Set(d, n[1]), y)),
-                 hn::Mul(hn::Set(d, n[2]), z));
-}
-
-// Those that judge say which lanes are inside and which outside; of lanes that are not asked that means
-// nothing. Two masks, since vectors of SVE cannot be members.
-template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
-                              hn::Mask<D>& outside) {
-  inside = hn::Le(squares, hn::Set(d, test.square_inner));
-  outside = hn::Gt(squares, hn::Set(d, test.square_outer));
-}
-
-template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_ball(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
-                           hn::Mask<D>& outside) {
-  judge_squares(d, test, hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)), inside, outside);
-}
-
-template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE V<D> square_beyond(D d, const SlabTest<T>& slab, V<D> reach) {
-  const auto beyond = hn::Max(hn::Sub(reach, hn::Set(d, slab.core)), hn::Zero(d));
-  const auto weighted = hn::Mul(beyond, hn::Set(d, slab.weight));
-  return hn::Mul(weighted, weighted);
-}
-
-template <bool slabs_only, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
-                           hn::Mask<D>& outside) {
-  const auto& [a, b, c] = test.slabs;
-  const auto along_a = hn::Abs(along(d, a.axis, x, y, z));
-  const auto along_b = hn::Abs(along(d, b.axis, x, y, z));
-  const auto along_c = hn::Abs(along(d, c.axis, x, y, z));
-  const auto excess =
-      hn::Max(hn::Max(hn::Sub(along_a, hn::Set(d, a.slab)), hn::Sub(along_b, hn::Set(d, b.slab))),
-              hn::Sub(along_c, hn::Set(d, c.slab)));
-  inside = hn::Le(excess, hn::Set(d, -test.error));
-  outside = hn::Gt(excess, hn::Set(d, test.error));
-  if constexpr (!slabs_only) {
-    const auto squares = hn::Add(hn::Add(square_beyond(d, a, along_a), square_beyond(d, b, along_b)),
-                                 square_beyond(d, c, along_c));
-    hn::Mask<D> round_inside, round_outside;
-    judge_squares(d, test, squares, round_inside, round_outside);
-    inside = hn::And(inside, round_inside);
-    outside = hn::Or(outside, round_outside);
-  }
-}
-
-template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_planes(D d, const RegionTest<T>& test, hn::Mask<D> asked, V<D> x, V<D> y, V<D> z,
-                             hn::Mask<D>& inside, hn::Mask<D>& outside) {
-  const auto doubt = hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, test.slope));
-  inside = asked;
-  outside = hn::AndNot(asked, asked);
-  for (std::size_t k = 0; k < test.planes.size();) {
-    const std::size_t end = HWY_MIN(k + kBetweenLooks, test.planes.size());
-    for (; k < end; ++k) {
-      const PlaneTest<T>& plane = test.planes[k];
-      const auto reach = along(d, plane.normal, x, y, z);
-      inside = hn::And(inside, hn::Le(hn::Add(reach, doubt), hn::Set(d, plane.inner)));
-      outside = hn::Or(outside, hn::Gt(hn::Sub(reach, doubt), hn::Set(d, plane.outer)));
-    }
-    if (hn::AllFalse(d, hn::AndNot(outside, asked))) break;
-  }
-}
-
-// Adds what one region says of the `near` lanes. Those that are inside of another one are asked, too: a
-// processor that need not wait for that answer takes 0.8 of the time where most packets are in several boxes
-// (AVX-512).
-template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void test_region(D d, const RegionTest<T>& test, hn::Mask<D> near, V<D> x, V<D> y, V<D> z,
-                            hn::Mask<D>& inside, hn::Mask<D>& unclear) {
-  auto asked = near;
-  if (test.shape == RegionShape::box || test.shape == RegionShape::planes || test.vague) {
-    asked = hn::And(asked, lanes_in_box(d, test.low, test.high, x, y, z));
-    if (test.shape == RegionShape::box) inside = hn::Or(inside, asked);
-    if (test.vague) unclear = hn::Or(unclear, asked);
-    if (test.shape == RegionShape::box || test.vague) return;
-  }
-  x = hn::Sub(x, hn::Set(d, test.head[0]));
-  y = hn::Sub(y, hn::Set(d, test.head[1]));
-  z = hn::Sub(z, hn::Set(d, test.head[2]));
-  if (test.shape == RegionShape::slabs || test.shape == RegionShape::body) {
-    asked = hn::And(hn::And(asked, hn::Le(hn::Abs(x), hn::Set(d, test.reach[0]))),
-                    hn::And(hn::Le(hn::Abs(y), hn::Set(d, test.reach[1])),
-                            hn::Le(hn::Abs(z), hn::Set(d, test.reach[2]))));
-  }
-  if (hn::AllFalse(d, asked)) return;
-  x = hn::Sub(x, hn::Set(d, test.tail[0]));
-  y = hn::Sub(y, hn::Set(d, test.tail[1]));
-  z = hn::Sub(z, hn::Set(d, test.tail[2]));
-  hn::Mask<D> in, out;
-  if (test.shape == RegionShape::ball) {
-    judge_ball(d, test, x, y, z, in, out);
-  } else if (test.shape == RegionShape::slabs) {
-    judge_body<true>(d, test, x, y, z, in, out);
-  } else if (test.shape == RegionShape::body) {
-    judge_body<false>(d, test, x, y, z, in, out);
-  } else {
-    judge_planes(d, test, asked, x, y, z, in, out);
-  }
-  inside = hn::Or(inside, hn::And(asked, in));
-  unclear = hn::Or(unclear, hn::AndNot(hn::Or(in, out), asked));
-}
-
-template <Layout layout, class D>
-HWY_INLINE void store_states(D d, hn::Mask<D> inside, hn::Mask<D> unclear, std::size_t count,
-                             std::uint8_t* states) {
-  using T = hn::TFromD<D>;
-  const hn::RebindToUnsigned<D> du;
-  const std::size_t lanes = hn::Lanes(d);
-  HWY_ALIGN hn::TFromD<decltype(du)> codes[kGroupBytes / sizeof(T)];
-  const auto clear = hn::IfThenElseZero(inside, hn::BitCast(d, hn::Set(du, 1)));
-  hn::Store(
-      hn::BitCast(du, hn::IfThenElse(hn::AndNot(inside, unclear), hn::BitCast(d, hn::Set(du, 2)), clear)), du,
-      codes);
-  if (count == lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      states[point_of_lane<layout>(lane, lanes)] = static_cast<std::uint8_t>(codes[lane]);
-  } else {
-    for (std::size_t lane = 0; lane < count; ++lane)
-      states[lane] = static_cast<std::uint8_t>(codes[lane]);
-  }
-}
-
-// Of all regions, or of those chosen: `chosen` is then not null.
-template <Layout layout, bool all_regions, typename T>
-void states_of(const PointView& points, const RegionTestsOf<T>& all,
-               [[maybe_unused]] const ChosenRegions* chosen, std::uint8_t* states) {
+template <Layout layout, typename T>
+void states_of(const PointView& points, const RegionTestsOf<T>& all, std::uint8_t* states) {
   const Tag<T> d;
   const std::size_t lanes = hn::Lanes(d);
   std::fill_n(states, points.count, std::uint8_t{0});  // outside
@@ -174,31 +34,16 @@ void states_of(const PointView& points, const RegionTestsOf<T>& all,
     const auto near = lanes_in_box(d, all.low, all.high, x, y, z);
     if (hn::AllFalse(d, near)) continue;
     auto inside = hn::AndNot(near, near), unclear = inside;
-    if constexpr (all_regions) {
-      for (const RegionTest<T>& test : all.regions)
-        test_region(d, test, near, x, y, z, inside, unclear);
-    } else {
-      for (std::size_t k = 0; k < chosen->count;) {
-        const std::size_t end = HWY_MIN(k + kBetweenLooks, chosen->count);
-        for (; k < end; ++k)
-          test_region(d, all.regions[chosen->places[k]], near, x, y, z, inside, unclear);
-        if (hn::AllFalse(d, hn::AndNot(inside, near))) break;
-      }
-    }
+    for (const RegionTest<T>& test : all.regions)
+      test_region(d, test, near, x, y, z, inside, unclear);
     if (hn::AllFalse(d, hn::Or(inside, unclear))) continue;
     store_states<layout>(d, inside, unclear, HWY_MIN(lanes, points.count - i), states + i);
   }
 }
 
-void region_states(const PointView& points, const RegionTests::Prepared& regions, const ChosenRegions* chosen,
-                   std::uint8_t* states) {
-  for_layout(points, [&]<Layout layout, typename T>() {
-    if (chosen == nullptr) {
-      states_of<layout, true, T>(points, regions.of<T>(), nullptr, states);
-    } else {
-      states_of<layout, false, T>(points, regions.of<T>(), chosen, states);
-    }
-  });
+void region_states(const PointView& points, const RegionTests::Prepared& regions, std::uint8_t* states) {
+  for_layout(points,
+             [&]<Layout layout, typename T>() { states_of<layout, T>(points, regions.of<T>(), states); });
 }
 
 #endif  // HWY_TARGET != HWY_SCALAR
@@ -210,24 +55,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-namespace {
-
-void run(UsableIsa isa, const PointView& points, const RegionTests& regions, const ChosenRegions* chosen,
-         std::uint8_t* states) {
+void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions, std::uint8_t* states) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(region_states, &region_states_reference);
   require_in_memory(points);
-  kTable[isa](points, regions.prepared(), chosen, states);
-}
-
-}  // namespace
-
-void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions, std::uint8_t* states) {
-  run(isa, points, regions, nullptr, states);
-}
-
-void region_states(UsableIsa isa, const PointView& points, const RegionTests& regions,
-                   const ChosenRegions& chosen, std::uint8_t* states) {
-  run(isa, points, regions, &chosen, states);
+  kTable[isa](points, regions.prepared(), states);
 }
 
 }  // namespace pcl_bv

@@ -8,7 +8,6 @@
 
 #include <cmath>
 
-#include "grown.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
@@ -27,13 +26,6 @@ constexpr std::size_t kSlabs = 7;
 Place cube_direction(std::size_t i) {
   const CubeDirection& d = kCubeDirections[i];
   return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
-}
-
-// As far as contains() may hold for a volume that is somewhere.
-AnyVolume with_margin(const AnyVolume& volume) {
-  const Aabb box = aabb(volume);
-  const double size = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  return grown(volume, 0x1p-40 * size + 0x1p-480);
 }
 
 // Clips [enter, exit] to the t with low <= start + t slope <= high.
@@ -138,16 +130,17 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
   Slabs slabs;
   slabs.min.fill(-std::numeric_limits<float>::infinity());
   slabs.max.fill(std::numeric_limits<float>::infinity());
-  if (aabb(volume).empty()) return slabs;  // a k-DOP of slabs that miss each other
-  const SlabBounds<kSlabs, double> bounds(with_margin(volume));
-  if (bounds.empty()) return slabs;
+  const SlabBounds<kSlabs, double> bounds(volume);
+  const Aabb box = aabb(volume);
+  if (bounds.empty() || box.empty()) return slabs;  // a k-DOP of slabs that miss each other
+  const double margin = 2 * contained_margin(box);
   for (std::size_t i = 0; i < kSlabs; ++i) {
     const Place d = cube_direction(i);
     Expansion origin;
     for (std::size_t k = 0; k < 3; ++k)
       origin.add(-d[k] * boxes.levels().origin[k]);
-    slabs.max[i] = float_up(multiply_up(Expansion(origin).add(bounds.max[i]).up(), scale));
-    slabs.min[i] = float_down(-multiply_up(-Expansion(origin).add(bounds.min[i]).down(), scale));
+    slabs.max[i] = float_up(multiply_up(Expansion(origin).add(bounds.max[i]).add(margin).up(), scale));
+    slabs.min[i] = float_down(-multiply_up(-Expansion(origin).add(bounds.min[i]).add(-margin).down(), scale));
   }
   return slabs;
 }
@@ -158,8 +151,7 @@ NodeShapes::Ball NodeShapes::ball_of(const VolumeBoxes& boxes, const AnyVolume& 
   double radius = 0.5 * norm3(size) * (1 + 0x1p-40);
   Eigen::Vector3d center = 0.5 * vector(extent.low) + 0.5 * vector(extent.high);
   if (const auto* const sphere = std::get_if<Sphere>(&volume)) {
-    const AnyVolume all = with_margin(volume);
-    radius = std::get<Sphere>(all).radius();
+    radius = sphere->radius() + contained_margin(sphere->aabb());
     center = sphere->center();
   }
   Ball ball;

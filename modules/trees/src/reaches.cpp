@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "pcl_bv/numeric/constants.h"
-#include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "plane_body.h"
@@ -22,12 +21,15 @@ Eigen::Vector3d cube_vector(std::size_t i) {
   return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
 }
 
-double dot_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return Expansion().add_dot(a, b).up();
+// More than the roundings of some tens of sums and products of magnitudes, and what underflows in them.
+double grown_up(double magnitude) {
+  return magnitude * (1 + 0x1p-45) + 0x1p-1000;
 }
 
-double length_up(const Eigen::Vector3d& v) {
-  return sqrt_up(dot_up(v, v));
+// Without the squares leaving the range of double.
+double length(const Eigen::Vector3d& v) {
+  const double greatest = v.cwiseAbs().maxCoeff();
+  return greatest > 0 ? norm3(Eigen::Vector3d(v / greatest)) * greatest : 0;
 }
 
 void add_axes(const Aabb& box, Reaches& found) {
@@ -37,63 +39,45 @@ void add_axes(const Aabb& box, Reaches& found) {
   }
 }
 
-// How far n . q reaches, for q from the centre of the volume on; the same for -n.
-double half_width_up(const Eigen::Vector3d& n, const Sphere& sphere) {
-  return multiply_up(length_up(n), sphere.radius());
+// How far n . q reaches, for q from the centre of the volume on, and so -n . q. |q[k]| is at most half[k].
+double half_width_up(const Eigen::Vector3d& n, const Sphere& sphere, const Eigen::Vector3d&) {
+  return grown_up(length(n) * sphere.radius());
 }
 
-// n = sum of w[i] a[i] + rest, and |a[i] . q| is known; |q[k]| is at most half[k].
-template <typename Along>
-double half_width_up(const Eigen::Vector3d& n, const Eigen::Matrix3d& axes, const Eigen::Vector3d& half,
-                     const Along& along) {
-  const Eigen::Vector3d weights(dot3(n, axes.col(0)), dot3(n, axes.col(1)), dot3(n, axes.col(2)));
-  double sum = along(weights);
-  for (int k = 0; k < 3; ++k) {
-    Expansion rest;
-    rest.add(n[k]);
-    for (int i = 0; i < 3; ++i)
-      rest.add_product(-weights[i], axes(k, i));
-    sum = add_up(sum, multiply_up(rest.magnitude_up(), half[k]));
+// n = sum of weights[i] axes[i] + rest, whatever the weights are.
+struct AlongAxes {
+  Eigen::Vector3d weights;
+  double rest = 0;  // of n . q
+
+  AlongAxes(const Eigen::Vector3d& n, const Eigen::Matrix3d& axes, const Eigen::Vector3d& half)
+      : weights(dot3(n, axes.col(0)), dot3(n, axes.col(1)), dot3(n, axes.col(2))) {
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d parts = weights.cwiseProduct(axes.row(k).transpose());
+      const double left = n[k] - ((parts[0] + parts[1]) + parts[2]);
+      rest += (std::abs(left) + 0x1p-49 * (std::abs(n[k]) + taxicab3(parts))) * half[k];
+    }
   }
-  return sum;
-}
+};
 
-// The half sizes of a box about the centre.
-Eigen::Vector3d half_box(const Eigen::Vector3d& center, const Aabb& box) {
-  Eigen::Vector3d half;
-  for (int k = 0; k < 3; ++k)
-    half[k] = std::max(add_up(box.max()[k], -center[k]), add_up(center[k], -box.min()[k]));
-  return half;
-}
-
-double half_width_up(const Eigen::Vector3d& n, const Obb& box) {
-  return half_width_up(
-      n, box.axes(), half_box(box.center(), box.aabb()),
-      [&](const Eigen::Vector3d& weights) { return dot_up(weights.cwiseAbs(), box.half_extents()); });
+double half_width_up(const Eigen::Vector3d& n, const Obb& box, const Eigen::Vector3d& half) {
+  const AlongAxes along(n, box.axes(), half);
+  return grown_up(dot3(along.weights.cwiseAbs(), box.half_extents()) + along.rest);
 }
 
 // By Cauchy's inequality.
-double half_width_up(const Eigen::Vector3d& n, const Ellipsoid& ellipsoid) {
-  const Eigen::Vector3d half = half_box(ellipsoid.center(), ellipsoid.aabb());
-  return half_width_up(n, ellipsoid.axes(), half, [&](const Eigen::Vector3d& weights) {
-    Eigen::Vector3d parts;
-    for (int i = 0; i < 3; ++i)
-      parts[i] = multiply_up(std::abs(weights[i]), ellipsoid.radii()[i]);
-    return length_up(parts);
-  });
+double half_width_up(const Eigen::Vector3d& n, const Ellipsoid& ellipsoid, const Eigen::Vector3d& half) {
+  const AlongAxes along(n, ellipsoid.axes(), half);
+  return grown_up(length(along.weights.cwiseProduct(ellipsoid.radii())) + along.rest);
 }
 
 // q is a part along the axis, of at most half_height, and one across, of at most the radius: there n may be
 // taken without any multiple of the axis.
-double half_width_up(const Eigen::Vector3d& n, const Cylinder& cylinder) {
+double half_width_up(const Eigen::Vector3d& n, const Cylinder& cylinder, const Eigen::Vector3d&) {
   const Eigen::Vector3d& a = cylinder.axis();
-  const double along = Expansion().add_dot(n, a).magnitude_up() * (1 + 0x1p-48),
-               weight = dot3(n, a) / dot3(a, a);
-  Eigen::Vector3d across;
-  for (int k = 0; k < 3; ++k)
-    across[k] = Expansion().add(n[k]).add_product(-weight, a[k]).magnitude_up();
-  return add_up(multiply_up(along, cylinder.half_height()),
-                multiply_up(length_up(across), cylinder.radius()));
+  const double along = dot3(n, a), doubt = 0x1p-49 * taxicab3(n);
+  const Eigen::Vector3d across = n - along * a;
+  return grown_up((std::abs(along) + doubt) * cylinder.half_height() +
+                  (length(across) + doubt) * cylinder.radius());
 }
 
 struct Measure {
@@ -135,13 +119,16 @@ struct Measure {
   // Sphere, Obb, Cylinder, Ellipsoid.
   template <typename Shape>
   Reaches operator()(const Shape& shape) const {
-    return centered(shape.aabb(), [&](const Eigen::Vector3d& n) {
-      return Expansion().add_dot(n, shape.center()).add(half_width_up(n, shape)).up();
+    const Aabb box = shape.aabb();
+    const Eigen::Vector3d center = shape.center();
+    const Eigen::Vector3d half = (box.max() - center).cwiseMax(center - box.min()) * (1 + 0x1p-50);
+    return centered(box, [&](const Eigen::Vector3d& n) {
+      return Expansion().add_dot(n, center).add(half_width_up(n, shape, half)).up();
     });
   }
 
   static double reach_up(const Eigen::Vector3d& n, const Eigen::Vector3d& center, double radius) {
-    return Expansion().add_dot(n, center).add(multiply_up(length_up(n), radius)).up();
+    return Expansion().add_dot(n, center).add(grown_up(length(n) * radius)).up();
   }
 
   template <typename Reach>

@@ -30,12 +30,20 @@ PlaceBounds around(const std::vector<PlaceBounds>& extents) {
 
 }  // namespace
 
+double contained_margin(const Aabb& box) {
+  return 0x1p-36 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) + 0x1p-470;
+}
+
 PlaceBounds extent_of(const AnyVolume& volume) {
   const Aabb box = aabb(volume);
   if (empty(volume)) return {coordinates(box.min()), coordinates(box.max())};
-  const ConvexRegion region = convex_region(volume);
-  return {coordinates(vector(region.low).cwiseMin(box.min())),
-          coordinates(vector(region.high).cwiseMax(box.max()))};
+  if (std::holds_alternative<Kdop>(volume) || std::holds_alternative<Hull>(volume)) {
+    const ConvexRegion region = convex_region(volume);
+    return {coordinates(vector(region.low).cwiseMin(box.min())),
+            coordinates(vector(region.high).cwiseMax(box.max()))};
+  }
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(contained_margin(box));
+  return {coordinates(box.min() - margin), coordinates(box.max() + margin)};
 }
 
 void VolumeBoxes::build(const std::vector<PlaceBounds>& extents, const ParallelPolicy& policy) {

@@ -20,6 +20,10 @@ namespace pcl_bv {
 /// Volumes that a thread measures at a time: some 20 us.
 inline constexpr std::size_t kVolumesOfChunk = 64;
 
+/// What contains() of a volume in a box may add to it, in any direction, and more: each adds less than 2^-45
+/// of the distance and the sizes to each of up to three distances that are at right angles.
+double contained_margin(const Aabb& box);
+
 /// A box around all that contains() of a volume may hold, and around aabb(). Of an empty volume low is above
 /// high; of one that no box is known for (planes need not enclose anything), infinite.
 PlaceBounds extent_of(const AnyVolume& volume);
@@ -39,6 +43,7 @@ class VolumeBoxes {
   void refit(const std::vector<PlaceBounds>& extents);
 
   const BoxLevels& levels() const { return boxes_; }
+  std::size_t size() const { return order_.size(); }
   std::uint32_t number(std::size_t item) const { return order_[item]; }
 
   /// Those without a box, ascending.

@@ -37,10 +37,10 @@ enum class ForestTrees : std::uint8_t {
 /// their view, those that are not valid too; numbers are never used again. Answers are those of one PointTree
 /// of all points.
 ///
-/// `merged`: a batch becomes a tree; as long as the tree before is less than twice as large as those after
-/// it, they are built anew as one. So there are at most log2(n / smallest batch) + 1 trees, and a point is
-/// built into as many in its life. `kept`: as many trees as batches, and a question takes as many times as
-/// long.
+/// `merged`: a batch becomes a tree; as long as the tree before is less than twice as large as all after it,
+/// they are built anew as one. So there are at most log2(n) + 1 trees, each twice as large as the next, and a
+/// point is built into a tree that is half as large again each time. `kept`: as many trees as batches; a
+/// question asks them all.
 ///
 /// Const calls may run side by side.
 class PointForest {

@@ -20,7 +20,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// What a tree's nodes are compared by. All have boxes, which sixteen at a time are looked at; the others are
 /// asked about where boxes do not tell. No choice changes an answer.
 enum class NodeBounds : std::uint8_t {
-  aabb,   ///< Boxes alone: 1.6 bytes for each side of a node, the cheapest to build and to refit.
+  aabb,   ///< Boxes alone: the cheapest to build and to refit.
   dop14,  ///< And slabs along the cube's diagonals (Klosowski et al. 1998): for slanting volumes. Build 5 us
           ///< each.
   sphere  ///< And spheres: for round volumes and for distances.
