@@ -20,8 +20,8 @@ int main() {
   pcl_bv::PointTree tree(cloud);  // 10 000 points: 0.3 ms
   const auto nearest = tree.nearest({0, 0, 1});
   std::vector<std::int32_t> seen;
-  tree.all_inside(pcl_bv::frustum(Eigen::Isometry3d(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY())), 0.1,
-                                  20, 0.1, 0.1),
+  tree.all_inside(pcl_bv::frustum(Eigen::Isometry3d(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY())),
+                                  0.1, 20, 0.1, 0.1),
                   seen);
   std::cout << "nearest point " << nearest->index << ", " << seen.size() << " points in view\n";
 
@@ -31,8 +31,8 @@ int main() {
   const auto hit = tree.first_hit({0, 0, 1}, {1, 0, 0}, 0.05);
 
   // An arm of two links, in the posture that it was modelled in, and 4 m ahead of there.
-  const pcl_bv::MovingVolumes arm({pcl_bv::Capsule({0, 0, 1}, {0.5, 0, 1}, 0.1),
-                                   pcl_bv::Aabb({0.5, -0.1, 0.9}, {0.9, 0.1, 1.1})});
+  const pcl_bv::MovingVolumes arm(
+      {pcl_bv::Capsule({0, 0, 1}, {0.5, 0, 1}, 0.1), pcl_bv::Aabb({0.5, -0.1, 0.9}, {0.9, 0.1, 1.1})});
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const bool here = pcl_bv::within(tree, arm, pose, 0.05);
   pose.translation().x() = 4.08;

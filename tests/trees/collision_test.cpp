@@ -46,14 +46,15 @@ class CloudsWithin : public ::testing::Test {};
 using ScalarTypes = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(CloudsWithin, ScalarTypes);
 
-// The margin is the exact distance of the two clouds, rounded down and up, and a little less: errs only towards true,
-// and not by 1e-9.
+// The margin is the exact distance of the two clouds, rounded down and up, and a little less: errs only
+// towards true, and not by 1e-9.
 TYPED_TEST(CloudsWithin, IsDecidedAtTheExactDistance) {
   for (const double scale : {1e-20, 1e-3, 1.0, 1e4, 1e15}) {
     Random random(1);
     for (int round = 0; round < 8; ++round) {
       const auto seed = static_cast<std::uint64_t>(10 * round);
-      const auto points = test::gaussian<TypeParam>(60, seed, scale), others = test::gaussian<TypeParam>(50, seed + 1, scale);
+      const auto points = test::gaussian<TypeParam>(60, seed, scale),
+                 others = test::gaussian<TypeParam>(50, seed + 1, scale);
       Eigen::Isometry3d pose = random.isometry(scale);
       pose.translation() += Vector3d(4 * scale, 0, 0);
       const PointTree tree(points.view()), moving(others.view());

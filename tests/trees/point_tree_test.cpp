@@ -9,124 +9,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
-#include <random>
 #include <thread>
 
 #include "allocations.h"
-#include "any_volumes.h"
 #include "clouds.h"
+#include "each_point.h"
 #include "executions.h"
 #include "flush_to_zero.h"
-#include "pcl_bv/volumes/pairs.h"
 
 namespace pcl_bv {
-
-bool operator==(const Neighbor& a, const Neighbor& b) {
-  return a.index == b.index && a.squared_distance == b.squared_distance;
-}
-
-void PrintTo(const Neighbor& neighbor, std::ostream* out) {
-  *out << neighbor.index << " at " << neighbor.squared_distance;
-}
-
 namespace {
 
 using namespace testing;
-
-// All valid points of a view, one after another: what the tree is judged by.
-class EachPoint {
- public:
-  explicit EachPoint(const PointView& view) {
-    for (std::size_t i = 0; i < view.count; ++i) {
-      const Coordinates p = load_point(view, i);
-      if (!is_valid(p)) continue;
-      places_.emplace_back(p.x, p.y, p.z);
-      numbers_.push_back(static_cast<std::int32_t>(view.index(i)));
-    }
-  }
-
-  std::size_t size() const { return places_.size(); }
-  const std::vector<Vector3d>& places() const { return places_; }
-
-  std::vector<Neighbor> near(const Vector3d& place, double limit) const {
-    std::vector<Neighbor> found;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const Vector3d d = places_[i] - place;
-      const double square = (d.x() * d.x() + d.y() * d.y()) + d.z() * d.z();
-      if (square <= limit) found.push_back({numbers_[i], square});
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
-  std::vector<std::int32_t> inside(const AnyVolume& volume) const {
-    std::vector<std::int32_t> found;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (contains(volume, places_[i])) found.push_back(numbers_[i]);
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
-  std::optional<PointHit> first_hit(const Vector3d& origin, const Vector3d& direction, double radius) const {
-    std::optional<PointHit> first;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const auto inside = Sphere(places_[i], radius).intersect(origin, direction);
-      if (!inside) continue;
-      if (!first || inside->enter < first->t || (inside->enter == first->t && numbers_[i] < first->index))
-        first = PointHit{numbers_[i], inside->enter};
-    }
-    return first;
-  }
-
- private:
-  std::vector<Vector3d> places_;
-  std::vector<std::int32_t> numbers_;
-};
-
-// Points of the cloud, near them, and anywhere about it, with distances from 0 to beyond its size.
-class Questions {
- public:
-  Questions(const EachPoint& points, std::uint64_t seed) : points_(points), random_(seed) {
-    box_ = Aabb(Vector3d::Zero(), Vector3d::Zero());
-    if (points.size() > 0) box_ = Aabb();
-    for (const Vector3d& p : points.places())
-      box_.extend(p);
-    size_ = std::max((box_.max() - box_.min()).maxCoeff(), 1e-300);
-  }
-
-  Vector3d place() {
-    const double size = size_ * std::pow(10.0, uniform(-8, 1));
-    const Vector3d step = size * Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-    if (points_.size() == 0 || random_() % 4 == 0) return box_.center() + step;
-    const Vector3d& point = points_.places()[random_() % points_.size()];
-    return random_() % 4 == 0 ? point : Vector3d(point + step);
-  }
-
-  Vector3d direction() {
-    Vector3d direction(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-    if (random_() % 3 == 0) direction[static_cast<int>(random_() % 3)] = 0;
-    if (random_() % 3 == 0 && points_.size() > 0) return place() - place();
-    return std::pow(10.0, uniform(-3, 3)) * direction;
-  }
-
-  // Now and then exactly that of a point.
-  double distance(const Vector3d& from) {
-    if (points_.size() > 0 && random_() % 3 == 0)
-      return (points_.places()[random_() % points_.size()] - from).norm();
-    return size_ * std::pow(10.0, uniform(-8, 0.5));
-  }
-
-  double size() const { return size_; }
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-
- private:
-  const EachPoint& points_;
-  std::mt19937_64 random_;
-  Aabb box_;
-  double size_ = 0;
-};
 
 std::vector<Neighbor> sorted_near(const PointTree& tree, const Vector3d& place, double distance) {
   std::vector<Neighbor> found = {{7, 7}};
@@ -146,9 +42,11 @@ void expect_near_as_each(const PointTree& tree, const EachPoint& points, Questio
   std::vector<Neighbor> found = {{7, 7}};
   for (const std::size_t k : {0, 1, 2, 10, 32, 33, 200}) {
     tree.nearest(place, k, found);
-    EXPECT_EQ(found, std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(k, all.size()))));
+    EXPECT_EQ(found,
+              std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(k, all.size()))));
     tree.nearest(place, k, found, distance);
-    EXPECT_EQ(found, std::vector(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(std::min(k, near.size()))));
+    EXPECT_EQ(found, std::vector(near.begin(),
+                                 near.begin() + static_cast<std::ptrdiff_t>(std::min(k, near.size()))));
   }
   const Sphere sphere(place, distance);
   EXPECT_EQ(tree.any_inside(sphere), !points.inside(sphere).empty());
@@ -158,7 +56,8 @@ void expect_near_as_each(const PointTree& tree, const EachPoint& points, Questio
 void expect_hits_as_each(const PointTree& tree, const EachPoint& points, Questions& questions) {
   const Vector3d origin = questions.place(), direction = questions.direction();
   const double radius = questions.uniform(0, 1) < 0.2 ? 0 : questions.distance(origin) * 0.1;
-  const auto hit = tree.first_hit(origin, direction, radius), expected = points.first_hit(origin, direction, radius);
+  const auto hit = tree.first_hit(origin, direction, radius),
+             expected = points.first_hit(origin, direction, radius);
   ASSERT_EQ(hit.has_value(), expected.has_value()) << origin << ", " << direction << ", " << radius;
   if (!hit) return;
   EXPECT_EQ(hit->t, expected->t);
@@ -200,87 +99,10 @@ TYPED_TEST(PointTreeOf, MeetsFirstWhatTheFirstOfAllPointsIs) {
   }
 }
 
-// Points on the surfaces of all volumes, a few units in the last place from them, and anywhere.
-TYPED_TEST(PointTreeOf, ListsTheSamePointsAsContains) {
-  Random random(3);
-  for (const Scale& scale : scales()) {
-    if (sizeof(TypeParam) == 4 && (scale.extent > 1e30 || scale.extent < 1e-30)) continue;
-    const std::vector<AnyVolume> volumes = volumes_of_every_kind(random, scale);
-    test::TestCloud<TypeParam> cloud;
-    for (const AnyVolume& volume : volumes) {
-      for (const Vector3d& p : points_about(random, volume, 1e-3 * scale.extent, 40)) {
-        for (const double c : p)
-          cloud.xyz.push_back(static_cast<TypeParam>(c));
-      }
-    }
-    const EachPoint points(cloud.view());
-    for (const Isa isa : usable_isas()) {
-      const PointTree tree(cloud.view(), {Serial{}, isa});
-      std::size_t some = 0;
-      for (const AnyVolume& volume : volumes) {
-        const std::vector<std::int32_t> inside = points.inside(volume);
-        std::vector<std::int32_t> found = {7};
-        tree.all_inside(volume, found);
-        ASSERT_EQ(found, inside) << shape_name(volume) << ", " << scale.name << ", " << isa_name(isa);
-        EXPECT_EQ(tree.count_inside(volume), inside.size());
-        EXPECT_EQ(tree.any_inside(volume), !inside.empty());
-        some += !inside.empty() && inside.size() < points.size();
-      }
-      // Steps of float are half a metre at UTM.
-      if (sizeof(TypeParam) == 8 || scale.extent > 1e-3) {
-        EXPECT_GT(some, volumes.size() / 2) << scale.name;
-      }
-    }
-  }
-}
-
-TEST(PointTree, HasThePointNearestToAVolumeAsIfEachWereAsked) {
-  Random random(20);
-  for (const Scale& scale : scales()) {
-    if (scale.extent < 1e-100 || scale.extent > 1e38) continue;
-    test::TestCloud<double> cloud;
-    for (int i = 0; i < 500; ++i) {
-      const Vector3d p = random.point({"", scale.offset, 6 * scale.extent});
-      cloud.xyz.insert(cloud.xyz.end(), p.begin(), p.end());
-    }
-    const EachPoint points(cloud.view());
-    const PointTree tree(cloud.view());
-    for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
-      const ConvexBody body(volume);
-      PointDistance expected{-1, kInfinity};
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const double d = distance(body, points.places()[i]);
-        if (d < expected.distance) expected = {static_cast<std::int32_t>(i), d};
-      }
-      const auto found = tree.nearest_to(volume);
-      ASSERT_TRUE(found.has_value());
-      EXPECT_EQ(found->index, expected.index) << shape_name(volume) << ", " << scale.name;
-      EXPECT_EQ(found->distance, expected.distance);
-      EXPECT_EQ(tree.nearest_to(volume, expected.distance)->index, expected.index);
-      EXPECT_FALSE(expected.distance > 0 && tree.nearest_to(volume, 0.999 * expected.distance));
-    }
-    EXPECT_FALSE(tree.nearest_to(Sphere()));
-  }
-}
-
-// Boxes of a tree that is larger than a crossing volume hold or spare whole groups.
-TEST(PointTree, ListsTheSamePointsAsContainsInsideLargeVolumes) {
-  const auto cloud = test::gaussian<float>(20'000, 4);
-  const EachPoint points(cloud.view());
-  const PointTree tree(cloud.view());
-  Random random(5);
-  for (int round = 0; round < 10; ++round) {
-    for (const AnyVolume& volume : volumes_of_every_kind(random, {"unit", 0, 2})) {
-      std::vector<std::int32_t> found;
-      tree.all_inside(volume, found);
-      ASSERT_EQ(found, points.inside(volume)) << shape_name(volume);
-    }
-  }
-}
-
 bool same_bytes(const PackedTree& a, const PackedTree& b) {
   const auto equal = [](const auto& x, const auto& y) {
-    return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
+    return x.size() == y.size() &&
+           (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
   };
   return a.count == b.count && a.boxes.scale == b.boxes.scale && a.boxes.origin == b.boxes.origin &&
          equal(a.boxes.groups, b.boxes.groups) && equal(a.floats, b.floats) && equal(a.doubles, b.doubles) &&
@@ -345,7 +167,8 @@ TYPED_TEST(PointTreeOf, AnswersForPointsThatMoved) {
     expect_near_as_each(tree, points, questions);
     expect_hits_as_each(tree, points, questions);
   }
-  for (const AnyVolume& volume : {AnyVolume(Sphere(Vector3d::Constant(100), 5)), AnyVolume(Aabb(Vector3d::Constant(0), Vector3d::Constant(300)))}) {
+  for (const AnyVolume& volume : {AnyVolume(Sphere(Vector3d::Constant(100), 5)),
+                                  AnyVolume(Aabb(Vector3d::Constant(0), Vector3d::Constant(300)))}) {
     std::vector<std::int32_t> found;
     tree.all_inside(volume, found);
     EXPECT_EQ(found, points.inside(volume));

@@ -14,17 +14,19 @@ namespace pcl_bv {
 
 /// A place between low and high in the frame of the boxes, and which squared distances there are to count.
 ///
-/// A box's distance is computed from the near end of [low, high], so before rounding it is none too great; three
-/// differences, three squares and two sums make it greater by a factor of 1 + 6 2^-24 at most, and by 3 2^-149
-/// where squares underflow. 1 + 2^-19 covers that and the rounding of the limit. Places beyond 2^100 are taken to
-/// be there: then all squares are infinite, and that is right for every limit which a float can hold.
+/// A box's distance is computed from the near end of [low, high], so before rounding it is none too great;
+/// three differences, three squares and two sums make it greater by a factor of 1 + 6 2^-24 at most, and by 3
+/// 2^-149 where squares underflow. 1 + 2^-19 covers that and the rounding of the limit. Places beyond 2^100
+/// are taken to be there: then all squares are infinite, and that is right for every limit which a float can
+/// hold.
 struct BoxProbe {
   float low[3], high[3];
   float outer;  ///< No point of a box whose nearest place is farther has a squared distance within the limit.
   float inner;  ///< A point that is as near in this frame surely has one. Negative: never.
   double unit;  ///< Squared distances there of squared distances here.
 
-  BoxProbe(const BoxLevels& boxes, const Coordinates& center, double limit) : unit(boxes.scale * boxes.scale) {
+  BoxProbe(const BoxLevels& boxes, const Coordinates& center, double limit)
+      : unit(boxes.scale * boxes.scale) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double place = (center[k] - boxes.origin[k]) * boxes.scale;
       const float near = static_cast<float>(std::clamp(place, -0x1p100, 0x1p100));

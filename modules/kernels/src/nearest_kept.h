@@ -30,8 +30,9 @@ class NearestOne {
   Neighbor best_;
 };
 
-/// The nearest few of them. Up to 32 are kept in order: moving them costs less than choosing later. Of more, half as
-/// many again are collected before the nearest are chosen, so that a candidate costs a few nanoseconds.
+/// The nearest few of them. Up to 32 are kept in order: moving them costs less than choosing later. Of more,
+/// half as many again are collected before the nearest are chosen, so that a candidate costs a few
+/// nanoseconds.
 class NearestKept {
  public:
   NearestKept(std::size_t most, double limit, std::vector<Neighbor>& kept)

@@ -31,8 +31,8 @@ using Floats = hn::CappedTag<float, kTreeWidth>;
 // Of as many lanes as Floats has, or of half as many.
 using Doubles = hn::CappedTag<double, 8>;
 
-/// The lanes of a mask, at most 16, as bits. No more bytes are read than were written: reading others waits for the
-/// store.
+/// The lanes of a mask, at most 16, as bits. No more bytes are read than were written: reading others waits
+/// for the store.
 template <class D>
 HWY_INLINE std::uint32_t bits_of_lanes(D d, hn::Mask<D> mask) {
   static_assert(hn::MaxLanes(d) <= 16);
@@ -46,7 +46,8 @@ HWY_INLINE V<D> sum_of_squares(V<D> x, V<D> y, V<D> z) {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// How far the boxes k, k + 1, ... of a group are along an axis; 0 where the place may be between their sides.
+/// How far the boxes k, k + 1, ... of a group are along an axis; 0 where the place may be between their
+/// sides.
 template <class D>
 HWY_INLINE V<D> gap(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k) {
   const auto below = hn::Sub(hn::Load(d, group.low[axis] + k), hn::Set(d, probe.high[axis]));
@@ -56,14 +57,15 @@ HWY_INLINE V<D> gap(D d, const BoxGroup& group, const BoxProbe& probe, std::size
 
 template <class D>
 HWY_INLINE V<D> nearest_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
-  return sum_of_squares<D>(gap(d, group, probe, 0, k), gap(d, group, probe, 1, k), gap(d, group, probe, 2, k));
+  return sum_of_squares<D>(gap(d, group, probe, 0, k), gap(d, group, probe, 1, k),
+                           gap(d, group, probe, 2, k));
 }
 
-/// Squares of how far the nearer side of each box across an axis is at most, and the farther one. Boxes were rounded
-/// outward by up to 2^-20: as far inside a side is a point.
+/// Squares of how far the nearer side of each box across an axis is at most, and the farther one. Boxes were
+/// rounded outward by up to 2^-20: as far inside a side is a point.
 template <class D>
-HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis, std::size_t k,
-                             V<D>& nearer, V<D>& farther) {
+HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t axis,
+                             std::size_t k, V<D>& nearer, V<D>& farther) {
   const auto low = hn::Load(d, group.low[axis] + k), high = hn::Load(d, group.high[axis] + k);
   const auto least = hn::Set(d, probe.low[axis]), most = hn::Set(d, probe.high[axis]);
   const auto to_low = hn::Max(hn::Sub(most, low), hn::Sub(low, least));
@@ -74,8 +76,8 @@ HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, 
   farther = hn::Mul(far, far);
 }
 
-/// A box around points has one on each side, so one that is no farther than the farthest place of the nearer side
-/// across x; and so for y and z (Roussopoulos et al. 1995). The least of the three.
+/// A box around points has one on each side, so one that is no farther than the farthest place of the nearer
+/// side across x; and so for y and z (Roussopoulos et al. 1995). The least of the three.
 template <class D>
 HWY_INLINE V<D> reached_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
   V<D> near_x, near_y, near_z, far_x, far_y, far_z;
@@ -141,8 +143,8 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
   return bits;
 }
 
-/// Calls take(packet) for the packets whose boxes are not too far, and before that look(group) for the groups that
-/// such a box is in; true as soon as one of them says so. Both may narrow the probe.
+/// Calls take(packet) for the packets whose boxes are not too far, and before that look(group) for the groups
+/// that such a box is in; true as soon as one of them says so. Both may narrow the probe.
 template <typename Look, typename Take>
 HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Look& look, const Take& take) {
   struct Open {

@@ -73,8 +73,8 @@ HWY_INLINE std::size_t take_nearest(Opened& opened, float outer) {
 }
 
 template <typename T>
-HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers, const Coordinates& center,
-                             NearestKept& kept) {
+HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers,
+                             const Coordinates& center, NearestKept& kept) {
   HWY_ALIGN double squares[kTreeWidth];
   for (std::uint32_t bits = near_points(packet, center, kept.limit(), squares); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
@@ -83,8 +83,8 @@ HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* n
 }
 
 template <typename T>
-HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers, const Coordinates& center,
-                             NearestOne& kept) {
+HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers,
+                             const Coordinates& center, NearestOne& kept) {
   const Doubles d;
   HWY_ALIGN double squares[kTreeWidth];
   auto least = hn::Inf(d);

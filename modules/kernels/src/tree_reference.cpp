@@ -20,8 +20,8 @@ double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k
   return sum / boxes.scale / boxes.scale * (1 - 0x1p-40);
 }
 
-// Calls take(point number, squared distance) for all points in boxes whose bound is at most limit(), which take may
-// lower; ends where it returns true.
+// Calls take(point number, squared distance) for all points in boxes whose bound is at most limit(), which
+// take may lower; ends where it returns true.
 template <typename Limit, typename Take>
 bool visit(const PackedTree& tree, std::size_t level, std::size_t item, const Coordinates& center,
            const Limit& limit, const Take& take) {
@@ -51,24 +51,29 @@ bool visit(const PackedTree& tree, std::size_t level, std::size_t item, const Co
 
 template <typename Kept>
 void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept) {
-  visit(tree, tree.boxes.levels, 0, center, [&] { return kept.limit(); }, [&](const Neighbor& neighbor) {
-    kept.offer(neighbor);
-    return false;
-  });
+  visit(
+      tree, tree.boxes.levels, 0, center, [&] { return kept.limit(); },
+      [&](const Neighbor& neighbor) {
+        kept.offer(neighbor);
+        return false;
+      });
 }
 
 }  // namespace
 
 bool any_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit) {
-  return visit(tree, tree.boxes.levels, 0, center, [&] { return limit; }, [](const Neighbor&) { return true; });
+  return visit(
+      tree, tree.boxes.levels, 0, center, [&] { return limit; }, [](const Neighbor&) { return true; });
 }
 
 void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit,
                             std::vector<Neighbor>& found) {
-  visit(tree, tree.boxes.levels, 0, center, [&] { return limit; }, [&](const Neighbor& neighbor) {
-    found.push_back(neighbor);
-    return false;
-  });
+  visit(
+      tree, tree.boxes.levels, 0, center, [&] { return limit; },
+      [&](const Neighbor& neighbor) {
+        found.push_back(neighbor);
+        return false;
+      });
 }
 
 void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept) {

@@ -17,7 +17,8 @@ namespace {
 // Questions that a thread takes at a time: some 20 us of them.
 constexpr std::size_t kBlock = 256;
 
-// Calls ask(begin, end) for blocks of `count` questions. Fewer than four are done before another thread has come.
+// Calls ask(begin, end) for blocks of `count` questions. Fewer than four are done before another thread has
+// come.
 template <typename Ask>
 void ask_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
   const std::size_t blocks = (count + kBlock - 1) / kBlock;
@@ -38,7 +39,8 @@ Eigen::Vector3d place_of(const PointView& places, std::size_t i) {
 
 // ask(place, found) for each place, and all that was found in a row.
 template <typename Ask>
-void list_for_each(const PointView& places, const Execution& execution, NeighborLists& found, const Ask& ask) {
+void list_for_each(const PointView& places, const Execution& execution, NeighborLists& found,
+                   const Ask& ask) {
   require_in_memory(places);
   std::vector<std::vector<Neighbor>> blocks((places.count + kBlock - 1) / kBlock);
   found.first.assign(places.count + 1, 0);
@@ -61,8 +63,8 @@ void list_for_each(const PointView& places, const Execution& execution, Neighbor
 }  // namespace
 
 // The kernels themselves: a FloatEnvironment for each question would be an eighth of its time.
-void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found, double max_distance,
-             const Execution& execution) {
+void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found,
+             double max_distance, const Execution& execution) {
   require_in_memory(places);
   const Neighbor none{-1, std::numeric_limits<double>::infinity()};
   const double limit = square_limit(max_distance);
@@ -103,8 +105,8 @@ void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::
   });
 }
 
-void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes, std::vector<std::uint8_t>& inside,
-                const Execution& execution) {
+void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
+                std::vector<std::uint8_t>& inside, const Execution& execution) {
   inside.resize(volumes.size());
   ask_blocks(volumes.size(), execution, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

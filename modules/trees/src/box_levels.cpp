@@ -14,7 +14,8 @@ std::size_t groups_of(std::size_t below) {
   return (below + kTreeWidth - 1) / kTreeWidth;
 }
 
-// What rounding to float, and the two roundings before, may have cost. Denormal floats have an error of their own.
+// What rounding to float, and the two roundings before, may have cost. Denormal floats have an error of their
+// own.
 float doubt(float rounded) {
   return std::abs(rounded) * 0x1p-22F + std::numeric_limits<float>::min();
 }

@@ -91,8 +91,8 @@ namespace {
 
 // Calls found(i) for the volumes that a point is near, ascending; ends where that returns true.
 template <typename Found>
-bool each_touched(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose, double margin,
-                  const Found& found) {
+bool each_touched(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
+                  double margin, const Found& found) {
   const FloatEnvironment environment;
   require(pose, margin);
   const std::vector<Prepared>& prepared = volumes.state().prepared;
@@ -131,12 +131,13 @@ bool within(const PointTree& points, const PointTree& others, const Eigen::Isome
   return !points.empty() && !others.empty() && trees_within(points, others, pose, margin);
 }
 
-bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose, double margin) {
+bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
+            double margin) {
   return each_touched(points, volumes, pose, margin, [](std::int32_t) { return true; });
 }
 
-void list_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose, double margin,
-                 std::vector<std::int32_t>& touched) {
+void list_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
+                 double margin, std::vector<std::int32_t>& touched) {
   touched.clear();
   each_touched(points, volumes, pose, margin, [&](std::int32_t i) {
     touched.push_back(i);
@@ -144,7 +145,8 @@ void list_within(const PointTree& points, const MovingVolumes& volumes, const Ei
   });
 }
 
-bool within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose, double margin) {
+bool within(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
+            double margin) {
   return each_pair(volumes, others, pose, margin, [](std::int32_t, std::int32_t) { return true; });
 }
 

@@ -14,19 +14,21 @@
 namespace pcl_bv {
 namespace {
 
-// A ray that is not finite meets nothing, and so do boxes and points beyond 2^60 times the cloud's size: there floats
-// tell nothing, so all is asked.
+// A ray that is not finite meets nothing, and so do boxes and points beyond 2^60 times the cloud's size:
+// there floats tell nothing, so all is asked.
 constexpr double kFar = 0x1p60;
 
-// A moving sphere in the frame of the boxes, with the direction's longest coordinate from 1 to 2. All boxes are
-// greater by its radius and by `pad`, a thousand times what rounding to float moves a place along the ray.
+// A moving sphere in the frame of the boxes, with the direction's longest coordinate from 1 to 2. All boxes
+// are greater by its radius and by `pad`, a thousand times what rounding to float moves a place along the
+// ray.
 struct RayProbe {
   float origin[3], inverse[3];
   float pad;
   double time;  // times in this frame of those asked about
   bool near;    // whether boxes can spare points
 
-  RayProbe(const BoxLevels& boxes, const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double radius) {
+  RayProbe(const BoxLevels& boxes, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+           double radius) {
     const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
     time = std::ldexp(boxes.scale, exponent);
     double size = 1 + radius * boxes.scale;
@@ -63,8 +65,14 @@ std::array<float, kTreeWidth> enter_times(const BoxGroup& group, const RayProbe&
 
 class FirstHit {
  public:
-  FirstHit(const PackedTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double radius)
-      : tree_(tree), origin_(origin), direction_(direction), unit_(direction.stableNormalized()), radius_(radius), ray_(tree.boxes, origin, direction, radius) {}
+  FirstHit(const PackedTree& tree, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+           double radius)
+      : tree_(tree),
+        origin_(origin),
+        direction_(direction),
+        unit_(direction.stableNormalized()),
+        radius_(radius),
+        ray_(tree.boxes, origin, direction, radius) {}
 
   std::optional<PointHit> run() {
     visit(tree_.boxes.levels - 1, 0);
@@ -79,11 +87,13 @@ class FirstHit {
     std::array<std::uint8_t, kTreeWidth> order;
     std::size_t found = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      if (!ray_.near || times[k] < std::numeric_limits<float>::infinity()) order[found++] = static_cast<std::uint8_t>(k);
+      if (!ray_.near || times[k] < std::numeric_limits<float>::infinity())
+        order[found++] = static_cast<std::uint8_t>(k);
     }
-    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(found), [&](std::uint8_t a, std::uint8_t b) {
-      return times[a] < times[b] || (times[a] == times[b] && a < b);
-    });
+    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(found),
+              [&](std::uint8_t a, std::uint8_t b) {
+                return times[a] < times[b] || (times[a] == times[b] && a < b);
+              });
     for (std::size_t i = 0; i < found; ++i) {
       const std::size_t k = order[i];
       if (ray_.near && times[k] > latest_) return;  // and all that follow
@@ -100,7 +110,8 @@ class FirstHit {
     const auto ask = [&](const auto& points) {
       std::array<bool, kTreeWidth> near = near_line(points);
       for (std::size_t k = 0; k < kTreeWidth; ++k) {
-        if (near[k]) ask_point({*points.at(0, k), *points.at(1, k), *points.at(2, k)}, tree_.numbers[first + k]);
+        if (near[k])
+          ask_point({*points.at(0, k), *points.at(1, k), *points.at(2, k)}, tree_.numbers[first + k]);
       }
     };
     if (tree_.scalar == ScalarType::float32) {
@@ -111,8 +122,8 @@ class FirstHit {
     if (best_.index >= 0) latest_ = static_cast<float>(best_.t * ray_.time * (1 + 0x1p-16)) + ray_.pad;
   }
 
-  // Which points the whole line may come near; a NaN is near nothing. With q from the origin to the point, |q x d| is
-  // off by less than 2^-48 |q|_1 |d|, and what intersect() adds to a radius is less, too.
+  // Which points the whole line may come near; a NaN is near nothing. With q from the origin to the point, |q
+  // x d| is off by less than 2^-48 |q|_1 |d|, and what intersect() adds to a radius is less, too.
   template <typename T>
   std::array<bool, kTreeWidth> near_line(const PointPacket<T>& points) const {
     std::array<bool, kTreeWidth> near;

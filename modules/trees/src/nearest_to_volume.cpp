@@ -30,8 +30,8 @@ class NearestToVolume {
   }
 
  private:
-  // No point of the box is nearer: distances differ by no more than places do, and distance() is short of the true one
-  // by 1e-12 of it and of the sizes.
+  // No point of the box is nearer: distances differ by no more than places do, and distance() is short of the
+  // true one by 1e-12 of it and of the sizes.
   double least_distance(const PlainBox& box) const {
     const Eigen::Vector3d middle = 0.5 * (box.low + box.high);
     const double reach = 0.5 * norm3(Eigen::Vector3d(box.high - box.low));
@@ -67,8 +67,8 @@ class NearestToVolume {
       const Coordinates p = load_point(points, i);
       if (!is_valid(p)) continue;
       const PointDistance found{tree_.numbers[i], distance(body_, vector(p))};
-      const bool nearer = found.distance < best_.distance ||
-                          (found.distance == best_.distance && (best_.index < 0 || found.index < best_.index));
+      const bool nearer = found.distance < best_.distance || (found.distance == best_.distance &&
+                                                              (best_.index < 0 || found.index < best_.index));
       if (nearer) best_ = found;
     }
   }

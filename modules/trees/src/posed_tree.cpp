@@ -30,8 +30,8 @@ Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   return back;
 }
 
-// An upper bound of |back (pose p) - p| for |p|_1 <= reach: what the products differ from the identity by, as computed
-// and by rounding.
+// An upper bound of |back (pose p) - p| for |p|_1 <= reach: what the products differ from the identity by, as
+// computed and by rounding.
 double difference(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, double reach) {
   const Eigen::Matrix3d turned = back.linear() * pose.linear() - Eigen::Matrix3d::Identity();
   const Eigen::Vector3d shift = back.linear() * pose.translation() + back.translation();

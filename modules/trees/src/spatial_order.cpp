@@ -120,7 +120,8 @@ void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   for (std::size_t c = 1; c < cuts.parts; ++c) {
     const std::size_t bucket = buckets.of_cut[c];
     const std::size_t begin = std::max(buckets.begin[bucket], cuts.at[c - 1]);
-    std::nth_element(run.other + begin, run.other + cuts.at[c], run.other + buckets.begin[bucket + 1], precedes);
+    std::nth_element(run.other + begin, run.other + cuts.at[c], run.other + buckets.begin[bucket + 1],
+                     precedes);
   }
 }
 

@@ -86,7 +86,8 @@ PlaceBounds bounds_of(const PointPacket<T>& packet) {
 
 // Calls fill(p, packet) for all packets, and then sets the boxes around what is in them.
 template <typename T, typename Fill>
-void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPart>& parts, const Fill& fill) {
+void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPart>& parts,
+                  const Fill& fill) {
   std::vector<PointPacket<T>>& packets = packets_of<T>(tree);
   parts.cut(packets.size(), policy);
   parts.for_each(policy, [&](PacketPart& part) {
@@ -110,8 +111,8 @@ void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPa
 }
 
 template <typename T>
-void build(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch, SpatialOrder<T>& order,
-           PackedTree& tree) {
+void build(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch,
+           SpatialOrder<T>& order, PackedTree& tree) {
   tree.count = load(points, policy, scratch.loads, order.reset(points.count));
   order.sort(tree.count, policy);
   const std::size_t packets = (tree.count + kTreeWidth - 1) / kTreeWidth;
@@ -148,7 +149,8 @@ void refit(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& sc
 
 }  // namespace
 
-void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree) {
+void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch,
+                PackedTree& tree) {
   tree.scalar = points.scalar;
   if (points.scalar == ScalarType::float32) {
     tree.doubles.clear();
@@ -159,7 +161,8 @@ void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScrat
   }
 }
 
-void refit_tree(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree) {
+void refit_tree(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& scratch,
+                PackedTree& tree) {
   if (tree.scalar == ScalarType::float32) {
     refit<float>(cloud, policy, scratch, tree);
   } else {

@@ -30,7 +30,8 @@ struct TreeScratch {
 };
 
 /// Replaces the tree by one of the view's valid points.
-void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree);
+void build_tree(const PointView& points, const ParallelPolicy& policy, TreeScratch& scratch,
+                PackedTree& tree);
 
 /// Takes the coordinates of the tree's points from a cloud that has them all, and measures its boxes again.
 void refit_tree(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& scratch, PackedTree& tree);

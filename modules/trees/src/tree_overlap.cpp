@@ -30,7 +30,8 @@ Image image_of(const Eigen::Isometry3d& pose, const Coordinates& p) {
   return {{places[0], places[1], places[2]}, 0x1p-50 * sizes + 0x1p-500};
 }
 
-// What squared distances, as Neighbor says, of points within `distance` are at most: six roundings and underflow.
+// What squared distances, as Neighbor says, of points within `distance` are at most: six roundings and
+// underflow.
 double square_within(double distance) {
   return distance * distance * (1 + 0x1p-48) + 0x1p-1000;
 }
@@ -56,7 +57,8 @@ class TreeOverlap {
  private:
   bool near(const PlainBox& box) const {
     const AnyVolume moved = grown(Obb(Aabb(box.low, box.high)).transformed(pose_), margin_);
-    return walk_inside(points_.isa(), points_.packed(), moved, [](std::size_t, std::uint32_t) { return true; });
+    return walk_inside(points_.isa(), points_.packed(), moved,
+                       [](std::size_t, std::uint32_t) { return true; });
   }
 
   bool any_near(std::size_t packet) const {
@@ -80,7 +82,8 @@ class TreeOverlap {
 
 }  // namespace
 
-bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose, double margin) {
+bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
+                  double margin) {
   return TreeOverlap(points, others.packed(), pose, margin).visit(others.packed().boxes.levels - 1, 0);
 }
 

@@ -10,6 +10,7 @@
 namespace pcl_bv {
 
 /// within() of collision.h, for two trees that have points.
-bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose, double margin);
+bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
+                  double margin);
 
 }  // namespace pcl_bv

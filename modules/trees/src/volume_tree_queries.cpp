@@ -151,7 +151,8 @@ void VolumeTree::all_overlapping(const AnyVolume& volume, std::vector<std::int32
   const ConvexBody body(volume);
   const PlaceBounds extent = extent_of(volume);
   nodes_->boxes.visit(nodes_->boxes.query(extent.low, extent.high), [&](std::uint32_t number) {
-    if (overlaps(ConvexBody(nodes_->volumes[number]), body)) indices.push_back(static_cast<std::int32_t>(number));
+    if (overlaps(ConvexBody(nodes_->volumes[number]), body))
+      indices.push_back(static_cast<std::int32_t>(number));
     return false;
   });
   std::sort(indices.begin(), indices.end());

@@ -18,7 +18,8 @@ namespace pcl_bv {
 /// A volume that is not empty, as walks ask about it.
 class VolumeProbe {
  public:
-  explicit VolumeProbe(const AnyVolume& volume) : volume_(volume), region_(convex_region(volume)), tests_({region_}) {}
+  explicit VolumeProbe(const AnyVolume& volume)
+      : volume_(volume), region_(convex_region(volume)), tests_({region_}) {}
 
   Relation relation_to(const BoxLevels& boxes, const BoxGroup& group, std::size_t k) const {
     return relation(region_, plain_box(boxes, group, k));
@@ -48,8 +49,8 @@ class VolumeProbe {
   RegionTests tests_;
 };
 
-/// Calls found(packet, bits) for packets of which some points are inside, in order; ends, with true, where that says
-/// true.
+/// Calls found(packet, bits) for packets of which some points are inside, in order; ends, with true, where
+/// that says true.
 template <typename Found>
 class VolumeWalk {
  public:
@@ -71,7 +72,8 @@ class VolumeWalk {
           if (take_all(level, item)) return true;
           break;
         case Relation::crosses:
-          if (level == 0 ? take(item, volume_.inside(isa_, tree_, item)) : visit(level - 1, item)) return true;
+          if (level == 0 ? take(item, volume_.inside(isa_, tree_, item)) : visit(level - 1, item))
+            return true;
       }
     }
     return false;
@@ -96,7 +98,8 @@ class VolumeWalk {
         bits |= static_cast<std::uint32_t>(*points.at(0, k) == *points.at(0, k)) << k;
       return bits;
     };
-    return tree_.scalar == ScalarType::float32 ? bits_of(tree_.floats[packet]) : bits_of(tree_.doubles[packet]);
+    return tree_.scalar == ScalarType::float32 ? bits_of(tree_.floats[packet])
+                                               : bits_of(tree_.doubles[packet]);
   }
 
   UsableIsa isa_;

@@ -41,8 +41,8 @@ Sphere around(const Sphere& big, const Sphere& small) {
   return {center, std::max(reach(big), reach(small))};
 }
 
-// Of squared distances, for |a - b| <= r or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2 by 5;
-// the limit loses 3 at most, 5 where r is itself a rounded sum. 16 covers both.
+// Of squared distances, for |a - b| <= r or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2
+// by 5; the limit loses 3 at most, 5 where r is itself a rounded sum. 16 covers both.
 double square_within_rounding(double r) {
   return r * r * (1 + 0x1p-49) + kSmallestNormal;
 }

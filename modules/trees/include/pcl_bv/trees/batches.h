@@ -14,15 +14,16 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Lists of neighbours, one after another: those of place i are neighbors[first[i]] to neighbors[first[i + 1] - 1].
+/// Lists of neighbours, one after another: those of place i are neighbors[first[i]] to neighbors[first[i + 1]
+/// - 1].
 struct NeighborLists {
   std::vector<Neighbor> neighbors;
   std::vector<std::size_t> first;
 };
 
-/// The nearest point of each place, as PointTree::nearest(); index -1 and distance infinity where there is none.
-/// Replaces the contents of `found`. Throws std::invalid_argument unless the places are in memory, and what
-/// nearest() throws.
+/// The nearest point of each place, as PointTree::nearest(); index -1 and distance infinity where there is
+/// none. Replaces the contents of `found`. Throws std::invalid_argument unless the places are in memory, and
+/// what nearest() throws.
 void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found,
              double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
 
@@ -37,7 +38,7 @@ void near(const PointTree& tree, const PointView& places, double distance, Neigh
 /// Sets inside[i] to 1 where any_inside() of volume i holds, else to 0.
 void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
                 const Execution& execution = {});
-void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes, std::vector<std::uint8_t>& inside,
-                const Execution& execution = {});
+void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
+                std::vector<std::uint8_t>& inside, const Execution& execution = {});
 
 }  // namespace pcl_bv

@@ -13,15 +13,15 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A tree's points as they are after a rigid motion, at no cost: questions are moved back to the tree, which must
-/// outlive this. A volume comes back as one that holds all of it (transformed(), grown by the rounding of the inverse
-/// matrix), so no point is missed whose image, by exact arithmetic on the stored matrix, is inside; it errs only
-/// towards true, by some 1e-15 of the coordinates. Places come back rounded, and distances are those in the tree's
-/// frame: as far from the exact ones.
+/// A tree's points as they are after a rigid motion, at no cost: questions are moved back to the tree, which
+/// must outlive this. A volume comes back as one that holds all of it (transformed(), grown by the rounding
+/// of the inverse matrix), so no point is missed whose image, by exact arithmetic on the stored matrix, is
+/// inside; it errs only towards true, by some 1e-15 of the coordinates. Places come back rounded, and
+/// distances are those in the tree's frame: as far from the exact ones.
 class PosedTree {
  public:
-  /// `pose` leads from the tree's frame to that of the questions. Throws std::invalid_argument unless it is finite and
-  /// its axes are unit and orthogonal to 1e-6.
+  /// `pose` leads from the tree's frame to that of the questions. Throws std::invalid_argument unless it is
+  /// finite and its axes are unit and orthogonal to 1e-6.
   PosedTree(const PointTree& tree, const Eigen::Isometry3d& pose);
 
   std::optional<Neighbor> nearest(const Eigen::Vector3d& place,

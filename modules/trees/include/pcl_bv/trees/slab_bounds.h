@@ -34,9 +34,9 @@ struct SlabBounds {
   explicit SlabBounds(const Aabb& box);
 
   /// Bounds of a volume, by exact arithmetic on its definition, tight to some units in the last place of its
-  /// coordinates and 1e-12 of its size (of planes to 2^-46 of the weights that prove a bound). Infinite where a Hull's
-  /// planes enclose nothing. Empty for an empty one. About 1 us; a k-DOP or hull, whose bounds are linear programs, 10
-  /// to 100 us.
+  /// coordinates and 1e-12 of its size (of planes to 2^-46 of the weights that prove a bound). Infinite where
+  /// a Hull's planes enclose nothing. Empty for an empty one. About 1 us; a k-DOP or hull, whose bounds are
+  /// linear programs, 10 to 100 us.
   explicit SlabBounds(const AnyVolume& volume);
 
   bool empty() const { return !(min[0] <= max[0]); }

@@ -43,8 +43,8 @@ struct Ray {
   Eigen::Vector3d direction;  ///< Of any length, which is the unit of where a hit is.
 };
 
-/// Volumes of any kinds in the order of a balanced k-d tree of their middles, with boxes around 16, around 16 of those
-/// and so on.
+/// Volumes of any kinds in the order of a balanced k-d tree of their middles, with boxes around 16, around 16
+/// of those and so on.
 ///
 /// Volumes are named by their numbers in the list that they came in. Each question is decided by the volumes'
 /// own verbs, as if all were asked one after another: bounds only spare those on which the answer cannot
@@ -87,7 +87,8 @@ class VolumeTree {
   /// Those whose aabb() overlaps the box.
   void all_touching(const Aabb& box, std::vector<std::int32_t>& indices) const;
 
-  /// Those that overlap it, as overlaps() of pairs.h says; each whose box is near is made ready for that first.
+  /// Those that overlap it, as overlaps() of pairs.h says; each whose box is near is made ready for that
+  /// first.
   void all_overlapping(const AnyVolume& volume, std::vector<std::int32_t>& indices) const;
 
   /// That with the least distance() from the point, of equal ones the first, if it is at most max_distance.
