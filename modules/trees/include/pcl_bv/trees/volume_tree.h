@@ -21,9 +21,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// asked about where boxes do not tell. No choice changes an answer.
 enum class NodeBounds : std::uint8_t {
   aabb,   ///< Boxes alone: the cheapest to build and to refit.
-  dop14,  ///< And slabs along the cube's diagonals (Klosowski et al. 1998): for slanting volumes. Build 5 us
-          ///< each.
-  sphere  ///< And spheres: for round volumes and for distances.
+  dop14,  ///< And slabs along the cube's diagonals (Klosowski et al. 1998); five times as long to build.
+  sphere  ///< And spheres; twice as long to build.
 };
 
 /// A volume of a tree that a ray hits, and where.
@@ -58,8 +57,9 @@ class VolumeTree {
   /// Of no volumes.
   VolumeTree();
 
-  /// O(n log n); 0.3 us a volume with boxes. The same tree for every Execution. Throws std::invalid_argument
-  /// for more than 2^31 - 1 volumes and for Execution::supports.
+  /// O(n log n); 0.2 us for each sphere with boxes, 2.5 us for an Obb, whose aabb() is exact. The same tree
+  /// for every Execution. Throws std::invalid_argument for more than 2^31 - 1 volumes and for
+  /// Execution::supports.
   explicit VolumeTree(std::vector<AnyVolume> volumes, NodeBounds bounds = NodeBounds::aabb,
                       const Execution& execution = {});
 
