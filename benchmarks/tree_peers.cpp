@@ -38,7 +38,7 @@ class Ours : public Tree {
         tree_.near(p, radius, found_);
         return static_cast<double>(found_.size());
       default:
-        return tree_.any_inside(Sphere(p, radius));
+        return tree_.any_near(p, radius);
     }
   }
 
