@@ -44,6 +44,7 @@ RegionTests tests_of(const std::vector<AnyVolume>& volumes) {
 std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volumes) {
   const FloatEnvironment environment;
   std::vector<PlaceBounds> extents;
+  extents.reserve(volumes.size());
   for (const AnyVolume& volume : volumes)
     extents.push_back(extent_of(volume));
   auto boxes = std::make_shared<VolumeBoxes>();
