@@ -83,14 +83,15 @@ void add_mask(const std::string& scene, Isa isa, unsigned threads) {
 }
 
 // The links and others like them, each about the first point of a square of ground of 2 m, chosen at random:
-// as objects that are tracked stand in a street.
+// as objects that are tracked stand in a street. A small cloud has fewer squares: then two may share one.
 std::vector<Region> regions_about(const PointView& points, std::size_t count) {
   std::mt19937_64 random(2);
   std::set<std::pair<double, double>> taken;
   std::vector<Region> regions = links();
-  while (regions.size() < count) {
+  for (std::size_t tried = 0; regions.size() < count; ++tried) {
     const Coordinates p = load_point(points, random() % points.count);
-    if (!taken.emplace(std::floor(p.x / 2), std::floor(p.y / 2)).second) continue;
+    const bool another = taken.emplace(std::floor(p.x / 2), std::floor(p.y / 2)).second;
+    if (!another && tried < 100 * count) continue;
     Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
     const AnyVolume& link = regions[regions.size() % 10].volume;
     move.translation() = Eigen::Vector3d(p.x, p.y, p.z) - center(link);
