@@ -38,4 +38,7 @@ inline std::vector<pcl::PointXYZ> places_of(const TreeInput& input, Question que
 /// PointTree::first_hit() beside Embree's, in turns: only where that is installed (PCL_BV_BENCH_EMBREE).
 void add_rays(Isa isa, const std::string& scene, std::size_t points);
 
+/// VolumeTree beside a loop over all volumes, and a robot's links among points.
+void add_volumes(Isa isa);
+
 }  // namespace pcl_bv::bench

@@ -61,6 +61,24 @@ def tree_spheres(results):
     return table(["radius, in parts of the longest side"] + [part[2:] for part in parts], lines)
 
 
+def tree_volumes(results):
+    """ns a question to volumes, one by one and by their tree; us of a robot's posture."""
+    lines = []
+    for name in results.matching("volumes/over-loop/"):
+        row, (_, _, what, n, _) = results.rows[name], name.split("/")
+        ratio, of_minima = results.ratio(name)
+        lines.append(
+            [f"{what}, {count(int(n[2:]))} volumes"]
+            + [number(1e3 * row[side] / row["questions"]) for side in ("first_us", "second_us")]
+            + [f"{number(ratio)} ({number(of_minima)})"]
+        )
+    for name in results.matching(f"volumes/links/{results.best}/"):
+        row = results.rows[name]
+        ours = number(1e3 * row["us"][0] / row["questions"])
+        lines.append(["a posture of ten links: which are within 5 cm of a sweep's points", "", ours, ""])
+    return table(["one thread", "one by one, ns", "ours, ns", "ratio: median of pairs (of minima)"], lines)
+
+
 def target(results):
     """Built, asked and beside FLANN; ns: the median of centres that are asked alone, in brackets the mean of all."""
     best, lines, spheres = results.best, [], {}

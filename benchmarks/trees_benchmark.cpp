@@ -8,6 +8,7 @@
 //   of a whole sweep with
 //                                                           the build, sweep-nearest and sweep-radius
 //   tree/over-embree/ray/ISA/SCENE/n:POINTS/threads:1
+//   volumes/over-loop/WHAT/n:VOLUMES/threads:1, volumes/links/ISA/SCENE/n:POINTS/threads:1     tree_volumes.cpp
 //   tree/wrong/ISA/questions:N                              ours against looking at every point
 //   (tree_truth.cpp)
 // `wrong` counts a peer's answers that rounding to float does not explain, of `questions`.
@@ -227,6 +228,7 @@ void register_all() {
     for (const char* part : parts)
       add_sphere(best, scene, points, part);
   }
+  add_volumes(best);
   over_peers(best, "street", 128'000);
   over_kd_trees(best, "street", 128'000);
   add_build(best, "street", 128'000, 2);

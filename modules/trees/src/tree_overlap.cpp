@@ -8,27 +8,12 @@
 
 #include "box_relation.h"
 #include "grown.h"
+#include "image.h"
 #include "pcl_bv/numeric/directed.h"
 #include "volume_walk.h"
 
 namespace pcl_bv {
 namespace {
-
-// The image of a point, rounded, and more than its error: three products, three sums.
-struct Image {
-  Coordinates place;
-  double error;
-};
-
-Image image_of(const Eigen::Isometry3d& pose, const Coordinates& p) {
-  double places[3], sizes = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double x = pose(k, 0) * p.x, y = pose(k, 1) * p.y, z = pose(k, 2) * p.z;
-    places[k] = ((x + y) + z) + pose(k, 3);
-    sizes += std::abs(x) + std::abs(y) + std::abs(z) + std::abs(pose(k, 3));
-  }
-  return {{places[0], places[1], places[2]}, 0x1p-50 * sizes + 0x1p-500};
-}
 
 // What squared distances, as Neighbor says, of points within `distance` are at most: six roundings and
 // underflow.

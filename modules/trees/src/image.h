@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "pcl_bv/numeric/coordinates.h"
+
+namespace pcl_bv {
+
+/// The image of a point, rounded, and more than its error: three products, three sums.
+struct Image {
+  Coordinates place;
+  double error;
+};
+
+inline Image image_of(const Eigen::Isometry3d& pose, const Coordinates& p) {
+  double places[3], sizes = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double x = pose(k, 0) * p.x, y = pose(k, 1) * p.y, z = pose(k, 2) * p.z;
+    places[k] = ((x + y) + z) + pose(k, 3);
+    sizes += std::abs(x) + std::abs(y) + std::abs(z) + std::abs(pose(k, 3));
+  }
+  return {{places[0], places[1], places[2]}, 0x1p-50 * sizes + 0x1p-500};
+}
+
+/// More than the matrix stretches any vector: the square is at most the greatest row sum of |M'M|.
+inline double stretch_of(const Eigen::Isometry3d& pose) {
+  const Eigen::Matrix3d squares = pose.linear().transpose() * pose.linear();
+  return std::sqrt(squares.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 0x1p-45);
+}
+
+}  // namespace pcl_bv
