@@ -3,8 +3,6 @@
 
 #include "pcl_bv/kernels/region_states.h"
 
-#include <algorithm>
-
 #include "preconditions.h"
 #include "references.h"
 #include "region_tests.h"
@@ -23,33 +21,20 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-template <Layout layout, typename T>
-void chosen_states_of(const PointView& points, const RegionTestsOf<T>& all, const ChosenRegions& chosen,
-                      std::uint8_t* states) {
-  const Tag<T> d;
-  const std::size_t lanes = hn::Lanes(d);
-  std::fill_n(states, points.count, std::uint8_t{0});  // outside
-  for (std::size_t i = 0; i < points.count; i += lanes) {
-    V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
-    const auto near = lanes_in_box(d, all.low, all.high, x, y, z);
-    if (hn::AllFalse(d, near)) continue;
-    auto inside = hn::AndNot(near, near), unclear = inside;
-    for (std::size_t k = 0; k < chosen.count;) {
-      const std::size_t end = HWY_MIN(k + kBetweenLooks, chosen.count);
-      for (; k < end; ++k)
-        test_region(d, all.regions[chosen.places[k]], near, x, y, z, inside, unclear);
-      if (hn::AllFalse(d, hn::AndNot(inside, near))) break;
-    }
-    if (hn::AllFalse(d, hn::Or(inside, unclear))) continue;
-    store_states<layout>(d, inside, unclear, HWY_MIN(lanes, points.count - i), states + i);
-  }
-}
-
 void chosen_states(const PointView& points, const RegionTests::Prepared& regions, const ChosenRegions& chosen,
                    std::uint8_t* states) {
   for_layout(points, [&]<Layout layout, typename T>() {
-    chosen_states_of<layout, T>(points, regions.of<T>(), chosen, states);
+    const RegionTestsOf<T>& all = regions.of<T>();
+    states_by<layout, T>(
+        points, all, states,
+        [&](auto d, auto near, auto x, auto y, auto z, auto& inside, auto& unclear) HWY_ATTR {
+          for (std::size_t k = 0; k < chosen.count;) {
+            const std::size_t end = HWY_MIN(k + kBetweenLooks, chosen.count);
+            for (; k < end; ++k)
+              test_region(d, all.regions[chosen.places[k]], near, x, y, z, inside, unclear);
+            if (hn::AllFalse(d, hn::AndNot(inside, near))) break;
+          }
+        });
   });
 }
 

@@ -13,6 +13,8 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "load-inl.h"
 #include "region_tests.h"
 
@@ -157,6 +159,25 @@ HWY_INLINE void store_states(D d, hn::Mask<D> inside, hn::Mask<D> unclear, std::
   } else {
     for (std::size_t lane = 0; lane < count; ++lane)
       states[lane] = static_cast<std::uint8_t>(codes[lane]);
+  }
+}
+
+/// The states of points by `test_packet(d, near, x, y, z, inside, unclear)`, which adds what regions say.
+template <Layout layout, typename T, typename TestPacket>
+HWY_INLINE void states_by(const PointView& points, const RegionTestsOf<T>& all, std::uint8_t* states,
+                          const TestPacket& test_packet) {
+  const Tag<T> d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::fill_n(states, points.count, std::uint8_t{0});  // outside
+  for (std::size_t i = 0; i < points.count; i += lanes) {
+    V<decltype(d)> x, y, z;
+    load_some<layout>(d, points, i, x, y, z);
+    const auto near = lanes_in_box(d, all.low, all.high, x, y, z);
+    if (hn::AllFalse(d, near)) continue;
+    auto inside = hn::AndNot(near, near), unclear = inside;
+    test_packet(d, near, x, y, z, inside, unclear);
+    if (hn::AllFalse(d, hn::Or(inside, unclear))) continue;
+    store_states<layout>(d, inside, unclear, HWY_MIN(lanes, points.count - i), states + i);
   }
 }
 
