@@ -8,7 +8,7 @@
 
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "square_limit.h"
+#include "refusal.h"
 #include "vectors.h"
 
 namespace pcl_bv {

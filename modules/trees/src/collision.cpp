@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 #include "grown.h"
@@ -18,6 +17,7 @@
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/volumes/pairs.h"
+#include "refusal.h"
 #include "tree_overlap.h"
 #include "turnable.h"
 #include "vectors.h"
@@ -29,10 +29,8 @@ namespace {
 
 void require(const Eigen::Isometry3d& pose, double margin) {
   if (!pose.matrix().allFinite()) throw std::invalid_argument("within(): the pose must be finite");
-  if (margin >= 0 && margin <= kMaxCoordinate) return;
-  std::ostringstream what;
-  what << "within(): the margin must be from 0 to 1e100, not " << margin;
-  throw std::invalid_argument(what.str());
+  if (!(margin >= 0 && margin <= kMaxCoordinate))
+    refuse("within(): the margin must be from 0 to 1e100", margin);
 }
 
 // Around a box; empty for one that is infinite or nowhere. Roundings take 2^-50 of what the radius grows by.

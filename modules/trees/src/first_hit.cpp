@@ -5,10 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
+#include "box_walk.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/point_tree.h"
+#include "refusal.h"
 #include "vectors.h"
 
 namespace pcl_bv {
@@ -25,7 +26,6 @@ struct RayProbe {
   float origin[3], inverse[3];
   float pad;
   double time;  // times in this frame of those asked about
-  bool near;    // whether boxes can spare points
 
   RayProbe(const BoxLevels& boxes, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
            double radius) {
@@ -40,8 +40,10 @@ struct RayProbe {
       const double slope = std::ldexp(direction[k], -exponent);
       inverse[k] = static_cast<float>(1 / (slope < 0 ? std::min(slope, -0x1p-40) : std::max(slope, 0x1p-40)));
     }
-    pad = static_cast<float>(std::min(radius * boxes.scale + 0x1p-16 * size, kFar));
-    near = size < kFar && std::isfinite(time) && time > 0x1p-960;
+    pad = static_cast<float>(radius * boxes.scale + 0x1p-16 * size);
+    if (size < kFar && std::isfinite(time) && time > 0x1p-960) return;
+    pad = std::numeric_limits<float>::infinity();  // every box is entered at 0
+    time = 1;
   }
 };
 
@@ -75,36 +77,13 @@ class FirstHit {
         ray_(tree.boxes, origin, direction, radius) {}
 
   std::optional<PointHit> run() {
-    visit(tree_.boxes.levels - 1, 0);
+    descend(
+        tree_.boxes, [&](std::size_t group) { return enter_times(tree_.boxes.groups[group], ray_); },
+        [&] { return latest_; }, [&](std::size_t packet) { ask_packet(packet); });
     return best_.index < 0 ? std::nullopt : std::optional(best_);
   }
 
  private:
-  void visit(std::size_t level, std::size_t number) {
-    const BoxLevels& boxes = tree_.boxes;
-    const std::size_t first = number * kTreeWidth, count = std::min(kTreeWidth, boxes.below[level] - first);
-    const auto times = enter_times(boxes.groups[boxes.first[level] + number], ray_);
-    std::array<std::uint8_t, kTreeWidth> order;
-    std::size_t found = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      if (!ray_.near || times[k] < std::numeric_limits<float>::infinity())
-        order[found++] = static_cast<std::uint8_t>(k);
-    }
-    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(found),
-              [&](std::uint8_t a, std::uint8_t b) {
-                return times[a] < times[b] || (times[a] == times[b] && a < b);
-              });
-    for (std::size_t i = 0; i < found; ++i) {
-      const std::size_t k = order[i];
-      if (ray_.near && times[k] > latest_) return;  // and all that follow
-      if (level > 0) {
-        visit(level - 1, first + k);
-      } else {
-        ask_packet(first + k);
-      }
-    }
-  }
-
   void ask_packet(std::size_t packet) {
     const std::size_t first = packet * kTreeWidth;
     const auto ask = [&](const auto& points) {
@@ -168,7 +147,7 @@ std::optional<PointHit> PointTree::first_hit(const Eigen::Vector3d& origin, cons
                                              double radius) const {
   const FloatEnvironment environment;
   if (!(radius >= 0 && radius <= kMaxCoordinate))
-    throw std::invalid_argument("PointTree: the radius of a moving sphere must be from 0 to 1e100");
+    refuse("PointTree: the radius of a moving sphere must be from 0 to 1e100", radius);
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
   if (direction.isZero(0)) return lowest_inside(isa_, tree_, Sphere(origin, radius));
   return FirstHit(tree_, origin, direction, radius).run();

@@ -5,17 +5,18 @@
 #include <array>
 
 #include "box_relation.h"
+#include "box_walk.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/trees/point_tree.h"
 #include "pcl_bv/volumes/pairs.h"
+#include "refusal.h"
 #include "vectors.h"
 
 namespace pcl_bv {
 namespace {
 
-// Depth first, the box first that may be nearest.
 class NearestToVolume {
  public:
   NearestToVolume(const PackedTree& tree, const AnyVolume& volume, double limit)
@@ -25,7 +26,9 @@ class NearestToVolume {
   }
 
   std::optional<PointDistance> run() {
-    visit(tree_.boxes.levels - 1, 0);
+    descend(
+        tree_.boxes, [&](std::size_t group) { return least_distances(tree_.boxes.groups[group]); },
+        [&] { return best_.distance; }, [&](std::size_t packet) { ask_packet(packet); });
     return best_.index < 0 ? std::nullopt : std::optional(best_);
   }
 
@@ -39,25 +42,13 @@ class NearestToVolume {
     return away - reach - 0x1p-36 * (away + reach + size_ + taxicab3(middle));
   }
 
-  void visit(std::size_t level, std::size_t number) {
-    const BoxLevels& boxes = tree_.boxes;
-    const BoxGroup& group = boxes.groups[boxes.first[level] + number];
-    const std::size_t first = number * kTreeWidth, count = std::min(kTreeWidth, boxes.below[level] - first);
-    std::array<std::pair<double, std::size_t>, kTreeWidth> order;
-    for (std::size_t k = 0; k < count; ++k) {
-      const PlainBox box = plain_box(boxes, group, k);
-      const bool there = box.low.x() <= box.high.x();
-      order[k] = {there ? least_distance(box) : kInfinity, k};
+  std::array<double, kTreeWidth> least_distances(const BoxGroup& group) const {
+    std::array<double, kTreeWidth> least;
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
+      const PlainBox box = plain_box(tree_.boxes, group, k);
+      least[k] = box.low.x() <= box.high.x() ? least_distance(box) : kInfinity;
     }
-    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t i = 0; i < count && order[i].first <= best_.distance; ++i) {
-      const std::size_t item = first + order[i].second;
-      if (level > 0) {
-        visit(level - 1, item);
-      } else {
-        ask_packet(item);
-      }
-    }
+    return least;
   }
 
   void ask_packet(std::size_t packet) {
@@ -83,7 +74,7 @@ class NearestToVolume {
 
 std::optional<PointDistance> PointTree::nearest_to(const AnyVolume& volume, double max_distance) const {
   const FloatEnvironment environment;
-  if (!(max_distance >= 0)) throw std::invalid_argument("PointTree: a distance must be 0 or more");
+  require_distance("PointTree", max_distance);
   if (empty() || pcl_bv::empty(volume)) return std::nullopt;
   return NearestToVolume(tree_, volume, max_distance).run();
 }

@@ -9,6 +9,7 @@
 
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "refusal.h"
 
 namespace pcl_bv {
 namespace {
@@ -114,7 +115,7 @@ void PointForest::nearest(const Eigen::Vector3d& place, std::size_t k, std::vect
                           double max_distance) const {
   const FloatEnvironment environment;
   found.clear();
-  if (!(max_distance >= 0)) throw std::invalid_argument("PointForest: a distance must be 0 or more");
+  require_distance("PointForest", max_distance);
   std::vector<Neighbor> of_tree;
   // From the largest tree on, which mostly has them: the others then are asked about less.
   for (const Tree& tree : trees_) {
@@ -132,7 +133,7 @@ void PointForest::nearest(const Eigen::Vector3d& place, std::size_t k, std::vect
 void PointForest::near(const Eigen::Vector3d& place, double distance,
                        std::vector<ForestNeighbor>& found) const {
   found.clear();
-  if (!(distance >= 0)) throw std::invalid_argument("PointForest: a distance must be 0 or more");
+  require_distance("PointForest", distance);
   std::vector<Neighbor> of_tree;
   for (const Tree& tree : trees_) {
     tree.tree.near(place, distance, of_tree);

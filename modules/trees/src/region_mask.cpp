@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <sstream>
-#include <stdexcept>
 
 #include "convex_region.h"
 #include "grown.h"
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "refusal.h"
 #include "region_runs.h"
 #include "vectors.h"
 #include "volume_boxes.h"
@@ -23,11 +22,8 @@ namespace {
 std::vector<AnyVolume> grown_volumes(const std::vector<Region>& regions) {
   std::vector<AnyVolume> volumes;
   for (const auto& [volume, padding] : regions) {
-    if (!(padding >= 0 && padding <= kMaxCoordinate)) {
-      std::ostringstream what;
-      what << "RegionMask: the padding of a region must be from 0 to 1e100, not " << padding;
-      throw std::invalid_argument(what.str());
-    }
+    if (!(padding >= 0 && padding <= kMaxCoordinate))
+      refuse("RegionMask: the padding of a region must be from 0 to 1e100", padding);
     if (!empty(volume)) volumes.push_back(grown(volume, padding));
   }
   return volumes;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "box_levels.h"
+#include "box_walk.h"
 #include "pcl_bv/kernels/packed_tree.h"
 #include "pcl_bv/volumes/any_volume.h"
 
@@ -87,28 +88,6 @@ inline std::uint32_t overlapping(const BoxGroup& group, const BoxQuery& query) {
   for (std::size_t k = 0; k < kTreeWidth; ++k)
     bits |= out[k] << k;
   return bits;
-}
-
-/// Calls visit(item) for the items in groups whose bits pick(group's number) gives; ends where it returns
-/// true.
-template <typename Pick, typename Visit>
-bool walk(const BoxLevels& boxes, std::size_t level, std::size_t group, const Pick& pick,
-          const Visit& visit) {
-  const std::size_t at = boxes.first[level] + group;
-  for (std::uint32_t bits = pick(at); bits != 0; bits &= bits - 1) {
-    const std::size_t below = group * kTreeWidth + static_cast<std::size_t>(std::countr_zero(bits));
-    if (level == 0 ? visit(below) : walk(boxes, level - 1, below, pick, visit)) return true;
-  }
-  return false;
-}
-
-template <typename Pick, typename Visit>
-bool walk(const BoxLevels& boxes, const Pick& pick, const Visit& visit) {
-  if (boxes.levels == 0) return false;
-  for (std::size_t group = 0; group < boxes.below[boxes.levels]; ++group) {
-    if (walk(boxes, boxes.levels - 1, group, pick, visit)) return true;
-  }
-  return false;
 }
 
 template <typename Visit>

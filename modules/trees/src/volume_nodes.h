@@ -22,8 +22,6 @@ struct VolumeTree::Nodes {
 
   void measure(bool anew, const Execution& execution);
 
-  const AnyVolume& volume(std::uint32_t number) const { return volumes[number]; }
-
   /// Calls visit(number of the volume) for those that may hold a place, and those without a box; ends where
   /// it returns true.
   template <typename Visit>
@@ -45,42 +43,16 @@ struct VolumeTree::Nodes {
     return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.number(item)); });
   }
 
-  /// Calls visit(number) for the volumes whose bound(group, k) is at most limit(), which visit may lower: at
-  /// first where it is least.
+  /// Calls visit(number) for the volumes whose bound(group, k) is at most limit(), as descend() says.
   template <typename Bound, typename Limit, typename Visit>
-  void descend(const Bound& bound, const Limit& limit, const Visit& visit) const {
-    const BoxLevels& levels = boxes.levels();
-    for (std::size_t group = 0; levels.levels != 0 && group < levels.below[levels.levels]; ++group)
-      descend(levels.levels - 1, group, bound, limit, visit);
-  }
-
- private:
-  template <typename Bound, typename Limit, typename Visit>
-  void descend(std::size_t level, std::size_t group, const Bound& bound, const Limit& limit,
-               const Visit& visit) const {
-    struct Child {
-      double bound;
-      std::size_t item;
+  void nearest_first(const Bound& bound, const Limit& limit, const Visit& visit) const {
+    const auto bounds = [&](std::size_t group) {
+      std::array<double, kTreeWidth> found;
+      for (std::size_t k = 0; k < kTreeWidth; ++k)
+        found[k] = bound(group, k);
+      return found;
     };
-    std::array<Child, kTreeWidth> children;
-    const BoxLevels& levels = boxes.levels();
-    const std::size_t first = group * kTreeWidth;
-    const std::size_t count = std::min(kTreeWidth, levels.below[level] - first);
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const double least = bound(levels.first[level] + group, k);
-      if (least <= limit() && least < std::numeric_limits<double>::infinity())
-        children[kept++] = {least, first + k};
-    }
-    std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(kept),
-              [](const Child& a, const Child& b) { return a.bound < b.bound; });
-    for (std::size_t c = 0; c < kept && children[c].bound <= limit(); ++c) {
-      if (level == 0) {
-        visit(boxes.number(children[c].item));
-      } else {
-        descend(level - 1, children[c].item, bound, limit, visit);
-      }
-    }
+    descend(boxes.levels(), bounds, limit, [&](std::size_t item) { visit(boxes.number(item)); });
   }
 };
 

@@ -7,7 +7,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "volume_nodes.h"
@@ -92,21 +91,6 @@ const std::vector<AnyVolume>& VolumeTree::volumes() const {
 
 NodeBounds VolumeTree::node_bounds() const {
   return nodes_->kind;
-}
-
-void VolumeTree::first_containing(const PointView& points, std::vector<std::int32_t>& first,
-                                  const Execution& execution) const {
-  first.resize(points.count);
-  for_each_chunk(execution.parallel, chunk_count(points.count), [&](std::size_t chunk) {
-    const FloatEnvironment environment;
-    const LoadedPoints part = load_chunk(points, chunk);
-    std::vector<std::int32_t> indices;
-    for (std::size_t i = 0; i < part.view().count; ++i) {
-      const Coordinates p = load_point(part.view(), i);
-      all_containing({p.x, p.y, p.z}, indices);
-      first[chunk * kChunkPoints + i] = indices.empty() ? -1 : indices.front();
-    }
-  });
 }
 
 void VolumeTree::first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>& hits,

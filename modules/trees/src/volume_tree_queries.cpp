@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <cmath>
-#include <stdexcept>
 
+#include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/volumes/pairs.h"
+#include "refusal.h"
 #include "vectors.h"
 #include "volume_nodes.h"
 
@@ -66,7 +68,7 @@ void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen:
     if (nodes.shapes.none() || enter == kInfinity) return enter;
     return std::max(enter, nodes.shapes.enter(group * kTreeWidth + k, ray));
   };
-  nodes.descend(
+  nodes.nearest_first(
       bound, [&] { return ray.time(limit()); }, visit);
 }
 
@@ -102,6 +104,24 @@ void VolumeTree::all_containing(const Eigen::Vector3d& point, std::vector<std::i
     return false;
   });
   std::sort(indices.begin(), indices.end());
+}
+
+void VolumeTree::first_containing(const PointView& points, std::vector<std::int32_t>& first,
+                                  const Execution& execution) const {
+  first.resize(points.count);
+  for_each_chunk(execution.parallel, chunk_count(points.count), [&](std::size_t chunk) {
+    const FloatEnvironment environment;
+    const LoadedPoints part = load_chunk(points, chunk);
+    for (std::size_t i = 0; i < part.view().count; ++i) {
+      std::int32_t& lowest = first[chunk * kChunkPoints + i];
+      lowest = -1;
+      visit_containing(*nodes_, vector(load_point(part.view(), i)), [&](std::uint32_t number) {
+        const auto found = static_cast<std::int32_t>(number);
+        if (lowest < 0 || found < lowest) lowest = found;
+        return false;
+      });
+    }
+  });
 }
 
 std::optional<VolumeHit> VolumeTree::first_hit(const Eigen::Vector3d& origin,
@@ -160,7 +180,7 @@ void VolumeTree::all_overlapping(const AnyVolume& volume, std::vector<std::int32
 
 std::optional<VolumeDistance> VolumeTree::nearest(const Eigen::Vector3d& point, double max_distance) const {
   const FloatEnvironment environment;
-  if (!(max_distance >= 0)) throw std::invalid_argument("VolumeTree: a distance must be 0 or more");
+  require_distance("VolumeTree", max_distance);
   std::optional<VolumeDistance> nearest;
   const auto visit = [&](std::uint32_t number) {
     if (empty(nodes_->volumes[number])) return false;
@@ -183,7 +203,7 @@ std::optional<VolumeDistance> VolumeTree::nearest(const Eigen::Vector3d& point, 
     return std::max(box, nodes_->shapes.distance(group * kTreeWidth + k, place));
   };
   const auto limit = [&] { return (nearest ? nearest->distance : max_distance) * scale; };
-  nodes_->descend(bound, limit, visit);
+  nodes_->nearest_first(bound, limit, visit);
   return nearest;
 }
 

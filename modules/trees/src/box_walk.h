@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Ways through boxes of boxes, for questions that are not the vector kernels'.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "pcl_bv/kernels/packed_tree.h"
+
+namespace pcl_bv {
+
+/// Calls visit(item) for the items in groups whose bits pick(group's number) gives; ends where it returns
+/// true.
+template <typename Pick, typename Visit>
+bool walk(const BoxLevels& boxes, std::size_t level, std::size_t group, const Pick& pick,
+          const Visit& visit) {
+  const std::size_t at = boxes.first[level] + group;
+  for (std::uint32_t bits = pick(at); bits != 0; bits &= bits - 1) {
+    const std::size_t below = group * kTreeWidth + static_cast<std::size_t>(std::countr_zero(bits));
+    if (level == 0 ? visit(below) : walk(boxes, level - 1, below, pick, visit)) return true;
+  }
+  return false;
+}
+
+template <typename Pick, typename Visit>
+bool walk(const BoxLevels& boxes, const Pick& pick, const Visit& visit) {
+  return boxes.levels != 0 && walk(boxes, boxes.levels - 1, 0, pick, visit);
+}
+
+/// Calls visit(item) for the items whose bound is at most limit(), which visit may lower: of each group at
+/// first where it is least. bounds(group's number) are those of its boxes, infinity where nothing is to be
+/// found; what it says of boxes that a group lacks does not matter.
+template <typename Bounds, typename Limit, typename Visit>
+void descend(const BoxLevels& boxes, std::size_t level, std::size_t group, const Bounds& bounds,
+             const Limit& limit, const Visit& visit) {
+  struct Child {
+    double bound;
+    std::size_t item;
+  };
+  std::array<Child, kTreeWidth> children;
+  const auto of_boxes = bounds(boxes.first[level] + group);
+  const std::size_t first = group * kTreeWidth, count = std::min(kTreeWidth, boxes.below[level] - first);
+  const double most = std::min<double>(limit(), std::numeric_limits<double>::max());
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double bound = of_boxes[k];
+    if (!(bound <= most)) continue;
+    std::size_t place = kept++;  // mostly they are few: in order as they come
+    for (; place > 0 && bound < children[place - 1].bound; --place)
+      children[place] = children[place - 1];
+    children[place] = {bound, first + k};
+  }
+  for (std::size_t c = 0; c < kept && children[c].bound <= limit(); ++c) {
+    if (level == 0) {
+      visit(children[c].item);
+    } else {
+      descend(boxes, level - 1, children[c].item, bounds, limit, visit);
+    }
+  }
+}
+
+template <typename Bounds, typename Limit, typename Visit>
+void descend(const BoxLevels& boxes, const Bounds& bounds, const Limit& limit, const Visit& visit) {
+  if (boxes.levels != 0) descend(boxes, boxes.levels - 1, 0, bounds, limit, visit);
+}
+
+}  // namespace pcl_bv
