@@ -13,6 +13,7 @@
 #include "pcl_bv/kernels/run_boxes.h"
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/kernels/support.h"
+#include "pcl_bv/kernels/swept_ball.h"
 
 namespace pcl_bv {
 
@@ -43,6 +44,8 @@ void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, d
                             std::vector<Neighbor>& found);
 void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept);
 void find_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestOne& kept);
+
+void visit_along_reference(const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
 Moments block_moments_reference(const PointView& block);
 

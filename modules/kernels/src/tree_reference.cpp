@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "references.h"
 
@@ -20,56 +22,87 @@ double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k
   return sum / boxes.scale / boxes.scale * (1 - 0x1p-40);
 }
 
-// Calls take(point number, squared distance) for all points in boxes whose bound is at most limit(), which
-// take may lower; ends where it returns true.
-template <typename Limit, typename Take>
-bool visit(const PackedTree& tree, std::size_t level, std::size_t item, const Coordinates& center,
-           const Limit& limit, const Take& take) {
-  if (level == 0) {
-    for (std::size_t lane = 0; lane < kTreeWidth && item * kTreeWidth + lane < tree.count; ++lane) {
-      const auto square_to = [&](const auto& packet) {
-        const double x = *packet.at(0, lane) - center.x, y = *packet.at(1, lane) - center.y,
-                     z = *packet.at(2, lane) - center.z;
-        return (x * x + y * y) + z * z;
-      };
-      const double square =
-          tree.scalar == ScalarType::float32 ? square_to(tree.floats[item]) : square_to(tree.doubles[item]);
-      if (square <= limit() && take(Neighbor{tree.numbers[item * kTreeWidth + lane], square})) return true;
-    }
-    return false;
-  }
+// Calls take(packet) for the packets in boxes of which near(group, k) holds; ends where it returns true.
+template <typename Near, typename Take>
+bool visit_packets(const BoxLevels& boxes, std::size_t level, std::size_t item, const Near& near,
+                   const Take& take) {
+  if (level == 0) return take(item);
   const std::size_t first = item * kTreeWidth;
-  const BoxGroup& group = tree.boxes.groups[tree.boxes.first[level - 1] + item];
-  for (std::size_t k = 0; k < kTreeWidth && first + k < tree.boxes.below[level - 1]; ++k) {
-    if (least_square(tree.boxes, group, k, center) <= limit() &&
-        visit(tree, level - 1, first + k, center, limit, take)) {
-      return true;
-    }
+  const BoxGroup& group = boxes.groups[boxes.first[level - 1] + item];
+  for (std::size_t k = 0; k < kTreeWidth && first + k < boxes.below[level - 1]; ++k) {
+    if (near(group, k) && visit_packets(boxes, level - 1, first + k, near, take)) return true;
   }
   return false;
 }
 
+Coordinates point_of(const PackedTree& tree, std::size_t packet, std::size_t lane) {
+  const auto of = [&](const auto& points) -> Coordinates {
+    return {*points.at(0, lane), *points.at(1, lane), *points.at(2, lane)};
+  };
+  return tree.scalar == ScalarType::float32 ? of(tree.floats[packet]) : of(tree.doubles[packet]);
+}
+
+// Calls take(Neighbor) for all points whose squared distance is at most limit(), which take may lower; ends
+// where it returns true.
+template <typename Limit, typename Take>
+bool visit_ball(const PackedTree& tree, const Coordinates& center, const Limit& limit, const Take& take) {
+  const auto near = [&](const BoxGroup& group, std::size_t k) {
+    return least_square(tree.boxes, group, k, center) <= limit();
+  };
+  return visit_packets(tree.boxes, tree.boxes.levels, 0, near, [&](std::size_t packet) {
+    const std::size_t first = packet * kTreeWidth;
+    for (std::size_t lane = 0; lane < kTreeWidth && first + lane < tree.count; ++lane) {
+      const Coordinates p = point_of(tree, packet, lane);
+      const double x = p.x - center.x, y = p.y - center.y, z = p.z - center.z;
+      const double square = (x * x + y * y) + z * z;
+      if (square <= limit() && take(Neighbor{tree.numbers[first + lane], square})) return true;
+    }
+    return false;
+  });
+}
+
 template <typename Kept>
 void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept) {
-  visit(
-      tree, tree.boxes.levels, 0, center, [&] { return kept.limit(); },
+  visit_ball(
+      tree, center, [&] { return kept.limit(); },
       [&](const Neighbor& neighbor) {
         kept.offer(neighbor);
         return false;
       });
 }
 
+// When the ball enters box k of a group, and infinity where it does not.
+float enter_time(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
+  float enter = 0, leave = std::numeric_limits<float>::infinity();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float to_low = (group.low[axis][k] - ball.pad - ball.origin[axis]) * ball.inverse[axis];
+    const float to_high = (group.high[axis][k] + ball.pad - ball.origin[axis]) * ball.inverse[axis];
+    enter = std::max(enter, std::min(to_low, to_high));
+    leave = std::min(leave, std::max(to_low, to_high));
+  }
+  return enter <= leave ? enter : std::numeric_limits<float>::infinity();
+}
+
+bool is_near_line(const Coordinates& p, const SweptBall& ball) {
+  const double x = p.x - ball.from.x, y = p.y - ball.from.y, z = p.z - ball.from.z;
+  const double u = y * ball.unit.z - z * ball.unit.y, v = z * ball.unit.x - x * ball.unit.z,
+               w = x * ball.unit.y - y * ball.unit.x;
+  const double far =
+      SweptBall::kDoubt * ((std::abs(x) + std::abs(y)) + std::abs(z)) + (ball.radius + SweptBall::kLeast);
+  return (u * u + v * v) + w * w <= far * far;
+}
+
 }  // namespace
 
 bool any_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit) {
-  return visit(
-      tree, tree.boxes.levels, 0, center, [&] { return limit; }, [](const Neighbor&) { return true; });
+  return visit_ball(
+      tree, center, [&] { return limit; }, [](const Neighbor&) { return true; });
 }
 
 void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit,
                             std::vector<Neighbor>& found) {
-  visit(
-      tree, tree.boxes.levels, 0, center, [&] { return limit; },
+  visit_ball(
+      tree, center, [&] { return limit; },
       [&](const Neighbor& neighbor) {
         found.push_back(neighbor);
         return false;
@@ -82,6 +115,20 @@ void list_nearest_reference(const PackedTree& tree, const Coordinates& center, N
 
 void find_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestOne& kept) {
   visit_nearest(tree, center, kept);
+}
+
+void visit_along_reference(const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor) {
+  float latest = std::numeric_limits<float>::max();
+  const auto near = [&](const BoxGroup& group, std::size_t k) {
+    return enter_time(group, k, ball) <= latest;
+  };
+  visit_packets(tree.boxes, tree.boxes.levels, 0, near, [&](std::size_t packet) {
+    std::uint32_t points = 0;
+    for (std::size_t lane = 0; lane < kTreeWidth; ++lane)
+      points |= static_cast<std::uint32_t>(is_near_line(point_of(tree, packet, lane), ball)) << lane;
+    if (points != 0) latest = visitor.visit(packet, points);
+    return false;
+  });
 }
 
 }  // namespace pcl_bv
