@@ -3,14 +3,12 @@
 
 // Trees over points. Rows, all on one thread unless they say otherwise:
 //   tree/build/ISA/SCENE/n:POINTS/threads:N                 ours alone
-//   tree/sphere/ISA/SCENE/n:POINTS/r:PART/threads:1         a yes-or-no question of ours, radius in parts of
-//   the side tree/over-PEER/WHAT/ISA/SCENE/n:POINTS/threads:1        in turns; WHAT is build, a question or,
-//   of a whole sweep with
-//                                                           the build, sweep-nearest and sweep-radius
+//   tree/sphere/ISA/SCENE/n:POINTS/r:PART/threads:1         a yes-or-no question of ours, PART of the side
+//   tree/over-PEER/WHAT/ISA/SCENE/n:POINTS/threads:1        in turns; WHAT is build or a question or, of a
+//                                                           sweep with the build, sweep-nearest, sweep-radius
 //   tree/over-embree/ray/ISA/SCENE/n:POINTS/threads:1
 //   volumes/over-loop/WHAT/n:VOLUMES/threads:1, volumes/links/ISA/SCENE/n:POINTS/threads:1     tree_volumes.cpp
-//   tree/wrong/ISA/questions:N                              ours against looking at every point
-//   (tree_truth.cpp)
+//   tree/wrong/ISA/questions:N                              ours against all points (tree_truth.cpp)
 // `wrong` counts a peer's answers that rounding to float does not explain, of `questions`.
 
 #include <algorithm>

@@ -57,7 +57,7 @@ struct BoxLevels {
   double scale = 1;  ///< A power of two.
 };
 
-/// A cloud's valid points along a curve, 16 to a packet, and boxes around the packets.
+/// A cloud's valid points in the order of a k-d tree's leaves, 16 to a packet, and boxes around the packets.
 struct PackedTree {
   BoxLevels boxes;
   std::vector<PointPacket<float>> floats;    ///< Of a cloud of floats.
