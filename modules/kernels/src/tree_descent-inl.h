@@ -11,6 +11,9 @@
 #define PCL_BV_TREE_DESCENT_INL_H_
 #endif
 
+#include <bit>
+#include <limits>
+
 #include "packed_tree-inl.h"
 
 HWY_BEFORE_NAMESPACE();

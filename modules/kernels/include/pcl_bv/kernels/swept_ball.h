@@ -31,9 +31,12 @@ struct SweptBall {
   float latest(double t) const { return static_cast<float>(t * time * (1 + 0x1p-16)) + pad; }
 };
 
+/// Told by visit_along() which points to ask.
 class PacketVisitor {
  public:
-  /// The points of a packet whose bits are set may be touched. Returns the latest time that still matters.
+  /// The points of a packet whose bits are set, one at least, may be touched. Returns the time, in the frame
+  /// of the boxes, from which on no box is entered any more: SweptBall::latest() of the first touch so far,
+  /// and the greatest float before there is one.
   virtual float visit(std::size_t packet, std::uint32_t points) = 0;
 
  protected:
@@ -42,8 +45,8 @@ class PacketVisitor {
 
 /// Visits packets, those entered early first, until no point that was not shown can be touched before the
 /// visitor's latest time. A point that is touched, as Sphere(point, radius).intersect() has it, is shown for
-/// every `isa`; which others are is not the same. Runs in the caller's floating-point environment: hold a
-/// FloatEnvironment.
+/// every `isa`; which others are is not the same. An empty tree has none. Runs in the caller's
+/// floating-point environment: hold a FloatEnvironment.
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
 }  // namespace pcl_bv
