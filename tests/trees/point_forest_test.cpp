@@ -18,12 +18,12 @@ namespace {
 template <typename T>
 using Cloud = test::TestCloud<T>;
 
-// With equal points, and some that are not valid.
+// With equal points, and some that are not valid. Doubles are not floats.
 template <typename T>
 Cloud<T> batch(std::size_t points, unsigned seed) {
   Cloud<T> cloud = test::gaussian<T>(points, seed, 3);
   for (T& x : cloud.xyz)
-    x = std::round(x * 4) / 4;
+    x = std::round(x * 4) / 4 + (sizeof(T) == 8 ? T(0x1p-40) : T(0));
   if (points > 3) cloud.xyz[3 * (points / 2) + 1] = std::numeric_limits<T>::quiet_NaN();
   return cloud;
 }

@@ -110,7 +110,9 @@ bool same_bytes(const PackedTree& a, const PackedTree& b) {
 }
 
 TYPED_TEST(PointTreeOf, IsTheSameForEveryExecution) {
-  const auto cloud = test::gaussian<TypeParam>(test::kEmulated ? 20'000 : 300'000, 6);
+  auto cloud = test::gaussian<TypeParam>(test::kEmulated ? 20'000 : 300'000, 6);
+  for (std::size_t i = 0; i < cloud.xyz.size(); i += 1 + i / 3)
+    cloud.xyz[i] = std::numeric_limits<TypeParam>::quiet_NaN();
   const PointTree serial(cloud.view());
   for (const auto& [name, execution] : test::every_execution())
     EXPECT_TRUE(same_bytes(PointTree(cloud.view(), execution).packed(), serial.packed())) << name;
@@ -160,6 +162,8 @@ TYPED_TEST(PointTreeOf, AnswersForPointsThatMoved) {
   auto moved = test::gaussian<TypeParam>(3000, 9, 5, 100);
   PointTree tree(cloud.view());
   moved.xyz[3 * 17] = std::numeric_limits<TypeParam>::quiet_NaN();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    moved.xyz[3 * (20 + axis) + axis] = std::numeric_limits<TypeParam>::infinity();
   tree.refit(moved.view());
   const EachPoint points(moved.view());
   Questions questions(points, 10);
@@ -176,6 +180,38 @@ TYPED_TEST(PointTreeOf, AnswersForPointsThatMoved) {
   }
   tree.refit(cloud.view());  // and all are there again
   EXPECT_EQ(tree.count_inside(Sphere(Vector3d::Zero(), 100)), 3000U);
+}
+
+TEST(PointTree, OfASliceMovesWithItsPoints) {
+  const auto cloud = test::gaussian<float>(300, 17), moved = test::gaussian<float>(300, 18);
+  PointTree tree(cloud.view().slice(100, 60));
+  tree.refit(moved.view().slice(50, 200));
+  const EachPoint points(moved.view().slice(100, 60));
+  Questions questions(points, 18);
+  for (int i = 0; i < 50; ++i)
+    expect_near_as_each(tree, points, questions);
+}
+
+TEST(PointTree, CopiesAnswerOnTheirOwn) {
+  const auto cloud = test::gaussian<float>(300, 19), next = test::gaussian<float>(200, 20);
+  PointTree tree(cloud.view()), copy(next.view());
+  copy = tree;
+  tree = *&tree;
+  tree.assign(next.view());
+  EXPECT_TRUE(same_bytes(copy.packed(), PointTree(cloud.view()).packed()));
+  EXPECT_TRUE(same_bytes(tree.packed(), PointTree(next.view()).packed()));
+  tree = std::move(copy);
+  tree.refit(cloud.view());
+  EXPECT_TRUE(same_bytes(tree.packed(), PointTree(cloud.view()).packed()));
+}
+
+TEST(PointTree, RefusesNumbersThatItCannotName) {
+  const auto cloud = test::gaussian<float>(2, 21);
+  PointView far = cloud.view();
+  far.first = 2147483645;
+  EXPECT_GE(PointTree(far).nearest(Vector3d::Zero())->index, 2147483645);
+  far.first = 2147483646;
+  EXPECT_THROW(PointTree{far}, std::invalid_argument);
 }
 
 TEST(PointTree, RefusesToMoveToOtherPoints) {

@@ -105,6 +105,7 @@ TEST(SweepWindow, RefusesWhatItCannotHoldAndStaysAsItWas) {
   window.add(floats.view());
   const auto bytes = window.all().to_bytes();
   EXPECT_THROW(window.add(doubles.view()), std::invalid_argument);
+  EXPECT_THROW(window.add(doubles.view().slice(0, 1)), std::invalid_argument);
   const std::int32_t indices[] = {1, 2};
   PointView some = floats.view();
   some.indices = indices;
@@ -112,6 +113,9 @@ TEST(SweepWindow, RefusesWhatItCannotHoldAndStaysAsItWas) {
   EXPECT_THROW(window.add(some), std::invalid_argument);
   EXPECT_EQ(window.size(), 1U);
   EXPECT_EQ(window.all().to_bytes(), bytes);
+  window.add(doubles.view().slice(0, 0));  // no points are of no type
+  EXPECT_THROW(window.add(doubles.view()), std::invalid_argument);
+  window.drop_oldest();
   window.drop_oldest();
   window.add(doubles.view());
   EXPECT_EQ(window.points(), 50U);

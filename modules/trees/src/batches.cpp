@@ -4,6 +4,7 @@
 #include "pcl_bv/trees/batches.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "pcl_bv/numeric/float_environment.h"
@@ -52,8 +53,7 @@ void list_for_each(const PointView& places, const Execution& execution, Neighbor
       blocks[block].insert(blocks[block].end(), one.begin(), one.end());
     }
   });
-  for (std::size_t i = 0; i < places.count; ++i)
-    found.first[i + 1] += found.first[i];
+  std::partial_sum(found.first.begin(), found.first.end(), found.first.begin());
   found.neighbors.clear();
   found.neighbors.reserve(found.first.back());
   for (const std::vector<Neighbor>& block : blocks)

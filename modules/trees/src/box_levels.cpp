@@ -36,7 +36,6 @@ const BoxGroup& empty_group() {
 
 void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds) {
   boxes.levels = 0;
-  boxes.first[0] = 0;
   boxes.below[0] = items;
   if (items == 0) {
     boxes.groups.clear();

@@ -126,7 +126,7 @@ void PointForest::nearest(const Eigen::Vector3d& place, std::size_t k, std::vect
     for (const Neighbor& neighbor : of_tree)
       found.push_back({tree.first + static_cast<std::uint64_t>(neighbor.index), neighbor.squared_distance});
     std::inplace_merge(found.begin(), found.begin() + middle, found.end());
-    if (found.size() > k) found.resize(k);
+    found.resize(std::min(found.size(), k));
   }
 }
 

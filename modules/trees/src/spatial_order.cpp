@@ -20,28 +20,23 @@ constexpr std::size_t kFew = 8192;
 
 // The longest side of the box around a run.
 struct Side {
-  int axis;
+  std::size_t axis;
   double low, length;
 };
 
 template <typename T>
 Side longest_side(const ItemRun<T>& run) {
-  T low[3], high[3];
-  for (int k = 0; k < 3; ++k)
-    low[k] = high[k] = run.items[0].place[k];
-  for (std::size_t i = 1; i < run.count; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const T at = run.items[i].place[k];
-      low[k] = at < low[k] ? at : low[k];
-      high[k] = at > high[k] ? at : high[k];
-    }
+  Extremes<T> extremes;
+  for (std::size_t i = 0; i < run.count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      extremes.add(axis, run.items[i].place[axis]);
   }
-  Side side{0, 0, -1};
-  for (int k = 0; k < 3; ++k) {
-    const double length = static_cast<double>(high[k]) - static_cast<double>(low[k]);
-    if (length > side.length) side = {k, static_cast<double>(low[k]), length};
+  const auto [low, high] = extremes.bounds();
+  Side longest{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (high[axis] - low[axis] > longest.length) longest = {axis, low[axis], high[axis] - low[axis]};
   }
-  return side;
+  return longest;
 }
 
 // Where the parts of a run begin, and where the last one ends.
@@ -128,7 +123,7 @@ void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
 // Cuts a run and calls take(part) for its parts; a run that needs no cut is done.
 template <typename T, typename Take>
 void cut_run(const ItemRun<T>& run, const Take& take) {
-  const Side side = run.count > kTreeWidth ? longest_side(run) : Side{0, 0, 0};
+  const Side side = run.count > kTreeWidth ? longest_side(run) : Side{};
   if (!(side.length > 1e-290)) {  // few, or all in one place
     if (!run.in_place) std::copy_n(run.items, run.count, run.other);
     return;
@@ -156,7 +151,6 @@ PlacedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
 
 template <typename T>
 void SpatialOrder<T>::sort(std::size_t count, const ParallelPolicy& policy) {
-  if (count == 0) return;
   runs_.assign(1, {items_.data(), buffer_.data(), bins_.data(), count, true});
   const std::size_t threads = std::min<std::size_t>(thread_count(policy), count / kFew);
   if (threads > 1) share_out(4 * threads, policy);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -23,6 +24,22 @@ struct PlacedItem {
 
 struct PlaceBounds {
   Coordinates low, high;
+};
+
+/// Of some T, which a Coordinates would make doubles. A NaN is neither less nor greater.
+template <typename T>
+struct Extremes {
+  static constexpr T kMost = std::numeric_limits<T>::infinity();
+  T low[3] = {kMost, kMost, kMost}, high[3] = {-kMost, -kMost, -kMost};
+
+  void add(std::size_t axis, T value) {
+    low[axis] = value < low[axis] ? value : low[axis];
+    high[axis] = value > high[axis] ? value : high[axis];
+  }
+  /// -0 is 0: that of equal values which is kept depends on the order.
+  PlaceBounds bounds() const {
+    return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}};
+  }
 };
 
 /// Items in a row, where they are and where they go next; there are bins for as many.

@@ -25,22 +25,6 @@ std::vector<PointPacket<T>>& packets_of(PackedTree& tree) {
   }
 }
 
-// Of some T, which a Coordinates would make doubles.
-template <typename T>
-struct Extremes {
-  static constexpr T kMost = std::numeric_limits<T>::infinity();
-  T low[3] = {kMost, kMost, kMost}, high[3] = {-kMost, -kMost, -kMost};
-
-  void add(std::size_t axis, T value) {
-    low[axis] = value < low[axis] ? value : low[axis];
-    high[axis] = value > high[axis] ? value : high[axis];
-  }
-  // -0 is 0: that of equal values which is kept depends on the order.
-  PlaceBounds bounds() const {
-    return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}};
-  }
-};
-
 void widen(PlaceBounds& bounds, const PlaceBounds& other) {
   bounds.low = {std::min(bounds.low.x, other.low.x), std::min(bounds.low.y, other.low.y),
                 std::min(bounds.low.z, other.low.z)};
@@ -79,7 +63,7 @@ PlaceBounds bounds_of(const PointPacket<T>& packet) {
   Extremes<T> extremes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t k = 0; k < kTreeWidth; ++k)
-      extremes.add(axis, *packet.at(axis, k));  // a NaN is neither less nor greater
+      extremes.add(axis, *packet.at(axis, k));
   }
   return extremes.bounds();
 }

@@ -114,10 +114,7 @@ class PointTree {
   struct KeptScratch {
     KeptScratch() = default;
     KeptScratch(const KeptScratch&) {}
-    KeptScratch& operator=(const KeptScratch& other) {
-      if (this != &other) scratch.reset();
-      return *this;
-    }
+    KeptScratch& operator=(const KeptScratch&) { return *this; }
     KeptScratch(KeptScratch&&) = default;
     KeptScratch& operator=(KeptScratch&&) = default;
     std::shared_ptr<Scratch> scratch;

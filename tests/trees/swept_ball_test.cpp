@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A moving ball is shown all points that it may touch, and few others.
+
+#include "pcl_bv/kernels/swept_ball.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "clouds.h"
+#include "each_point.h"
+#include "executions.h"
+#include "vectors.h"
+
+namespace pcl_bv {
+namespace {
+
+using namespace testing;
+
+// Keeps what it is shown, and always says the same time.
+struct Shown final : PacketVisitor {
+  explicit Shown(const PointTree& tree, float until)
+      : latest(until), points(tree.packed().boxes.below[0] * kTreeWidth) {}
+
+  float visit(std::size_t packet, std::uint32_t bits) override {
+    EXPECT_NE(bits, 0U);
+    for (std::size_t k = 0; k < kTreeWidth; ++k)
+      points[packet * kTreeWidth + k] = (bits >> k & 1U) != 0;
+    packets.push_back(packet);
+    return latest;
+  }
+
+  float latest;
+  std::vector<std::size_t> packets;
+  std::vector<bool> points;
+};
+
+struct Ray {
+  Vector3d origin, direction;
+  double radius;
+};
+
+// When the ball's centre enters a packet's box that is greater by `pad` on all sides, in times of the boxes'
+// frame; infinity if it never does. In double, whose rounding is far below what the kernel's boxes are greater
+// by.
+double enter_time(const BoxLevels& boxes, std::size_t packet, const Ray& ray, const SweptBall& ball,
+                  double pad) {
+  const BoxGroup& group = boxes.groups[packet / kTreeWidth];
+  double enter = 0, leave = kInfinity;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    const double from = (ray.origin[k] - boxes.origin[axis]) * boxes.scale,
+                 step = ray.direction[k] / ball.time * boxes.scale;
+    const double low = static_cast<double>(group.low[axis][packet % kTreeWidth]) - pad - from,
+                 high = static_cast<double>(group.high[axis][packet % kTreeWidth]) + pad - from;
+    if (step == 0 && (low > 0 || high < 0)) return kInfinity;
+    if (step == 0) continue;
+    enter = std::max(enter, std::min(low / step, high / step));
+    leave = std::min(leave, std::max(low / step, high / step));
+  }
+  return enter <= leave ? enter : kInfinity;
+}
+
+void expect_only_what_is_near(const PointTree& tree, const Ray& ray, const SweptBall& ball,
+                              const Shown& shown) {
+  const PointView places = tree.packed().view();
+  for (std::size_t i = 0; i < shown.points.size(); ++i) {
+    if (!shown.points[i]) continue;
+    ASSERT_LT(i, places.count);
+    const Vector3d from_origin = vector(load_point(places, i)) - ray.origin;
+    ASSERT_LE(from_origin.cross(ray.direction.normalized()).norm(),
+              ray.radius * (1 + 1e-9) + 1e-11 * from_origin.lpNorm<1>() + 1e-100);
+  }
+  if (!std::isfinite(ball.pad)) return;
+  const auto pad = static_cast<double>(ball.pad), last = static_cast<double>(shown.latest);
+  for (std::size_t n = 0; n < shown.packets.size(); ++n) {
+    // One is shown before there is a latest time.
+    const double enter = enter_time(tree.packed().boxes, shown.packets[n], ray, ball, 1.01 * pad);
+    ASSERT_LE(enter, n == 0 ? std::numeric_limits<double>::max() : 1.0001 * last + 0.01 * pad);
+  }
+}
+
+void expect_all_that_is_touched(const PointTree& tree, const Ray& ray, double until, const Shown& shown) {
+  const PointView places = tree.packed().view();
+  for (std::size_t i = 0; i < places.count; ++i) {
+    const auto inside =
+        Sphere(vector(load_point(places, i)), ray.radius).intersect(ray.origin, ray.direction);
+    ASSERT_TRUE(!inside || inside->enter >= until || shown.points[i]) << inside->enter;
+  }
+}
+
+template <typename T>
+class SweptBallOf : public ::testing::Test {};
+using ScalarTypes = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(SweptBallOf, ScalarTypes);
+
+TYPED_TEST(SweptBallOf, IsShownAllThatItTouchesAndOnlyWhatIsNear) {
+  for (const auto& cloud : test::nasty_clouds<TypeParam>()) {
+    SCOPED_TRACE(cloud.name);
+    const EachPoint points(cloud.view());
+    for (const Isa isa : usable_isas()) {
+      SCOPED_TRACE(isa_name(isa));
+      const PointTree tree(cloud.view(), {Serial{}, isa});
+      if (tree.empty()) continue;
+      Questions questions(points, 1);
+      for (int i = 0; i < (test::kEmulated ? 3 : 20); ++i) {
+        const Vector3d origin = questions.place(), direction = questions.direction();
+        const Ray ray{origin, direction, i % 5 == 0 ? 0 : 0.1 * questions.distance(origin)};
+        if (direction.isZero(0)) continue;
+        const SweptBall ball(tree.packed().boxes, coordinates(origin), coordinates(direction), ray.radius);
+        const double until = questions.uniform(0, 1) * questions.size() / direction.norm();
+        for (const double end : {kInfinity, until}) {
+          Shown shown(tree, end == until ? ball.latest(until) : std::numeric_limits<float>::max());
+          visit_along(tree.isa(), tree.packed(), ball, shown);
+          ASSERT_NO_FATAL_FAILURE(expect_only_what_is_near(tree, ray, ball, shown));
+          ASSERT_NO_FATAL_FAILURE(expect_all_that_is_touched(tree, ray, end, shown));
+        }
+      }
+    }
+  }
+}
+
+// Else a greater pad would let through what expect_only_what_is_near() measures by it.
+TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
+  const auto cloud = test::gaussian<double>(1000, 2, 3, 50);
+  const PointTree tree(cloud.view());
+  const BoxLevels& boxes = tree.packed().boxes;
+  for (const double radius : {0.0, 1e-3, 1.0, 40.0}) {
+    for (const double away : {0.0, 10.0, 1e5}) {
+      const Vector3d origin = vector(boxes.origin) + Vector3d(-away, 1, 2), direction(1e-7, -40, 3e-20);
+      const SweptBall ball(boxes, coordinates(origin), coordinates(direction), radius);
+      const double size = (away + 3 + radius) * boxes.scale + 1, r = radius * boxes.scale;
+      EXPECT_GE(static_cast<double>(ball.pad), r + size * 0x1p-17);
+      EXPECT_LE(static_cast<double>(ball.pad), r + size * 0x1p-15);
+      EXPECT_NEAR(static_cast<double>(ball.origin[0]), -away * boxes.scale, 0x1p-23 * size);
+      EXPECT_NEAR(static_cast<double>(ball.origin[2]), 2 * boxes.scale, 0x1p-23 * size);
+      // Of a direction from (0, -2, 0) to (0, -1, 0): -40 is -1.25 * 2^5.
+      EXPECT_FLOAT_EQ(ball.inverse[1], -0.8F);
+      EXPECT_FLOAT_EQ(ball.inverse[0], 32e7F);
+      EXPECT_FLOAT_EQ(ball.inverse[2], 0x1p40F);
+      EXPECT_EQ(ball.time, 32 * boxes.scale);
+      EXPECT_NEAR(ball.unit.y, -1, 1e-15);
+      EXPECT_NEAR(ball.unit.x, 1e-7 / 40, 1e-23);
+      const double latest = static_cast<double>(ball.latest(3)), pad = static_cast<double>(ball.pad);
+      EXPECT_GE(latest, 3 * ball.time + pad);
+      EXPECT_LE(latest, 3 * ball.time * (1 + 0x1p-15) + 1.001 * pad);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pcl_bv
