@@ -48,8 +48,7 @@ def is_mutated(name):
 class Sources:
     """The copy. What was seen not to compile is left out, and remembered for the next run."""
 
-    def __init__(self, only=""):
-        self.only = only
+    def __init__(self):
         self.mutants = []
         self._places = {}  # by file: what Arm says, and the text
         self._memory = BUILD / "not_compiling.json"

@@ -97,7 +97,7 @@ def main():
     else:
         programs = build.build(sources, options.jobs, say)
     mutants = [m for m in in_random_order(sources.mutants, options.seed) if options.only in m.file]
-    there = {key_of(m) for m in mutants}
+    there = {key_of(m) for m in sources.mutants}
     mutants = mutants[: options.sample or None]
     if options.list:
         print("\n".join(map(line_of, mutants)))

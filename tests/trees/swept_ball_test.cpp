@@ -43,8 +43,8 @@ struct Ray {
 };
 
 // When the ball's centre enters a packet's box that is greater by `pad` on all sides, in times of the boxes'
-// frame; infinity if it never does. In double, whose rounding is far below what the kernel's boxes are greater
-// by.
+// frame; infinity if it never does. In double, whose rounding is far below what the kernel's boxes are
+// greater by.
 double enter_time(const BoxLevels& boxes, std::size_t packet, const Ray& ray, const SweptBall& ball,
                   double pad) {
   const BoxGroup& group = boxes.groups[packet / kTreeWidth];

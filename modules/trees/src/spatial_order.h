@@ -60,8 +60,9 @@ struct ItemRun {
 /// Sorts items as the leaves of a balanced k-d tree (Bentley 1975) lie in a row: the longest side of the box
 /// around the items is cut into up to four parts, so that each begins at a multiple of the greatest 16^k (k >
 /// 0) that is less than their number, and each part likewise. Items with equal coordinates go by their
-/// numbers. So the order follows from the items alone, not from the policy or their order before. O(n log n):
-/// with less than 1000 a bin, a cut is a pass that counts and one that moves, and each divides runs by four.
+/// numbers. Runs of 16 or fewer, and of one place, are not cut. So which run an item is in follows from the
+/// items alone, and the whole order also from that before, but not from the policy. O(n log n): with less
+/// than 1000 a bin, a cut is a pass that counts and one that moves, and each divides runs by four.
 template <typename T>
 class SpatialOrder {
  public:

@@ -25,17 +25,15 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Answers are those of pcl::search::KdTree: squared distances; indices of the cloud, also where
 /// setInputCloud() was given a list; neighbours strictly nearer than the radius; points that are not finite
 /// are in no answer, whatever is_dense says. Where it differs:
-/// - Distances are compared in double and rounded once, to float; PCL computes them in float, up to 4e-7 off.
-/// So a
-///   point that far from the radius, or two whose distances differ by less, may be decided otherwise. Clouds
-///   whose squares float does not hold (1e-23, 1e20) get their neighbours; distances beyond float are
-///   infinity.
+/// - Distances are compared in double and rounded once, to float; PCL computes them in float, up to 4e-7
+///   off. So a point that far from the radius, or two whose distances differ by less, may be decided
+///   otherwise. Clouds whose squares float does not hold (1e-23, 1e20) get their neighbours; distances beyond
+///   float are infinity.
 /// - Of equally near points that with the smaller index comes first, and is kept if not all are: so a sorted
-/// tree is
-///   also good for pcl::EuclideanClusterExtraction, which takes the first answer for the point asked about.
+///   tree is also good for pcl::EuclideanClusterExtraction, which takes the first answer for the point asked
+///   about.
 /// - What PCL asserts against has no neighbours: a place that is not finite, an index outside, a radius that
-/// is not
-///   above 0, less than one neighbour wanted, no cloud.
+///   is not above 0, less than one neighbour wanted, no cloud.
 ///
 /// A question takes the memory of its answer only, which its thread keeps for the next one. Const calls may
 /// run side by side.
