@@ -51,8 +51,8 @@ std::vector<test::TestCloud<T>> clouds_to_order() {
   return clouds;
 }
 
-// Sorts each run along the longest side of the box around it, and appends the numbers of the items in each run
-// that is not cut, ascending.
+// Sorts each run along the longest side of the box around it, and appends the numbers of the items in each
+// run that is not cut, ascending.
 template <typename T>
 void order_by_sorting(Items<T>& items, std::size_t begin, std::size_t end,
                       std::vector<std::vector<std::int64_t>>& leaves) {
@@ -61,9 +61,8 @@ void order_by_sorting(Items<T>& items, std::size_t begin, std::size_t end,
   std::size_t longest = 0;
   double length = 0;
   for (std::size_t axis = 0; axis < 3 && begin < end; ++axis) {
-    const auto [low, high] = std::minmax_element(first, last, [axis](const auto& a, const auto& b) {
-      return a.place[axis] < b.place[axis];
-    });
+    const auto [low, high] = std::minmax_element(
+        first, last, [axis](const auto& a, const auto& b) { return a.place[axis] < b.place[axis]; });
     const double side = static_cast<double>(high->place[axis]) - static_cast<double>(low->place[axis]);
     if (side > length) longest = axis;
     length = std::max(length, side);
@@ -184,6 +183,44 @@ TEST(BoxLevels, FillTheirFrame) {
     EXPECT_GE(half * boxes.scale, 0.5 * (1 - 0x1p-40));
     for (std::size_t axis = 0; axis < 3; ++axis)
       EXPECT_NEAR(boxes.origin[axis], low[axis] / 2 + high[axis] / 2, 0x1p-40 * half);
+  }
+}
+
+// The squared radius from which on a ball about the place surely holds a point of a box that touches its
+// points.
+double surely_reached(const Vector3d& place, const Vector3d& low, const Vector3d& high) {
+  const Vector3d near = (place - low).cwiseAbs().cwiseMin((place - high).cwiseAbs()).cwiseAbs2(),
+                 far = (place - low).cwiseAbs().cwiseMax((place - high).cwiseAbs()).cwiseAbs2();
+  return (far.sum() * Vector3d::Ones() - far + near).minCoeff();
+}
+
+TEST(BoxLevels, TellHowLittleABallMayBeThatSurelyHoldsAPoint) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto somewhere = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+  for (int i = 0; i < 300; ++i) {
+    BoxLevels boxes;
+    const std::size_t items = 1 + static_cast<std::size_t>(i % 16);
+    reset_levels(boxes, items, {{-1, -1, -1}, {1, 1, 1}});
+    std::vector<Vector3d> low, high;
+    double least = kInfinity, found = kInfinity;
+    for (std::size_t k = 0; k < items; ++k) {
+      const Vector3d a = somewhere(), b = somewhere();
+      low.push_back(a.cwiseMin(b));
+      high.push_back(a.cwiseMax(b));
+      set_item_box(boxes, k, {low[k].x(), low[k].y(), low[k].z()}, {high[k].x(), high[k].y(), high[k].z()});
+      for (int side = 0; side < 3; ++side) {
+        Vector3d middle = (low[k] + high[k]) / 2;
+        middle[side] = low[k][side];
+        least = std::min(least, surely_reached(middle, low[k], high[k]));
+      }
+      for (int place = 0; place < 20; ++place)
+        found = std::min(found, surely_reached(somewhere(), low[k], high[k]));
+    }
+    raise_levels(boxes);
+    const double told = static_cast<double>(boxes.least_reached[0]) / (boxes.scale * boxes.scale);
+    EXPECT_LE(told, found + 1e-5);
+    EXPECT_NEAR(told, least, 1e-5);
   }
 }
 

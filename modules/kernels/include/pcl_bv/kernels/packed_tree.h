@@ -49,6 +49,8 @@ struct BoxLevels {
   static constexpr std::size_t kMostLevels = 9;
 
   std::vector<BoxGroup> groups;
+  std::vector<float> least_reached;  ///< By group: a ball of a smaller squared radius may miss the points of
+                                     ///< each of its boxes, wherever it is.
   std::array<std::size_t, kMostLevels + 1> first{};  ///< The number, among all groups, of each level's first.
   std::array<std::size_t, kMostLevels + 1>
       below{};             ///< How many there are below: items, groups of level 0, ...
