@@ -52,7 +52,6 @@ class PlaneBody {
   std::vector<double> local_;  // offsets as seen from origin_
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::optional<Aabb> box_;
-  double size_ = 0;  // no coordinate of the body exceeds it; 0 unless there is a box
 };
 
 }  // namespace pcl_bv

@@ -36,7 +36,7 @@ struct VolumeTree::Nodes {
       std::uint32_t bits = overlapping(boxes.levels().groups[group], query);
       for (std::uint32_t rest = bits; rest != 0; rest &= rest - 1) {
         const int k = std::countr_zero(rest);
-        if (shapes.distance(group * kTreeWidth + static_cast<std::size_t>(k), at) > 0) bits &= ~(1U << k);
+        if (!shapes.may_hold(group * kTreeWidth + static_cast<std::size_t>(k), at)) bits &= ~(1U << k);
       }
       return bits;
     };
