@@ -96,11 +96,12 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
     const Eigen::Matrix3d inverse = normals.inverse();
     std::size_t side = 0;
     if (!most_violated(inverse * offsets, side)) break;
-    const Eigen::Vector3d share = inverse.transpose() * planes_[side].normal;
+    const Eigen::Vector3d share = inverse.transpose() * planes_[side].normal,
+                          sized = share.cwiseProduct(normals.rowwise().norm());
     int leaving = -1;
     double change = kInfinity;
     for (int k = 0; k < 3; ++k) {
-      if (share[k] <= 0x1p-40 * greatest(share) || corner.weights[k] / share[k] >= change) continue;
+      if (sized[k] <= 0x1p-40 * greatest(sized) || corner.weights[k] / share[k] >= change) continue;
       leaving = k;
       change = corner.weights[k] / share[k];
     }
