@@ -57,6 +57,19 @@ std::vector<Slab> sides(const BoxGroup& group, std::size_t k) {
   return slabs;
 }
 
+// A k-DOP whose aabb() is empty and for which extent_of() finds a box all the same.
+Kdop missing_slabs(double size) {
+  const auto set =
+      std::make_shared<const KdopSet>(std::vector<Vector3d>{{1, 2, 3}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}});
+  SlabVector min = SlabVector::Constant(4, -size), max = SlabVector::Constant(4, size);
+  min[0] = 50 * size, max[0] = 60 * size;
+  const Kdop kdop(set, min, max);
+  EXPECT_TRUE(kdop.aabb().empty());
+  EXPECT_LT(extent_of(kdop).high.x, size);
+  EXPECT_GE(extent_of(kdop).high.x, 0.5 * size);
+  return kdop;
+}
+
 std::vector<Tree> trees() {
   Random random(31);
   std::vector<Tree> all;
@@ -65,8 +78,9 @@ std::vector<Tree> trees() {
       std::vector<AnyVolume> volumes = scattered_volumes(random, scale, count, count > 9 ? 30 : 0.1);
       std::shuffle(volumes.begin(), volumes.end(), std::mt19937(count));
       volumes.resize(count);
-      for (std::size_t i = 0; count > 9 && i < 20; ++i)
+      for (std::size_t i = 0; scale.offset == 0 && count > 9 && i < 20; ++i)
         volumes[i] = odd_volumes(scale.extent)[i % 12];
+      if (scale.offset == 0 && count > 9) volumes[20] = missing_slabs(scale.extent);
       for (const NodeBounds kind : {NodeBounds::dop14, NodeBounds::sphere})
         all.emplace_back(volumes, kind);
     }
@@ -102,7 +116,9 @@ TEST(NodeBounds, DistancesAreThoseToTheShapesLessTheSlack) {
         } else {
           ASSERT_EQ(found, kInfinity);
         }
-        ASSERT_EQ(tree.shapes.may_hold(n, place), found == 0);
+        const std::uint32_t bits = 0x5a5aU << n % 2;
+        ASSERT_EQ(tree.shapes.may_hold(n / kTreeWidth, bits, place) >> n % kTreeWidth & 1U,
+                  found == 0 ? bits >> n % kTreeWidth & 1U : 0U);
         apart += found > 0 && found < kInfinity;
         for (const std::uint32_t number : shape.volumes) {
           if (empty(tree.volumes[number]) || found == 0 || found == kInfinity) continue;

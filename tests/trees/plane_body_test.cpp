@@ -103,15 +103,19 @@ TEST(PlaneBody, AddsToEachSideWhatContainsMayAllow) {
   EXPECT_NEAR(other.reach_up({1, 0, 0}) - 3, 0x1p-46 * 3, 0x1p-50);
 }
 
+Hull box_of(const Vector3d& low, const Vector3d& size, const std::vector<HullPlane>& more = {}) {
+  std::vector<HullPlane> planes = more;
+  for (int k = 0; k < 3; ++k) {
+    planes.push_back({Vector3d::Unit(k), low[k] + size[k]});
+    planes.push_back({-Vector3d::Unit(k), -low[k]});
+  }
+  return {{low, low + size}, {}, planes, 3};
+}
+
 TEST(PlaneBody, OfAPointOrAFlatBodyHasABox) {
   for (const Vector3d& size : {Vector3d(0, 0, 0), Vector3d(2, 0, 1), Vector3d(0, 1e-300, 0)}) {
     for (const Vector3d& low : {Vector3d(0, 0, 0), Vector3d(5e6, -3, 0)}) {
-      std::vector<HullPlane> planes;
-      for (int k = 0; k < 3; ++k) {
-        planes.push_back({Vector3d::Unit(k), low[k] + size[k]});
-        planes.push_back({-Vector3d::Unit(k), -low[k]});
-      }
-      const PlaneBody body(Hull({low, low + size}, {}, planes, 1));
+      const PlaneBody body(box_of(low, size));
       ASSERT_TRUE(body.box()) << size.transpose() << " at " << low.transpose();
       const double room = 0x1p-44 * (low.cwiseAbs() + size).maxCoeff() + 1e-300;
       EXPECT_LE((body.box()->max() - low - size).maxCoeff(), room);
@@ -120,9 +124,16 @@ TEST(PlaneBody, OfAPointOrAFlatBodyHasABox) {
   }
 }
 
+TEST(PlaneBody, SeesPlanesThatCutLittleOffFarFromTheOrigin) {
+  const Vector3d low(5e6, 5e6, 5e6), size(1, 1, 1), n(1, 1, 1);
+  const double cut = n.dot(low + size) - 5e-7;
+  const PlaneBody body(box_of(low, size, {{n, cut}}));
+  EXPECT_NEAR(body.reach_up(n), cut, 2 * 0x1p-46 * 5e6);
+}
+
 TEST(PlaneBody, OfNothingOrBeyondTheRangeOfDoubleHasNoBox) {
   for (const PlaneBody& body : {PlaneBody(Hull()), PlaneBody(Kdop()), PlaneBody(cube({0, 0, 0}, 1.5e308)),
-                                PlaneBody(cube({-1.5e308, 0, 0}, 1e300))}) {
+                                PlaneBody(box_of({2e307, 0, 0}, {7.5e307, 1, 1}))}) {
     EXPECT_FALSE(body.box());
     EXPECT_EQ(body.reach_up({1, 0, 0}), kInfinity);
   }

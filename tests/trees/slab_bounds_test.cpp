@@ -89,11 +89,14 @@ TEST(SlabBounds, OfVolumesAreTight) {
   for (const Scale& scale : {scales()[0], scales()[1], scales()[4], scales()[5]}) {
     for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
       const SlabBounds<13, double> bounds(volume);
+      const SlabBounds<13, float> floats(volume);
       const Aabb box = aabb(volume);
       const double size = (box.max() - box.min()).maxCoeff();
       const double room = 1e-11 * size + 1e-13 * (box.max().cwiseAbs() + box.min().cwiseAbs()).sum();
       for (std::size_t i = 0; i < 13; ++i) {
         const Vector3d d(kCubeDirections[i][0], kCubeDirections[i][1], kCubeDirections[i][2]);
+        EXPECT_EQ(floats.max[i], float_up(bounds.max[i]));
+        EXPECT_EQ(floats.min[i], float_down(bounds.min[i]));
         EXPECT_NEAR(bounds.max[i], d.dot(support(volume, d)), room)
             << shape_name(volume) << ", " << scale.name << i;
         EXPECT_NEAR(bounds.min[i], d.dot(support(volume, -d)), room)
@@ -216,8 +219,8 @@ TEST(SlabBounds, AreEmptyOnlyWhereNothingWasBoundedAndEqualOnlyIfAllNumbersAre) 
 // Merged in any order they are the same bits.
 template <typename T>
 void expect_no_negative_zero() {
-  for (const Aabb& box :
-       {Aabb({0, 0, 0}, {0, 0, 0}), Aabb({0, 0, 0}, {1, 1, 1}), Aabb({-1, -1, -1}, {0, 0, 0})}) {
+  for (const Aabb& box : {Aabb({0, 0, 0}, {0, 0, 0}), Aabb({0, 0, 0}, {1, 1, 1}),
+                          Aabb({-1, -1, -1}, {0, 0, 0}), Aabb({-1, -1, -1}, {-1e-50, -1e-50, -1e-50})}) {
     const SlabBounds<13, T> bounds(box);
     for (std::size_t i = 0; i < 13; ++i) {
       EXPECT_FALSE(bounds.min[i] == 0 && std::signbit(bounds.min[i])) << i;

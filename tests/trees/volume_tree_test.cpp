@@ -186,8 +186,8 @@ TEST(VolumeTree, OfNoVolumesOrEmptyOnesFindsNothing) {
 TEST(VolumeTree, TakesPlacesAndRaysOfAnyNumbers) {
   Random random(23);
   Volumes volumes = scattered_volumes(random, scales()[0], 60, 20);
-  volumes.push_back(Aabb(Vector3d::Constant(-1e300), Vector3d::Constant(1e300)));
-  volumes.push_back(Sphere({1e99, 0, 0}, 1e98));
+  const Vector3d far = Vector3d::Constant(1e300);
+  volumes.insert(volumes.begin(), {Aabb(-far, far), Sphere(), Sphere({1e99, 0, 0}, 1e98)});
   const double numbers[] = {0, 1, -3e7, 1e99, -1e120, 1e200, 1e-300, kInfinity, kNan};
   for (const NodeBounds bounds : kBounds) {
     const VolumeTree tree(volumes, bounds);
@@ -295,6 +295,8 @@ TEST(VolumeTree, IsTheSameOnAHostThatFlushesToZero) {
 TEST(VolumeTree, RefusesDistancesThatAreNone) {
   EXPECT_THROW(VolumeTree().nearest({0, 0, 0}, -1), std::invalid_argument);
   EXPECT_THROW(VolumeTree().nearest({0, 0, 0}, kNan), std::invalid_argument);
+  EXPECT_EQ(VolumeTree({Sphere(), Sphere({1, 2, 3}, 1)}).nearest({1e200, 0, 0})->index,
+            1);  // beyond the boxes' range
 }
 
 }  // namespace

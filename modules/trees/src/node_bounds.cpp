@@ -46,16 +46,14 @@ double entered(const FrameRay& ray, double enter, double exit) {
 }  // namespace
 
 FramePlace::FramePlace(const VolumeBoxes& boxes, const Coordinates& place) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    at[axis] = boxes.to_frame(place[axis], axis);
+  at = {boxes.to_frame(place.x, 0), boxes.to_frame(place.y, 1), boxes.to_frame(place.z, 2)};
   slack = VolumeBoxes::slack(at.cwiseAbs().maxCoeff());
 }
 
 FrameRay::FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction)
     : from(boxes, origin) {
   const int length = std::ilogb(vector(direction).cwiseAbs().maxCoeff());
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    u[axis] = std::ldexp(direction[axis], -length);
+  u = vector(direction).unaryExpr([&](double x) { return std::ldexp(x, -length); });
   exponent = length + std::ilogb(boxes.levels().scale);
   margin = std::ldexp(0x1p-1020, exponent);
 }
@@ -67,8 +65,9 @@ double FrameRay::time(double t) const {
 double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k) {
   double squares = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double gap = std::max(group.low[axis][k] - place.at[axis], place.at[axis] - group.high[axis][k]);
-    squares += gap > 0 ? gap * gap : 0;
+    const double at = place.at[axis],
+                 gap = std::max(0.0, std::max(group.low[axis][k] - at, at - group.high[axis][k]));
+    squares += gap * gap;
   }
   return std::max(0.0, std::sqrt(squares) - 2 * place.slack);
 }
@@ -136,7 +135,7 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
   if (box.empty()) return slabs;  // a k-DOP of slabs that miss each other
   const SlabBounds<kSlabs, double> bounds(volume);
   const double margin = 2 * contained_margin(box);
-  for (std::size_t i = 0; i < kSlabs; ++i) {
+  for (std::size_t i = 3; i < kSlabs; ++i) {  // boxes are of the others
     Expansion low, high;
     low.add_dot(-cube_direction(i), boxes.levels().origin);
     high = low;
@@ -156,8 +155,7 @@ NodeShapes::Ball NodeShapes::ball_of(const VolumeBoxes& boxes, const AnyVolume& 
     center = sphere->center();
   }
   Ball ball;
-  for (int k = 0; k < 3; ++k)
-    ball.center[k] = static_cast<float>(boxes.to_frame(center[k], static_cast<std::size_t>(k)));
+  ball.center = FramePlace(boxes, coordinates(center)).at.cast<float>();
   ball.radius =
       float_up(radius * boxes.levels().scale * (1 + 0x1p-20) + 0x1p-20);  // of it, and of the centre
   return ball;
@@ -193,6 +191,15 @@ double NodeShapes::distance(std::size_t shape, const FramePlace& place) const {
     farthest = norm3(Eigen::Vector3d(place.at - ball.center.cast<double>())) - ball.radius;
   }
   return std::max(0.0, farthest - 2 * place.slack);
+}
+
+std::uint32_t NodeShapes::may_hold(std::size_t group, std::uint32_t bits, const FramePlace& place) const {
+  std::uint32_t held = 0;
+  for (; bits != 0; bits &= bits - 1) {
+    const int k = std::countr_zero(bits);
+    if (distance(group * kTreeWidth + static_cast<std::size_t>(k), place) <= 0) held |= 1U << k;
+  }
+  return held;
 }
 
 double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {

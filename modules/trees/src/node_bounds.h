@@ -45,7 +45,9 @@ class NodeShapes {
   /// the place may be inside; of t where a ray enters, infinity if it misses.
   double distance(std::size_t shape, const FramePlace& place) const;
   double enter(std::size_t shape, const FrameRay& ray) const;
-  bool may_hold(std::size_t shape, const FramePlace& place) const { return distance(shape, place) <= 0; }
+
+  /// Of the boxes of a group, as bits, those whose shape may hold a place.
+  std::uint32_t may_hold(std::size_t group, std::uint32_t bits, const FramePlace& place) const;
 
  private:
   using Slabs = SlabBounds<7, float>;

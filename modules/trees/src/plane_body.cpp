@@ -51,8 +51,8 @@ PlaneBody::PlaneBody(const Hull& hull) {
 bool PlaneBody::set_out(const Aabb& about) {
   if (about.empty()) return false;
   origin_ = about.center();
-  const double margin = (about.max() - about.min()).maxCoeff() + 0x1p-30 * greatest(origin_) + 0x1p-900;
-  for (int k = 0; k < 3; ++k) {
+  const double margin = (about.max() - about.min()).sum() + 0x1p-30 * greatest(origin_) + 0x1p-900;
+  for (int k = 0; planes_.size() < kFences; ++k) {
     add(Eigen::Vector3d::Unit(k), about.max()[k] + margin);
     add(-Eigen::Vector3d::Unit(k), margin - about.min()[k]);
   }
@@ -65,10 +65,11 @@ void PlaneBody::add(const Eigen::Vector3d& normal, double offset) {
   local_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
 }
 
-bool PlaneBody::most_violated(const Eigen::Vector3d& point, std::size_t& side) const {
+std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point) const {
   const double tolerance = 0x1p-44 * taxicab3(point);
+  std::optional<std::size_t> side;
   double worst = 0;
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
+  for (std::size_t i = kFences; i < planes_.size(); ++i) {
     const Eigen::Vector3d& n = planes_[i].normal;
     const double length = norm3(n);
     const double excess = (dot3(n, point) - local_[i]) / length - tolerance;
@@ -77,7 +78,7 @@ bool PlaneBody::most_violated(const Eigen::Vector3d& point, std::size_t& side) c
       side = i;
     }
   }
-  return worst > 0;
+  return side;
 }
 
 // The dual simplex method. Every step keeps the weights sound; the limit is against cycling.
@@ -85,7 +86,7 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
   Corner corner{{}, direction.cwiseAbs()};
   for (std::size_t k = 0; k < 3; ++k)
     corner.sides[k] = 2 * k + (direction[static_cast<Eigen::Index>(k)] < 0 ? 1 : 0);
-  for (std::size_t step = 0; step < 32 + planes_.size(); ++step) {
+  for (std::size_t step = 0; step < 4 * planes_.size(); ++step) {
     Eigen::Matrix3d normals;
     Eigen::Vector3d offsets;
     for (int k = 0; k < 3; ++k) {
@@ -94,21 +95,19 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
       offsets[k] = local_[side];
     }
     const Eigen::Matrix3d inverse = normals.inverse();
-    std::size_t side = 0;
-    if (!most_violated(inverse * offsets, side)) break;
-    const Eigen::Vector3d share = inverse.transpose() * planes_[side].normal,
+    const std::optional<std::size_t> side = most_violated(inverse * offsets);
+    if (!side) break;
+    const Eigen::Vector3d share = inverse.transpose() * planes_[*side].normal,
                           sized = share.cwiseProduct(normals.rowwise().norm());
-    int leaving = -1;
-    double change = kInfinity;
-    for (int k = 0; k < 3; ++k) {
-      if (sized[k] <= 0x1p-40 * greatest(sized) || corner.weights[k] / share[k] >= change) continue;
-      leaving = k;
-      change = corner.weights[k] / share[k];
-    }
-    if (leaving < 0) break;
+    Eigen::Index leaving = 0;
+    const double change =
+        (sized.array() > 0x1p-40 * greatest(sized))
+            .select(corner.weights.cwiseQuotient(share), Eigen::Vector3d::Constant(kInfinity))
+            .minCoeff(&leaving);
+    if (change == kInfinity) break;
     corner.weights = (corner.weights - change * share).cwiseMax(0.0);
     corner.weights[leaving] = change;
-    corner.sides[static_cast<std::size_t>(leaving)] = side;
+    corner.sides[static_cast<std::size_t>(leaving)] = *side;
   }
   return corner;
 }
