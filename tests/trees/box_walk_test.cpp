@@ -11,7 +11,10 @@
 #include <random>
 
 #include "box_levels.h"
+#include "clouds.h"
 #include "pcl_bv/numeric/constants.h"
+#include "tree_build.h"
+#include "volume_walk.h"
 
 namespace pcl_bv {
 namespace {
@@ -102,6 +105,27 @@ TEST(BoxWalk, WalksToThePickedItemsInTheirOrderUntilToldToEnd) {
   expected.resize(9);
   EXPECT_EQ(found, expected);
   EXPECT_FALSE(walk(Bounds(0).boxes, pick, [](std::size_t) { return true; }));
+}
+
+TEST(VolumeWalk, EndsWhereItIsToldToWhetherBoxesAreInsideOrCross) {
+  const auto cloud = test::gaussian<float>(3001, 52, 3);
+  TreeScratch scratch;
+  PackedTree tree;
+  build_tree(cloud.view(), Serial{}, scratch, tree);
+  const Eigen::Vector3d far(99, 99, 99);
+  for (const AnyVolume& volume :
+       {AnyVolume(Aabb(-far, far)), AnyVolume(Sphere({0, 0, 0}, 3)), AnyVolume(Sphere())}) {
+    std::size_t all = 0, calls = 0;
+    EXPECT_FALSE(
+        walk_inside(Isa::automatic, tree, volume, [&](std::size_t, std::uint32_t) { return ++all, false; }));
+    EXPECT_EQ(all > 20, !empty(volume));
+    for (std::size_t last = 1; last <= all; ++last) {
+      calls = 0;
+      EXPECT_TRUE(walk_inside(Isa::automatic, tree, volume,
+                              [&](std::size_t, std::uint32_t) { return ++calls == last; }));
+      EXPECT_EQ(calls, last);
+    }
+  }
 }
 
 }  // namespace
