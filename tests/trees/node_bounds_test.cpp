@@ -77,7 +77,10 @@ std::vector<Tree> trees() {
     for (const std::size_t count : {1, 9, 40, 256}) {  // 256: no box is missing in the last group
       std::vector<AnyVolume> volumes = scattered_volumes(random, scale, count, count > 9 ? 30 : 0.1);
       std::shuffle(volumes.begin(), volumes.end(), std::mt19937(count));
-      volumes.resize(count);
+      if (scale.offset > 0) {  // near one another, so that margins of coordinates show
+        std::erase_if(volumes, [](const AnyVolume& v) { return std::abs(center(v).z() - 5e5) > 1; });
+      }
+      volumes.resize(count, Sphere({5e6, -5e6, 5e5}, 2e-3));
       for (std::size_t i = 0; scale.offset == 0 && count > 9 && i < 20; ++i)
         volumes[i] = odd_volumes(scale.extent)[i % 12];
       if (scale.offset == 0 && count > 9) volumes[20] = missing_slabs(scale.extent);

@@ -46,7 +46,7 @@ double entered(const FrameRay& ray, double enter, double exit) {
 }  // namespace
 
 FramePlace::FramePlace(const VolumeBoxes& boxes, const Coordinates& place) {
-  at = {boxes.to_frame(place.x, 0), boxes.to_frame(place.y, 1), boxes.to_frame(place.z, 2)};
+  at = (vector(place) - vector(boxes.levels().origin)) * boxes.levels().scale;
   slack = VolumeBoxes::slack(at.cwiseAbs().maxCoeff());
 }
 
