@@ -115,9 +115,15 @@ TEST(VolumeWalk, EndsWhereItIsToldToWhetherBoxesAreInsideOrCross) {
   const Eigen::Vector3d far(99, 99, 99);
   for (const AnyVolume& volume :
        {AnyVolume(Aabb(-far, far)), AnyVolume(Sphere({0, 0, 0}, 3)), AnyVolume(Sphere())}) {
-    std::size_t all = 0, calls = 0;
-    EXPECT_FALSE(
-        walk_inside(Isa::automatic, tree, volume, [&](std::size_t, std::uint32_t) { return ++all, false; }));
+    std::size_t all = 0, calls = 0, points = 0;
+    EXPECT_FALSE(walk_inside(Isa::automatic, tree, volume, [&](std::size_t, std::uint32_t bits) {
+      points += static_cast<std::size_t>(std::popcount(bits));
+      return ++all, false;
+    }));
+    EXPECT_LE(points, cloud.size());
+    if (std::holds_alternative<Aabb>(volume)) {
+      EXPECT_EQ(points, cloud.size());
+    }
     EXPECT_EQ(all > 20, !empty(volume));
     for (std::size_t last = 1; last <= all; ++last) {
       calls = 0;
