@@ -39,6 +39,21 @@ TEST(ForEachChunk, CallsEachChunkOnce) {
   }
 }
 
+TEST(ForEachRun, HandsOutEachItemOnceInRunsOfTheStatedLength) {
+  for (const ParallelPolicy& policy : policies()) {
+    for (const std::size_t items : {0, 1, 7, 8, 9, 801}) {
+      std::vector<std::atomic<int>> calls(items);
+      for_each_run(policy, items, 8, [&](std::size_t begin, std::size_t end) {
+        EXPECT_EQ(end - begin, std::min<std::size_t>(8, items - begin));
+        for (std::size_t i = begin; i < end; ++i)
+          ++calls.at(i);
+      });
+      for (const auto& count : calls)
+        EXPECT_EQ(count, 1);
+    }
+  }
+}
+
 TEST(ForEachChunk, RunsInTheCallingThreadWhenSerial) {
   std::set<std::thread::id> threads;
   for_each_chunk(Serial{}, 10, [&](std::size_t) { threads.insert(std::this_thread::get_id()); });

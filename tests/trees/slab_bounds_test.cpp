@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "any_volumes.h"
-#include "plane_body.h"
+#include "pcl_bv/numeric/directed.h"
+#include "pcl_bv/numeric/expansion.h"
+#include "pcl_bv/numeric/vector3.h"
 #include "scattered_volumes.h"
 
 namespace pcl_bv {
@@ -87,11 +89,14 @@ TEST(SlabBounds, OfVolumesAreTight) {
   for (const Scale& scale : {scales()[0], scales()[1], scales()[4], scales()[5]}) {
     for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
       const SlabBounds<13, double> bounds(volume);
+      const SlabBounds<13, float> floats(volume);
       const Aabb box = aabb(volume);
       const double size = (box.max() - box.min()).maxCoeff();
       const double room = 1e-11 * size + 1e-13 * (box.max().cwiseAbs() + box.min().cwiseAbs()).sum();
       for (std::size_t i = 0; i < 13; ++i) {
         const Vector3d d(kCubeDirections[i][0], kCubeDirections[i][1], kCubeDirections[i][2]);
+        EXPECT_EQ(floats.max[i], float_up(bounds.max[i]));
+        EXPECT_EQ(floats.min[i], float_down(bounds.min[i]));
         EXPECT_NEAR(bounds.max[i], d.dot(support(volume, d)), room)
             << shape_name(volume) << ", " << scale.name << i;
         EXPECT_NEAR(bounds.min[i], d.dot(support(volume, -d)), room)
@@ -160,37 +165,72 @@ TEST(SlabBounds, AreInfiniteWherePlanesEncloseNothing) {
   EXPECT_TRUE(half.contains({1e30, -1e30, 1}));
 }
 
-TEST(PlaneBody, HasABoxAroundEveryPointOfAHullInExactArithmetic) {
-  Random random(14);
-  std::size_t judged = 0;
-  for (const Scale& scale : {scales()[0], scales()[1], scales()[2], scales()[4], scales()[5]}) {
-    for (int i = 0; i < 20; ++i) {
-      const Hull hull = cube(random.point(scale), scale.extent).transformed(random.isometry(scale.extent));
-      const auto box = PlaneBody(hull).box();
-      ASSERT_TRUE(box) << scale.name;
-      const double size = (hull.aabb().max() - hull.aabb().min()).maxCoeff();
-      EXPECT_LT((box->max() - hull.aabb().max()).maxCoeff(), 1e-9 * (size + scale.offset)) << scale.name;
-      for (const Vector3d& p : points_about(random, hull, 0, 30)) {
-        if (!inside(hull, exact(p)) && !hull.contains(p)) continue;
-        ++judged;
-        ASSERT_TRUE(box->contains(p)) << scale.name;
-      }
-    }
-  }
-  EXPECT_GT(judged, 1000U);
+// All but one direction unbounded.
+SlabBounds<13, double> slab(std::size_t i, double min, double max) {
+  SlabBounds<13, double> bounds;
+  bounds.min.fill(-kInfinity);
+  bounds.max.fill(kInfinity);
+  bounds.min[i] = min;
+  bounds.max[i] = max;
+  return bounds;
 }
 
-TEST(PlaneBody, HasNoBoxWherePlanesLeaveItOpen) {
-  for (const AnyVolume& volume : odd_volumes(1)) {
-    const auto* const hull = std::get_if<Hull>(&volume);
-    if (hull == nullptr || hull->empty()) continue;
-    EXPECT_FALSE(PlaneBody(*hull).box());
-    EXPECT_EQ(PlaneBody(*hull).reach_up({1, 0, 0}), kInfinity);
+TEST(SlabBounds, ContainWhatIsInsideAndRefuseWhatIsOutsideOfAnySlabByMoreThanRounding) {
+  Random random(16);
+  for (int round = 0; round < 600; ++round) {
+    const Vector3d p = random.point(scales()[static_cast<std::size_t>(round) % 2]);
+    for (std::size_t i = 0; i < 13; ++i) {
+      const Vector3d d(kCubeDirections[i][0], kCubeDirections[i][1], kCubeDirections[i][2]);
+      const double up = Expansion().add_dot(d, p).up(), down = Expansion().add_dot(d, p).down();
+      const double doubt = i < 3 ? 0 : 8 * kU * taxicab3(p);  // the sum's own rounding and the 4 kU asked for
+      ASSERT_TRUE(slab(i, -kInfinity, up).contains(p)) << i;
+      ASSERT_TRUE(slab(i, down, kInfinity).contains(p)) << i;
+      ASSERT_FALSE(slab(i, -kInfinity, next_down(down - doubt)).contains(p)) << i;
+      ASSERT_FALSE(slab(i, next_up(up + doubt), kInfinity).contains(p)) << i;
+    }
   }
-  Hull cube_without_lid = cube({0, 0, 0}, 1);
-  std::vector<HullPlane> planes = cube_without_lid.planes();
-  planes.pop_back();
-  EXPECT_FALSE(PlaneBody(Hull(cube_without_lid.vertices(), cube_without_lid.triangles(), planes, 3)).box());
+}
+
+TEST(SlabBounds, ContainWhatIsOutsideByFourRoundingsOfAnExactSumAndNoFartherPoint) {
+  Random random(17);
+  for (int round = 0; round < 200; ++round) {
+    const Vector3d p = (8 * random.vector(1)).array().round() / 8;
+    for (std::size_t i = 3; i < 13; ++i) {
+      const double s = dot3(kCubeDirections[i], p), doubt = 4 * kU * taxicab3(p);
+      ASSERT_TRUE(slab(i, -kInfinity, s - doubt).contains(p)) << i;
+      ASSERT_TRUE(slab(i, s + doubt, kInfinity).contains(p)) << i;
+      ASSERT_FALSE(slab(i, -kInfinity, next_down(s - doubt)).contains(p)) << i;
+      ASSERT_FALSE(slab(i, next_up(s + doubt), kInfinity).contains(p)) << i;
+    }
+  }
+}
+
+TEST(SlabBounds, AreEmptyOnlyWhereNothingWasBoundedAndEqualOnlyIfAllNumbersAre) {
+  for (const Aabb& box :
+       {Aabb({0, 5, 9}, {1, 6, 10}), Aabb({9, 5, 0}, {10, 6, 1}), Aabb({2, 2, 2}, {2, 2, 2})})
+    EXPECT_FALSE((SlabBounds<7, float>(box).empty()));
+  EXPECT_TRUE((SlabBounds<7, float>().empty()));
+  const SlabBounds<3, double> a{Aabb({0, 0, 0}, {1, 1, 1})};
+  EXPECT_FALSE((a == SlabBounds<3, double>(Aabb({0, 0, 0}, {1, 1, 2}))));
+  EXPECT_FALSE((a == SlabBounds<3, double>(Aabb({0, -1, 0}, {1, 1, 1}))));
+  EXPECT_TRUE((a == SlabBounds<3, double>(Aabb({0, 0, 0}, {1, 1, 1}))));
+}
+
+// Merged in any order they are the same bits.
+template <typename T>
+void expect_no_negative_zero() {
+  for (const Aabb& box : {Aabb({0, 0, 0}, {0, 0, 0}), Aabb({0, 0, 0}, {1, 1, 1}),
+                          Aabb({-1, -1, -1}, {0, 0, 0}), Aabb({-1, -1, -1}, {-1e-50, -1e-50, -1e-50})}) {
+    const SlabBounds<13, T> bounds(box);
+    for (std::size_t i = 0; i < 13; ++i) {
+      EXPECT_FALSE(bounds.min[i] == 0 && std::signbit(bounds.min[i])) << i;
+      EXPECT_FALSE(bounds.max[i] == 0 && std::signbit(bounds.max[i])) << i;
+    }
+  }
+}
+TEST(SlabBounds, HoldNoNegativeZero) {
+  expect_no_negative_zero<float>();
+  expect_no_negative_zero<double>();
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 
 #include "clouds.h"
 #include "executions.h"
-#include "flush_to_zero.h"
 #include "pcl_bv/kernels/chunks.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/pairs.h"
@@ -163,31 +162,11 @@ TEST(VolumeTree, AsksVolumesThatNoBoxHoldsAndNeverFindsEmptyOnes) {
   }
 }
 
-TEST(VolumeTree, OfNoVolumesOrEmptyOnesFindsNothing) {
-  for (const VolumeTree& tree :
-       {VolumeTree(), VolumeTree(Volumes{}), VolumeTree(Volumes{Aabb(), Sphere(), Hull()})}) {
-    Indices found = {1};
-    std::vector<VolumeHit> hits(1);
-    tree.all_containing({0, 0, 0}, found);
-    tree.all_hit({0, 0, 0}, {1, 0, 0}, hits);
-    EXPECT_TRUE(found.empty() && hits.empty());
-    found = {1};
-    tree.all_touching(Aabb({-1, -1, -1}, {1, 1, 1}), found);
-    EXPECT_TRUE(found.empty());
-    found = {1};
-    tree.all_overlapping(Sphere({0, 0, 0}, 1), found);
-    EXPECT_TRUE(found.empty());
-    EXPECT_FALSE(tree.any_containing({0, 0, 0}));
-    EXPECT_FALSE(tree.first_hit({0, 0, 0}, {1, 0, 0}));
-    EXPECT_FALSE(tree.nearest({0, 0, 0}));
-  }
-}
-
 TEST(VolumeTree, TakesPlacesAndRaysOfAnyNumbers) {
   Random random(23);
   Volumes volumes = scattered_volumes(random, scales()[0], 60, 20);
-  volumes.push_back(Aabb(Vector3d::Constant(-1e300), Vector3d::Constant(1e300)));
-  volumes.push_back(Sphere({1e99, 0, 0}, 1e98));
+  const Vector3d far = Vector3d::Constant(1e300);
+  volumes.insert(volumes.begin(), {Aabb(-far, far), Sphere(), Sphere({1e99, 0, 0}, 1e98)});
   const double numbers[] = {0, 1, -3e7, 1e99, -1e120, 1e200, 1e-300, kInfinity, kNan};
   for (const NodeBounds bounds : kBounds) {
     const VolumeTree tree(volumes, bounds);
@@ -274,27 +253,6 @@ TEST(VolumeTree, LabelsPointsAndFindsHitsTheSameForEveryExecution) {
       ASSERT_EQ(hits[i].interval.enter, hit->interval.enter) << name;
     }
   }
-}
-
-TEST(VolumeTree, IsTheSameOnAHostThatFlushesToZero) {
-  Random random(26);
-  const Volumes volumes = scattered_volumes(random, {"1e-41", 0, 1e-41}, 100, 20);
-  const VolumeTree tree(volumes, NodeBounds::dop14);
-  for (const AnyVolume& volume : volumes) {
-    const Vector3d p = center(volume), to = 0.5 * center(volumes[7]);
-    Indices expected, found;
-    tree.all_containing(p, expected);
-    const auto hit = tree.first_hit(p, to - p);
-    const test::FlushToZero flushing;
-    VolumeTree(volumes, NodeBounds::dop14).all_containing(p, found);
-    EXPECT_EQ(found, expected);
-    EXPECT_EQ(tree.first_hit(p, to - p).has_value(), hit.has_value());
-  }
-}
-
-TEST(VolumeTree, RefusesDistancesThatAreNone) {
-  EXPECT_THROW(VolumeTree().nearest({0, 0, 0}, -1), std::invalid_argument);
-  EXPECT_THROW(VolumeTree().nearest({0, 0, 0}, kNan), std::invalid_argument);
 }
 
 }  // namespace

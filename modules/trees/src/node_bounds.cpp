@@ -7,6 +7,7 @@
 #include "node_bounds.h"
 
 #include <cmath>
+#include <span>
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
@@ -19,11 +20,9 @@
 namespace pcl_bv {
 namespace {
 
-using Place = std::array<double, 3>;
-
 constexpr std::size_t kSlabs = 7;
 
-Place cube_direction(std::size_t i) {
+Eigen::Vector3d cube_direction(std::size_t i) {
   const CubeDirection& d = kCubeDirections[i];
   return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
 }
@@ -34,9 +33,9 @@ void clip(double start, double slope, double low, double high, double& enter, do
     if (start < low || start > high) exit = -kInfinity;
     return;
   }
-  const double a = (low - start) / slope, b = (high - start) / slope;
-  enter = std::max(enter, std::min(a, b));
-  exit = std::min(exit, std::max(a, b));
+  if (slope < 0) std::swap(low, high);
+  enter = std::max(enter, (low - start) / slope);
+  exit = std::min(exit, (high - start) / slope);
 }
 
 // Infinity if nothing is left of t >= 0; what underflow may have added there is kept.
@@ -47,26 +46,30 @@ double entered(const FrameRay& ray, double enter, double exit) {
 }  // namespace
 
 FramePlace::FramePlace(const VolumeBoxes& boxes, const Coordinates& place) {
-  double farthest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    at[axis] = boxes.to_frame(place[axis], axis);
-    farthest = std::max(farthest, std::abs(at[axis]));
-  }
-  slack = VolumeBoxes::slack(farthest);
+  at = (vector(place) - vector(boxes.levels().origin)) * boxes.levels().scale;
+  slack = VolumeBoxes::slack(at.cwiseAbs().maxCoeff());
 }
 
 FrameRay::FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction)
     : from(boxes, origin) {
-  const double greatest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-  const int length = std::ilogb(greatest);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    u[axis] = std::ldexp(direction[axis], -length);
+  const int length = std::ilogb(vector(direction).cwiseAbs().maxCoeff());
+  u = vector(direction).unaryExpr([&](double x) { return std::ldexp(x, -length); });
   exponent = length + std::ilogb(boxes.levels().scale);
   margin = std::ldexp(0x1p-1020, exponent);
 }
 
 double FrameRay::time(double t) const {
   return std::ldexp(t, exponent);
+}
+
+double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k) {
+  double squares = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double at = place.at[axis],
+                 gap = std::max(0.0, std::max(group.low[axis][k] - at, at - group.high[axis][k]));
+    squares += gap * gap;
+  }
+  return std::max(0.0, std::sqrt(squares) - 2 * place.slack);
 }
 
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k) {
@@ -82,11 +85,9 @@ template <typename Shape, typename Item, typename Join>
 void NodeShapes::fill(std::vector<Shape>& shapes, const BoxLevels& levels, const ParallelPolicy& policy,
                       const Item& item, const Join& join) {
   shapes.assign(levels.groups.size() * kTreeWidth, Shape());
-  if (levels.levels == 0) return;
-  const std::size_t items = levels.below[0];
-  for_each_chunk(policy, (items + kVolumesOfChunk - 1) / kVolumesOfChunk, [&](std::size_t chunk) {
+  for_each_run(policy, levels.below[0], kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
-    for (std::size_t i = chunk * kVolumesOfChunk; i < std::min(items, (chunk + 1) * kVolumesOfChunk); ++i)
+    for (std::size_t i = begin; i < end; ++i)
       shapes[i] = item(i);
   });
   for (std::size_t level = 1; level < levels.levels; ++level) {
@@ -130,17 +131,16 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
   Slabs slabs;
   slabs.min.fill(-std::numeric_limits<float>::infinity());
   slabs.max.fill(std::numeric_limits<float>::infinity());
-  const SlabBounds<kSlabs, double> bounds(volume);
   const Aabb box = aabb(volume);
-  if (bounds.empty() || box.empty()) return slabs;  // a k-DOP of slabs that miss each other
+  if (box.empty()) return slabs;  // a k-DOP of slabs that miss each other
+  const SlabBounds<kSlabs, double> bounds(volume);
   const double margin = 2 * contained_margin(box);
-  for (std::size_t i = 0; i < kSlabs; ++i) {
-    const Place d = cube_direction(i);
-    Expansion origin;
-    for (std::size_t k = 0; k < 3; ++k)
-      origin.add(-d[k] * boxes.levels().origin[k]);
-    slabs.max[i] = float_up(multiply_up(Expansion(origin).add(bounds.max[i]).add(margin).up(), scale));
-    slabs.min[i] = float_down(-multiply_up(-Expansion(origin).add(bounds.min[i]).add(-margin).down(), scale));
+  for (std::size_t i = 3; i < kSlabs; ++i) {  // boxes are of the others
+    Expansion low, high;
+    low.add_dot(-cube_direction(i), boxes.levels().origin);
+    high = low;
+    slabs.max[i] = float_up(multiply_up(high.add(bounds.max[i]).add(margin).up(), scale));
+    slabs.min[i] = float_down(-multiply_up(-low.add(bounds.min[i]).add(-margin).down(), scale));
   }
   return slabs;
 }
@@ -148,43 +148,33 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
 NodeShapes::Ball NodeShapes::ball_of(const VolumeBoxes& boxes, const AnyVolume& volume) {
   const PlaceBounds extent = extent_of(volume);
   const Eigen::Vector3d size = vector(extent.high) - vector(extent.low);
-  double radius = 0.5 * norm3(size) * (1 + 0x1p-40);
+  double radius = 0.5 * norm3(size);
   Eigen::Vector3d center = 0.5 * vector(extent.low) + 0.5 * vector(extent.high);
   if (const auto* const sphere = std::get_if<Sphere>(&volume)) {
     radius = sphere->radius() + contained_margin(sphere->aabb());
     center = sphere->center();
   }
   Ball ball;
-  for (std::size_t k = 0; k < 3; ++k)
-    ball.center[k] = static_cast<float>(boxes.to_frame(center[static_cast<Eigen::Index>(k)], k));
+  ball.center = FramePlace(boxes, coordinates(center)).at.cast<float>();
   ball.radius =
       float_up(radius * boxes.levels().scale * (1 + 0x1p-20) + 0x1p-20);  // of it, and of the centre
   return ball;
 }
 
 NodeShapes::Ball NodeShapes::joined(const Ball* balls, std::size_t count) {
-  double low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
-  for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t axis = 0; axis < 3 && balls[k].radius >= 0; ++axis) {
-      low[axis] = std::min<double>(low[axis], balls[k].center[axis] - balls[k].radius);
-      high[axis] = std::max<double>(high[axis], balls[k].center[axis] + balls[k].radius);
-    }
+  Eigen::Array3d low = Eigen::Array3d::Constant(kInfinity), high = -low;
+  for (const Ball& ball : std::span(balls, count)) {
+    low = low.min(ball.center.cast<double>().array() - ball.radius);
+    high = high.max(ball.center.cast<double>().array() + ball.radius);
   }
   Ball all;
-  if (!(low[0] <= high[0])) return all;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    all.center[axis] = static_cast<float>(0.5 * (low[axis] + high[axis]));
+  if (!low.allFinite()) return all;
+  all.center = (0.5 * (low + high)).matrix().cast<float>();
   double radius = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (balls[k].radius < 0) continue;
-    double squares = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double q = static_cast<double>(balls[k].center[axis]) - all.center[axis];
-      squares += q * q;
-    }
-    radius = std::max(radius, std::sqrt(squares) + balls[k].radius);
-  }
-  all.radius = float_up(radius * (1 + 0x1p-30));
+  for (const Ball& ball : std::span(balls, count))
+    radius = std::max(
+        radius, norm3(Eigen::Vector3d(ball.center.cast<double>() - all.center.cast<double>())) + ball.radius);
+  all.radius = float_up(radius);
   return all;
 }
 
@@ -193,18 +183,23 @@ double NodeShapes::distance(std::size_t shape, const FramePlace& place) const {
   if (!slabs_.empty()) {
     const Slabs& slabs = slabs_[shape];
     for (std::size_t i = 3; i < kSlabs; ++i) {
-      const Place d = cube_direction(i);
-      const double s = dot3(d, place.at);
+      const double s = dot3(cube_direction(i), place.at);
       farthest = std::max(farthest, std::max(slabs.min[i] - s, s - slabs.max[i]) / 1.7320508075688774);
     }
   } else if (!balls_.empty()) {
     const Ball& ball = balls_[shape];
-    if (ball.radius < 0) return kInfinity;
-    const Place q = {place.at[0] - ball.center[0], place.at[1] - ball.center[1],
-                     place.at[2] - ball.center[2]};
-    farthest = norm3(q) - ball.radius;
+    farthest = norm3(Eigen::Vector3d(place.at - ball.center.cast<double>())) - ball.radius;
   }
-  return std::max(0.0, farthest * (1 - 0x1p-40) - 2 * place.slack);
+  return std::max(0.0, farthest - 2 * place.slack);
+}
+
+std::uint32_t NodeShapes::may_hold(std::size_t group, std::uint32_t bits, const FramePlace& place) const {
+  std::uint32_t held = 0;
+  for (; bits != 0; bits &= bits - 1) {
+    const int k = std::countr_zero(bits);
+    if (distance(group * kTreeWidth + static_cast<std::size_t>(k), place) <= 0) held |= 1U << k;
+  }
+  return held;
 }
 
 double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
@@ -212,22 +207,21 @@ double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
   if (!slabs_.empty()) {
     const Slabs& slabs = slabs_[shape];
     for (std::size_t i = 3; i < kSlabs; ++i) {
-      const Place d = cube_direction(i);
+      const Eigen::Vector3d d = cube_direction(i);
       clip(dot3(d, ray.from.at), dot3(d, ray.u), slabs.min[i] - 4 * ray.from.slack,
            slabs.max[i] + 4 * ray.from.slack, enter, exit);
     }
   } else if (!balls_.empty()) {
     const Ball& ball = balls_[shape];
     if (ball.radius < 0) return kInfinity;
-    const Place q = {ball.center[0] - ray.from.at[0], ball.center[1] - ray.from.at[1],
-                     ball.center[2] - ray.from.at[2]};
+    const Eigen::Vector3d q = ball.center.cast<double>() - ray.from.at;
     const double radius = ball.radius + 4 * ray.from.slack, uu = dot3(ray.u, ray.u),
                  nearest = dot3(q, ray.u) / uu;
     const double least =
         dot3(q, q) - nearest * nearest * uu;  // off by 2^-48 |q|^2; slack^2 is 2^-40 of it at least
     const double half = radius * radius - least;
     if (half < 0) return kInfinity;
-    const double reach = std::sqrt(half / uu) + 0x1p-40 * std::abs(nearest);
+    const double reach = std::sqrt(half / uu);
     enter = std::max(0.0, nearest - reach);
     exit = nearest + reach;
   }

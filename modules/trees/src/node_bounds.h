@@ -4,7 +4,8 @@
 // What nodes of a VolumeTree may have besides their boxes. All is in the frame of the boxes.
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "pcl_bv/trees/slab_bounds.h"
@@ -15,7 +16,7 @@ namespace pcl_bv {
 
 /// A place there, and how far from a node's bounds a volume may be that it matters to.
 struct FramePlace {
-  std::array<double, 3> at;
+  Eigen::Vector3d at;
   double slack;  ///< By coordinate.
 
   FramePlace(const VolumeBoxes& boxes, const Coordinates& place);
@@ -24,7 +25,7 @@ struct FramePlace {
 /// A ray there: at + t u. The greatest component of u is between 1 and 2.
 struct FrameRay {
   FramePlace from;
-  std::array<double, 3> u;
+  Eigen::Vector3d u;
   int exponent;   ///< t of the ray there is t 2^exponent of the one here.
   double margin;  ///< What intersect() may add to both ends where they underflow, with room.
 
@@ -45,11 +46,14 @@ class NodeShapes {
   double distance(std::size_t shape, const FramePlace& place) const;
   double enter(std::size_t shape, const FrameRay& ray) const;
 
+  /// Of the boxes of a group, as bits, those whose shape may hold a place.
+  std::uint32_t may_hold(std::size_t group, std::uint32_t bits, const FramePlace& place) const;
+
  private:
   using Slabs = SlabBounds<7, float>;
   struct Ball {
-    float center[3] = {0, 0, 0};
-    float radius = -1;  // nothing inside
+    Eigen::Vector3f center = Eigen::Vector3f::Zero();
+    float radius = -std::numeric_limits<float>::infinity();  // nothing inside
   };
 
   template <typename Shape, typename Item, typename Join>
@@ -62,6 +66,9 @@ class NodeShapes {
   std::vector<Slabs> slabs_;
   std::vector<Ball> balls_;
 };
+
+/// A lower bound of the distance from a place to a box, 0 where the place may be inside.
+double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k);
 
 /// A lower bound of t where a ray enters a box, given by its sides; infinity if it misses.
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k);

@@ -51,12 +51,10 @@ PlaneBody::PlaneBody(const Hull& hull) {
 bool PlaneBody::set_out(const Aabb& about) {
   if (about.empty()) return false;
   origin_ = about.center();
-  const double farthest = std::max(greatest(about.min()), greatest(about.max()));
-  const Eigen::Vector3d margin =
-      Eigen::Vector3d::Constant((about.max() - about.min()).maxCoeff() + 0x1p-30 * farthest + 0x1p-900);
-  for (int k = 0; k < 3; ++k) {
-    add(Eigen::Vector3d::Unit(k), about.max()[k] + margin[k]);
-    add(-Eigen::Vector3d::Unit(k), margin[k] - about.min()[k]);
+  const double margin = (about.max() - about.min()).sum() + 0x1p-30 * greatest(origin_) + 0x1p-900;
+  for (int k = 0; planes_.size() < kFences; ++k) {
+    add(Eigen::Vector3d::Unit(k), about.max()[k] + margin);
+    add(-Eigen::Vector3d::Unit(k), margin - about.min()[k]);
   }
   return true;
 }
@@ -67,10 +65,11 @@ void PlaneBody::add(const Eigen::Vector3d& normal, double offset) {
   local_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
 }
 
-bool PlaneBody::most_violated(const Eigen::Vector3d& point, std::size_t& side) const {
+std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point) const {
   const double tolerance = 0x1p-44 * taxicab3(point);
+  std::optional<std::size_t> side;
   double worst = 0;
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
+  for (std::size_t i = kFences; i < planes_.size(); ++i) {
     const Eigen::Vector3d& n = planes_[i].normal;
     const double length = norm3(n);
     const double excess = (dot3(n, point) - local_[i]) / length - tolerance;
@@ -79,7 +78,7 @@ bool PlaneBody::most_violated(const Eigen::Vector3d& point, std::size_t& side) c
       side = i;
     }
   }
-  return worst > 0;
+  return side;
 }
 
 // The dual simplex method. Every step keeps the weights sound; the limit is against cycling.
@@ -87,7 +86,7 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
   Corner corner{{}, direction.cwiseAbs()};
   for (std::size_t k = 0; k < 3; ++k)
     corner.sides[k] = 2 * k + (direction[static_cast<Eigen::Index>(k)] < 0 ? 1 : 0);
-  for (std::size_t step = 0; step < 32 + planes_.size(); ++step) {
+  for (std::size_t step = 0; step < 4 * planes_.size(); ++step) {
     Eigen::Matrix3d normals;
     Eigen::Vector3d offsets;
     for (int k = 0; k < 3; ++k) {
@@ -96,22 +95,19 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
       offsets[k] = local_[side];
     }
     const Eigen::Matrix3d inverse = normals.inverse();
-    std::size_t side = 0;
-    if (!most_violated(inverse * offsets, side)) break;
-    const Eigen::Vector3d share = inverse.transpose() * planes_[side].normal;
-    int leaving = -1;
-    double change = 0;
-    for (int k = 0; k < 3; ++k) {
-      if (share[k] <= 0x1p-40 * greatest(share)) continue;
-      if (leaving < 0 || corner.weights[k] / share[k] < change) {
-        leaving = k;
-        change = corner.weights[k] / share[k];
-      }
-    }
-    if (leaving < 0) break;
+    const std::optional<std::size_t> side = most_violated(inverse * offsets);
+    if (!side) break;
+    const Eigen::Vector3d share = inverse.transpose() * planes_[*side].normal,
+                          sized = share.cwiseProduct(normals.rowwise().norm());
+    Eigen::Index leaving = 0;
+    const double change =
+        (sized.array() > 0x1p-40 * greatest(sized))
+            .select(corner.weights.cwiseQuotient(share), Eigen::Vector3d::Constant(kInfinity))
+            .minCoeff(&leaving);
+    if (change == kInfinity) break;
     corner.weights = (corner.weights - change * share).cwiseMax(0.0);
     corner.weights[leaving] = change;
-    corner.sides[static_cast<std::size_t>(leaving)] = side;
+    corner.sides[static_cast<std::size_t>(leaving)] = *side;
   }
   return corner;
 }
@@ -137,25 +133,18 @@ PlaneBody::Proof PlaneBody::prove(const Eigen::Vector3d& direction) const {
 }
 
 void PlaneBody::prove_box() {
-  Eigen::Vector3d ends[2];
-  double reach = 0, doubt = 0;
-  Proof proofs[2][3];
-  for (int side = 0; side < 2; ++side) {
-    for (int k = 0; k < 3; ++k) {
-      const Proof proof = prove((side == 0 ? -1 : 1) * Eigen::Vector3d::Unit(k));
-      proofs[side][k] = proof;
-      if (!(proof.doubt <= kMostDoubt)) return;
-      reach = std::max(reach, std::abs(proof.bound));
-      doubt = std::max(doubt, proof.doubt);
-    }
+  std::array<Proof, 2 * 3> proofs;  // along x, y, z, then the other way
+  double reach = 0;
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    proofs[i] = prove((i < 3 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<int>(i % 3)));
+    reach = std::max(reach, std::abs(proofs[i].bound));
+    if (!(proofs[i].doubt <= kMostDoubt && 2 * reach < kInfinity)) return;
   }
-  size_ = 2 * reach;
-  for (int side = 0; side < 2; ++side) {
-    for (int k = 0; k < 3; ++k)
-      ends[side][k] = add_up(proofs[side][k].bound, multiply_up(proofs[side][k].doubt, size_));
-  }
-  if (!ends[0].allFinite() || !ends[1].allFinite()) return;
-  const Aabb box(-ends[0], ends[1]);
+  const auto end = [&](const Proof& proof) {
+    return add_up(proof.bound, multiply_up(proof.doubt, 2 * reach));
+  };
+  const Aabb box(-Eigen::Vector3d(end(proofs[3]), end(proofs[4]), end(proofs[5])),
+                 {end(proofs[0]), end(proofs[1]), end(proofs[2])});
   if (!box.empty()) box_ = box;  // empty: no point is in all planes, which contains() need not know
 }
 
@@ -163,7 +152,8 @@ double PlaneBody::reach_up(const Eigen::Vector3d& direction) const {
   if (!box_) return kInfinity;
   const Proof proof = prove(direction);
   if (!(proof.doubt <= kMostDoubt * taxicab3(direction))) return kInfinity;
-  return add_up(proof.bound, multiply_up(proof.doubt, size_));
+  const double size = std::max(greatest(box_->min()), greatest(box_->max()));
+  return add_up(proof.bound, multiply_up(proof.doubt, size));
 }
 
 std::optional<Aabb> PlaneBody::box() const {

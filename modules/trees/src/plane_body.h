@@ -43,7 +43,7 @@ class PlaneBody {
   bool set_out(const Aabb& about);
   void add(const Eigen::Vector3d& normal, double offset);
   Corner farthest(const Eigen::Vector3d& direction) const;
-  bool most_violated(const Eigen::Vector3d& point, std::size_t& side) const;
+  std::optional<std::size_t> most_violated(const Eigen::Vector3d& point) const;
   Proof prove(const Eigen::Vector3d& direction) const;
   void prove_box();
 
@@ -52,7 +52,6 @@ class PlaneBody {
   std::vector<double> local_;  // offsets as seen from origin_
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::optional<Aabb> box_;
-  double size_ = 0;  // no coordinate of the body exceeds it; 0 unless there is a box
 };
 
 }  // namespace pcl_bv

@@ -121,7 +121,7 @@ struct Measure {
   Reaches operator()(const Shape& shape) const {
     const Aabb box = shape.aabb();
     const Eigen::Vector3d center = shape.center();
-    const Eigen::Vector3d half = (box.max() - center).cwiseMax(center - box.min()) * (1 + 0x1p-50);
+    const Eigen::Vector3d half = 0.5 * (box.max() - box.min());
     return centered(box, [&](const Eigen::Vector3d& n) {
       return Expansion().add_dot(n, center).add(half_width_up(n, shape, half)).up();
     });

@@ -17,9 +17,9 @@ namespace {
 template <typename T>
 T rounded_up(double x) {
   if constexpr (sizeof(T) == 4) {
-    return float_up(x) + 0.0F;  // never -0
+    return float_up(x);
   } else {
-    return x + 0.0;
+    return x;
   }
 }
 
@@ -34,8 +34,8 @@ SlabBounds<N, T>::SlabBounds(const AnyVolume& volume) : SlabBounds() {
   const FloatEnvironment environment;
   const Reaches found = reaches(volume, N);
   for (std::size_t i = 0; i < N; ++i) {
-    min[i] = -rounded_up<T>(found.down[i]) + T(0);
-    max[i] = rounded_up<T>(found.up[i]);
+    min[i] = T(0) - rounded_up<T>(found.down[i]);  // never -0
+    max[i] = T(0) + rounded_up<T>(found.up[i]);
   }
 }
 

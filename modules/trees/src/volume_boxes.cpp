@@ -48,14 +48,13 @@ PlaceBounds extent_of(const AnyVolume& volume) {
 
 void VolumeBoxes::build(const std::vector<PlaceBounds>& extents, const ParallelPolicy& policy) {
   const PlaceBounds all = around(extents);
-  const Coordinates nowhere = is_somewhere(all) ? all.low : Coordinates{0, 0, 0};
   SpatialOrder<double> order;
   PlacedItem<double>* const items = order.reset(extents.size());
   for (std::size_t i = 0; i < extents.size(); ++i) {
     items[i].number = static_cast<std::int64_t>(i);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double middle = extents[i].low[axis] / 2 + extents[i].high[axis] / 2;
-      items[i].place[axis] = has_box(extents[i]) ? middle : nowhere[axis];
+      items[i].place[axis] = has_box(extents[i]) ? middle : std::min(all.low[axis], kMaxCoordinate);
     }
   }
   order.sort(extents.size(), policy);

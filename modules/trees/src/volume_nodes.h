@@ -33,12 +33,7 @@ struct VolumeTree::Nodes {
       if (visit(number)) return true;
     }
     const auto pick = [&](std::size_t group) {
-      std::uint32_t bits = overlapping(boxes.levels().groups[group], query);
-      for (std::uint32_t rest = bits; rest != 0; rest &= rest - 1) {
-        const int k = std::countr_zero(rest);
-        if (shapes.distance(group * kTreeWidth + static_cast<std::size_t>(k), at) > 0) bits &= ~(1U << k);
-      }
-      return bits;
+      return shapes.may_hold(group, overlapping(boxes.levels().groups[group], query), at);
     };
     return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.number(item)); });
   }

@@ -34,11 +34,9 @@ void require_usable(const std::vector<AnyVolume>& volumes, const Execution& exec
 
 void VolumeTree::Nodes::measure(bool anew, const Execution& execution) {
   std::vector<PlaceBounds> extents(volumes.size());
-  const std::size_t chunks = (volumes.size() + kVolumesOfChunk - 1) / kVolumesOfChunk;
-  for_each_chunk(execution.parallel, chunks, [&](std::size_t chunk) {
+  for_each_run(execution.parallel, volumes.size(), kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
-    const std::size_t end = std::min(volumes.size(), (chunk + 1) * kVolumesOfChunk);
-    for (std::size_t i = chunk * kVolumesOfChunk; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i)
       extents[i] = extent_of(volumes[i]);
   });
   if (anew) {
@@ -95,11 +93,10 @@ NodeBounds VolumeTree::node_bounds() const {
 
 void VolumeTree::first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>& hits,
                             const Execution& execution) const {
-  constexpr std::size_t of_chunk = 256;
   hits.resize(rays.size());
-  for_each_chunk(execution.parallel, (rays.size() + of_chunk - 1) / of_chunk, [&](std::size_t chunk) {
+  for_each_run(execution.parallel, rays.size(), 256, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
-    for (std::size_t i = chunk * of_chunk; i < std::min(rays.size(), (chunk + 1) * of_chunk); ++i)
+    for (std::size_t i = begin; i < end; ++i)
       hits[i] = first_hit(rays[i].origin, rays[i].direction).value_or(VolumeHit{-1, {}});
   });
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <cmath>
+#include <algorithm>
+#include <utility>
 
 #include "pcl_bv/kernels/point_source.h"
 #include "pcl_bv/numeric/constants.h"
@@ -16,11 +17,11 @@ namespace pcl_bv {
 namespace {
 
 bool before(const VolumeHit& a, const VolumeHit& b) {
-  return a.interval.enter < b.interval.enter || (a.interval.enter == b.interval.enter && a.index < b.index);
+  return std::pair(a.interval.enter, a.index) < std::pair(b.interval.enter, b.index);
 }
 
 bool before(const VolumeDistance& a, const VolumeDistance& b) {
-  return a.distance < b.distance || (a.distance == b.distance && a.index < b.index);
+  return std::pair(a.distance, a.index) < std::pair(b.distance, b.index);
 }
 
 std::uint32_t count_of(const std::vector<AnyVolume>& volumes) {
@@ -70,15 +71,6 @@ void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen:
   };
   nodes.nearest_first(
       bound, [&] { return ray.time(limit()); }, visit);
-}
-
-double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k) {
-  double squares = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double gap = std::max(group.low[axis][k] - place.at[axis], place.at[axis] - group.high[axis][k]);
-    squares += gap > 0 ? gap * gap : 0;
-  }
-  return std::max(0.0, std::sqrt(squares) * (1 - 0x1p-40) - 2 * place.slack);
 }
 
 void sort_unique(std::vector<VolumeHit>& hits) {

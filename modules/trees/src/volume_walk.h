@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "box_relation.h"
@@ -29,8 +30,8 @@ class VolumeProbe {
   std::uint32_t inside(UsableIsa isa, const PackedTree& tree, std::size_t packet) const {
     const std::size_t first = packet * kTreeWidth, count = std::min(kTreeWidth, tree.count - first);
     const PointView points = tree.view().slice(first, count);
-    std::uint8_t states[kTreeWidth];
-    region_states(isa, points, tests_, states);
+    std::array<std::uint8_t, kTreeWidth> states;
+    region_states(isa, points, tests_, states.data());
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < count; ++k) {
       bool in = states[k] == static_cast<std::uint8_t>(RegionState::inside);

@@ -5,6 +5,7 @@
 // does what can then not change a bit.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -25,6 +26,14 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
   internal::run_chunks(policy, chunks, std::ref(body));
+}
+
+/// Calls body(begin, end) for runs of `of_chunk` items, the last of which may be shorter: each of 0, 1, ...
+/// items - 1 is in one of them.
+template <typename Body>
+void for_each_run(const ParallelPolicy& policy, std::size_t items, std::size_t of_chunk, Body&& body) {
+  for_each_chunk(policy, (items + of_chunk - 1) / of_chunk,
+                 [&](std::size_t chunk) { body(chunk * of_chunk, std::min(items, (chunk + 1) * of_chunk)); });
 }
 
 /// While it lives, threads of our own that the policy uses wait for its calls without sleeping, up to 2 ms each

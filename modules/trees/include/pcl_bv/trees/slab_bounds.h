@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -44,8 +45,8 @@ struct SlabBounds {
   /// Grows to hold the other: exact, commutative and associative.
   SlabBounds& merge(const SlabBounds& other) {
     for (std::size_t i = 0; i < N; ++i) {
-      min[i] = other.min[i] < min[i] ? other.min[i] : min[i];
-      max[i] = other.max[i] > max[i] ? other.max[i] : max[i];
+      min[i] = std::min(min[i], other.min[i]);
+      max[i] = std::max(max[i], other.max[i]);
     }
     return *this;
   }

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Trees of nothing, questions from beyond the range, and hosts with an arithmetic of their own.
+
+#include <gtest/gtest.h>
+
+#include "flush_to_zero.h"
+#include "pcl_bv/trees/volume_tree.h"
+#include "scattered_volumes.h"
+
+namespace pcl_bv {
+namespace {
+
+using namespace testing;
+using Volumes = std::vector<AnyVolume>;
+using Indices = std::vector<std::int32_t>;
+
+TEST(VolumeTree, OfNoVolumesOrEmptyOnesFindsNothing) {
+  for (const VolumeTree& tree :
+       {VolumeTree(), VolumeTree(Volumes{}), VolumeTree(Volumes{Aabb(), Sphere(), Hull()})}) {
+    Indices found = {1};
+    std::vector<VolumeHit> hits(1);
+    tree.all_containing({0, 0, 0}, found);
+    tree.all_hit({0, 0, 0}, {1, 0, 0}, hits);
+    EXPECT_TRUE(found.empty() && hits.empty());
+    found = {1};
+    tree.all_touching(Aabb({-1, -1, -1}, {1, 1, 1}), found);
+    EXPECT_TRUE(found.empty());
+    found = {1};
+    tree.all_overlapping(Sphere({0, 0, 0}, 1), found);
+    EXPECT_TRUE(found.empty());
+    EXPECT_FALSE(tree.any_containing({0, 0, 0}));
+    EXPECT_FALSE(tree.first_hit({0, 0, 0}, {1, 0, 0}));
+    EXPECT_FALSE(tree.nearest({0, 0, 0}));
+  }
+}
+
+TEST(VolumeTree, IsTheSameOnAHostThatFlushesToZero) {
+  Random random(26);
+  const Volumes volumes = scattered_volumes(random, {"1e-41", 0, 1e-41}, 100, 20);
+  const VolumeTree tree(volumes, NodeBounds::dop14);
+  for (const AnyVolume& volume : volumes) {
+    const Vector3d p = center(volume), to = 0.5 * center(volumes[7]);
+    Indices expected, found;
+    tree.all_containing(p, expected);
+    const auto hit = tree.first_hit(p, to - p);
+    const test::FlushToZero flushing;
+    VolumeTree(volumes, NodeBounds::dop14).all_containing(p, found);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(tree.first_hit(p, to - p).has_value(), hit.has_value());
+  }
+}
+
+TEST(VolumeTree, RefusesDistancesThatAreNone) {
+  EXPECT_THROW(VolumeTree().nearest({0, 0, 0}, -1), std::invalid_argument);
+  EXPECT_THROW(VolumeTree().nearest({0, 0, 0}, kNan), std::invalid_argument);
+}
+
+TEST(VolumeTree, FindsTheNearestFromBeyondTheRangeOfItsBoxes) {
+  const VolumeTree tree({Sphere(), Sphere({1, 2, 3}, 1)});
+  EXPECT_EQ(tree.nearest({1e200, 0, 0})->index, 1);
+}
+
+}  // namespace
+}  // namespace pcl_bv
