@@ -95,7 +95,7 @@ struct Grow {
       }
       m = std::sqrt(squares / weights);
     }
-    return m > 0 && std::isfinite(m * greatest) ? m * greatest : greatest;
+    return std::isnan(m) ? greatest : m * greatest;  // NaN: squares left the range of double
   }
 };
 
