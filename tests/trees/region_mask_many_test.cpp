@@ -9,7 +9,9 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <thread>
 
+#include "allocations.h"
 #include "any_volumes.h"
 #include "clouds.h"
 #include "executions.h"
@@ -159,6 +161,24 @@ TEST(RegionMask, OfManyRegionsHoldsNoPointThatLacksACoordinate) {
   mask.mark(cloud.view(), inside);
   EXPECT_EQ(std::accumulate(inside.begin(), inside.end(), 0), 1);
   EXPECT_EQ(inside[77], 1);
+}
+
+// A tree of regions needs lists of those that runs reach, which each thread allocates once.
+TEST(RegionMask, OfFewRegionsAllocatesNothingInAnyThread) {
+  const auto cloud = test::gaussian<float>(1000, 35);
+  for (const std::size_t count : {std::size_t{1}, RegionMask::kFewRegions}) {
+    const RegionMask mask(std::vector<Region>(count, {Sphere({0, 0, 0}, 1)}));
+    Marks inside;
+    mask.mark(cloud.view(), inside, {Serial{}});
+    std::size_t before = 0, after = 0;
+    std::thread([&] {
+      before = allocations();
+      mask.mark(cloud.view(), inside, {Serial{}});
+      after = allocations();
+    }).join();
+    EXPECT_EQ(after, before) << count;
+  }
+  EXPECT_EQ((Region{Sphere({0, 0, 0}, 1)}).padding, 0);
 }
 
 }  // namespace
