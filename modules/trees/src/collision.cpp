@@ -5,16 +5,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "grown.h"
 #include "image.h"
-#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/volumes/pairs.h"
 #include "refusal.h"

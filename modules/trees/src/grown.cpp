@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/float_environment.h"
