@@ -85,7 +85,10 @@ TEST(Grown, PlanesMoveOutwardByThePaddingWhateverTheLengthOfTheirNormals) {
 TEST(Grown, AnEllipsoidOfEqualRadiiGrowsLikeASphere) {
   const Ellipsoid ball({1, 2, 3}, Eigen::Matrix3d::Identity(), {2, 2, 2});
   const Vector3d radii = std::get<Ellipsoid>(grown(ball, 0.5)).radii();
-  EXPECT_TRUE(((radii.array() - 2.5).abs() < 1e-11).all()) << radii.transpose();
+  EXPECT_TRUE(((radii.array() - 2.5).abs() < 2.5e-12).all()) << radii.transpose();
+  const Ellipsoid point({1, 2, 3}, Eigen::Matrix3d::Identity(), {0, 0, 0});
+  const Vector3d around_it = std::get<Ellipsoid>(grown(point, 0.5)).radii();
+  EXPECT_TRUE(((around_it.array() - 0.5).abs() < 1e-11).all()) << around_it.transpose();
 }
 
 TEST(Grown, AnEllipsoidIsNearlyTheLeastOfItsKind) {

@@ -101,6 +101,61 @@ TEST(PosedTree, RefusesAPoseThatIsNotRigid) {
   EXPECT_THROW(PosedTree(tree, pose), std::invalid_argument);
   pose(0, 0) = kNan;
   EXPECT_THROW(PosedTree(tree, pose), std::invalid_argument);
+  pose(0, 0) = 1;
+  pose(1, 3) = kInfinity;
+  EXPECT_THROW(PosedTree(tree, pose), std::invalid_argument);
+  pose(1, 3) = 0;
+  for (const int row : {0, 2}) {
+    pose(row, 1) = 1e-6;
+    EXPECT_NO_THROW(PosedTree(tree, pose)) << row;
+    for (const double skew : {std::nextafter(1e-6, 1.0), 1.5e-6, -1.5e-6}) {
+      pose(row, 1) = skew;
+      EXPECT_THROW(PosedTree(tree, pose), std::invalid_argument) << row << ", " << skew;
+    }
+    pose(row, 1) = 0;
+  }
+}
+
+TEST(PosedTree, OfNoPointsFindsNone) {
+  const PointTree tree;
+  EXPECT_FALSE(PosedTree(tree, Eigen::Isometry3d::Identity()).any_inside(Sphere({0, 0, 0}, 1)));
+}
+
+// How far from the image of the tree's outermost point a ball of no radius may be that holds it.
+double rounding_of(const PointTree& tree, const Eigen::Isometry3d& pose, const Vector3d& image) {
+  const PosedTree posed(tree, pose);
+  const auto holds = [&](double t) { return posed.any_inside(Sphere(image + Vector3d(0, t, 0), 0)); };
+  double in = 0, out = 1e-3 * (1 + image.norm());
+  EXPECT_TRUE(holds(in));
+  EXPECT_FALSE(holds(out));
+  while (out - in > 1e-3 * out && out > 1e-60) {
+    const double middle = in > 0 ? std::sqrt(in * out) : 1e-3 * out;
+    (holds(middle) ? in : out) = middle;
+  }
+  return in;
+}
+
+// The bound of roundings is 2^-46 of the coordinates, before and after; of a pose that is not quite rigid,
+// what its inverse by one step of Newton's is off by, too.
+TEST(PosedTree, ErrsByTheRoundingOfTheCoordinates) {
+  Random random(8);
+  for (const double place : {0.0, 1e-20, 1e-3, 1.0, 1e6}) {
+    for (const double shift : {0.0, 1e-3, 1.0, 1e6}) {
+      const Vector3d p = random.vector(place);
+      Eigen::Isometry3d pose = random.isometry(shift);
+      if (place == 0) pose.linear().setIdentity();
+      const std::array<Vector3d, 2> points = {p, -0.25 * p};
+      const PointTree tree(PointView::of(points[0].data(), 24, 2));
+      const double shifts = pose.translation().lpNorm<1>() + pose.inverse().translation().lpNorm<1>();
+      const double expected = 0x1p-46 * (p.lpNorm<1>() + shifts), found = rounding_of(tree, pose, pose * p);
+      EXPECT_GE(found, 0.9 * expected) << place << ", " << shift;
+      EXPECT_LE(found, 1.2 * expected + 1e-48) << place << ", " << shift;
+      pose.linear().col(0) += 9e-7 * pose.linear().col(1);
+      const double skewed = rounding_of(tree, pose, pose * p);
+      EXPECT_GE(skewed, 0.9 * expected) << place << ", " << shift;
+      EXPECT_LE(skewed, 1.2 * expected + 8e-12 * p.lpNorm<1>() + 1e-48) << place << ", " << shift;
+    }
+  }
 }
 
 TEST(Batches, AnswerEachQuestionAsIfItWereTheOnlyOne) {

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <thread>
 
+#include "allocations.h"
 #include "any_volumes.h"
 #include "clouds.h"
 #include "executions.h"
@@ -50,7 +52,8 @@ test::TestCloud<float> scanned(std::size_t count, unsigned seed) {
     cloud.xyz[3 * i + 1] += static_cast<float>(1.5 * std::sin(turn));
     cloud.xyz[3 * i + 2] += static_cast<float>(std::sin(0.01 * turn));
   }
-  cloud.xyz[1000] = cloud.xyz[5] = std::numeric_limits<float>::quiet_NaN();
+  for (const std::size_t i : {5, 1000, 2001, 2500})  // of each axis
+    cloud.xyz[i] = std::numeric_limits<float>::quiet_NaN();
   cloud.xyz[3001] = std::numeric_limits<float>::infinity();
   return cloud;
 }
@@ -139,6 +142,43 @@ TEST(RegionMask, OfManyRegionsIsTheSameForEveryExecutionAndOrderOfFloats) {
 }
 TEST(RegionMask, OfManyRegionsIsTheSameForEveryExecutionAndOrderOfDoubles) {
   expect_many_for_every_execution<double>();
+}
+
+// The runs' boxes reach regions, but each point lacks a coordinate, or all but one.
+TEST(RegionMask, OfManyRegionsHoldsNoPointThatLacksACoordinate) {
+  Random random(34);
+  const std::vector<Region> regions = many_regions(random, 1000, 0.7, 0.2);
+  const RegionMask mask(regions);
+  test::TestCloud<double> cloud;
+  cloud.xyz.assign(3 * 500, 0);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    cloud.xyz[3 * i + i % 3] = kNan;
+  Marks inside;
+  mask.mark(cloud.view(), inside);
+  EXPECT_EQ(std::accumulate(inside.begin(), inside.end(), 0), 0);
+  cloud.xyz[3 * 77 + 77 % 3] = 0;
+  EXPECT_TRUE(mask.contains({0, 0, 0}));
+  mask.mark(cloud.view(), inside);
+  EXPECT_EQ(std::accumulate(inside.begin(), inside.end(), 0), 1);
+  EXPECT_EQ(inside[77], 1);
+}
+
+// A tree of regions needs lists of those that runs reach, which each thread allocates once.
+TEST(RegionMask, OfFewRegionsAllocatesNothingInAnyThread) {
+  const auto cloud = test::gaussian<float>(1000, 35);
+  for (const std::size_t count : {std::size_t{1}, RegionMask::kFewRegions}) {
+    const RegionMask mask(std::vector<Region>(count, {Sphere({0, 0, 0}, 1)}));
+    Marks inside;
+    mask.mark(cloud.view(), inside, {Serial{}});
+    std::size_t before = 0, after = 0;
+    std::thread([&] {
+      before = allocations();
+      mask.mark(cloud.view(), inside, {Serial{}});
+      after = allocations();
+    }).join();
+    EXPECT_EQ(after, before) << count;
+  }
+  EXPECT_EQ((Region{Sphere({0, 0, 0}, 1)}).padding, 0);
 }
 
 }  // namespace

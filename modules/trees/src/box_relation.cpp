@@ -77,8 +77,8 @@ Relation relation_to_body(const ConvexRegion& region, const CenteredBox& box) {
   }
   if (region.shape == RegionShape::slabs) return inside ? Relation::holds : Relation::crosses;
   const double square = region.radius * region.radius;
-  if (least > square * (1 + 0x1p-38)) return Relation::apart;
-  return inside && most < square * (1 - 0x1p-38) ? Relation::holds : Relation::crosses;
+  if (least > square) return Relation::apart;
+  return inside && most < square ? Relation::holds : Relation::crosses;
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ struct PlainBox {
 /// Box k of a group, rounded outward.
 PlainBox plain_box(const BoxLevels& boxes, const BoxGroup& group, std::size_t k);
 
-/// For the region of convex_region().
+/// For the region of convex_region(). Of all shapes but boxes `crosses` if the surface is nearer than 2^-38
+/// of the taxicab lengths of the box's corners and of the region's centre, and of its radius, 4 times its
+/// doubt and 2^-480 together; a body's distances along its axes are off by as much.
 Relation relation(const ConvexRegion& region, const PlainBox& box);
 
 }  // namespace pcl_bv

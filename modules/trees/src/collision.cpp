@@ -5,19 +5,16 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "grown.h"
 #include "image.h"
-#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/volumes/pairs.h"
 #include "refusal.h"
+#include "sphere_around.h"
 #include "tree_overlap.h"
 #include "turnable.h"
 #include "vectors.h"
@@ -31,15 +28,6 @@ void require(const Eigen::Isometry3d& pose, double margin) {
   if (!pose.matrix().allFinite()) throw std::invalid_argument("within(): the pose must be finite");
   if (!(margin >= 0 && margin <= kMaxCoordinate))
     refuse("within(): the margin must be from 0 to 1e100", margin);
-}
-
-// Around a box; empty for one that is infinite or nowhere. Roundings take 2^-50 of what the radius grows by.
-Sphere sphere_around(const PlaceBounds& box) {
-  const Eigen::Vector3d low = vector(box.low), high = vector(box.high);
-  if (!(low.x() <= high.x()) || !low.allFinite() || !high.allFinite()) return {};
-  const Eigen::Vector3d middle = 0.5 * low + 0.5 * high;
-  const double reach = norm3((high - middle).cwiseMax(middle - low).eval());
-  return {middle, reach + 0x1p-45 * (reach + taxicab3(low) + taxicab3(high)) + kSmallestNormal};
 }
 
 struct Prepared {
@@ -57,9 +45,7 @@ bool may_touch(const PointTree& points, const Prepared& volume, const Eigen::Iso
   if (volume.body.empty()) return false;
   if (volume.around.empty()) return true;
   const Image center = image_of(pose, coordinates(volume.around.center()));
-  const double radius = (volume.around.radius() * stretch + center.error + margin) * (1 + 0x1p-45);
-  return any_in_ball(points.isa(), points.packed(), center.place,
-                     radius * radius * (1 + 0x1p-45) + 0x1p-1000);
+  return any_within(points, center, add_up(multiply_up(volume.around.radius(), stretch), margin));
 }
 
 // Of a volume where it is now.

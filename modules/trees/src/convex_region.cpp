@@ -63,8 +63,7 @@ class Planes {
     const double length = normal.stableNorm();
     const Eigen::Vector3d n = normal / length;
     region_.planes.push_back({n.x(), n.y(), n.z(), offset / length - dot3(n, center_)});
-    const double doubt = 0x1p-45 * (std::abs(offset / length) + taxicab3(center_));
-    if (!(doubt <= region_.doubt)) region_.doubt = doubt;
+    region_.doubt = std::max(region_.doubt, 0x1p-45 * (std::abs(offset / length) + taxicab3(center_)));
     bound(n, offset / length, region_.low.x, region_.high.x, 0);
     bound(n, offset / length, region_.low.y, region_.high.y, 1);
     bound(n, offset / length, region_.low.z, region_.high.z, 2);

@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/float_environment.h"
@@ -95,7 +94,7 @@ struct Grow {
       }
       m = std::sqrt(squares / weights);
     }
-    return m > 0 && std::isfinite(m * greatest) ? m * greatest : greatest;
+    return std::isnan(m) ? greatest : m * greatest;  // NaN: squares left the range of double
   }
 };
 

@@ -3,9 +3,10 @@
 
 #include "pcl_bv/trees/posed_tree.h"
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 
+#include "box_relation.h"
 #include "grown.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
@@ -30,20 +31,24 @@ Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   return back;
 }
 
-// An upper bound of |back (pose p) - p| for |p|_1 <= reach: what the products differ from the identity by, as
-// computed and by rounding.
+// An upper bound of |back (pose p) - p| for |p|_1 <= reach: what the product of the axes differs from the
+// identity by, and rounding.
 double difference(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, double reach) {
   const Eigen::Matrix3d turned = back.linear() * pose.linear() - Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d shift = back.linear() * pose.translation() + back.translation();
   const double place = taxicab3(pose.translation()) + taxicab3(back.translation());
-  return turned.cwiseAbs().sum() * reach + shift.lpNorm<1>() + 0x1p-46 * (reach + place) + 0x1p-480;
+  return turned.cwiseAbs().sum() * reach + 0x1p-46 * (reach + place);
 }
 
-// The greatest |p|_1 of the tree's points, or more.
-double reach_of(const PackedTree& tree) {
-  const BoxLevels& boxes = tree.boxes;
-  if (tree.count == 0) return 0;
-  return (std::abs(boxes.origin.x) + std::abs(boxes.origin.y) + std::abs(boxes.origin.z)) + 6 / boxes.scale;
+// The greatest |p|_1 of the tree's points, or more, by its topmost boxes; at least 2^-530.
+double reach_of(const BoxLevels& boxes) {
+  double reach = 0;
+  if (boxes.groups.empty()) return reach;
+  for (std::size_t k = 0; k < kTreeWidth; ++k) {
+    const PlainBox box = plain_box(boxes, boxes.groups.back(), k);
+    if (box.low.x() <= box.high.x())
+      reach = std::max(reach, box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).sum());
+  }
+  return reach;
 }
 
 }  // namespace
@@ -52,7 +57,7 @@ PosedTree::PosedTree(const PointTree& tree, const Eigen::Isometry3d& pose) : tre
   const FloatEnvironment environment;
   require_rigid(pose);
   back_ = inverse(pose);
-  rounding_ = difference(back_, pose, reach_of(tree.packed()));
+  rounding_ = difference(back_, pose, reach_of(tree.packed().boxes));
 }
 
 std::optional<Neighbor> PosedTree::nearest(const Eigen::Vector3d& place, double max_distance) const {

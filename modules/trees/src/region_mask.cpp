@@ -48,6 +48,11 @@ std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volume
   return boxes;
 }
 
+// Two chunks are some 50 us of work: less is not worth waking a thread.
+unsigned threads_for(std::size_t chunks) {
+  return static_cast<unsigned>(std::clamp<std::size_t>(chunks / 2, 1, 1024));
+}
+
 }  // namespace
 
 RegionMask::RegionMask(const std::vector<Region>& regions)
@@ -85,9 +90,7 @@ void RegionMask::mark(const PointView& points, std::vector<std::uint8_t>& inside
                       const Execution& execution) const {
   inside.resize(points.count);
   const std::size_t chunks = chunk_count(points.count);
-  // Two chunks are some 50 us of work: less is not worth waking a thread.
-  const auto threads = static_cast<unsigned>(std::min<std::size_t>(chunks / 2, 1024));
-  for_each_chunk(limit_threads(execution.parallel, std::max(threads, 1U)), chunks, [&](std::size_t chunk) {
+  for_each_chunk(limit_threads(execution.parallel, threads_for(chunks)), chunks, [&](std::size_t chunk) {
     const FloatEnvironment environment;
     const LoadedPoints part = load_chunk(points, chunk);
     mark_chunk(part.view(), inside.data() + chunk * kChunkPoints, execution);

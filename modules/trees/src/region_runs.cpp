@@ -87,6 +87,15 @@ double regions_reached(const VolumeBoxes& boxes, Runs& runs) {
   return static_cast<double>(reached) / static_cast<double>(std::max<std::size_t>(looked, 1));
 }
 
+enum class Way { all, in_order, sorted };
+
+Way cheapest(const VolumeBoxes& boxes, Runs& runs) {
+  const double by_runs = kToChoose + kToTestChosen * regions_reached(boxes, runs);
+  const auto by_all = static_cast<double>(boxes.size());
+  if (by_all <= std::min(by_runs, kToSort)) return Way::all;
+  return by_runs <= kToSort ? Way::in_order : Way::sorted;
+}
+
 void states_in_order(UsableIsa isa, const PointView& points, const RegionTests& regions,
                      const VolumeBoxes& boxes, Runs& runs, std::uint8_t* states) {
   runs.chosen.clear();
@@ -114,7 +123,6 @@ void states_sorted(UsableIsa isa, const PointView& points, const RegionTests& re
                    const VolumeBoxes& boxes, Runs& runs, SortedPoints<T>& sorted, std::uint8_t* states) {
   const std::size_t count = sorted.load(points);
   std::fill(states, states + points.count, static_cast<std::uint8_t>(RegionState::outside));
-  if (count == 0) return;
   sorted.states.resize(count);
   const PointView view = PointView::of(sorted.order[0].place, sizeof(PlacedItem<T>), count);
   runs.measure(isa, view);
@@ -129,11 +137,10 @@ void region_states_by_runs(UsableIsa isa, const PointView& points, const RegionT
                            const VolumeBoxes& boxes, std::uint8_t* states) {
   auto& [runs, floats, doubles] = scratch();
   runs.measure(isa, points);
-  const double by_runs = kToChoose + kToTestChosen * regions_reached(boxes, runs);
-  const auto by_all = static_cast<double>(boxes.size());
-  if (by_all <= std::min(by_runs, kToSort)) {
+  const Way way = cheapest(boxes, runs);
+  if (way == Way::all) {
     region_states(isa, points, regions, states);
-  } else if (by_runs <= kToSort) {
+  } else if (way == Way::in_order) {
     states_in_order(isa, points, regions, boxes, runs, states);
   } else if (points.scalar == ScalarType::float32) {
     states_sorted(isa, points, regions, boxes, runs, floats, states);

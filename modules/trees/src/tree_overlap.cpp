@@ -3,23 +3,13 @@
 
 #include "tree_overlap.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "box_relation.h"
 #include "grown.h"
-#include "image.h"
 #include "pcl_bv/numeric/directed.h"
 #include "volume_walk.h"
 
 namespace pcl_bv {
 namespace {
-
-// What squared distances, as Neighbor says, of points within `distance` are at most: six roundings and
-// underflow.
-double square_within(double distance) {
-  return distance * distance * (1 + 0x1p-48) + 0x1p-1000;
-}
 
 // The boxes of the tree that moves, as long as a point of the other one is near; then point by point.
 class TreeOverlap {
@@ -30,10 +20,10 @@ class TreeOverlap {
   bool visit(std::size_t level, std::size_t number) const {
     const BoxLevels& boxes = moving_.boxes;
     const BoxGroup& group = boxes.groups[boxes.first[level] + number];
-    const std::size_t first = number * kTreeWidth, end = std::min(first + kTreeWidth, boxes.below[level]);
-    for (std::size_t item = first; item < end; ++item) {
-      const PlainBox box = plain_box(boxes, group, item - first);
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
+      const PlainBox box = plain_box(boxes, group, k);
       if (!(box.low.x() <= box.high.x()) || !near(box)) continue;
+      const std::size_t item = number * kTreeWidth + k;
       if (level > 0 ? visit(level - 1, item) : any_near(item)) return true;
     }
     return false;
@@ -48,13 +38,9 @@ class TreeOverlap {
 
   bool any_near(std::size_t packet) const {
     const PointView view = moving_.view();
-    const std::size_t first = packet * kTreeWidth, end = std::min(first + kTreeWidth, moving_.count);
-    for (std::size_t i = first; i < end; ++i) {
-      const Coordinates p = load_point(view, i);
-      if (!is_valid(p)) continue;
-      const Image image = image_of(pose_, p);
-      const double limit = square_within(add_up(margin_, image.error));
-      if (any_in_ball(points_.isa(), points_.packed(), image.place, limit)) return true;
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
+      const Coordinates p = load_point(view, packet * kTreeWidth + k);
+      if (is_valid(p) && any_within(points_, image_of(pose_, p), margin_)) return true;
     }
     return false;
   }
@@ -66,6 +52,12 @@ class TreeOverlap {
 };
 
 }  // namespace
+
+// Neighbor's squares have six roundings; a reach of 2^-500 or more has one that does not underflow.
+bool any_within(const PointTree& points, const Image& place, double distance) {
+  const double reach = add_up(distance, place.error);
+  return any_in_ball(points.isa(), points.packed(), place.place, reach * reach * (1 + 0x1p-48));
+}
 
 bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
                   double margin) {

@@ -5,9 +5,14 @@
 
 #include <Eigen/Geometry>
 
+#include "image.h"
 #include "pcl_bv/trees/point_tree.h"
 
 namespace pcl_bv {
+
+/// Whether a point is within `distance` of a place, of which the image is given. Never false where one is;
+/// errs by 2^-48 of the distance and by the image's error.
+bool any_within(const PointTree& points, const Image& place, double distance);
 
 /// within() of collision.h, for two trees that have points.
 bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,

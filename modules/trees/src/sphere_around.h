@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/sphere.h"
+#include "spatial_order.h"
+#include "vectors.h"
+
+namespace pcl_bv {
+
+/// Around a box; empty for one that is infinite or nowhere. Roundings take 2^-50 of what the radius grows by.
+inline Sphere sphere_around(const PlaceBounds& box) {
+  const Eigen::Vector3d low = vector(box.low), high = vector(box.high);
+  if (!(low.x() <= high.x()) || !low.allFinite() || !high.allFinite()) return {};
+  const Eigen::Vector3d middle = 0.5 * low + 0.5 * high;
+  const double reach = norm3((high - middle).eval());
+  return {middle, reach + 0x1p-45 * (reach + taxicab3(low) + taxicab3(high)) + kSmallestNormal};
+}
+
+}  // namespace pcl_bv
