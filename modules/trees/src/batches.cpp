@@ -18,16 +18,19 @@ namespace {
 // Questions that a thread takes at a time: some 20 us of them.
 constexpr std::size_t kBlock = 256;
 
-// Calls ask(begin, end) for blocks of `count` questions. Fewer than four are done before another thread has
-// come.
+// Fewer than four blocks are done before another thread has come.
+unsigned threads_for(std::size_t count) {
+  return static_cast<unsigned>(std::clamp<std::size_t>(count / (4 * kBlock), 1, 1024));
+}
+
+// Calls ask(begin, end) for blocks of `count` questions.
 template <typename Ask>
 void ask_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
-  const std::size_t blocks = (count + kBlock - 1) / kBlock;
-  const auto threads = static_cast<unsigned>(std::clamp<std::size_t>(blocks / 4, 1, 1024));
-  for_each_chunk(limit_threads(execution.parallel, threads), blocks, [&](std::size_t block) {
-    const FloatEnvironment environment;
-    ask(block, block * kBlock, std::min(count, (block + 1) * kBlock));
-  });
+  for_each_run(limit_threads(execution.parallel, threads_for(count)), count, kBlock,
+               [&](std::size_t begin, std::size_t end) {
+                 const FloatEnvironment environment;
+                 ask(begin, end);
+               });
 }
 
 void require_in_memory(const PointView& places) {
@@ -43,14 +46,15 @@ template <typename Ask>
 void list_for_each(const PointView& places, const Execution& execution, NeighborLists& found,
                    const Ask& ask) {
   require_in_memory(places);
-  std::vector<std::vector<Neighbor>> blocks((places.count + kBlock - 1) / kBlock);
+  std::vector<std::vector<Neighbor>> blocks(places.count / kBlock + 1);
   found.first.assign(places.count + 1, 0);
-  ask_blocks(places.count, execution, [&](std::size_t block, std::size_t begin, std::size_t end) {
+  ask_blocks(places.count, execution, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor>& block = blocks[begin / kBlock];
     std::vector<Neighbor> one;
     for (std::size_t i = begin; i < end; ++i) {
       ask(place_of(places, i), one);
       found.first[i + 1] = one.size();
-      blocks[block].insert(blocks[block].end(), one.begin(), one.end());
+      block.insert(block.end(), one.begin(), one.end());
     }
   });
   std::partial_sum(found.first.begin(), found.first.end(), found.first.begin());
@@ -69,7 +73,7 @@ void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbo
   const Neighbor none{-1, std::numeric_limits<double>::infinity()};
   const double limit = square_limit(max_distance);
   found.assign(places.count, none);
-  ask_blocks(places.count, execution, [&](std::size_t, std::size_t begin, std::size_t end) {
+  ask_blocks(places.count, execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Coordinates place = load_point(places, i);
       if (is_valid(place)) found[i] = find_nearest(execution.isa, tree.packed(), place, limit).value_or(none);
@@ -95,7 +99,7 @@ void near(const PointTree& tree, const PointView& places, double distance, Neigh
 void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
                 const Execution& execution) {
   inside.resize(spheres.size());
-  ask_blocks(spheres.size(), execution, [&](std::size_t, std::size_t begin, std::size_t end) {
+  ask_blocks(spheres.size(), execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Sphere& sphere = spheres[i];
       inside[i] = static_cast<std::uint8_t>(
@@ -108,7 +112,7 @@ void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::
 void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
                 std::vector<std::uint8_t>& inside, const Execution& execution) {
   inside.resize(volumes.size());
-  ask_blocks(volumes.size(), execution, [&](std::size_t, std::size_t begin, std::size_t end) {
+  ask_blocks(volumes.size(), execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       inside[i] = static_cast<std::uint8_t>(tree.any_inside(volumes[i]));
   });

@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t kParts = 4;
 constexpr std::size_t kMostBins = 1024;
-// Fewer items are sorted before another thread has come.
-constexpr std::size_t kFew = 8192;
 
 // The longest side of the box around a run.
 struct Side {
@@ -139,6 +137,13 @@ void sort_run(const ItemRun<T>& run) {
   cut_run(run, [](const ItemRun<T>& part) { sort_run(part); });
 }
 
+// How many runs threads share. Fewer than 8192 items are sorted before another thread has come; four runs a
+// thread even out what they take.
+std::size_t runs_for(std::size_t threads, std::size_t items) {
+  threads = std::min(threads, items / 8192);
+  return threads > 1 ? 4 * threads : 1;
+}
+
 }  // namespace
 
 template <typename T>
@@ -152,8 +157,7 @@ PlacedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
 template <typename T>
 void SpatialOrder<T>::sort(std::size_t count, const ParallelPolicy& policy) {
   runs_.assign(1, {items_.data(), buffer_.data(), bins_.data(), count, true});
-  const std::size_t threads = std::min<std::size_t>(thread_count(policy), count / kFew);
-  if (threads > 1) share_out(4 * threads, policy);
+  share_out(runs_for(thread_count(policy), count), policy);
   for_each_chunk(policy, runs_.size(), [&](std::size_t r) { sort_run(runs_[r]); });
 }
 
