@@ -57,6 +57,19 @@ TEST(VolumeTree, RefusesDistancesThatAreNone) {
   EXPECT_THROW(VolumeTree().nearest({0, 0, 0}, kNan), std::invalid_argument);
 }
 
+TEST(VolumeTree, IsFoundFromWhereSquaresOfItsUnitLeaveTheRange) {
+  for (const NodeBounds kind : {NodeBounds::aabb, NodeBounds::dop14, NodeBounds::sphere}) {
+    const VolumeTree tree({Sphere({0, 0, 0}, 1e-90), Sphere({1e-90, 0, 0}, 1e-90)}, kind);
+    for (const double away : {1e-20, 1.0, 1e70, 1e100}) {
+      const Vector3d place(away, 0, 0);
+      ASSERT_TRUE(tree.nearest(place)) << away;
+      EXPECT_EQ(tree.nearest(place)->distance, distance(tree.volumes()[1], place)) << away;
+      EXPECT_TRUE(tree.first_hit(place, {-1, 0, 0})) << away;
+      EXPECT_FALSE(tree.any_containing(place)) << away;
+    }
+  }
+}
+
 TEST(VolumeTree, FindsTheNearestFromBeyondTheRangeOfItsBoxes) {
   const VolumeTree tree({Sphere(), Sphere({1, 2, 3}, 1)});
   EXPECT_EQ(tree.nearest({1e200, 0, 0})->index, 1);

@@ -16,10 +16,10 @@ double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double place = (center[axis] - boxes.origin[axis]) * boxes.scale;
     const double gap = std::max(group.low[axis][k] - place, place - group.high[axis][k]);
-    const double sure = gap - 0x1p-50 * std::abs(place);
+    const double sure = (gap - 0x1p-50 * std::abs(place)) / boxes.scale;
     if (sure > 0) sum += sure * sure;
   }
-  return sum / boxes.scale / boxes.scale * (1 - 0x1p-40);
+  return sum * (1 - 0x1p-40);
 }
 
 // Calls take(packet) for the packets in boxes of which near(group, k) holds; ends where it returns true.

@@ -46,12 +46,18 @@ bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Vi
                                       : visit_all(nodes.volumes, ask);
 }
 
+// Whether bounds of nodes can be told there: squares of places beyond 2^500 times the size of all volumes
+// leave the range of double.
+bool is_in_range(const VolumeBoxes& boxes, const Coordinates& place) {
+  return is_valid(place) && FramePlace(boxes, place).at.cwiseAbs().maxCoeff() < 0x1p500;
+}
+
 // Calls visit for the volumes that a ray may hit where their bound is at most limit(), t in the unit of the
 // ray; for some twice.
 template <typename Nodes, typename Limit, typename Visit>
 void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                  const Limit& limit, const Visit& visit) {
-  if (!is_valid(coordinates(origin)) || !direction.allFinite()) {
+  if (!is_in_range(nodes.boxes, coordinates(origin)) || !direction.allFinite()) {
     visit_all(nodes.volumes, [&](std::uint32_t number) { return visit(number), false; });
     return;
   }
@@ -181,7 +187,7 @@ std::optional<VolumeDistance> VolumeTree::nearest(const Eigen::Vector3d& point, 
     if (found.distance <= max_distance && (!nearest || before(found, *nearest))) nearest = found;
     return false;
   };
-  if (!is_valid(coordinates(point))) {
+  if (!is_in_range(nodes_->boxes, coordinates(point))) {
     visit_all(nodes_->volumes, visit);
     return nearest;
   }
