@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "exact.h"
+#include "executions.h"
 #include "pcl_bv/numeric/constants.h"
 #include "vectors.h"
 
@@ -56,7 +57,7 @@ Long margin(const ConvexRegion& region, const PlainBox& box) {
 class Cases {
  public:
   void each(const std::function<void(ConvexRegion, const PlainBox&)>& ask) {
-    for (int round = 0; round < 20'000; ++round) {
+    for (int round = 0; round < (test::kEmulated ? 1000 : 20'000); ++round) {
       const double place = size(), away = size(), extent = size();
       ConvexRegion region;
       region.center = coordinates(random_.vector(place));

@@ -4,6 +4,8 @@
 // What the nodes of a VolumeTree should be bounded by, by definition and in long double.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <vector>
 

@@ -18,6 +18,10 @@ namespace pcl_bv {
 namespace {
 
 using namespace testing;
+
+Vector3d corner_of(const Vector3d& low, const Vector3d& high, int i) {
+  return {i & 1 ? low.x() : high.x(), i & 2 ? low.y() : high.y(), i & 4 ? low.z() : high.z()};
+}
 using Long = long double;
 
 const double kPlaces[] = {0, 1e-3, 1, 1e6};
@@ -95,8 +99,7 @@ TEST(SphereAround, HoldsTheBoxAndLittleMore) {
         const Vector3d low = middle - half, high = middle + half;
         const Sphere sphere = sphere_around({coordinates(low), coordinates(high)});
         for (int corner = 0; corner < 8; ++corner) {
-          const Vector3d p(corner & 1 ? low.x() : high.x(), corner & 2 ? low.y() : high.y(),
-                           corner & 4 ? low.z() : high.z());
+          const Vector3d p = corner_of(low, high, corner);
           ASSERT_TRUE(inside(sphere, exact(p)));
         }
         const Long reach = (high.cast<Long>() - low.cast<Long>()).norm() / 2,
@@ -152,8 +155,7 @@ TEST(BodyDistance, OfABoxIsThatOfItsMiddleLessItsReachAndAMargin) {
         EXPECT_GE(least, away - reach - 1.01L * margin);
         EXPECT_LE(least, away - reach - 0.99L * margin);
         for (int corner = 0; corner < 8; ++corner) {
-          const Vector3d p(corner & 1 ? low.x() : high.x(), corner & 2 ? low.y() : high.y(),
-                           corner & 4 ? low.z() : high.z());
+          const Vector3d p = corner_of(low, high, corner);
           EXPECT_LE(least, body.of(p));
         }
       }

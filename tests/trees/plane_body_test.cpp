@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "pcl_bv/numeric/vector3.h"
 #include "scattered_volumes.h"
 
@@ -58,8 +60,21 @@ std::vector<RealVector> vertices_of(const std::vector<HullPlane>& planes, const 
   return vertices;
 }
 
+// Just inside the corners: from a thousandth of the size to some units in the last place.
+std::vector<Vector3d> points_within(Random& random, const Hull& hull, const std::vector<Vector3d>& corners) {
+  std::vector<Vector3d> found;
+  const Vector3d center = std::accumulate(corners.begin(), corners.end(), Vector3d(0, 0, 0)) /
+                          static_cast<double>(corners.size());
+  for (const Vector3d& corner : corners) {
+    const Vector3d p = corner + std::exp2(random.uniform(-50, -10)) * (center - corner);
+    if (inside(hull, exact(p))) found.push_back(p);
+  }
+  return found;
+}
+
 TEST(PlaneBody, ReachesAsFarAsItsFarthestVertex) {
   Random random(61);
+  std::size_t judged = 0;
   for (const Scale& scale :
        {Scale{"unit", 0, 1}, Scale{"1 mm", 0, 1e-3}, Scale{"1e6", 0, 1e6}, scales()[1], scales()[2]}) {
     for (int round = 0; round < 40; ++round) {
@@ -70,7 +85,9 @@ TEST(PlaneBody, ReachesAsFarAsItsFarthestVertex) {
       for (const RealVector& v : vertices)
         corners.push_back(center + v.cast<double>());
       ASSERT_GE(corners.size(), 4U) << scale.name;
-      const PlaneBody body(Hull(corners, {}, planes, 3));
+      const Hull hull(corners, {}, planes, 3);
+      const PlaneBody body(hull);
+      const std::vector<Vector3d> within = points_within(random, hull, corners);
       ASSERT_TRUE(body.box()) << scale.name;
       const Aabb about = around(Aabb(), corners);
       const double room = 1e-9 * scale.extent + 1e-12 * scale.offset;
@@ -81,10 +98,17 @@ TEST(PlaneBody, ReachesAsFarAsItsFarthestVertex) {
         Real farthest = -std::numeric_limits<Real>::infinity();
         for (const RealVector& v : vertices)
           farthest = std::max(farthest, d.cast<Real>().dot(v + center.cast<Real>()));
-        EXPECT_NEAR(body.reach_up(d), static_cast<double>(farthest), taxicab3(d) * room) << scale.name;
+        const double reach = body.reach_up(d);
+        EXPECT_NEAR(reach, static_cast<double>(farthest), taxicab3(d) * room) << scale.name;
+        for (const Vector3d& p : within)
+          EXPECT_LE(dot(d, exact(p)), Rational(reach)) << scale.name;
       }
+      judged += within.size();
+      for (const Vector3d& p : within)
+        EXPECT_TRUE(body.box()->contains(p)) << scale.name;
     }
   }
+  EXPECT_GT(judged, 1000U);
 }
 
 // Each weight is 1, so the doubt is 2^-46 of the greatest coordinate.

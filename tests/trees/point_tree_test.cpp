@@ -164,6 +164,9 @@ TYPED_TEST(PointTreeOf, AnswersForPointsThatMoved) {
   moved.xyz[3 * 17] = std::numeric_limits<TypeParam>::quiet_NaN();
   for (std::size_t axis = 0; axis < 3; ++axis)
     moved.xyz[3 * (20 + axis) + axis] = std::numeric_limits<TypeParam>::infinity();
+  for (std::size_t packet : {0, 5, 187})  // all that is first in a packet
+    moved.xyz[3 * static_cast<std::size_t>(tree.packed().numbers[packet * kTreeWidth])] =
+        std::numeric_limits<TypeParam>::quiet_NaN();
   tree.refit(moved.view());
   const EachPoint points(moved.view());
   Questions questions(points, 10);
@@ -203,6 +206,18 @@ TEST(PointTree, CopiesAnswerOnTheirOwn) {
   tree = std::move(copy);
   tree.refit(cloud.view());
   EXPECT_TRUE(same_bytes(tree.packed(), PointTree(cloud.view()).packed()));
+}
+
+TEST(PointTree, IsFoundFromWhereSquaresOfItsUnitLeaveTheRange) {
+  const auto cloud = test::gaussian<double>(300, 22, 1e-90);
+  for (const Isa isa : usable_isas()) {
+    const PointTree tree(cloud.view(), {Serial{}, isa});
+    const Vector3d place(1e70, 0, 0);
+    EXPECT_TRUE(tree.nearest(place, 1.5e70)) << isa_name(isa);
+    EXPECT_TRUE(tree.any_near(place, 1.5e70)) << isa_name(isa);
+    EXPECT_FALSE(tree.any_near(place, 0.5e70)) << isa_name(isa);
+    EXPECT_TRUE(tree.first_hit(place, {-1, 0, 0}, 1)) << isa_name(isa);
+  }
 }
 
 TEST(PointTree, RefusesNumbersThatItCannotName) {

@@ -159,13 +159,13 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
 
 constexpr std::size_t kMostAtStart = 64;  // bits
 
-/// Calls visit.take(packet) for the packets whose boxes are not too far, and before that visit.look(group)
+/// Calls visit.take(packet) for the packets whose boxes are not too far, and before that visit.look(number)
 /// for the groups that such a box is in, but not for those it starts with; true as soon as one of them says
 /// so. It starts at the lowest level of at most 64 boxes: asking those side by side takes less time than
 /// finding out above which groups of them are near.
 ///
-/// Of a group's boxes, the first of visit.first(group) comes before all others, also if it is not near. Those
-/// come in their order.
+/// The lowest bit of visit.first(group), if there is one, is the box that is visited before the group's
+/// others, near or not. Those come in their order.
 template <typename Visit>
 HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit& visit) {
   struct Open {

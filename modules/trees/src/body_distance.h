@@ -9,7 +9,7 @@
 
 namespace pcl_bv {
 
-/// How far points and boxes are from a volume that is not empty.
+/// Distances from a volume that is not empty.
 class BodyDistance {
  public:
   explicit BodyDistance(const AnyVolume& volume) : body_(volume) {
@@ -19,8 +19,8 @@ class BodyDistance {
 
   double of(const Eigen::Vector3d& point) const { return distance(body_, point); }
 
-  /// For no point of the box of() is less: distances differ by no more than places do, and distance() is
-  /// short of the true one by 1e-12 of it and of the sizes.
+  /// A lower bound of of(p) for every p in the box; NaN for an empty one. Distances differ by no more than
+  /// places do, and distance() is short of the true one by 1e-12 of it and of the sizes.
   double at_least(const PlainBox& box) const {
     const Eigen::Vector3d middle = 0.5 * (box.low + box.high);
     const double reach = 0.5 * norm3(Eigen::Vector3d(box.high - box.low)), away = of(middle);

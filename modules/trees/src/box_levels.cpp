@@ -33,14 +33,12 @@ const BoxGroup& empty_group() {
 }
 
 // A ball surely holds a point of a box once it reaches all of one side, at best from the middle of that side.
-// The square for an empty box is NaN.
 float least_reached(const BoxGroup& group) {
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
     const float x = group.high[0][k] - group.low[0][k], y = group.high[1][k] - group.low[1][k],
                 z = group.high[2][k] - group.low[2][k];
-    const float square = (x * x + y * y) + z * z - std::max({x * x, y * y, z * z});
-    least = square < least ? square : least;
+    least = std::min({least, x * x + y * y, y * y + z * z, z * z + x * x});
   }
   return least / 4;
 }

@@ -26,9 +26,9 @@ struct PlainBox {
 /// Box k of a group, rounded outward.
 PlainBox plain_box(const BoxLevels& boxes, const BoxGroup& group, std::size_t k);
 
-/// For the region of convex_region(). Of all shapes but boxes `crosses` if the surface is nearer than 2^-38
-/// of the taxicab lengths of the box's corners and of the region's centre, and of its radius, 4 times its
-/// doubt and 2^-480 together; a body's distances along its axes are off by as much.
+/// For the region of convex_region(). Exact for boxes. For all other shapes `crosses` also where the surface
+/// is within a margin of the box, which covers rounding: 2^-38 (|low|_1 + |high|_1 + |region.center|_1 +
+/// radius) + 4 doubt + 2^-480. Of slabs and bodies it is added to the distances along each axis.
 Relation relation(const ConvexRegion& region, const PlainBox& box);
 
 }  // namespace pcl_bv

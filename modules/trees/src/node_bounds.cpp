@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // All sums here are of some terms below a few times 1 + |place|, in double, so off by less than 2^-45 of
-// that: the slack, 2^-20 of it, covers them twice over.
+// that, which is nothing beside the slack of 2^-20 of it: no bound adds a margin of its own.
 
 #include "node_bounds.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -15,17 +17,13 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "reaches.h"
 #include "vectors.h"
 
 namespace pcl_bv {
 namespace {
 
 constexpr std::size_t kSlabs = 7;
-
-Eigen::Vector3d cube_direction(std::size_t i) {
-  const CubeDirection& d = kCubeDirections[i];
-  return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
-}
 
 // Clips [enter, exit] to the t with low <= start + t slope <= high.
 void clip(double start, double slope, double low, double high, double& enter, double& exit) {
@@ -137,7 +135,7 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
   const double margin = 2 * contained_margin(box);
   for (std::size_t i = 3; i < kSlabs; ++i) {  // boxes are of the others
     Expansion low, high;
-    low.add_dot(-cube_direction(i), boxes.levels().origin);
+    low.add_dot(-cube_vector(i), boxes.levels().origin);
     high = low;
     slabs.max[i] = float_up(multiply_up(high.add(bounds.max[i]).add(margin).up(), scale));
     slabs.min[i] = float_down(-multiply_up(-low.add(bounds.min[i]).add(-margin).down(), scale));
@@ -183,7 +181,7 @@ double NodeShapes::distance(std::size_t shape, const FramePlace& place) const {
   if (!slabs_.empty()) {
     const Slabs& slabs = slabs_[shape];
     for (std::size_t i = 3; i < kSlabs; ++i) {
-      const double s = dot3(cube_direction(i), place.at);
+      const double s = dot3(cube_vector(i), place.at);
       farthest = std::max(farthest, std::max(slabs.min[i] - s, s - slabs.max[i]) / 1.7320508075688774);
     }
   } else if (!balls_.empty()) {
@@ -207,7 +205,7 @@ double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
   if (!slabs_.empty()) {
     const Slabs& slabs = slabs_[shape];
     for (std::size_t i = 3; i < kSlabs; ++i) {
-      const Eigen::Vector3d d = cube_direction(i);
+      const Eigen::Vector3d d = cube_vector(i);
       clip(dot3(d, ray.from.at), dot3(d, ray.u), slabs.min[i] - 4 * ray.from.slack,
            slabs.max[i] + 4 * ray.from.slack, enter, exit);
     }
@@ -218,7 +216,7 @@ double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
     const double radius = ball.radius + 4 * ray.from.slack, uu = dot3(ray.u, ray.u),
                  nearest = dot3(q, ray.u) / uu;
     const double least =
-        dot3(q, q) - nearest * nearest * uu;  // off by 2^-48 |q|^2; slack^2 is 2^-40 of it at least
+        dot3(q, q) - nearest * nearest * uu;  // off by 2^-48 |q|^2; (4 slack)^2 is 2^-38 of it at least
     const double half = radius * radius - least;
     if (half < 0) return kInfinity;
     const double reach = std::sqrt(half / uu);

@@ -52,7 +52,7 @@ bool PlaneBody::set_out(const Aabb& about) {
   if (about.empty()) return false;
   origin_ = about.center();
   const double margin = (about.max() - about.min()).sum() + 0x1p-30 * greatest(origin_) + 0x1p-900;
-  for (int k = 0; planes_.size() < kFences; ++k) {
+  for (int k = 0; k < 3; ++k) {
     add(Eigen::Vector3d::Unit(k), about.max()[k] + margin);
     add(-Eigen::Vector3d::Unit(k), margin - about.min()[k]);
   }
@@ -65,6 +65,7 @@ void PlaneBody::add(const Eigen::Vector3d& normal, double offset) {
   local_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
 }
 
+// Fences are left out: no bound may rest on them, and a corner beyond them is proven all the same.
 std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point) const {
   const double tolerance = 0x1p-44 * taxicab3(point);
   std::optional<std::size_t> side;
@@ -97,11 +98,12 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
     const Eigen::Matrix3d inverse = normals.inverse();
     const std::optional<std::size_t> side = most_violated(inverse * offsets);
     if (!side) break;
+    // Compared as if all normals were of length 1: long ones would hide short ones.
     const Eigen::Vector3d share = inverse.transpose() * planes_[*side].normal,
-                          sized = share.cwiseProduct(normals.rowwise().norm());
+                          of_units = share.cwiseProduct(normals.rowwise().norm());
     Eigen::Index leaving = 0;
     const double change =
-        (sized.array() > 0x1p-40 * greatest(sized))
+        (of_units.array() > 0x1p-40 * greatest(of_units))
             .select(corner.weights.cwiseQuotient(share), Eigen::Vector3d::Constant(kInfinity))
             .minCoeff(&leaving);
     if (change == kInfinity) break;

@@ -16,11 +16,6 @@
 namespace pcl_bv {
 namespace {
 
-Eigen::Vector3d cube_vector(std::size_t i) {
-  const CubeDirection& d = kCubeDirections[i];
-  return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
-}
-
 // More than the roundings of some tens of sums and products of magnitudes, and what underflows in them.
 double grown_up(double magnitude) {
   return magnitude * (1 + 0x1p-45) + 0x1p-1000;

@@ -26,7 +26,8 @@ struct PlaceBounds {
   Coordinates low, high;
 };
 
-/// Of some T, which a Coordinates would make doubles. A NaN is neither less nor greater.
+/// The least and the greatest coordinates of places, compared as T: floats faster than doubles. NaN is passed
+/// over.
 template <typename T>
 struct Extremes {
   static constexpr T kMost = std::numeric_limits<T>::infinity();
@@ -36,7 +37,7 @@ struct Extremes {
     low[axis] = value < low[axis] ? value : low[axis];
     high[axis] = value > high[axis] ? value : high[axis];
   }
-  /// -0 is 0: that of equal values which is kept depends on the order.
+  /// -0 becomes 0: which of the two is kept would depend on the order of add().
   PlaceBounds bounds() const {
     return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}};
   }
@@ -60,9 +61,10 @@ struct ItemRun {
 /// Sorts items as the leaves of a balanced k-d tree (Bentley 1975) lie in a row: the longest side of the box
 /// around the items is cut into up to four parts, so that each begins at a multiple of the greatest 16^k (k >
 /// 0) that is less than their number, and each part likewise. Items with equal coordinates go by their
-/// numbers. Runs of 16 or fewer, and of one place, are not cut. So which run an item is in follows from the
-/// items alone, and the whole order also from that before, but not from the policy. O(n log n): with less
-/// than 1000 a bin, a cut is a pass that counts and one that moves, and each divides runs by four.
+/// numbers. Runs of 16 or fewer, and of one place, are not cut: which items are in such a run follows from
+/// the items alone, and their order inside it from the order before. Neither depends on the policy. O(n log
+/// n): with less than 1000 a bin, a cut is a pass that counts and one that moves, and each divides runs by
+/// four.
 template <typename T>
 class SpatialOrder {
  public:

@@ -11,7 +11,8 @@
 
 namespace pcl_bv {
 
-/// Around a box; empty for one that is infinite or nowhere. Roundings take 2^-50 of what the radius grows by.
+/// Around a box; empty for one that is infinite or nowhere. Roundings are below 2^-50 (reach + |low|_1 +
+/// |high|_1); the radius grows by 2^-45 of that.
 inline Sphere sphere_around(const PlaceBounds& box) {
   const Eigen::Vector3d low = vector(box.low), high = vector(box.high);
   if (!(low.x() <= high.x()) || !low.allFinite() || !high.allFinite()) return {};

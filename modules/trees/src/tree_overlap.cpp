@@ -53,7 +53,7 @@ class TreeOverlap {
 
 }  // namespace
 
-// Neighbor's squares have six roundings; a reach of 2^-500 or more has one that does not underflow.
+// Neighbor's squares have six roundings. This one does not underflow: an image's error is 2^-500 or more.
 bool any_within(const PointTree& points, const Image& place, double distance) {
   const double reach = add_up(distance, place.error);
   return any_in_ball(points.isa(), points.packed(), place.place, reach * reach * (1 + 0x1p-48));

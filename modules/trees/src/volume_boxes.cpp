@@ -50,11 +50,13 @@ void VolumeBoxes::build(const std::vector<PlaceBounds>& extents, const ParallelP
   const PlaceBounds all = around(extents);
   SpatialOrder<double> order;
   PlacedItem<double>* const items = order.reset(extents.size());
+  // A place for those without a box, which must be valid also if no volume has one.
+  const auto anywhere = [&](std::size_t axis) { return std::min(all.low[axis], kMaxCoordinate); };
   for (std::size_t i = 0; i < extents.size(); ++i) {
     items[i].number = static_cast<std::int64_t>(i);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double middle = extents[i].low[axis] / 2 + extents[i].high[axis] / 2;
-      items[i].place[axis] = has_box(extents[i]) ? middle : std::min(all.low[axis], kMaxCoordinate);
+      items[i].place[axis] = has_box(extents[i]) ? middle : anywhere(axis);
     }
   }
   order.sort(extents.size(), policy);

@@ -93,8 +93,9 @@ NodeBounds VolumeTree::node_bounds() const {
 
 void VolumeTree::first_hits(const std::vector<Ray>& rays, std::vector<VolumeHit>& hits,
                             const Execution& execution) const {
+  constexpr std::size_t rays_of_chunk = 256;
   hits.resize(rays.size());
-  for_each_run(execution.parallel, rays.size(), 256, [&](std::size_t begin, std::size_t end) {
+  for_each_run(execution.parallel, rays.size(), rays_of_chunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       hits[i] = first_hit(rays[i].origin, rays[i].direction).value_or(VolumeHit{-1, {}});

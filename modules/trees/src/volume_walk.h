@@ -26,14 +26,13 @@ class VolumeProbe {
     return relation(region_, plain_box(boxes, group, k));
   }
 
-  /// Which of a packet's points contains() holds for, as bits.
+  /// Which of a packet's points contains() holds for, as bits; those that it lacks are NaN, so outside.
   std::uint32_t inside(UsableIsa isa, const PackedTree& tree, std::size_t packet) const {
-    const std::size_t first = packet * kTreeWidth, count = std::min(kTreeWidth, tree.count - first);
-    const PointView points = tree.view().slice(first, count);
+    const PointView points = tree.view().slice(packet * kTreeWidth, kTreeWidth);
     std::array<std::uint8_t, kTreeWidth> states;
     region_states(isa, points, tests_, states.data());
     std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
       bool in = states[k] == static_cast<std::uint8_t>(RegionState::inside);
       if (states[k] == static_cast<std::uint8_t>(RegionState::unclear)) {
         const Coordinates p = load_point(points, k);

@@ -49,8 +49,9 @@ struct BoxLevels {
   static constexpr std::size_t kMostLevels = 9;
 
   std::vector<BoxGroup> groups;
-  std::vector<float> least_reached;  ///< By group: a ball of a smaller squared radius may miss the points of
-                                     ///< each of its boxes, wherever it is.
+  /// By group, in this frame and squared: the radius of the smallest ball that surely holds a point of one of
+  /// its boxes, at the best place for it.
+  std::vector<float> least_reached;
   std::array<std::size_t, kMostLevels + 1> first{};  ///< The number, among all groups, of each level's first.
   std::array<std::size_t, kMostLevels + 1>
       below{};             ///< How many there are below: items, groups of level 0, ...
@@ -110,4 +111,4 @@ std::optional<Neighbor> find_nearest(UsableIsa isa, const PackedTree& tree, cons
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most,
                   double limit, std::vector<Neighbor>& found);
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv
