@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 # A mutant may ask for all memory there is; no test needs nearly as much.
-_LIMITED = ["sh", "-c", 'ulimit -c 0 -v 12000000; exec "$@"', "sh"]
+_LIMITED = ["sh", "-c", 'ulimit -c 0; ulimit -v 12000000; exec "$@"', "sh"]
 _FIRST_BATCH = 0.5  # seconds of tests; each further batch has four times as many
 
 

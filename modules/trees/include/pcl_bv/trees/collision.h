@@ -38,8 +38,8 @@ class MovingVolumes {
 bool within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,
             double margin = 0);
 
-/// Whether a point is within `margin` of a volume: distance() of its ConvexBody, moved, is at most that.
-/// Likewise never false for two that are.
+/// Whether a point is within `margin` of a volume. Likewise never false for two that are. Where a point is
+/// near, distance() of the volume's ConvexBody, moved, decides, and errs towards true as pairs.h says.
 bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
             double margin = 0);
 
