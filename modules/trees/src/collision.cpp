@@ -45,7 +45,7 @@ bool may_touch(const PointTree& points, const Prepared& volume, const Eigen::Iso
   if (volume.body.empty()) return false;
   if (volume.around.empty()) return true;
   const Image center = image_of(pose, coordinates(volume.around.center()));
-  return any_within(points, center, add_up(multiply_up(volume.around.radius(), stretch), margin));
+  return any_within(points, center, volume.around.radius() * stretch + margin);
 }
 
 // Of a volume where it is now.

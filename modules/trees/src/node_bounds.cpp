@@ -31,9 +31,9 @@ void clip(double start, double slope, double low, double high, double& enter, do
     if (start < low || start > high) exit = -kInfinity;
     return;
   }
-  if (slope < 0) std::swap(low, high);
-  enter = std::max(enter, (low - start) / slope);
-  exit = std::min(exit, (high - start) / slope);
+  const double a = (low - start) / slope, b = (high - start) / slope;
+  enter = std::max(enter, std::min(a, b));
+  exit = std::min(exit, std::max(a, b));
 }
 
 // Infinity if nothing is left of t >= 0; what underflow may have added there is kept.
@@ -71,6 +71,7 @@ double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size
 }
 
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k) {
+  if (group.low[0][k] > group.high[0][k]) return kInfinity;  // nothing inside
   double enter = 0, exit = kInfinity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     clip(ray.from.at[axis], ray.u[axis], group.low[axis][k] - ray.from.slack,
@@ -204,6 +205,7 @@ double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
   double enter = 0, exit = kInfinity;
   if (!slabs_.empty()) {
     const Slabs& slabs = slabs_[shape];
+    if (slabs.min[3] > slabs.max[3]) return kInfinity;
     for (std::size_t i = 3; i < kSlabs; ++i) {
       const Eigen::Vector3d d = cube_vector(i);
       clip(dot3(d, ray.from.at), dot3(d, ray.u), slabs.min[i] - 4 * ray.from.slack,

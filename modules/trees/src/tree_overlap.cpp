@@ -5,7 +5,6 @@
 
 #include "box_relation.h"
 #include "grown.h"
-#include "pcl_bv/numeric/directed.h"
 #include "volume_walk.h"
 
 namespace pcl_bv {
@@ -53,9 +52,10 @@ class TreeOverlap {
 
 }  // namespace
 
-// Neighbor's squares have six roundings. This one does not underflow: an image's error is 2^-500 or more.
+// 2^-48 is for the six roundings of Neighbor's squares, the two here and two of the distance: 2^-49 in all.
+// This square does not underflow: an image's error is 2^-500 or more.
 bool any_within(const PointTree& points, const Image& place, double distance) {
-  const double reach = add_up(distance, place.error);
+  const double reach = distance + place.error;
   return any_in_ball(points.isa(), points.packed(), place.place, reach * reach * (1 + 0x1p-48));
 }
 

@@ -26,9 +26,9 @@ struct VolumeTree::Nodes {
   /// it returns true.
   template <typename Visit>
   bool visit_near(const Coordinates& place, const Visit& visit) const {
-    const FramePlace at(boxes, place);
     const BoxQuery query = boxes.query(place, place);
     if (shapes.none()) return boxes.visit(query, visit);
+    const FramePlace at(boxes, place);
     for (const std::uint32_t number : boxes.everywhere()) {
       if (visit(number)) return true;
     }
