@@ -52,12 +52,14 @@ Long margin(const ConvexRegion& region, const PlainBox& box) {
   return 0x1p-38L * size + 4 * Long(region.doubt) + 0x1p-480L;
 }
 
+constexpr int kRounds = test::kEmulated ? 1000 : 20'000;
+
 // Boxes of all sizes, flat ones and points among them, about regions of all sizes: each number is now and
 // then the one that the margin depends on.
 class Cases {
  public:
   void each(const std::function<void(ConvexRegion, const PlainBox&)>& ask) {
-    for (int round = 0; round < (test::kEmulated ? 1000 : 20'000); ++round) {
+    for (int round = 0; round < kRounds; ++round) {
       const double place = size(), away = size(), extent = size();
       ConvexRegion region;
       region.center = coordinates(random_.vector(place));
@@ -115,7 +117,7 @@ TEST(BoxRelation, ToABallIsClearBeyondTheMargin) {
     }
     expect_held_by([&](Long t) { return of_radius((far + t * least) / (1 - t * 0x1p-38L)); }, box);
   });
-  EXPECT_GT(apart, 4000);
+  EXPECT_GT(apart, kRounds / 5);
 }
 
 TEST(BoxRelation, ToPlanesIsClearBeyondTheMargin) {
@@ -160,7 +162,7 @@ TEST(BoxRelation, ToSlabsIsClearBeyondTheMargin) {
       expect_held_by([&](Long t) { return of_slab(at[i] + reach[i] + t * least); }, box);
     }
   });
-  EXPECT_GT(apart, 10'000);
+  EXPECT_GT(apart, kRounds / 2);
 }
 
 // The radius at which the body's surface is t margins from the box, which depends on the radius in turn.
@@ -208,7 +210,7 @@ TEST(BoxRelation, ToARoundBodyIsClearBeyondTheMargin) {
       EXPECT_EQ(relation(cut, box), Relation::crosses);
     }
   });
-  EXPECT_GT(apart, 4000);
+  EXPECT_GT(apart, kRounds / 5);
 }
 
 // The margin is 3 * 2^-38 here, which the numbers hold without rounding.

@@ -115,8 +115,10 @@ TEST(SweepWindow, RefusesWhatItCannotHoldAndStaysAsItWas) {
   EXPECT_EQ(window.all().to_bytes(), bytes);
   window.add(doubles.view().slice(0, 0));  // no points are of no type
   EXPECT_THROW(window.add(doubles.view()), std::invalid_argument);
-  window.drop_oldest();
-  window.drop_oldest();
+  window.add(floats.view());  // now one sweep is dropped, and the others are merged from their end
+  EXPECT_THROW(window.add(doubles.view().slice(0, 1)), std::invalid_argument);
+  while (window.size() > 0)
+    window.drop_oldest();
   window.add(doubles.view());
   EXPECT_EQ(window.points(), 50U);
 }
