@@ -135,7 +135,7 @@ PlaneBody::Proof PlaneBody::prove(const Eigen::Vector3d& direction) const {
 }
 
 void PlaneBody::prove_box() {
-  std::array<Proof, 2 * 3> proofs;  // along x, y, z, then the other way
+  std::array<Proof, 6> proofs;  // along x, y, z, then the other way
   double reach = 0;
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     proofs[i] = prove((i < 3 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<int>(i % 3)));

@@ -114,6 +114,7 @@ class PointTree {
   struct KeptScratch {
     KeptScratch() = default;
     KeptScratch(const KeptScratch&) {}
+    // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): each keeps its own.
     KeptScratch& operator=(const KeptScratch&) { return *this; }
     KeptScratch(KeptScratch&&) = default;
     KeptScratch& operator=(KeptScratch&&) = default;
