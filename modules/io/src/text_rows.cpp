@@ -165,10 +165,9 @@ class RowReader {
   template <typename Body>
   void over_pieces(const ParallelPolicy& policy, const Body& body) const {
     constexpr std::size_t group = 4;
-    for_each_chunk(policy, (pieces_.count() + group - 1) / group, [&](std::size_t chunk) {
+    for_each_run(policy, pieces_.count(), group, [&](std::size_t begin, std::size_t end) {
       ByteBuffer text;
-      const std::size_t stop = std::min((chunk + 1) * group, pieces_.count());
-      for (std::size_t piece = chunk * group; piece < stop; ++piece)
+      for (std::size_t piece = begin; piece < end; ++piece)
         body(piece, text);
     });
   }

@@ -177,15 +177,13 @@ void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, c
   start_scratch(cells, scratch);
   if (!(r2 > 0)) return;  // Nothing is linked.
   const CoreSearch<T> search{cells, scratch, r2, min_points, solid};
-  const std::size_t blocks = keys.size();
   const auto in_parts = [&](auto work) {
-    for_each_chunk(policy, (blocks + blocks_per_part - 1) / blocks_per_part, [&](std::size_t part) {
+    for_each_run(policy, keys.size(), blocks_per_part, [&](std::size_t begin, std::size_t end) {
       const FloatEnvironment environment;
-      const std::size_t begin = part * blocks_per_part;
       BlockRows<Key> rows(grid, keys, begin);
       BlocksAround around{};
       Neighbourhood<T> near(cells);
-      for (std::size_t b = begin; b < std::min(blocks, begin + blocks_per_part); ++b) {
+      for (std::size_t b = begin; b < end; ++b) {
         const auto find_around = [&]() -> const BlocksAround& {
           rows.find(b, around);
           return around;

@@ -130,13 +130,12 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
 
 void turn_all(std::vector<Frame>& frames, int times, const Silhouette& shape, const Execution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
-  const std::size_t chunks = (frames.size() + kFramesPerChunk - 1) / kFramesPerChunk;
   const std::size_t looks = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
-  for_each_chunk(worthwhile(execution, Work::look, looks), chunks, [&](std::size_t chunk) {
+  const ParallelPolicy policy = worthwhile(execution, Work::look, looks);
+  for_each_run(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     Silhouette::View view;
-    const std::size_t end = std::min(frames.size(), (chunk + 1) * kFramesPerChunk);
-    for (std::size_t i = chunk * kFramesPerChunk; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i)
       turn(frames[i], times, shape, view);
   });
 }
