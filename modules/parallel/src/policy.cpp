@@ -27,8 +27,8 @@ unsigned thread_count(const ParallelPolicy& policy) {
   return or_all(executor->threads, internal::process_processors);
 }
 
-ParallelPolicy limit_threads(const ParallelPolicy& policy, unsigned threads) {
-  const unsigned limited = std::max(1U, std::min(threads, thread_count(policy)));
+ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads) {
+  const auto limited = static_cast<unsigned>(std::clamp<std::size_t>(threads, 1, thread_count(policy)));
   if (limited == 1) return Serial{};
   if (std::holds_alternative<OpenMP>(policy)) return OpenMP{limited};
   if (const auto* executor = std::get_if<Executor>(&policy)) return Executor{limited, executor->run};

@@ -19,14 +19,14 @@ namespace {
 constexpr std::size_t kBlock = 256;
 
 // Fewer than four blocks are done before another thread has come.
-unsigned threads_for(std::size_t count) {
-  return static_cast<unsigned>(std::clamp<std::size_t>(count / (4 * kBlock), 1, 1024));
+std::size_t threads_for_questions(std::size_t count) {
+  return count / (4 * kBlock);
 }
 
 // Calls ask(begin, end) for blocks of `count` questions.
 template <typename Ask>
 void ask_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
-  for_each_run(limit_threads(execution.parallel, threads_for(count)), count, kBlock,
+  for_each_run(limit_threads(execution.parallel, threads_for_questions(count)), count, kBlock,
                [&](std::size_t begin, std::size_t end) {
                  const FloatEnvironment environment;
                  ask(begin, end);

@@ -49,8 +49,8 @@ std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volume
 }
 
 // Two chunks are some 50 us of work: less is not worth waking a thread.
-unsigned threads_for(std::size_t chunks) {
-  return static_cast<unsigned>(std::clamp<std::size_t>(chunks / 2, 1, 1024));
+std::size_t threads_for_chunks(std::size_t chunks) {
+  return chunks / 2;
 }
 
 }  // namespace
@@ -90,11 +90,12 @@ void RegionMask::mark(const PointView& points, std::vector<std::uint8_t>& inside
                       const Execution& execution) const {
   inside.resize(points.count);
   const std::size_t chunks = chunk_count(points.count);
-  for_each_chunk(limit_threads(execution.parallel, threads_for(chunks)), chunks, [&](std::size_t chunk) {
-    const FloatEnvironment environment;
-    const LoadedPoints part = load_chunk(points, chunk);
-    mark_chunk(part.view(), inside.data() + chunk * kChunkPoints, execution);
-  });
+  for_each_chunk(limit_threads(execution.parallel, threads_for_chunks(chunks)), chunks,
+                 [&](std::size_t chunk) {
+                   const FloatEnvironment environment;
+                   const LoadedPoints part = load_chunk(points, chunk);
+                   mark_chunk(part.view(), inside.data() + chunk * kChunkPoints, execution);
+                 });
 }
 
 }  // namespace pcl_bv

@@ -48,6 +48,6 @@ using ParallelPolicy = std::variant<Serial, OpenMP, Threads, Executor>;
 unsigned thread_count(const ParallelPolicy& policy);
 
 /// The same policy with at most `threads` threads (at least 1). Throws as thread_count().
-ParallelPolicy limit_threads(const ParallelPolicy& policy, unsigned threads);
+ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads);
 
 }  // namespace pcl_bv
