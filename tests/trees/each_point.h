@@ -4,6 +4,8 @@
 // What trees over points are judged by: every point asked by itself.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "any_volumes.h"
+#include "clouds.h"
 #include "pcl_bv/trees/point_tree.h"
 
 namespace pcl_bv {
@@ -122,6 +125,20 @@ class Questions {
   Aabb box_;
   double size_ = 0;
 };
+
+// Calls body(tree, points, cloud) for every nasty cloud and instruction set, until something fails.
+template <typename T, typename Body>
+void for_each_tree(const Body& body) {
+  for (const auto& cloud : test::nasty_clouds<T>()) {
+    SCOPED_TRACE(cloud.name);
+    const EachPoint points(cloud.view());
+    for (const Isa isa : usable_isas()) {
+      SCOPED_TRACE(isa_name(isa));
+      body(PointTree(cloud.view(), {Serial{}, isa}), points, cloud);
+      if (::testing::Test::HasFailure()) return;
+    }
+  }
+}
 
 }  // namespace testing
 }  // namespace pcl_bv

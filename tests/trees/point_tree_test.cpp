@@ -70,21 +70,13 @@ using ScalarTypes = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(PointTreeOf, ScalarTypes);
 
 TYPED_TEST(PointTreeOf, FindsWhatIsNearAsIfEachPointWereAsked) {
-  const std::uint64_t seed = 1;
-  for (const auto& cloud : test::nasty_clouds<TypeParam>()) {
-    SCOPED_TRACE(cloud.name);
-    const EachPoint points(cloud.view());
-    for (const Isa isa : usable_isas()) {
-      SCOPED_TRACE(isa_name(isa));
-      const PointTree tree(cloud.view(), {Serial{}, isa});
-      EXPECT_EQ(tree.size(), points.size());
-      EXPECT_EQ(tree.dropped(), cloud.size() - points.size());
-      Questions questions(points, seed);
-      for (int i = 0; i < (test::kEmulated ? 5 : 40); ++i)
-        expect_near_as_each(tree, points, questions);
-      if (::testing::Test::HasFailure()) return;
-    }
-  }
+  for_each_tree<TypeParam>([](const PointTree& tree, const EachPoint& points, const auto& cloud) {
+    EXPECT_EQ(tree.size(), points.size());
+    EXPECT_EQ(tree.dropped(), cloud.size() - points.size());
+    Questions questions(points, 1);
+    for (int i = 0; i < (test::kEmulated ? 5 : 40); ++i)
+      expect_near_as_each(tree, points, questions);
+  });
 }
 
 TYPED_TEST(PointTreeOf, MeetsFirstWhatTheFirstOfAllPointsIs) {

@@ -96,30 +96,28 @@ class SweptBallOf : public ::testing::Test {};
 using ScalarTypes = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(SweptBallOf, ScalarTypes);
 
-TYPED_TEST(SweptBallOf, IsShownAllThatItTouchesAndOnlyWhatIsNear) {
-  for (const auto& cloud : test::nasty_clouds<TypeParam>()) {
-    SCOPED_TRACE(cloud.name);
-    const EachPoint points(cloud.view());
-    for (const Isa isa : usable_isas()) {
-      SCOPED_TRACE(isa_name(isa));
-      const PointTree tree(cloud.view(), {Serial{}, isa});
-      if (tree.empty()) continue;
-      Questions questions(points, 1);
-      for (int i = 0; i < (test::kEmulated ? 3 : 20); ++i) {
-        const Vector3d origin = questions.place(), direction = questions.direction();
-        const Ray ray{origin, direction, i % 5 == 0 ? 0 : 0.1 * questions.distance(origin)};
-        if (direction.isZero(0)) continue;
-        const SweptBall ball(tree.packed().boxes, coordinates(origin), coordinates(direction), ray.radius);
-        const double until = questions.uniform(0, 1) * questions.size() / direction.norm();
-        for (const double end : {kInfinity, until}) {
-          Shown shown(tree, end == until ? ball.latest(until) : std::numeric_limits<float>::max());
-          visit_along(tree.isa(), tree.packed(), ball, shown);
-          ASSERT_NO_FATAL_FAILURE(expect_only_what_is_near(tree, ray, ball, shown));
-          ASSERT_NO_FATAL_FAILURE(expect_all_that_is_touched(tree, ray, end, shown));
-        }
-      }
-    }
+void expect_shown(const PointTree& tree, const Ray& ray, double until) {
+  const SweptBall ball(tree.packed().boxes, coordinates(ray.origin), coordinates(ray.direction), ray.radius);
+  for (const double end : {kInfinity, until}) {
+    Shown shown(tree, end == until ? ball.latest(until) : std::numeric_limits<float>::max());
+    visit_along(tree.isa(), tree.packed(), ball, shown);
+    ASSERT_NO_FATAL_FAILURE(expect_only_what_is_near(tree, ray, ball, shown));
+    ASSERT_NO_FATAL_FAILURE(expect_all_that_is_touched(tree, ray, end, shown));
   }
+}
+
+TYPED_TEST(SweptBallOf, IsShownAllThatItTouchesAndOnlyWhatIsNear) {
+  for_each_tree<TypeParam>([](const PointTree& tree, const EachPoint& points, const auto&) {
+    if (tree.empty()) return;
+    Questions questions(points, 1);
+    for (int i = 0; i < (test::kEmulated ? 3 : 20); ++i) {
+      const Vector3d origin = questions.place(), direction = questions.direction();
+      const Ray ray{origin, direction, i % 5 == 0 ? 0 : 0.1 * questions.distance(origin)};
+      if (direction.isZero(0)) continue;
+      const double until = questions.uniform(0, 1) * questions.size() / direction.norm();
+      ASSERT_NO_FATAL_FAILURE(expect_shown(tree, ray, until));
+    }
+  });
 }
 
 // Else a greater pad would let through what expect_only_what_is_near() measures by it.
