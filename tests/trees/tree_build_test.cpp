@@ -217,7 +217,7 @@ TEST(BoxLevels, TellHowLittleABallMayBeThatSurelyHoldsAPoint) {
       for (int place = 0; place < 20; ++place)
         found = std::min(found, surely_reached(somewhere(), low[k], high[k]));
     }
-    raise_levels(boxes);
+    find_least_reached(boxes);
     const double told = static_cast<double>(boxes.least_reached[0]) / (boxes.scale * boxes.scale);
     EXPECT_LE(told, found + 1e-5);
     EXPECT_NEAR(told, least, 1e-5);

@@ -94,6 +94,9 @@ void raise_levels(BoxLevels& boxes) {
       }
     }
   }
+}
+
+void find_least_reached(BoxLevels& boxes) {
   boxes.least_reached.resize(boxes.groups.size());
   std::transform(boxes.groups.begin(), boxes.groups.end(), boxes.least_reached.begin(), least_reached);
 }

@@ -17,8 +17,10 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds
 /// Sets box `item` of level 0 to one around [low, high], rounded outward.
 void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, const Coordinates& high);
 
-/// Sets the boxes of all levels but 0 from those below, and then least_reached. O(items / 16), in the calling
-/// thread.
+/// Sets the boxes of all levels but 0 from those below. O(items / 16), in the calling thread.
 void raise_levels(BoxLevels& boxes);
+
+/// Sets least_reached from the boxes. O(items), in the calling thread.
+void find_least_reached(BoxLevels& boxes);
 
 }  // namespace pcl_bv

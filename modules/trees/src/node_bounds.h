@@ -20,6 +20,9 @@ struct FramePlace {
   double slack;  ///< By coordinate.
 
   FramePlace(const VolumeBoxes& boxes, const Coordinates& place);
+
+  /// Whether bounds of nodes can be told from there: beyond 2^500 squares leave the range of double.
+  bool is_in_range() const { return at.cwiseAbs().maxCoeff() < 0x1p500; }
 };
 
 /// A ray there: at + t u. The greatest component of u is between 1 and 2.

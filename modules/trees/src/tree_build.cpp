@@ -92,6 +92,7 @@ void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPa
     }
   });
   raise_levels(tree.boxes);
+  find_least_reached(tree.boxes);
 }
 
 template <typename T>

@@ -10,8 +10,9 @@
 
 namespace pcl_bv {
 
-/// Whether a point is within `distance` of a place, of which the image is given. Never false where one is,
-/// also if the distance is rounded twice; errs by 2^-48 of the distance and by the image's error.
+/// Whether a point is within `distance` of a place, of which the image is given, as image_of() has it. Never
+/// false where one is, also if the distance is rounded twice; errs by 2^-48 of the distance and by the
+/// image's error. Of an error and a distance both below 2^-500 squares may underflow.
 bool any_within(const PointTree& points, const Image& place, double distance);
 
 /// within() of collision.h, for two trees that have points.

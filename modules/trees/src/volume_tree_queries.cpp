@@ -46,30 +46,32 @@ bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Vi
                                       : visit_all(nodes.volumes, ask);
 }
 
-// Whether bounds of nodes can be told there: squares of places beyond 2^500 times the size of all volumes
-// leave the range of double.
-bool is_in_range(const VolumeBoxes& boxes, const Coordinates& place) {
-  return is_valid(place) && FramePlace(boxes, place).at.cwiseAbs().maxCoeff() < 0x1p500;
-}
-
 // Calls visit for the volumes that a ray may hit where their bound is at most limit(), t in the unit of the
 // ray; for some twice.
 template <typename Nodes, typename Limit, typename Visit>
 void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                  const Limit& limit, const Visit& visit) {
-  if (!is_in_range(nodes.boxes, coordinates(origin)) || !direction.allFinite()) {
-    visit_all(nodes.volumes, [&](std::uint32_t number) { return visit(number), false; });
+  const auto ask = [&](std::uint32_t number) {
+    visit(number);
+    return false;
+  };
+  if (!is_valid(coordinates(origin)) || !direction.allFinite()) {
+    visit_all(nodes.volumes, ask);
     return;
   }
   if (direction.isZero(0)) {
-    nodes.visit_near(coordinates(origin), [&](std::uint32_t number) { return visit(number), false; });
+    nodes.visit_near(coordinates(origin), ask);
+    return;
+  }
+  const FrameRay ray(nodes.boxes, coordinates(origin), coordinates(direction));
+  if (!ray.from.is_in_range()) {
+    visit_all(nodes.volumes, ask);
     return;
   }
   for (const std::uint32_t number : nodes.boxes.everywhere())
     visit(number);
   for (const std::uint32_t number : nodes.loose)
     visit(number);
-  const FrameRay ray(nodes.boxes, coordinates(origin), coordinates(direction));
   const auto bound = [&](std::size_t group, std::size_t k) {
     const double enter = enter_box(ray, nodes.boxes.levels().groups[group], k);
     if (nodes.shapes.none() || enter == kInfinity) return enter;
@@ -187,13 +189,13 @@ std::optional<VolumeDistance> VolumeTree::nearest(const Eigen::Vector3d& point, 
     if (found.distance <= max_distance && (!nearest || before(found, *nearest))) nearest = found;
     return false;
   };
-  if (!is_in_range(nodes_->boxes, coordinates(point))) {
+  const FramePlace place(nodes_->boxes, coordinates(point));
+  if (!is_valid(coordinates(point)) || !place.is_in_range()) {
     visit_all(nodes_->volumes, visit);
     return nearest;
   }
   for (const std::uint32_t number : nodes_->boxes.everywhere())
     visit(number);
-  const FramePlace place(nodes_->boxes, coordinates(point));
   const double scale = nodes_->boxes.levels().scale;
   const auto bound = [&](std::size_t group, std::size_t k) {
     const double box = distance_to_box(place, nodes_->boxes.levels().groups[group], k);

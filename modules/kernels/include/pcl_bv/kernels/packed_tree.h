@@ -50,7 +50,7 @@ struct BoxLevels {
 
   std::vector<BoxGroup> groups;
   /// By group, in this frame and squared: the radius of the smallest ball that surely holds a point of one of
-  /// its boxes, at the best place for it.
+  /// its boxes, at the best place for it. Of a PackedTree; else empty.
   std::vector<float> least_reached;
   std::array<std::size_t, kMostLevels + 1> first{};  ///< The number, among all groups, of each level's first.
   std::array<std::size_t, kMostLevels + 1>
@@ -111,4 +111,4 @@ std::optional<Neighbor> find_nearest(UsableIsa isa, const PackedTree& tree, cons
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most,
                   double limit, std::vector<Neighbor>& found);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv
