@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The machine and its limit, growth, the pipeline, memory: tables in Markdown that no other library is in."""
+import peer_list
 from results import LEVELS, count, exponent, number, points_of, table
 
 
@@ -21,6 +22,14 @@ def parts(results):
         ["part", "commit", "date", "seconds", "load of the machine at its start"],
         [[f"`{name}`", p["commit"], p["date"], p["seconds"], p["load"]] for name, p in results.parts.items()],
     )
+
+
+def not_measured(results):
+    """Names each peer and part without rows, so that an empty cell is no riddle."""
+    lines = peer_list.gaps(results)
+    if not lines:
+        return "Every peer that this page names was installed and measured."
+    return "Not measured, so empty below:\n\n" + "\n".join(f"* {line}" for line in lines)
 
 
 def limit(results):
