@@ -47,8 +47,10 @@ class PcdAscii : public FileTest {
     return value;
   }
 
+  // For a coordinate z of this type.
   std::string reason(const std::string& type, int size, const std::string& number) const {
-    return reason_for_content(text(type, size, 1, "1 2 3 " + number + "\n"));
+    return reason_for_content("FIELDS x y z\nSIZE 4 4 " + std::to_string(size) + "\nTYPE F F " + type +
+                              "\nWIDTH 1\nDATA ascii\n1 2 " + number + "\n");
   }
 };
 
@@ -126,13 +128,13 @@ TEST_F(PcdAscii, ReadsIntegersUpToTheEndsOfTheirRange) {
 }
 
 TEST_F(PcdAscii, RefusesIntegersBeyondTheirRange) {
-  EXPECT_EQ(reason("U", 1, "256"), "row 1, field 'a': '256' is not a number of TYPE U, SIZE 1");
+  EXPECT_EQ(reason("U", 1, "256"), "row 1, field 'z': '256' is not a number of TYPE U, SIZE 1");
   EXPECT_THAT(reason("I", 1, "128"), HasSubstr("'128' is not a number of TYPE I, SIZE 1"));
-  EXPECT_THAT(reason("U", 2, "-1"), HasSubstr("'-1' is not a number"));
+  EXPECT_THAT(reason("U", 2, "-32769"), HasSubstr("'-32769' is not a number"));
   EXPECT_THAT(reason("U", 4, "4294967296"), HasSubstr("'4294967296' is not a number"));
   EXPECT_THAT(reason("I", 8, "9223372036854775808"), HasSubstr("is not a number"));
   EXPECT_THAT(reason("U", 4, "nan"), HasSubstr("'nan' is not a number"));
-  EXPECT_THAT(reason("U", 4, "1.0"), HasSubstr("'1.0' is not a number"));
+  EXPECT_THAT(reason("U", 4, "1.5"), HasSubstr("'1.5' is not a number"));
 }
 
 TEST_F(PcdAscii, RefusesWordsThatAreNoNumbers) {
@@ -140,7 +142,7 @@ TEST_F(PcdAscii, RefusesWordsThatAreNoNumbers) {
        {"abc", "1.5x", "0x10", "1,5", "1e", "--1", "+-1", "++1", "+", "-", ".", "#", "1e+"}) {
     SCOPED_TRACE(word);
     EXPECT_EQ(reason("F", 4, word),
-              "row 1, field 'a': '" + std::string(word) + "' is not a number of TYPE F, SIZE 4");
+              "row 1, field 'z': '" + std::string(word) + "' is not a number of TYPE F, SIZE 4");
   }
 }
 
@@ -179,8 +181,9 @@ TEST_F(PcdAscii, ReadsTheShortestPossibleRows) {
 }
 
 TEST_F(PcdAscii, RefusesHalfFloats) {
-  EXPECT_THAT(reason("F", 2, "1"), HasSubstr("TYPE F, SIZE 2 is not supported in ascii"));
-  EXPECT_THAT(reason("F", 1, "1"), HasSubstr("TYPE F, SIZE 1 is not supported in ascii"));
+  for (const int size : {1, 2})
+    EXPECT_THAT(reason_for_content(text("F", size, 1, "1 2 3 4\n")),
+                HasSubstr("TYPE F, SIZE " + std::to_string(size) + " is not supported in ascii"));
 }
 
 TEST_F(PcdAscii, DoesNotFollowTheLocale) {

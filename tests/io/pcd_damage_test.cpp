@@ -12,8 +12,8 @@
 #include <random>
 #include <thread>
 
-#include "files.h"
 #include "allocations.h"
+#include "files.h"
 #include "pcl_bv/io/pcd.h"
 #include "sample_clouds.h"
 
@@ -191,6 +191,36 @@ TEST_F(PcdDamage, CompressedThatCannotBeUnpackedSaysSo) {
         reason_for_content(header("3", "binary_compressed") + block_sizes(20, 39) + std::string(20, byte)),
         "corrupt: the compressed data cannot be unpacked");
   }
+}
+
+std::string two_points_of_five_fields() {
+  return "FIELDS x y z a b\nSIZE 4 4 4 4 4\nTYPE F F F F F\nWIDTH 2\nDATA binary_compressed\n" +
+         block_sizes(40, 40);
+}
+
+TEST_F(PcdDamage, CompressedThatIsStoredAsItIsIsRead) {
+  const float columns[10] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  const std::string stored(reinterpret_cast<const char*>(columns), sizeof columns);
+  write_text(file("stored.pcd"), two_points_of_five_fields() + stored);
+  const RawCloud cloud = read_pcd(file("stored.pcd"));
+  EXPECT_EQ(float_at(cloud, "x", 1), 2.0F);
+  EXPECT_EQ(float_at(cloud, "z", 0), 5.0F);
+  EXPECT_EQ(float_at(cloud, "b", 1), 10.0F);
+  EXPECT_EQ(reason_for_content(two_points_of_five_fields() + stored.substr(1)),
+            "truncated: 40 bytes of compressed data, the file has 39");
+}
+
+TEST_F(PcdDamage, CompressedThatIsNoSmallerThanItsDataIsUnpackedAllTheSame) {
+  const float columns[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const std::string data(reinterpret_cast<const char*>(columns), sizeof columns);
+  // Runs of 32 and 4 bytes as they are, then the last 4 again: 33 + 5 + 2 bytes for 40.
+  const std::string packed = '\x1f' + data.substr(0, 32) + '\x03' + data.substr(32) + "\x40\x03";
+  ASSERT_EQ(packed.size(), 40U);
+  write_text(file("packed.pcd"), two_points_of_five_fields() + packed);
+  const RawCloud cloud = read_pcd(file("packed.pcd"));
+  EXPECT_EQ(float_at(cloud, "x", 1), 2.0F);
+  EXPECT_EQ(float_at(cloud, "b", 0), 9.0F);
+  EXPECT_EQ(float_at(cloud, "b", 1), 9.0F);
 }
 
 TEST_F(PcdDamage, GreatSizesInASmallFileTakeNoMemory) {

@@ -129,6 +129,19 @@ TEST_F(PcdHeader, WithoutFieldsIsRefused) {
   EXPECT_EQ(set("FIELDS", "FIELDS").reason(), "header: no FIELDS");
 }
 
+TEST_F(PcdHeader, OfNoPointsNeedsNoFields) {
+  for (const char* fields : {"", "FIELDS", "FIELDS a b c"}) {
+    set("FIELDS", fields).set("WIDTH", "WIDTH 0").set("POINTS", "POINTS 0");
+    for (const char* encoding : {"DATA ascii", "DATA binary", "DATA binary_compressed"}) {
+      const RawCloud cloud = set("DATA", encoding).read("");
+      EXPECT_EQ(cloud.size(), 0u);
+      EXPECT_TRUE(cloud.xyz().empty());
+      write_pcd(file("b.pcd"), cloud);
+      EXPECT_EQ(read_pcd(file("b.pcd")).fields.size(), 3u);
+    }
+  }
+}
+
 TEST_F(PcdHeader, WithoutSizeOrTypeIsRefused) {
   EXPECT_EQ(set("SIZE", "").reason(), "header: no SIZE line");
   EXPECT_EQ(set("SIZE", "SIZE 4 4 4").set("TYPE", "").reason(), "header: no TYPE line");
@@ -137,7 +150,7 @@ TEST_F(PcdHeader, WithoutSizeOrTypeIsRefused) {
 TEST_F(PcdHeader, NamesTheCoordinatesThatAreMissing) {
   EXPECT_EQ(set("FIELDS", "FIELDS x y w").reason(), "no field z");
   EXPECT_EQ(set("FIELDS", "FIELDS a y b").reason(), "no field x, z");
-  EXPECT_EQ(set("FIELDS", "FIELDS X Y Z").reason(), "no field x, y, z");
+  EXPECT_EQ(set("FIELDS", "FIELDS X b c").reason(), "no field y, z");
 }
 
 TEST_F(PcdHeader, WithACoordinateTwiceIsRefused) {
@@ -145,13 +158,24 @@ TEST_F(PcdHeader, WithACoordinateTwiceIsRefused) {
   EXPECT_EQ(reason("1 2 3 4\n1 2 3 4\n"), "field x occurs twice");
 }
 
-TEST_F(PcdHeader, WithCoordinatesOfOtherTypesIsRefused) {
-  EXPECT_EQ(set("TYPE", "TYPE F I F").reason(),
-            "field y of TYPE I, SIZE 4, COUNT 1 is not supported, only F, 4, 1 and F, 8, 1");
-  EXPECT_THAT(set("TYPE", "TYPE F F F").set("COUNT", "COUNT 1 1 2").reason(),
+TEST_F(PcdHeader, WithCoordinatesThatAreNotOneNumberEachIsRefused) {
+  EXPECT_EQ(set("SIZE", "SIZE 4 2 4").reason(),
+            "field y of TYPE F, SIZE 2, COUNT 1 is not supported, only integers and floats of 4 or 8 bytes, "
+            "COUNT 1");
+  EXPECT_THAT(set("SIZE", "SIZE 4 4 4").set("COUNT", "COUNT 1 1 2").reason(),
               HasSubstr("field z of TYPE F, SIZE 4, COUNT 2 is not supported"));
-  EXPECT_EQ(set("COUNT", "COUNT 1 1 1").set("SIZE", "SIZE 8 8 4").reason(),
-            "fields x, y and z differ in SIZE");
+}
+
+TEST_F(PcdHeader, WithAViewpointThatMovesPointsIsReadAsStoredAndSaid) {
+  const std::string note =
+      "VIEWPOINT is not the identity and is not applied: coordinates are taken as stored";
+  for (const char* viewpoint : {"0 0 5 1 0 0 0", "0 0 0 0.5 0.5 0.5 0.5", "0 0 0 0 0 0 1", "1 2 3 0 0 0 0"}) {
+    const RawCloud cloud = set("VIEWPOINT", std::string("VIEWPOINT ") + viewpoint).read();
+    EXPECT_EQ(cloud.note, note) << viewpoint;
+    EXPECT_EQ(float_at(cloud, "z", 1), 6.0f);
+  }
+  for (const char* viewpoint : {"0 0 0 1 0 0 0", "0 -0 0 -1 0 0 0", "0 0 0 2 0 0 0", "0 0 0 0 0 0 0"})
+    EXPECT_EQ(set("VIEWPOINT", std::string("VIEWPOINT ") + viewpoint).read().note, "") << viewpoint;
 }
 
 TEST_F(PcdHeader, WithAnImpossibleSizeIsRefused) {
@@ -243,22 +267,31 @@ TEST_F(PcdHeader, WithALineTwiceIsRefused) {
             "header: FIELDS occurs twice");
 }
 
-TEST_F(PcdHeader, LongerThan65536BytesIsRefused) {
-  set("WIDTH", "# " + std::string(70000, 'c') + "\nWIDTH 2");
-  EXPECT_EQ(reason(), "truncated header: no DATA line in the first 65536 bytes");
+TEST_F(PcdHeader, UpToOneMebibyteIsRead) {
+  for (const std::size_t comment : {65'300, 65'400, 70'000, 262'144, 1'048'000})
+    EXPECT_EQ(set("WIDTH", "# " + std::string(comment, 'c') + "\nWIDTH 2").read().size(), 2u) << comment;
+  for (std::size_t before = 0; before < 160; ++before)  // the end of what is read first, at any byte
+    EXPECT_EQ(set("WIDTH", "# " + std::string(65'376 + before, 'c') + "\nWIDTH 2").reason(), "") << before;
+}
+
+TEST_F(PcdHeader, LongerThanOneMebibyteIsRefused) {
+  set("WIDTH", "# " + std::string(1'100'000, 'c') + "\nWIDTH 2");
+  EXPECT_EQ(reason(), "header: longer than the 1048576 bytes allowed, no DATA line in them");
 }
 
 TEST_F(PcdHeader, WhoseDataLineIsCutByTheLimitIsRefused) {
   const std::size_t room =
-      65536 - text().size() - 3 + std::strlen("ascii\n");  // "#", "\n" and the cut after "DATA "
+      1048576 - text().size() - 3 + std::strlen("ascii\n");  // "#", "\n" and the cut after "DATA "
   set("WIDTH", "#" + std::string(room - 1, 'c') + "\nWIDTH 2").set("DATA", "DATA ascii");
-  EXPECT_THAT(reason(), HasSubstr("no DATA line in the first 65536 bytes"));
+  EXPECT_THAT(reason(), HasSubstr("longer than the 1048576 bytes allowed"));
 }
 
 TEST_F(PcdHeader, OfAnotherFormatIsRefusedInPrintableWords) {
   const std::string reason = reason_for_content(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
   EXPECT_EQ(reason, "not a .pcd file: unknown header line '?PNG?'");
-  EXPECT_THAT(reason_for_content(std::string(100000, '\xff')), HasSubstr("no DATA line"));
+  EXPECT_THAT(reason_for_content(std::string(100000, '\xff')),
+              testing::StartsWith("not a .pcd file: unknown"));
+  EXPECT_THAT(reason_for_content(std::string(2000000, '\xff')), HasSubstr("no DATA line"));
   EXPECT_EQ(reason_for_content("ply\nformat ascii 1.0\n"), "not a .pcd file: unknown header line 'ply'");
 }
 

@@ -25,7 +25,41 @@ void copy(StridedSource from, StridedTarget to, Size bytes, std::size_t count) {
 }
 
 bool is_coordinate(const PointField& field) {
-  return field.type == 'F' && (field.size == 4 || field.size == 8) && field.count == 1;
+  return field.count == 1 && (field.type != 'F' || field.size >= 4);
+}
+
+// Whether float32 holds every value of such a field.
+bool fits_float32(const PointField& field) {
+  return field.type == 'F' ? field.size == 4 : field.size <= 2;
+}
+
+std::array<const PointField*, 3> find_coordinates(const std::vector<PointField>& fields) {
+  const std::array<std::string_view, 3> names = coordinate_names(fields);
+  return {find_field(fields, names[0]), find_field(fields, names[1]), find_field(fields, names[2])};
+}
+
+// From 2^53 on not every integer is a double.
+template <typename T>
+double exact_double(T value) {
+  if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
+    constexpr T limit = T{1} << 53;
+    bool beyond = value > limit;
+    if constexpr (std::is_signed_v<T>) beyond = beyond || value < -limit;
+    if (beyond)
+      throw IoError("the coordinate " + std::to_string(value) +
+                    " is no double: integers of 8 bytes may be at most 2^53");
+  }
+  return static_cast<double>(value);
+}
+
+template <typename From, typename To>
+void convert(StridedSource from, StridedTarget to, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    From value;
+    std::memcpy(&value, from.base + from.offset + i * from.stride, sizeof value);
+    const To converted = static_cast<To>(exact_double(value));
+    std::memcpy(to.base + to.offset + i * to.stride, &converted, sizeof converted);
+  }
 }
 
 }  // namespace
@@ -51,21 +85,28 @@ const PointField* find_field(const std::vector<PointField>& fields, std::string_
   return found == fields.end() ? nullptr : &*found;
 }
 
+bool is_coordinate_name(std::string_view name) {
+  return name.size() == 1 && std::string_view("xyzXYZ").find(name) != std::string_view::npos;
+}
+
 CoordinateFields coordinate_fields(const std::vector<PointField>& fields) {
   CoordinateFields result;
-  const std::string_view names[3] = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    const PointField* field = find_field(fields, names[axis]);
-    if (!field || !is_coordinate(*field)) return {};
-    const ScalarType scalar = field->size == 8 ? ScalarType::float64 : ScalarType::float32;
-    if (axis > 0 && scalar != result.scalar) return {};
-    result.scalar = scalar;
-    result.offset[axis] = field->offset;
+  const std::array<const PointField*, 3> found = find_coordinates(fields);
+  bool of_scalar = true;
+  for (const PointField* field : found) {
+    if (field == nullptr || !is_coordinate(*field)) return {};
+    if (!fits_float32(*field)) result.scalar = ScalarType::float64;
   }
   const std::size_t bytes = size_of(result.scalar);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.offset[axis] = found[axis]->offset;
+    result.type[axis] = found[axis]->type;
+    result.size[axis] = found[axis]->size;
+    of_scalar = of_scalar && found[axis]->type == 'F' && found[axis]->size == bytes;
+  }
   result.readable = true;
-  result.adjacent =
-      result.offset[1] == result.offset[0] + bytes && result.offset[2] == result.offset[0] + 2 * bytes;
+  result.adjacent = of_scalar && result.offset[1] == result.offset[0] + bytes &&
+                    result.offset[2] == result.offset[0] + 2 * bytes;
   return result;
 }
 
@@ -80,31 +121,57 @@ PointView view_at(const CoordinateFields& fields, const std::byte* records, std:
   return view;
 }
 
+void require_coordinates(RawCloud& cloud) {
+  if (cloud.size() > 0 || coordinate_fields(cloud.fields).readable) return check_coordinates(cloud.fields);
+  cloud.fields = {{"x", 'F', 4, 1, 0}, {"y", 'F', 4, 1, 4}, {"z", 'F', 4, 1, 8}};
+  cloud.point_step = 12;
+}
+
+void add_note(RawCloud& cloud, const std::string& note) {
+  cloud.note += (cloud.note.empty() ? "" : "; ") + note;
+}
+
+bool moves_points(const std::array<double, 7>& viewpoint) {
+  for (const std::size_t i : {0, 1, 2, 4, 5, 6}) {
+    if (viewpoint[i] != 0) return true;
+  }
+  return false;
+}
+
 void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                       std::size_t point_step, std::byte* xyz) {
   const std::size_t bytes = size_of(fields.scalar);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    copy_strided({records, fields.offset[axis], point_step}, {xyz, axis * bytes, 3 * bytes}, bytes, count);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const StridedSource from{records, fields.offset[axis], point_step};
+    const StridedTarget to{xyz, axis * bytes, 3 * bytes};
+    if (fields.type[axis] == 'F' && fields.size[axis] == bytes) {
+      copy_strided(from, to, bytes, count);
+      continue;
+    }
+    with_element_type({{}, fields.type[axis], fields.size[axis]}, [&](auto example) {
+      fields.scalar == ScalarType::float32 ? convert<decltype(example), float>(from, to, count)
+                                           : convert<decltype(example), double>(from, to, count);
+    });
+  }
 }
 
 template <typename Error>
 void check_coordinates(const std::vector<PointField>& fields) {
   std::string missing;
-  for (const char* name : {"x", "y", "z"}) {
-    const auto named = [&](const PointField& field) { return field.name == name; };
+  const std::array<std::string_view, 3> names = coordinate_names(fields);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto named = [&](const PointField& field) { return field.name == names[axis]; };
     const auto count = std::count_if(fields.begin(), fields.end(), named);
-    if (count > 1) throw Error(std::string("field ") + name + " occurs twice");
-    if (count == 0) missing += (missing.empty() ? "" : ", ") + std::string(name);
+    if (count > 1) throw Error("field " + std::string(names[axis]) + " occurs twice");
+    if (count == 0) missing += (missing.empty() ? "" : ", ") + std::string(names[axis]);
   }
   if (!missing.empty()) throw Error("no field " + missing);
-  for (const char* name : {"x", "y", "z"}) {
-    const PointField& field = *find_field(fields, name);
-    if (is_coordinate(field)) continue;
-    throw Error(std::string("field ") + name + " of TYPE " + field.type + ", SIZE " +
-                std::to_string(field.size) + ", COUNT " + std::to_string(field.count) +
-                " is not supported, only F, 4, 1 and F, 8, 1");
+  for (const PointField* field : find_coordinates(fields)) {
+    if (is_coordinate(*field)) continue;
+    throw Error("field " + field->name + " of TYPE " + field->type + ", SIZE " + std::to_string(field->size) +
+                ", COUNT " + std::to_string(field->count) +
+                " is not supported, only integers and floats of 4 or 8 bytes, COUNT 1");
   }
-  if (!coordinate_fields(fields).readable) throw Error("fields x, y and z differ in SIZE");
 }
 
 template void check_coordinates<IoError>(const std::vector<PointField>&);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -51,12 +52,18 @@ void copy_strided(StridedSource from, StridedTarget to, std::size_t bytes, std::
 /// The first field of this name, or null.
 const PointField* find_field(const std::vector<PointField>& fields, std::string_view name);
 
-/// Offsets of x, y, z in the record.
+/// Whether it is x, y or z (or X, Y, Z) of these fields.
+bool is_coordinate_name(std::string_view name);
+
+/// Where x, y and z are in the record.
 struct CoordinateFields {
   std::array<std::size_t, 3> offset{};
+  std::array<char, 3> type{};
+  std::array<std::uint32_t, 3> size{};
+  /// What they are read as: float32 if that holds every value of their types, else float64.
   ScalarType scalar = ScalarType::float32;
-  bool readable = false;  ///< All three exist, as single float32 or as single float64.
-  bool adjacent = false;  ///< They lie side by side in that order, so that a PointView fits.
+  bool readable = false;  ///< All three exist, as one number each.
+  bool adjacent = false;  ///< They lie side by side in that order, as `scalar`, so that a PointView fits.
 };
 
 CoordinateFields coordinate_fields(const std::vector<PointField>& fields);
@@ -65,12 +72,23 @@ CoordinateFields coordinate_fields(const std::vector<PointField>& fields);
 PointView view_at(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                   std::size_t point_step);
 
-/// Copies the coordinates of these records to where packed_points() finds them.
+/// check_coordinates(), but a cloud without points gets x, y and z as float32 where it lacks them: filters
+/// that have nothing left write no fields.
+void require_coordinates(RawCloud& cloud);
+
+/// Adds a line to what is said of the cloud.
+void add_note(RawCloud& cloud, const std::string& note);
+
+/// Whether a viewpoint is a translation or a rotation. One of zeros only is none.
+bool moves_points(const std::array<double, 7>& viewpoint);
+
+/// Copies the coordinates of these records to where packed_points() finds them; integers become floating
+/// point. Throws IoError for an integer beyond 2^53, which is none.
 void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                       std::size_t point_step, std::byte* xyz);
 
-/// Throws `Error` unless x, y and z exist, each once, in a form that is readable: IoError for readers, or
-/// std::invalid_argument.
+/// Throws `Error` unless x, y and z (or X, Y, Z) exist, each once, in a form that is readable: IoError for
+/// readers, or std::invalid_argument.
 template <typename Error = IoError>
 void check_coordinates(const std::vector<PointField>& fields);
 

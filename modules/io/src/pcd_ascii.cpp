@@ -11,6 +11,7 @@
 #include "pcd_format.h"
 #include "text.h"
 #include "text_rows.h"
+#include "unread_values.h"
 
 namespace pcl_bv {
 namespace {
@@ -34,7 +35,7 @@ std::size_t values_per_point(const RawCloud& cloud) {
 // Reads a row at a time; fields of one type that follow each other are read as one.
 class PointRow {
  public:
-  explicit PointRow(const RawCloud& cloud) : cloud_(cloud) {
+  PointRow(const RawCloud& cloud, UnreadValues& unread) : cloud_(cloud), unread_(unread) {
     for (const PointField& field : cloud.fields) {
       if (runs_.empty() || !extend_run(runs_.back(), field)) runs_.push_back(field);
     }
@@ -43,9 +44,8 @@ class PointRow {
   void operator()(TextRows& rows, std::byte* to) const {
     std::size_t read = 0;
     for (const PointField& run : runs_) {
-      const std::uint32_t found = rows.read(run, to);
-      read += found;
-      if (found < run.count) refuse(rows, read);
+      rows.read_all(run, to, [&](std::uint32_t found, std::byte* at) { pass_over(rows, read + found, at); });
+      read += run.count;
       to += run.bytes();
     }
     if (rows.find_value()) {
@@ -54,20 +54,24 @@ class PointRow {
   }
 
  private:
-  [[noreturn]] void refuse(TextRows& rows, std::size_t read) const {
+  // Where the value after `read` others is missing or none of its type.
+  void pass_over(TextRows& rows, std::size_t read, std::byte* at) const {
     if (!rows.find_value()) {
       throw RowError{"truncated: row ", " has " + std::to_string(read) + " values instead of " +
                                             std::to_string(values_per_point(cloud_))};
     }
-    const PointField* field = cloud_.fields.data();
-    for (; read >= field->count; ++field)
-      read -= field->count;
-    throw RowError{"row ", ", field " + in_quotes(field->name) + ": " + in_quotes(rows.value()) +
-                               " is not a number of TYPE " + field->type + ", SIZE " +
-                               std::to_string(field->size)};
+    std::size_t number = 0;
+    for (; read >= cloud_.fields[number].count; ++number)
+      read -= cloud_.fields[number].count;
+    if (unread_.pass_over(rows, number, at)) return;
+    const PointField& field = cloud_.fields[number];
+    throw RowError{"row ", ", field " + in_quotes(field.name) + ": " + in_quotes(rows.value()) +
+                               " is not a number of TYPE " + field.type + ", SIZE " +
+                               std::to_string(field.size)};
   }
 
   const RawCloud& cloud_;
+  UnreadValues& unread_;
   std::vector<PointField> runs_;
 };
 
@@ -84,13 +88,15 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
                   " values do not fit in the " + std::to_string(available) + " bytes after the header");
   }
   cloud.data.resize(cloud.size() * cloud.point_step);
+  UnreadValues unread(cloud, "row", 1);
   const RowsRead rows = read_text_rows({file, header.data_offset, false}, {1, cloud.size(), cloud.point_step},
-                                       PointRow(cloud), cloud.data.data(), policy);
+                                       PointRow(cloud, unread), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: row " + std::to_string(rows.count + 1) + " is missing, of " +
                   std::to_string(cloud.size()));
   }
   if (rows.more) throw IoError("more rows than the " + std::to_string(cloud.size()) + " POINTS");
+  unread.report(cloud);
 }
 
 std::string format_ascii_points(const RawCloud& cloud) {

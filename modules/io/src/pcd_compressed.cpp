@@ -40,10 +40,14 @@ void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t nee
   }
 }
 
-void unpack(const ByteBuffer& packed, ByteBuffer& unpacked) {
+// A block that LZF does not shrink is stored as it is by some writers. One of the same size can be LZF, too
+// (it takes up to 1 byte in 32 more than it is given), so that is tried first.
+void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   const unsigned got = lzf_decompress(packed.data(), static_cast<unsigned>(packed.size()), unpacked.data(),
                                       static_cast<unsigned>(unpacked.size()));
-  if (got != unpacked.size()) throw IoError("corrupt: the compressed data cannot be unpacked");
+  if (got == unpacked.size()) return;
+  if (packed.size() != unpacked.size()) throw IoError("corrupt: the compressed data cannot be unpacked");
+  unpacked.swap(packed);
 }
 
 // The records of a block of points stay in the cache while field after field is written to them.

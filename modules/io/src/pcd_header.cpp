@@ -9,6 +9,7 @@
 
 #include "fields.h"
 #include "pcd_format.h"
+#include "rest_of_file.h"
 #include "text.h"
 
 namespace pcl_bv {
@@ -44,26 +45,25 @@ bool begins_with_data_line(std::string_view text) {
              pcd_encoding_names.end();
 }
 
-KeywordLines gather_lines(std::string_view start, std::size_t& data_offset) {
-  KeywordLines lines;
+// False if there is no line DATA. `more`: the file goes on after `start`.
+bool gather_lines(std::string_view start, bool more, KeywordLines& lines, std::size_t& data_offset) {
   std::size_t at = 0;
   while (at < start.size()) {
     const std::size_t newline = start.find('\n', at);
     const std::size_t end = std::min(newline, start.size());
     const std::string_view line = start.substr(at, end - at);
     // A header that stops inside a line is cut off, whatever the piece of a word looks like.
-    const bool stops_inside =
-        newline == std::string_view::npos && !lines.empty() && !line.starts_with("DATA");
-    if (stops_inside || (newline == std::string_view::npos && start.size() == max_header_size)) break;
+    if (newline == std::string_view::npos && (more || (!lines.empty() && !line.starts_with("DATA"))))
+      return false;
     const std::string_view keyword = add_line(line, lines);
     at = std::min(end + 1, start.size());
     if (keyword == "DATA") {
       data_offset = at;
       if (begins_with_data_line(start.substr(at))) throw IoError("header: DATA occurs twice");
-      return lines;
+      return true;
     }
   }
-  throw IoError("truncated header: no DATA line in the first " + std::to_string(start.size()) + " bytes");
+  return false;
 }
 
 const Words& words_of(const KeywordLines& lines, std::string_view keyword, std::size_t count) {
@@ -105,7 +105,7 @@ std::uint32_t element_count(std::string_view word) {
 
 void read_fields(const KeywordLines& lines, RawCloud& cloud) {
   const auto names = lines.find("FIELDS");
-  if (names == lines.end() || names->second.empty()) throw IoError("header: no FIELDS");
+  if (names == lines.end() || names->second.empty()) return;
   const std::size_t n = names->second.size();
   const Words& sizes = words_of(lines, "SIZE", n);
   const Words& types = words_of(lines, "TYPE", n);
@@ -126,7 +126,8 @@ void read_shape(const KeywordLines& lines, RawCloud& cloud) {
   cloud.height = lines.count("HEIGHT") ? value("HEIGHT") : 1;
   cloud.width = lines.count("WIDTH") ? value("WIDTH") : value("POINTS");
   constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-  if (cloud.height != 0 && cloud.width > most / cloud.height / cloud.point_step) {
+  const std::size_t step = std::max<std::size_t>(cloud.point_step, 1);
+  if (cloud.height != 0 && cloud.width > most / cloud.height / step) {
     throw IoError("header: " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
                   " points of " + std::to_string(cloud.point_step) + " bytes are more than a file can hold");
   }
@@ -141,6 +142,8 @@ void read_viewpoint(const KeywordLines& lines, RawCloud& cloud) {
   const Words& words = words_of(lines, "VIEWPOINT", 7);
   std::transform(words.begin(), words.end(), cloud.viewpoint.begin(),
                  [](std::string_view word) { return number<double>("VIEWPOINT", word, "a number"); });
+  if (moves_points(cloud.viewpoint))
+    add_note(cloud, "VIEWPOINT is not the identity and is not applied: coordinates are taken as stored");
 }
 
 void check_version(const KeywordLines& lines) {
@@ -159,37 +162,22 @@ PcdEncoding read_encoding(const KeywordLines& lines) {
   throw IoError("header: DATA: " + in_quotes(word) + " is not one of ascii, binary, binary_compressed");
 }
 
-// PCL fills its files up to a whole page of memory.
-bool is_filling(const InputFile& file, std::size_t rest) {
-  constexpr std::size_t page = 4096;
-  if (rest >= page) return false;
-  std::vector<char> bytes(rest);
-  file.read(file.size() - rest, bytes.data(), rest);
-  return std::all_of(bytes.begin(), bytes.end(), [](char byte) { return byte == 0; });
-}
-
-// A recorder that stops early leaves the number of points as it was when it began.
-void note_rest(const InputFile& file, std::size_t rest, RawCloud& cloud) {
-  if (rest < cloud.point_step || is_filling(file, rest)) return;
-  const std::string bytes =
-      std::to_string(rest) + " bytes of " + std::to_string(rest / cloud.point_step) + " more points follow";
-  if (cloud.size() == 0) throw IoError("header: 0 points, but " + bytes);
-  cloud.note =
-      "the header says " + std::to_string(cloud.size()) + " points; " + bytes + ", which are not read";
-}
-
 }  // namespace
 
 PcdHeader read_pcd_header(const InputFile& file) {
-  const std::string start = read_start(file);
   PcdHeader header;
-  const KeywordLines lines = gather_lines(start, header.data_offset);
-  check_version(lines);
-  header.encoding = read_encoding(lines);
-  read_fields(lines, header.cloud);
-  check_coordinates(header.cloud.fields);
-  read_shape(lines, header.cloud);
-  read_viewpoint(lines, header.cloud);
+  parse_header(file, "DATA line", [&](std::string_view start, bool more) {
+    KeywordLines lines;
+    if (!gather_lines(start, more, lines, header.data_offset)) return false;
+    check_version(lines);
+    header.encoding = read_encoding(lines);
+    read_fields(lines, header.cloud);
+    read_shape(lines, header.cloud);
+    if (header.cloud.fields.empty() && header.cloud.size() > 0) throw IoError("header: no FIELDS");
+    require_coordinates(header.cloud);
+    read_viewpoint(lines, header.cloud);
+    return true;
+  });
   return header;
 }
 
@@ -197,7 +185,8 @@ void require_records(const InputFile& file, PcdHeader& header) {
   RawCloud& cloud = header.cloud;
   const std::size_t needed = cloud.size() * cloud.point_step;
   const std::size_t available = file.size() - header.data_offset;
-  if (needed <= available) return note_rest(file, available - needed, cloud);
+  const std::size_t end = header.data_offset + needed;
+  if (needed <= available) return note_rest(file, {end, file.size()}, cloud.point_step, cloud);
   throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
                 std::to_string(cloud.point_step) + " bytes need " + std::to_string(needed) +
                 " bytes, the file has " + std::to_string(available));

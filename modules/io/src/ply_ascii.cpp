@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "ply_format.h"
 #include "text_rows.h"
+#include "unread_values.h"
 
 namespace pcl_bv {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 // Reads a vertex at a time; properties of one type that follow each other are read as one.
 class VertexRow {
  public:
-  explicit VertexRow(const PlyElement& vertex) : vertex_(vertex) {
+  VertexRow(const PlyElement& vertex, UnreadValues& unread) : vertex_(vertex), unread_(unread) {
     for (const PlyProperty& property : vertex.properties) {
       const bool follows = !property.is_list && !steps_.empty() && !steps_.back().is_list;
       if (!follows || !extend_run(steps_.back().value, property.value)) steps_.push_back(property);
@@ -23,14 +25,17 @@ class VertexRow {
 
   void operator()(TextRows& rows, std::byte* to) const {
     const PlyProperty* property = vertex_.properties.data();
+    std::size_t field = 0;
     for (const PlyProperty& step : steps_) {
       if (step.is_list) {
         skip_list(rows, *property++);
         continue;
       }
-      const std::uint32_t found = rows.read(step.value, to);
-      property += found;
-      if (found < step.value.count) refuse(rows, property->value);
+      rows.read_all(step.value, to, [&](std::uint32_t found, std::byte* at) {
+        if (!unread_.pass_over(rows, field + found, at)) refuse(rows, property[found].value);
+      });
+      property += step.value.count;
+      field += step.value.count;
       to += step.value.bytes();
     }
     if (rows.find_value()) throw RowError{"vertex ", " has more values than properties"};
@@ -42,7 +47,7 @@ class VertexRow {
     PointField count = list.count;
     count.type = 'U';
     count.count = 1;
-    if (rows.read(count, reinterpret_cast<std::byte*>(&n)) == 0) refuse(rows, count);
+    if (rows.read(count, reinterpret_cast<std::byte*>(&n)) == 0) refuse(rows, list.count);
     for (; n > 0; --n) {
       if (!rows.find_value()) refuse(rows, list.value);
       rows.skip_value();
@@ -59,6 +64,7 @@ class VertexRow {
   }
 
   const PlyElement& vertex_;
+  UnreadValues& unread_;
   std::vector<PlyProperty> steps_;
 };
 
@@ -75,7 +81,7 @@ void skip(TextBody& body, const PlyElement& element) {
 void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPolicy& policy) {
   RawCloud& cloud = header.cloud;
   const std::size_t available = file.size() - header.data_offset;
-  const std::size_t values = header.vertex.properties.size();
+  const std::size_t values = std::max<std::size_t>(header.vertex.properties.size(), 1);
   // A value takes a digit and a separator, which only the last one of the file may lack.
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " vertices of " + std::to_string(values) +
@@ -86,8 +92,9 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   for (const PlyElement& element : header.skipped)
     skip(body, element);
   cloud.data.resize(cloud.size() * cloud.point_step);
-  const RowsRead rows = read_text_rows(body, {0, cloud.size(), cloud.point_step}, VertexRow(header.vertex),
-                                       cloud.data.data(), policy);
+  UnreadValues unread(cloud, "vertex", 0);
+  const RowsRead rows = read_text_rows(body, {0, cloud.size(), cloud.point_step},
+                                       VertexRow(header.vertex, unread), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: vertex " + std::to_string(rows.count) + " is missing, of " +
                   std::to_string(cloud.size()));
@@ -95,6 +102,7 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   if (header.vertices_are_last && rows.more) {
     throw IoError("more rows than the " + std::to_string(cloud.size()) + " vertices");
   }
+  unread.report(cloud);
 }
 
 }  // namespace pcl_bv

@@ -9,6 +9,7 @@
 
 #include "fields.h"
 #include "ply_format.h"
+#include "rest_of_file.h"
 
 namespace pcl_bv {
 namespace {
@@ -50,6 +51,8 @@ class ElementReader {
  public:
   ElementReader(const InputFile& file, const PlyHeader& header)
       : stream_(file, header.data_offset), swap_(header.encoding == PlyEncoding::big_endian) {}
+
+  std::size_t left() const { return stream_.left(); }
 
   void skip(const PlyElement& element) {
     check_room(element);
@@ -136,6 +139,9 @@ void read_ply_binary(const InputFile& file, PlyHeader& header) {
   for (const PlyElement& element : header.skipped)
     reader.skip(element);
   reader.read(header.vertex, header.cloud);
+  const bool has_rest = header.vertices_are_last && !header.vertex.has_lists();
+  if (has_rest)
+    note_rest(file, {file.size() - reader.left(), file.size()}, header.cloud.point_step, header.cloud);
 }
 
 }  // namespace pcl_bv

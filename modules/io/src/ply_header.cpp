@@ -19,10 +19,10 @@ struct TypeName {
 };
 
 constexpr TypeName type_names[] = {
-    {"char", 'I', 1},  {"uchar", 'U', 1},  {"short", 'I', 2},   {"ushort", 'U', 2},
-    {"int", 'I', 4},   {"uint", 'U', 4},   {"float", 'F', 4},   {"double", 'F', 8},
-    {"int8", 'I', 1},  {"uint8", 'U', 1},  {"int16", 'I', 2},   {"uint16", 'U', 2},
-    {"int32", 'I', 4}, {"uint32", 'U', 4}, {"float32", 'F', 4}, {"float64", 'F', 8}};
+    {"char", 'I', 1},    {"uchar", 'U', 1},  {"short", 'I', 2},  {"ushort", 'U', 2}, {"int", 'I', 4},
+    {"uint", 'U', 4},    {"float", 'F', 4},  {"double", 'F', 8}, {"int8", 'I', 1},   {"uint8", 'U', 1},
+    {"int16", 'I', 2},   {"uint16", 'U', 2}, {"int32", 'I', 4},  {"uint32", 'U', 4}, {"float32", 'F', 4},
+    {"float64", 'F', 8}, {"int64", 'I', 8},  {"uint64", 'U', 8}};
 
 PointField field_of(std::string_view type, std::string_view name) {
   for (const TypeName& known : type_names) {
@@ -44,15 +44,13 @@ class Lines {
     if (end + 1 < start.size() && start[end + 1] != '\n') newline_ = '\r';
   }
 
-  std::string_view next() {
+  /// False if no line ends in the rest of the text.
+  bool next(std::string_view& line) {
     const std::size_t newline = start_.find(newline_, at_);
-    if (newline == std::string_view::npos) {
-      throw IoError("truncated header: no end_header in the first " + std::to_string(start_.size()) +
-                    " bytes");
-    }
-    const std::string_view line = start_.substr(at_, newline - at_);
+    if (newline == std::string_view::npos) return false;
+    line = start_.substr(at_, newline - at_);
     at_ = newline + 1;
-    return line;
+    return true;
   }
 
   std::size_t offset() const { return at_; }
@@ -92,6 +90,14 @@ PlyProperty read_property(const Words& words, std::string_view line) {
 struct Contents {
   std::optional<PlyEncoding> encoding;
   std::vector<PlyElement> elements;
+
+  std::vector<PlyElement>::const_iterator vertex() const {
+    return std::find_if(elements.begin(), elements.end(),
+                        [](const PlyElement& element) { return element.name == "vertex"; });
+  }
+
+  /// Whether the element that is being read follows the vertices, so that its data is not looked at.
+  bool is_behind_vertices() const { return elements.end() - vertex() > 1; }
 };
 
 void read_line(const Words& words, std::string_view line, Contents& contents) {
@@ -102,10 +108,27 @@ void read_line(const Words& words, std::string_view line, Contents& contents) {
     contents.elements.push_back(read_element(words, line));
   } else if (words[0] == "property") {
     if (contents.elements.empty()) throw IoError("header: a property before any element");
-    contents.elements.back().properties.push_back(read_property(words, line));
+    if (!contents.is_behind_vertices())
+      contents.elements.back().properties.push_back(read_property(words, line));
   } else {
     refuse(line);
   }
+}
+
+// False if the header does not end there.
+bool read_contents(std::string_view start, Contents& contents, std::size_t& data_offset) {
+  Lines lines(start);
+  std::string_view line;
+  const bool has_line = start.starts_with("ply") && lines.next(line);
+  if (!start.starts_with("ply") || (has_line && split(line) != Words{"ply"}))
+    throw IoError("not a .ply file: it does not start with a line 'ply'");
+  while (lines.next(line)) {
+    const Words words = split(line);
+    data_offset = lines.offset();
+    if (words == Words{"end_header"}) return true;
+    if (!words.empty() && words[0] != "comment" && words[0] != "obj_info") read_line(words, line, contents);
+  }
+  return false;
 }
 
 void make_fields(const PlyElement& vertex, RawCloud& cloud) {
@@ -115,8 +138,8 @@ void make_fields(const PlyElement& vertex, RawCloud& cloud) {
     field.offset = cloud.point_step;
     cloud.point_step += field.size;
   }
-  check_coordinates(cloud.fields);
   cloud.width = vertex.count;
+  require_coordinates(cloud);
   if (cloud.width > std::numeric_limits<std::size_t>::max() / cloud.point_step) {
     throw IoError("header: " + std::to_string(cloud.width) + " vertices are more than a file can hold");
   }
@@ -143,26 +166,17 @@ std::string_view ply_type_name(const PointField& value) {
 }
 
 PlyHeader read_ply_header(const InputFile& file) {
-  const std::string start = read_start(file);
-  Lines lines(start);
-  if (!start.starts_with("ply") || split(lines.next()) != Words{"ply"}) {
-    throw IoError("not a .ply file: it does not start with a line 'ply'");
-  }
   Contents contents;
-  for (;;) {
-    const std::string_view line = lines.next();
-    const Words words = split(line);
-    if (words == Words{"end_header"}) break;
-    if (!words.empty() && words[0] != "comment" && words[0] != "obj_info") read_line(words, line, contents);
-  }
-  if (!contents.encoding) throw IoError("header: no format line");
-  const auto vertex = std::find_if(contents.elements.begin(), contents.elements.end(),
-                                   [](const PlyElement& element) { return element.name == "vertex"; });
-  if (vertex == contents.elements.end()) throw IoError("header: no element vertex");
   PlyHeader header;
+  parse_header(file, "end_header", [&](std::string_view start, bool) {
+    contents = {};
+    return read_contents(start, contents, header.data_offset);
+  });
+  if (!contents.encoding) throw IoError("header: no format line");
+  const auto vertex = contents.vertex();
+  if (vertex == contents.elements.end()) throw IoError("header: no element vertex");
   header.encoding = *contents.encoding;
-  header.data_offset = lines.offset();
-  header.skipped.assign(contents.elements.begin(), vertex);
+  header.skipped.assign(contents.elements.cbegin(), vertex);
   header.vertex = *vertex;
   header.vertices_are_last = vertex + 1 == contents.elements.end();
   make_fields(header.vertex, header.cloud);

@@ -18,7 +18,9 @@ PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t p
                          const std::vector<PointField>& fields) {
   check_coordinates<std::invalid_argument>(fields);
   const CoordinateFields xyz = coordinate_fields(fields);
-  if (!xyz.adjacent) throw std::invalid_argument("fields x, y and z do not lie side by side in this order");
+  if (!xyz.adjacent)
+    throw std::invalid_argument(
+        "fields x, y and z are not all float32 or all float64, side by side in this order");
   if (point_step < 3 * size_of(xyz.scalar) || xyz.offset[0] > point_step - 3 * size_of(xyz.scalar))
     throw std::invalid_argument("fields x, y and z reach beyond the point_step of " +
                                 std::to_string(point_step) + " bytes");
@@ -36,7 +38,7 @@ float FieldView::at(std::size_t record) const {
 
 std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
                                       std::size_t point_step) {
-  for (const char* name : {"intensity", "intensities", "reflectivity", "i"}) {
+  for (const char* name : {"intensity", "Intensity", "INTENSITY", "intensities", "reflectivity", "i"}) {
     const PointField* const field = find_field(fields, name);
     const bool known = field != nullptr && field->count == 1 && (field->type != 'F' || field->size >= 4);
     if (known && field->offset + field->bytes() <= point_step)

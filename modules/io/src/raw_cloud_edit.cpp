@@ -15,9 +15,9 @@ namespace pcl_bv {
 namespace {
 
 void check_new_field(const RawCloud& cloud, std::string_view name, std::size_t values) {
-  if (!is_word(name) || name == "_" || name == "x" || name == "y" || name == "z") {
+  if (!is_word(name) || name == "_" || is_coordinate_name(name)) {
     throw std::invalid_argument("field name '" + std::string(name) +
-                                "': must be a word other than _, x, y and z");
+                                "': must be a word other than _, x, y and z, X, Y and Z");
   }
   if (values != cloud.size()) {
     throw std::invalid_argument("field '" + std::string(name) + "': " + std::to_string(values) +
@@ -67,6 +67,9 @@ std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view na
     refuse("is not there: the fields are " + names);
   }
   if (field->type == 'F') refuse("is floating point, not an integer");
+  const std::vector<std::string>& unread = cloud.unread_fields;
+  if (std::find(unread.begin(), unread.end(), field->name) != unread.end())
+    refuse("has values that are no integers: " + cloud.note);
   if (field->count != 1) refuse("has " + std::to_string(field->count) + " elements a point, not one");
   std::vector<std::int64_t> values(cloud.size());
   const bool is_signed = field->type == 'I';

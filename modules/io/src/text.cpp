@@ -34,10 +34,19 @@ std::string in_quotes(std::string_view text) {
   return "'" + result + (text.size() > longest ? "...'" : "'");
 }
 
-std::string read_start(const InputFile& file) {
-  std::string start(std::min(file.size(), max_header_size), '\0');
-  file.read(0, start.data(), start.size());
-  return start;
+void parse_header(const InputFile& file, const char* last_line,
+                  const std::function<bool(std::string_view start, bool more)>& parse) {
+  for (std::size_t size = 1 << 16; size <= max_header_size; size *= 4) {
+    std::string start(std::min(file.size(), size), '\0');
+    file.read(0, start.data(), start.size());
+    const bool whole = start.size() == file.size();
+    if (parse(start, !whole)) return;
+    if (whole)
+      throw IoError(std::string("truncated header: no ") + last_line + " in the first " +
+                    std::to_string(start.size()) + " bytes");
+  }
+  throw IoError("header: longer than the " + std::to_string(max_header_size) + " bytes allowed, no " +
+                last_line + " in them");
 }
 
 Words split(std::string_view line) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <charconv>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -15,11 +16,15 @@
 
 namespace pcl_bv {
 
-/// A header must end within this many bytes; those of real files have some 200 to 400.
-inline constexpr std::size_t max_header_size = 65536;
+/// A header must end within this many bytes. Those of most files have 200 to 400, but some exporters keep a
+/// scan's metadata in comments of 100 kB.
+inline constexpr std::size_t max_header_size = 1 << 20;
 
-/// The first max_header_size bytes of a file; fewer only if it ends there. Throws IoError.
-std::string read_start(const InputFile& file);
+/// Calls parse(start, more) with the beginning of the file, 64 KiB at first, as long as it returns false (the
+/// header does not end there) and there are more bytes to give it. `more`: whether it is not the whole file.
+/// Throws IoError for a header without its `last_line`.
+void parse_header(const InputFile& file, const char* last_line,
+                  const std::function<bool(std::string_view start, bool more)>& parse);
 
 using Words = std::vector<std::string_view>;
 

@@ -4,10 +4,12 @@
 #include "text_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fields.h"
@@ -25,6 +27,21 @@ const char* read_nan(const char* at, T& value) {
   return at + 3;
 }
 
+// An integer that is written with a point or an exponent.
+template <typename T>
+const char* read_whole_number(const char* at, const char* end, T& value) {
+  constexpr double greatest = 9007199254740992;  // beyond 2^53 a double says nothing of the integer
+  double number = 0;
+  const char* const after = parse_number(at, end, number);
+  if (after == nullptr || !ends_value(*after) || !(std::abs(number) <= greatest) ||
+      number != std::trunc(number))
+    return nullptr;
+  const auto whole = static_cast<std::int64_t>(number);
+  const bool fits = std::in_range<T>(whole);
+  value = static_cast<T>(whole);
+  return fits ? after : nullptr;
+}
+
 template <typename T>
 const char* read_number(const char* at, const char* end, T& value) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -32,7 +49,9 @@ const char* read_number(const char* at, const char* end, T& value) {
     if (const char* after = read_nan(at, value)) return after;
   }
   const char* after = parse_number(at, end, value);
-  return after && ends_value(*after) ? after : nullptr;
+  if (after && ends_value(*after)) return after;
+  if constexpr (std::is_integral_v<T>) return read_whole_number(at, end, value);
+  return nullptr;
 }
 
 // What a piece is read beyond its end at first, since its last line ends there: a part of this of its size.

@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
+#include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/policy.h"
-#include "pcl_bv/io/posix_file.h"
 #include "short_decimal.h"
 
 namespace pcl_bv {
@@ -38,8 +38,22 @@ class TextRows {
   }
 
   /// Reads the next values of the row as the elements of one field. Returns how many it found before one that
-  /// is missing or no such number, and stays there.
+  /// is missing or no such number, and stays there. Whole numbers are integers however they are written (1.0,
+  /// 1e3).
   std::uint32_t read(const PointField& field, std::byte* to);
+
+  /// The same for all its elements: calls stuck(number of the element, where it goes) where one is missing or
+  /// no such number. That throws, or moves over the value and puts another in its place.
+  template <typename Stuck>
+  void read_all(const PointField& field, std::byte* to, const Stuck& stuck) {
+    std::uint32_t found = read(field, to);
+    while (found < field.count) {
+      stuck(found, to + std::size_t{found} * field.size);
+      PointField rest = field;
+      rest.count -= ++found;
+      found += read(rest, to + std::size_t{found} * field.size);
+    }
+  }
 
   /// Moves over the value here, whatever it is.
   void skip_value() { at_ += value().size(); }

@@ -12,15 +12,18 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads a .pcd file: ascii, binary or binary_compressed, with fields x, y and z, all float32 or
-/// all float64, among any others.
+/// Reads a .pcd file: ascii, binary or binary_compressed (also blocks stored as they are), with fields x, y
+/// and z (or X, Y and Z) among any others: float32, float64 or integers, also mixed (RawCloud::xyz()).
 ///
 /// Sizes in the header are held against the size of the file before anything is allocated. A file of 0 points
 /// gives an empty cloud. Numbers in ascii are rounded to the nearest value of their field's type, to infinity
 /// or zero where they are beyond it; "nan" and "inf" are read, in any case, for floating-point fields only.
-/// Points after the last one of a binary file are left out, which RawCloud::note says, but an error if the
-/// header says 0 points: a recorder did not get to write how many. Rows after the last point of an ascii file
-/// are an error.
+/// Whole numbers are integers however they are written (1.0, 1e3), and -1 in an unsigned field is its
+/// greatest value. What is no such number is an error in a coordinate; in other fields it becomes 0 or NaN,
+/// which RawCloud::note says. So is a VIEWPOINT that is not the identity, which is never applied. Points
+/// after the last one of a binary file are left out, which RawCloud::note says, but an error if the header
+/// says 0 points: a recorder did not get to write how many. Rows after the last point of an ascii file are an
+/// error.
 ///
 /// Rows of text are read by the policy's threads; cloud and error are the same for any number of them. Beside
 /// the cloud, text takes 0.3 MiB per thread (more only for rows longer than that) and binary_compressed

@@ -13,13 +13,14 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Reads the element `vertex` of a .ply file: ascii, binary_little_endian or binary_big_endian, elements and
-/// properties in any order. x, y and z must be all float or all double. Every property that is no list
+/// properties in any order. x, y and z (or X, Y and Z) may be of any type. Every property that is no list
 /// becomes a field, in the order of the file, with its values (little-endian); lists and other elements are
 /// left out. The cloud has height 1 and no viewpoint.
 ///
-/// Sizes in the header are held against the size of the file before anything is allocated. What comes after
-/// the vertices is not looked at, except that an ascii file without further elements must end there. Numbers
-/// in ascii are read as read_pcd() does, threads used and errors thrown as there.
+/// Sizes in the header, which may have up to 1 MiB, are held against the size of the file before anything is
+/// allocated. What comes after the vertices is not looked at, except that an ascii file without further
+/// elements must end there, and that more vertices of a binary one are noted. Numbers in ascii are read as
+/// read_pcd() does, threads used and errors thrown as there.
 RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv

@@ -38,23 +38,47 @@ struct RawCloud {
   std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz qw qx qy qz; kept, never applied.
   std::size_t point_step = 0;
   ByteBuffer data;  ///< width * height * point_step bytes, little-endian.
-  /// x y z of all points, in their type, only where the record does not hold them side by side.
+  /// x y z of all points, all float32 or all float64, only where the record does not hold them so side by
+  /// side.
   ByteBuffer packed_xyz;
 
   /// What a reader noticed about the file and did not refuse, a line for who reads it; mostly empty.
   std::string note;
 
+  /// Fields with values that are no numbers of their type, which are 0 or NaN here; `note` says which.
+  std::vector<std::string> unread_fields;
+
   std::size_t size() const { return width * height; }
 
-  /// The coordinates of all points, in their order; views `data` (or `packed_xyz`), so it dies with the
-  /// cloud. Empty for an empty cloud, and for one whose x, y and z are not all float32 or all float64.
+  /// The coordinates of all points, in their order: the fields x, y and z, or X, Y and Z where there is none
+  /// of that name. Integers and mixed types are viewed as float32 if that holds all values of their types,
+  /// else as float64. Views `data` (or `packed_xyz`), so it dies with the cloud. Empty for an empty cloud,
+  /// and for one without such fields, of one element each.
   PointView xyz() const;
 };
+
+/// The names of the fields that hold x, y and z, of any fields that have a `name`: "x", or "X" where no field
+/// is called x but one is called X; so for y and z. They need not exist.
+template <typename Fields>
+std::array<std::string_view, 3> coordinate_names(const Fields& fields) {
+  std::array<std::string_view, 3> names{"x", "y", "z"};
+  constexpr std::array<std::string_view, 3> upper{"X", "Y", "Z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bool exists = false, exists_upper = false;
+    for (const auto& field : fields) {
+      exists = exists || field.name == names[axis];
+      exists_upper = exists_upper || field.name == upper[axis];
+    }
+    if (!exists && exists_upper) names[axis] = upper[axis];
+  }
+  return names;
+}
 
 /// The coordinates of `count` records, `point_step` bytes apart, which a message describes by fields like
 /// those of sensor_msgs/PointCloud2 (FLOAT32 is 'F', 4, FLOAT64 'F', 8); nothing is copied, and the view dies
 /// with the data. x, y and z may stand anywhere in the record and need no alignment, but side by side in this
-/// order, all float32 or all float64, in this machine's byte order; other fields do not matter. Throws
+/// order, all float32 or all float64, in this machine's byte order; X, Y and Z serve where there is no x, y
+/// or z, and other fields do not matter. Throws
 /// std::invalid_argument for anything else, also where they reach beyond the record.
 PointView view_of_fields(const std::byte* data, std::size_t count, std::size_t point_step,
                          const std::vector<PointField>& fields);
@@ -69,8 +93,9 @@ struct FieldView {
   float at(std::size_t record) const;  ///< Rounded to nearest, where float32 does not hold it.
 };
 
-/// How much light came back to each point, in a unit of the sensor's own: the first field of one element that is called
-/// intensity, intensities, reflectivity or i. nullopt if there is none. The view dies with the records.
+/// How much light came back to each point, in a unit of the sensor's own: the first field of one element that
+/// is called intensity (Intensity, INTENSITY), intensities, reflectivity or i. nullopt if there is none. The
+/// view dies with the records.
 std::optional<FieldView> intensity_of(const std::vector<PointField>& fields, const std::byte* records,
                                       std::size_t point_step);
 
