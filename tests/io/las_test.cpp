@@ -8,63 +8,12 @@
 #include <cstring>
 
 #include "files.h"
+#include "las_bytes.h"
 #include "pcl_bv/io/cloud_file.h"
 #include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {
 namespace {
-
-// A file written by the tables of the specification (LAS 1.4 R15).
-struct LasFile {
-  int minor = 2;
-  int format = 0;
-  std::size_t record = 20;
-  std::size_t points = 3;
-  double scale = 0.001;
-  std::array<double, 3> offset{500'000, 5'400'000, 100};
-
-  template <typename T>
-  static void put(std::string& bytes, std::size_t at, T value) {
-    std::memcpy(bytes.data() + at, &value, sizeof value);
-  }
-
-  static std::int32_t stored(std::size_t i, std::size_t axis) {
-    return static_cast<std::int32_t>(1'000'003 * (i + 1) * (axis + 1)) * (i % 2 == 0 ? 1 : -1);
-  }
-
-  std::string bytes() const {
-    const std::size_t header = minor == 4 ? 375 : minor == 3 ? 235 : 227;
-    std::string all(header + 54 + points * record, '\0');
-    std::memcpy(all.data(), "LASF", 4);
-    put<std::uint8_t>(all, 24, 1);
-    put<std::uint8_t>(all, 25, static_cast<std::uint8_t>(minor));
-    put<std::uint16_t>(all, 94, static_cast<std::uint16_t>(header));
-    put<std::uint32_t>(all, 96, static_cast<std::uint32_t>(header + 54));
-    put<std::uint32_t>(all, 100, 1);
-    put<std::uint8_t>(all, 104, static_cast<std::uint8_t>(format));
-    put<std::uint16_t>(all, 105, static_cast<std::uint16_t>(record));
-    if (format < 6) put<std::uint32_t>(all, 107, static_cast<std::uint32_t>(points));
-    if (minor == 4) put<std::uint64_t>(all, 247, points);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      put(all, 131 + 8 * axis, scale);
-      put(all, 155 + 8 * axis, offset[axis]);
-    }
-    for (std::size_t i = 0; i < points; ++i) {
-      const std::size_t at = header + 54 + i * record;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        put(all, at + 4 * axis, stored(i, axis));
-      put<std::uint16_t>(all, at + 12, static_cast<std::uint16_t>(1000 + i));
-      put<std::uint8_t>(all, at + (format < 6 ? 15 : 16), static_cast<std::uint8_t>(2 + i % 4));
-      if (format == 1 || (format >= 3 && format <= 5)) put(all, at + 20, 0.5 + static_cast<double>(i));
-      if (format >= 6) put(all, at + 22, 0.5 + static_cast<double>(i));
-      const std::size_t red[] = {0, 0, 20, 28, 0, 28, 0, 30, 30, 0, 30};
-      if (red[format] != 0) put<std::uint16_t>(all, at + red[format], static_cast<std::uint16_t>(77 + i));
-    }
-    return all;
-  }
-};
-
-constexpr std::size_t kRecords[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
 class Las : public FileTest {
  protected:
@@ -84,8 +33,8 @@ class Las : public FileTest {
 };
 
 TEST_F(Las, OfEachVersionAndFormatIsReadExactly) {
-  for (const int minor : {2, 3, 4}) {
-    for (int format = 0; format <= (minor == 2 ? 3 : minor == 3 ? 5 : 10); ++format) {
+  for (const int minor : {0, 1, 2, 3, 4, 5}) {
+    for (int format = 0; format <= (minor < 3 ? 3 : minor == 3 ? 5 : 10); ++format) {
       const std::string where = "1." + std::to_string(minor) + ", format " + std::to_string(format);
       const std::size_t extra = format % 2 == 0 ? 0 : 7;  // bytes of the user's own
       const LasFile las{minor, format, kRecords[format] + extra, 5000};
@@ -98,7 +47,6 @@ TEST_F(Las, OfEachVersionAndFormatIsReadExactly) {
         for (std::size_t axis = 0; axis < 3; ++axis)
           EXPECT_EQ(p[axis], LasFile::stored(i, axis) * 0.001 + las.offset[axis]) << where << ", " << i;
         EXPECT_EQ(value<std::uint16_t>(cloud, "intensity", i), static_cast<std::uint16_t>(1000 + i)) << where;
-        EXPECT_EQ(value<std::uint8_t>(cloud, "classification", i), 2 + i % 4) << where;
         if (find_field(cloud, "gps_time") != nullptr) {
           EXPECT_EQ(value<double>(cloud, "gps_time", i), 0.5 + static_cast<double>(i)) << where;
         }
@@ -114,6 +62,41 @@ TEST_F(Las, OfEachVersionAndFormatIsReadExactly) {
   }
 }
 
+// LAS 1.4 R15, tables 8, 9 and 16: each bit of each byte.
+TEST_F(Las, PackedBitsAreFieldsOfTheirOwn) {
+  struct Bits {
+    const char* name;
+    std::size_t divisor;  // of the number of the point: which byte it is
+    unsigned shift, bits;
+  };
+  const std::vector<Bits> narrow = {{"return_number", 1, 0, 3},       {"number_of_returns", 1, 3, 3},
+                                    {"scan_direction_flag", 1, 6, 1}, {"edge_of_flight_line", 1, 7, 1},
+                                    {"classification", 2, 0, 5},      {"synthetic", 2, 5, 1},
+                                    {"key_point", 2, 6, 1},           {"withheld", 2, 7, 1}};
+  const std::vector<Bits> wide = {{"return_number", 1, 0, 4},
+                                  {"number_of_returns", 1, 4, 4},
+                                  {"synthetic", 2, 0, 1},
+                                  {"key_point", 2, 1, 1},
+                                  {"withheld", 2, 2, 1},
+                                  {"overlap", 2, 3, 1},
+                                  {"scanner_channel", 2, 4, 2},
+                                  {"scan_direction_flag", 2, 6, 1},
+                                  {"edge_of_flight_line", 2, 7, 1},
+                                  {"classification", 3, 0, 8}};
+  for (int format = 0; format <= 10; ++format) {
+    write_text(file("a.las"), LasFile{4, format, kRecords[format], 800}.bytes());
+    const RawCloud cloud = read_cloud(file("a.las"));
+    for (const Bits& packed : format < 6 ? narrow : wide) {
+      for (std::size_t i = 0; i < 800; ++i)
+        ASSERT_EQ(value<std::uint8_t>(cloud, packed.name, i),
+                  (i / packed.divisor % 256 >> packed.shift) % (1U << packed.bits))
+            << packed.name << ", format " << format << ", point " << i;
+    }
+    EXPECT_EQ(find_field(cloud, "overlap") != nullptr, format >= 6);
+    EXPECT_EQ(find_field(cloud, "returns"), nullptr);
+  }
+}
+
 TEST_F(Las, CompressedIsRefusedWithWhatToDo) {
   std::string bytes = LasFile().bytes();
   bytes[104] = static_cast<char>(0x80);
@@ -126,7 +109,7 @@ TEST_F(Las, CompressedIsRefusedWithWhatToDo) {
 TEST_F(Las, ThatContradictsItselfIsRefused) {
   EXPECT_EQ(reason_for_content("LASX" + std::string(400, '\0'), ".las"),
             "not a .las file: it does not begin with LASF");
-  EXPECT_EQ(reason({.minor = 1}), "header: version 1.1 is not one of 1.2 to 1.4");
+  EXPECT_EQ(reason({.minor = 6}), "header: version 1.6 is not one of 1.0 to 1.5");
   std::string bytes = LasFile().bytes();
   bytes[104] = 11;
   EXPECT_EQ(reason_for_content(bytes, ".las"), "header: point format 11 is not one of 0 to 10");

@@ -1,19 +1,23 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// ASPRS LAS Specification 1.4 R15, tables 3 (header) and 7 to 17 (records). All numbers are little-endian.
+// ASPRS LAS Specification 1.4 R15, tables 3 (header), 7 to 17 (records) and 24 (extended records). All
+// numbers are little-endian. 1.0, 1.1 and 1.5 have what is read here at the same bytes.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
+#include "fields.h"
 #include "las_format.h"
+#include "rest_of_file.h"
 
 namespace pcl_bv {
 namespace {
 
 constexpr std::size_t kHeaderOf12 = 227, kHeaderOf14 = 375;
+constexpr int kNewestMinor = 5;
 
 // What a record holds, by point format.
 struct PointFormat {
@@ -24,6 +28,22 @@ struct PointFormat {
 constexpr PointFormat kFormats[] = {{20, 0, 0},   {28, 20, 0},  {26, 0, 20}, {34, 20, 28},
                                     {57, 20, 0},  {63, 20, 28}, {30, 22, 0}, {36, 22, 30},
                                     {38, 22, 30}, {59, 22, 0},  {67, 22, 30}};
+
+// Numbers of some bits of a byte, named as laspy and PDAL do.
+struct PackedField {
+  const char* name;
+  std::size_t byte;
+  unsigned first_bit, bits;
+};
+constexpr PackedField kPacked[] = {{"return_number", 14, 0, 3},       {"number_of_returns", 14, 3, 3},
+                                   {"scan_direction_flag", 14, 6, 1}, {"edge_of_flight_line", 14, 7, 1},
+                                   {"classification", 15, 0, 5},      {"synthetic", 15, 5, 1},
+                                   {"key_point", 15, 6, 1},           {"withheld", 15, 7, 1}};
+constexpr PackedField kWidePacked[] = {
+    {"return_number", 14, 0, 4},       {"number_of_returns", 14, 4, 4}, {"scan_direction_flag", 15, 6, 1},
+    {"edge_of_flight_line", 15, 7, 1}, {"classification", 16, 0, 8},    {"synthetic", 15, 0, 1},
+    {"key_point", 15, 1, 1},           {"withheld", 15, 2, 1},          {"overlap", 15, 3, 1},
+    {"scanner_channel", 15, 4, 2}};
 
 class HeaderBytes {
  public:
@@ -49,16 +69,24 @@ class HeaderBytes {
 void add_field(const char* name, char type, std::uint32_t size, std::size_t from, LasHeader& header) {
   RawCloud& cloud = header.cloud;
   cloud.fields.push_back({name, type, size, 1, cloud.point_step});
+  if (header.cloud.fields.size() > 3) header.columns.push_back({from, cloud.point_step, size, 0, 0xFF});
   cloud.point_step += size;
-  header.from.push_back(from);
+}
+
+template <std::size_t n>
+void add_packed_fields(const PackedField (&packed)[n], LasHeader& header) {
+  for (const auto& [name, byte, first_bit, bits] : packed) {
+    add_field(name, 'U', 1, byte, header);
+    header.columns.back().shift = first_bit;
+    header.columns.back().mask = (1U << bits) - 1;
+  }
 }
 
 void add_fields(const PointFormat& format, LasHeader& header) {
   for (const auto& [name, from] : {std::pair{"x", 0}, {"y", 4}, {"z", 8}})
     add_field(name, 'F', 8, static_cast<std::size_t>(from), header);
   add_field("intensity", 'U', 2, 12, header);
-  add_field("returns", 'U', 1, 14, header);
-  add_field("classification", 'U', 1, format.wide() ? 16 : 15, header);
+  format.wide() ? add_packed_fields(kWidePacked, header) : add_packed_fields(kPacked, header);
   add_field("point_source_id", 'U', 2, format.wide() ? 20 : 18, header);
   if (format.time != 0) add_field("gps_time", 'F', 8, format.time, header);
   if (format.color == 0) return;
@@ -76,19 +104,78 @@ const PointFormat& point_format(const HeaderBytes& bytes) {
   return kFormats[format];
 }
 
-// 1.4 has a number of 64 bits; the old one is 0 there for its formats.
-std::size_t point_count(const HeaderBytes& bytes, int minor) {
-  const auto old = bytes.at<std::uint32_t>(107);
-  return minor < 4 ? old : std::max<std::size_t>(old, bytes.at<std::uint64_t>(247));
+// From 1.4 on the number of 64 bits decides. The old one says nothing of formats 6 to 10, and of the others
+// only where a writer left the new one 0.
+std::size_t point_count(const HeaderBytes& bytes, int minor, const PointFormat& format, RawCloud& cloud) {
+  const auto legacy = bytes.at<std::uint32_t>(107);
+  if (minor < 4) return legacy;
+  const auto count = bytes.at<std::uint64_t>(247);
+  if (legacy == 0 || legacy == count) return count;
+  const bool use_legacy = count == 0 && !format.wide();
+  add_note(cloud, "the header says " + std::to_string(legacy) + " points by its legacy count and " +
+                      std::to_string(count) + " by that of version 1.4; the " +
+                      (use_legacy ? "first" : "second") + " is taken");
+  return use_legacy ? legacy : count;
 }
 
-void require_points(const InputFile& file, const LasHeader& header) {
-  const std::size_t points = header.cloud.width;
-  const bool behind = header.data_offset > file.size();
-  if (!behind && points <= (file.size() - header.data_offset) / header.record) return;
-  throw IoError("truncated: " + std::to_string(points) + " points of " + std::to_string(header.record) +
-                " bytes from byte " + std::to_string(header.data_offset) + " on, the file has " +
-                std::to_string(file.size()));
+// Whether an extended variable length record begins there and fits in the file.
+bool is_extended_record(const InputFile& file, std::size_t at) {
+  constexpr std::size_t header = 60, length = 20;
+  if (at > file.size() || file.size() - at < header) return false;
+  std::uint64_t bytes = 0;
+  file.read(at + length, &bytes, sizeof bytes);
+  return bytes <= file.size() - at - header;
+}
+
+// Where the points end at the latest: where records behind them begin, which hold waveforms or anything else.
+std::size_t end_of_room(const InputFile& file, const HeaderBytes& bytes, int minor, std::size_t begin) {
+  std::size_t end = file.size();
+  const auto stop_at = [&](std::size_t at) {
+    if (at > begin && at < end && is_extended_record(file, at)) end = at;
+  };
+  if (minor >= 3) stop_at(bytes.at<std::uint64_t>(227));
+  if (minor >= 4 && bytes.at<std::uint32_t>(243) > 0) stop_at(bytes.at<std::uint64_t>(235));
+  return end;
+}
+
+void require_points(const InputFile& file, std::size_t end, LasHeader& header) {
+  const std::size_t points = header.cloud.width, begin = header.data_offset;
+  if (begin <= end && points <= (end - begin) / header.record)
+    return note_rest(file, {begin + points * header.record, end}, header.record, header.cloud);
+  const std::string what = std::to_string(points) + " points of " + std::to_string(header.record) +
+                           " bytes from byte " + std::to_string(begin) + " on, ";
+  if (end < file.size())
+    throw IoError("header: " + what + "but other records begin at byte " + std::to_string(end));
+  throw IoError("truncated: " + what + "the file has " + std::to_string(end));
+}
+
+void read_scale(const HeaderBytes& bytes, LasHeader& header) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    header.scale[axis] = bytes.at<double>(131 + 8 * axis);
+    header.offset[axis] = bytes.at<double>(155 + 8 * axis);
+    if (!std::isfinite(header.scale[axis]) || header.scale[axis] == 0 || !std::isfinite(header.offset[axis]))
+      throw IoError("header: a scale is 0 or not finite, or an offset is not finite");
+  }
+}
+
+// One record of the file to one of ours.
+void convert(const std::byte* from, const LasHeader& header, std::byte* to) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::int32_t stored;
+    std::memcpy(&stored, from + 4 * axis, sizeof stored);
+    const double value = stored * header.scale[axis] + header.offset[axis];
+    std::memcpy(to + 8 * axis, &value, sizeof value);
+  }
+  for (const LasColumn& column : header.columns) {
+    const std::byte* const at = from + column.from;
+    if (column.size == 1) {
+      to[column.to] = at[0] >> column.shift & static_cast<std::byte>(column.mask);
+    } else if (column.size == 2) {
+      std::memcpy(to + column.to, at, 2);
+    } else {
+      std::memcpy(to + column.to, at, 8);
+    }
+  }
 }
 
 }  // namespace
@@ -96,9 +183,9 @@ void require_points(const InputFile& file, const LasHeader& header) {
 LasHeader read_las_header(const InputFile& file) {
   const HeaderBytes bytes(file);
   const int major = bytes.at<std::uint8_t>(24), minor = bytes.at<std::uint8_t>(25);
-  if (major != 1 || minor < 2 || minor > 4)
+  if (major != 1 || minor > kNewestMinor)
     throw IoError("header: version " + std::to_string(major) + "." + std::to_string(minor) +
-                  " is not one of 1.2 to 1.4");
+                  " is not one of 1.0 to 1." + std::to_string(kNewestMinor));
   LasHeader header;
   const PointFormat& format = point_format(bytes);
   header.data_offset = bytes.at<std::uint32_t>(96);
@@ -106,14 +193,9 @@ LasHeader read_las_header(const InputFile& file) {
   if (header.record < format.bytes || header.data_offset < kHeaderOf12)
     throw IoError("header: records of " + std::to_string(header.record) + " bytes from byte " +
                   std::to_string(header.data_offset) + " on are too short or in the header");
-  header.cloud.width = point_count(bytes, minor);
-  require_points(file, header);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    header.scale[axis] = bytes.at<double>(131 + 8 * axis);
-    header.offset[axis] = bytes.at<double>(155 + 8 * axis);
-    if (!std::isfinite(header.scale[axis]) || header.scale[axis] == 0 || !std::isfinite(header.offset[axis]))
-      throw IoError("header: a scale is 0 or not finite, or an offset is not finite");
-  }
+  header.cloud.width = point_count(bytes, minor, format, header.cloud);
+  require_points(file, end_of_room(file, bytes, minor, header.data_offset), header);
+  read_scale(bytes, header);
   add_fields(format, header);
   return header;
 }
@@ -127,17 +209,8 @@ void read_las_points(const InputFile& file, LasHeader& header) {
   for (std::size_t first = 0; first < cloud.size(); first += at_a_time) {
     const std::size_t count = std::min(at_a_time, cloud.size() - first);
     file.read(header.data_offset + first * header.record, records.data(), count * header.record);
-    for (const std::byte* from = records.data(); from < records.data() + count * header.record;
-         from += header.record, to += cloud.point_step) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::int32_t stored;
-        std::memcpy(&stored, from + 4 * axis, sizeof stored);
-        const double value = stored * header.scale[axis] + header.offset[axis];
-        std::memcpy(to + 8 * axis, &value, sizeof value);
-      }
-      for (std::size_t f = 3; f < cloud.fields.size(); ++f)
-        std::memcpy(to + cloud.fields[f].offset, from + header.from[f], cloud.fields[f].size);
-    }
+    for (std::size_t i = 0; i < count; ++i, to += cloud.point_step)
+      convert(records.data() + i * header.record, header, to);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "pcl_bv/io/las.h"
@@ -12,11 +13,18 @@
 
 namespace pcl_bv {
 
+/// One field but x, y and z: where it is in the file's record and where in ours.
+struct LasColumn {
+  std::size_t from, to;
+  std::uint32_t size;    ///< Bytes: 1, 2 or 8.
+  unsigned shift, mask;  ///< Of those of 1 byte, which bits it is.
+};
+
 struct LasHeader {
-  RawCloud cloud;                 ///< All but its points.
-  std::vector<std::size_t> from;  ///< Of each field, where it is in the file's record.
-  std::size_t data_offset = 0;    ///< Of the first record.
-  std::size_t record = 0;         ///< Bytes of a record in the file.
+  RawCloud cloud;  ///< All but its points.
+  std::vector<LasColumn> columns;
+  std::size_t data_offset = 0;  ///< Of the first record.
+  std::size_t record = 0;       ///< Bytes of a record in the file.
   std::array<double, 3> scale{}, offset{};
 };
 
