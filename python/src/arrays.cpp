@@ -75,16 +75,25 @@ PointArray rows_of(const py::array& array) {
 
 /// The type of a field and where it is in its record.
 struct Field {
+  std::string name;
   py::dtype type;
   py::ssize_t offset;
 };
 
+/// In upper case where there is none in lower case, as in files.
 Field field_of(const py::dtype& record, const char* field, const char* name) {
   const py::object fields = record.attr("fields");
-  if (!fields.contains(field))
+  const std::string upper(1, static_cast<char>(field[0] - 'a' + 'A'));
+  const std::string in_record = fields.contains(field) ? field : upper;
+  if (!fields.contains(in_record))
     throw py::type_error(std::string(name) + ": records without a field '" + field + "': " + shown(record));
-  const py::tuple found = fields[field];
-  return {py::dtype::from_args(found[0]), found[1].cast<py::ssize_t>()};
+  const py::tuple found = fields[py::str(in_record)];
+  return {in_record, py::dtype::from_args(found[0]), found[1].cast<py::ssize_t>()};
+}
+
+/// Whether float32 holds all its numbers.
+bool fits_float32(const py::dtype& type) {
+  return type.kind() == 'f' ? type.itemsize() == 4 : type.itemsize() <= 2;
 }
 
 /// Of records in one row.
@@ -93,21 +102,23 @@ PointArray records_of(const py::array& array, const char* name) {
   const Field x = field_of(record, "x", name), y = field_of(record, "y", name),
               z = field_of(record, "z", name);
   for (const Field* field : {&x, &y, &z}) {
-    if (!is_real(field->type)) refuse_numbers(name, field->type);
+    const bool whole = (field->type.kind() == 'i' || field->type.kind() == 'u') && field->type.itemsize() <= 4;
+    if (!is_real(field->type) && !whole) refuse_numbers(name, field->type);
   }
   const py::ssize_t size = x.type.itemsize();
   const auto count = static_cast<std::size_t>(array.shape(0));
   const py::ssize_t stride = count > 1 ? array.strides(0) : record.itemsize();
-  const bool side_by_side = y.type.itemsize() == size && z.type.itemsize() == size &&
+  const bool real = is_real(x.type) && is_real(y.type) && is_real(z.type);
+  const bool side_by_side = real && y.type.itemsize() == size && z.type.itemsize() == size &&
                             y.offset == x.offset + size && z.offset == y.offset + size;
   const bool native = is_native(x.type) && is_native(y.type) && is_native(z.type);
   if (!side_by_side || !native || stride < 3 * size) {
-    const bool wide = size == 8 || y.type.itemsize() == 8 || z.type.itemsize() == 8;
+    const bool wide = !fits_float32(x.type) || !fits_float32(y.type) || !fits_float32(z.type);
     py::array xyz(wide ? py::dtype::of<double>() : py::dtype::of<float>(),
                   std::vector<py::ssize_t>{array.shape(0), 3});
     for (py::ssize_t k = 0; k < 3; ++k) {
-      constexpr const char* names[] = {"x", "y", "z"};
-      xyz[py::make_tuple(py::ellipsis(), k)] = array[names[k]];
+      const Field* const fields[] = {&x, &y, &z};
+      xyz[py::make_tuple(py::ellipsis(), k)] = array[py::str(fields[k]->name)];
     }
     return packed(xyz);
   }

@@ -42,6 +42,12 @@ auto reading(const std::string& name, const Read& read) {
   }
 }
 
+/// What was noticed about an input and not refused, as a UserWarning.
+void warn(const std::string& name, const std::string& note) {
+  if (!note.empty() && PyErr_WarnEx(PyExc_UserWarning, (name + ": " + note).c_str(), 1) != 0)
+    throw py::error_already_set();
+}
+
 RawCloud raw_of(const VelodyneSweep& sweep) {
   RawCloud cloud;
   cloud.fields = {{"x", 'F', 4, 1, 0},          {"y", 'F', 4, 1, 4},     {"z", 'F', 4, 1, 8},
@@ -81,8 +87,7 @@ py::array read_points(py::handle file, py::handle topic, py::handle number, py::
     const py::gil_scoped_release unlocked;
     cloud = load_cloud(name, of, which, fields, policy);
   });
-  if (!cloud->note.empty() && PyErr_WarnEx(PyExc_UserWarning, (name + ": " + cloud->note).c_str(), 1) != 0)
-    throw py::error_already_set();
+  warn(name, cloud->note);
   return array_of_cloud(std::move(*cloud));
 }
 
@@ -204,6 +209,7 @@ void bind_read(py::module_& module) {
       .def("__next__", [](FramesObject& self) {
         std::optional<Frame> frame = self.next();
         if (!frame) throw py::stop_iteration();
+        warn(frame->file, frame->note);
         return FrameObject{std::move(*frame)};
       });
   module.def("read", read_points, "path"_a, py::kw_only(), "topic"_a = py::none(), "number"_a = 0,

@@ -15,7 +15,8 @@ path: .pcd, .ply, .las, .bin (KITTI, nuScenes), or 'synth:NAME[:POINTS[:SEED]]';
 topic: of a recording; None: the only one with clouds.
 bin_fields: float32 of each point of a .bin, 3 to 32; 0: what the name says, 5 of .pcd.bin, else 4.
 
-What was noticed and not refused, such as points after the last one, is a UserWarning.
+What was noticed and not refused, such as points after the last one or a VIEWPOINT, which is not applied, is a
+UserWarning.
 Raises FileNotFoundError, OSError for what cannot be read, ValueError for a topic that is not there.
 
 >>> import pcl_bv
@@ -36,6 +37,8 @@ rate: in Hz; None: of recordings their own stamps, else 10. No frame waits for i
 poses: a file of the sensor's poses, KITTI's or TUM's.
 class_field: an integer field of the clouds, for Frame.classes.
 stamps: 'rate', 'name' (of files' names, or of messages) or 'auto'.
+
+What was noticed about a file and not refused is a UserWarning, as of read().
 
 Raises FileNotFoundError, OSError for what cannot be read, also of one frame: the next may be fine.
 

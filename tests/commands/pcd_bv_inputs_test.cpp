@@ -39,7 +39,7 @@ TEST_F(PcdBv, EveryBrokenInputIsOneLineAndTheOthersAreDone) {
       file("negative.pcd", with(header3, "WIDTH 3", "WIDTH -3") + "1 2 3\n1 2 3\n1 2 3\n"),
       file("mismatch.pcd", with(header3, "POINTS 3", "POINTS 4") + "1 2 3\n1 2 3\n1 2 3\n"),
       file("no-z.pcd", with(header3, "FIELDS x y z", "FIELDS x y w") + "1 2 3\n1 2 3\n1 2 3\n"),
-      file("integers.pcd", with(header3, "TYPE F F F", "TYPE I I I") + "1 2 3\n1 2 3\n1 2 3\n"),
+      file("integers.pcd", with(header3, "TYPE F F F", "TYPE I I I") + "1 2 3\n1 2 3\n1 2 3.5\n"),
       file("packed.pcd", header(3, "binary_compressed") + "junk"),
       file("mesh.ply", "ply\n"),
       file("cut.ply",
@@ -48,7 +48,7 @@ TEST_F(PcdBv, EveryBrokenInputIsOneLineAndTheOthersAreDone) {
                std::string(35, '\0')),
       file("integers.ply",
            "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\n"
-           "property int z\nend_header\n1 2 3\n"),
+           "property int z\nend_header\n1 2 nan\n"),
       file("sweep.bin", std::string(31, '\0')),
       file("empty.bin", ""),
       "synth:nonsense",

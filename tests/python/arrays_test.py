@@ -68,6 +68,17 @@ class Arrays(unittest.TestCase):
                 wide = np.result_type(expected.dtype, array["y"].dtype).newbyteorder("=")
                 self.same(array, expected.astype(wide))
 
+    def test_records_of_files_may_have_integers_and_upper_case(self):
+        points = np.array([[0, 0, 0], [1, 2, 3], [-100, 5, 7]])
+        for layout in ([("x", "<i2"), ("y", "<i2"), ("z", "<i2")], [("X", "<f4"), ("Y", "<f4"), ("Z", "<f4")],
+                       [("x", "<i4"), ("tag", "u1"), ("y", "<f4"), ("z", "u1")]):
+            array = np.zeros(3, layout)
+            for name, column in zip([n for n in array.dtype.names if n != "tag"], points.T):
+                array[name] = column
+            self.assertEqual(pcl_bv.fit(array, "aabb"), pcl_bv.fit(points.astype(float), "aabb"))
+        with self.assertRaisesRegex(TypeError, "int64"):
+            pcl_bv.fit(np.zeros(3, [("x", "i8"), ("y", "i8"), ("z", "i8")]), "aabb")
+
     def test_an_organised_cloud_is_its_rows(self):
         image = normal(600, 9, np.float32).reshape(20, 30, 3)
         self.same(image, image.reshape(-1, 3))

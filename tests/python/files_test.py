@@ -60,6 +60,20 @@ class Files(unittest.TestCase):
             self.assertEqual(pcl_bv.fit(cloud, "dop26"), pcl_bv.fit(points, "dop26"))
         self.assertEqual(pcl_bv.read(self.folder / "a.bin").dtype.names, ("x", "y", "z", "intensity"))
 
+    def test_odd_files_are_read_and_what_is_odd_is_a_warning(self):
+        head = "FIELDS X Y Z label\nSIZE 2 8 4 4\nTYPE I F F U\nWIDTH 2\nHEIGHT 1\n"
+        (self.folder / "a.pcd").write_text(head + "DATA ascii\n0 0 0 1.0\n1 2 3 -1\n")
+        cloud = pcl_bv.read(self.folder / "a.pcd")
+        self.assertEqual(cloud.dtype.names, ("X", "Y", "Z", "label"))
+        self.assertEqual(cloud["label"].tolist(), [1, 4294967295])
+        box = pcl_bv.Aabb([0, 0, 0], [1, 2, 3])
+        self.assertEqual(pcl_bv.fit(cloud, "aabb"), box)
+        self.assertEqual(pcl_bv.fit(next(pcl_bv.frames(self.folder / "a.pcd")).points, "aabb"), box)
+        (self.folder / "a.pcd").write_text(head + "VIEWPOINT 1 0 0 1 0 0 0\nDATA ascii\n0 0 0 car\n1 2 3 4\n")
+        for read in (pcl_bv.read, lambda path: next(pcl_bv.frames(path)).points):
+            with self.assertWarnsRegex(UserWarning, "VIEWPOINT is not the identity.*'car' is no unsigned"):
+                self.assertEqual(pcl_bv.fit(read(self.folder / "a.pcd"), "aabb"), box)
+
     def test_an_array_of_a_file_owns_its_memory(self):
         pcl_bv.write(self.folder / "a.pcd", normal(1000, 44))
         x = pcl_bv.read(self.folder / "a.pcd")["x"]

@@ -11,19 +11,21 @@ namespace {
 void write(const TileHeader& header, std::ostream& out) {
   out << header.points << ' ' << size_of(header.scalar) << ' ' << header.by_position << ' '
       << header.error.has_value() << ' ' << header.error.value_or("").size() << ' '
-      << header.error.value_or("") << '\n';
+      << header.note.size() << ' ' << header.error.value_or("") << header.note << '\n';
 }
 
 TileHeader read_header(std::istream& in) {
   TileHeader header;
-  std::size_t scalar = 0, length = 0;
+  std::size_t scalar = 0, length = 0, note_length = 0;
   bool failed = false;
-  in >> header.points >> scalar >> header.by_position >> failed >> length;
+  in >> header.points >> scalar >> header.by_position >> failed >> length >> note_length;
   header.scalar = scalar == 8 ? ScalarType::float64 : ScalarType::float32;
   in.get();
   std::string error(length, '\0');
   in.read(error.data(), static_cast<std::streamsize>(length));
   if (failed) header.error = error;
+  header.note.resize(note_length);
+  in.read(header.note.data(), static_cast<std::streamsize>(note_length));
   return header;
 }
 

@@ -276,6 +276,7 @@ Status fit_together(Ranks& ranks, Tiles& tiles, const Options& options, Report& 
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (options.timings) say_costs(ranks, seconds.count(), now.worked(), now.rounds());
     if (!ranks.first()) return status;
+    say_notes(tiles);
     report = now.report();
     if (options.timings) report.seconds = {0, 0, seconds.count()};
     return worse(status, say_what_is_wrong(report));

@@ -150,9 +150,12 @@ std::variant<StreamOptions, std::string> parse_stream_options(int argc, const ch
   SettingOptions settings(line, defaults, true);
   declare_results(line, texts);
   if (auto text = line.parse(argc, argv)) return *std::move(text);
-  StreamConfig config = settings.config();
+  std::string range_from;
+  StreamConfig config = settings.config(&range_from);
   if (settings.print_config()) return to_yaml(config);
-  return to_options(line, texts, settings.file(), std::move(config));
+  StreamOptions options = to_options(line, texts, settings.file(), std::move(config));
+  options.range_from = std::move(range_from);
+  return options;
 }
 
 }  // namespace pcl_bv

@@ -28,6 +28,7 @@ enum class Rate : std::uint8_t {
 struct StreamOptions {
   std::string source;
   StreamConfig config;
+  std::string range_from;  ///< As SettingOptions::config() says it.
   ReplayOptions replay;
   Rate rate = Rate::fixed;
   std::vector<SinkDescription> sinks;

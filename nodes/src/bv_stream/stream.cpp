@@ -158,10 +158,11 @@ std::string named(const Frame& frame, const std::string& what) {
   return file + "frame " + std::to_string(frame.header.seq) + ": " + what;
 }
 
-StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, Progress& progress) {
+StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, const std::string& range_from,
+                                     Progress& progress) {
   StreamRunner::Callbacks callbacks;
   callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
-  callbacks.on_result = [&, last_note = std::string(), last_remark = std::string()](
+  callbacks.on_result = [&, last_note = std::string(), last_remark = std::string(), out_of_range = false](
                             const Frame& frame, const FrameResult& result) mutable {
     sinks.write(frame, result);
     if (!frame.note.empty() && frame.note != last_note) complain(named(frame, frame.note));
@@ -169,6 +170,9 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
     const std::string remark = with_options(ground_remark(result));
     if (!remark.empty() && remark != last_remark) complain(named(frame, remark));
     last_remark = remark;
+    const std::string range = range_remark(result, range_from);  // its numbers differ from frame to frame
+    if (!range.empty() && !out_of_range) complain(named(frame, range));
+    out_of_range = !range.empty();
     progress.show(frame.header.seq, result.clusters.size(), result.ms.total);
   };
   callbacks.on_lost = [&](const Frame& frame, Loss loss, const std::string& reason) {
@@ -196,7 +200,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   Progress progress;
   RunnerConfig config = options.config.runner;
   config.policy = resolved(config.policy, options.rate != Rate::max);
-  StreamRunner runner(callbacks_of(pipeline, sinks, progress), config);
+  StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config);
   Reader reader(options, runner, sinks, interrupted);
   reader.read(*source);
   runner.stop(StreamRunner::End::drain);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "command/values.h"
 #include "pcl_bv/nodes/settings.h"
@@ -32,6 +33,10 @@ void keep_first_mentions(std::vector<std::string>& methods) {
       once.push_back(std::move(name));
   }
   methods = std::move(once);
+}
+
+std::pair<double, double> range_of(const StreamConfig& config) {
+  return {config.pipeline.filter.range_min, config.pipeline.filter.range_max};
 }
 
 // --cluster TOL:PER_METRE
@@ -128,17 +133,22 @@ void SettingOptions::refuse_useless(const PipelineConfig& config) const {
     refuse(option, ground, "--ground");
 }
 
-StreamConfig SettingOptions::config() const {
+StreamConfig SettingOptions::config(std::string* range_from) const {
   StreamConfig config = defaults_;
+  std::string from = "the default; see --range";
   if (line_.given("--preset")) {
     parse_with("--preset", preset_, [&](const std::string& name) { apply_preset(name, config.pipeline); });
+    from = "--preset " + preset_;
   }
   try {
+    const auto range = range_of(config);
     if (line_.given("--config")) config = read_stream_config(file_, config);
+    if (range_of(config) != range) from = "--config " + file_;
   } catch (const ConfigError& error) {
     throw UsageError(error.what());
   }
   apply(config);
+  if (range_from != nullptr) *range_from = line_.given("--range") ? "--range" : from;
   refuse_useless(config.pipeline);
   const std::vector<std::string> problems = config.validate();
   if (!problems.empty()) throw UsageError(problems.front());

@@ -23,8 +23,9 @@ class SettingOptions {
   /// Declares them; `stream`: those of tracks and queues, too. Keeps the line.
   SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream);
 
-  /// What the parsed line asks for. Throws UsageError.
-  StreamConfig config() const;
+  /// What the parsed line asks for. `range_from` becomes where the range of distances comes from: "--range",
+  /// "--config FILE", "--preset NAME" or "the default; see --range". Throws UsageError.
+  StreamConfig config(std::string* range_from = nullptr) const;
 
   bool print_config() const { return print_config_; }
   const std::string& file() const { return file_; }  ///< Of --config, empty without it.

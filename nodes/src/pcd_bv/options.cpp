@@ -225,10 +225,12 @@ std::variant<Options, std::string> parse_options(int argc, const char* const* ar
   declare(line, texts, command);
   SettingOptions settings(line, {whole_cloud_config(), {}}, false);
   if (auto text = line.parse(argc, argv)) return *std::move(text);
-  StreamConfig config = settings.config();
+  std::string range_from;
+  StreamConfig config = settings.config(&range_from);
   if (settings.print_config()) return to_yaml(config);
   Options options = to_options(line, texts, std::move(config.pipeline), command);
   options.config_file = settings.file();
+  options.range_from = std::move(range_from);
   return options;
 }
 

@@ -36,6 +36,7 @@ struct Options {
   std::string topic;           ///< Of recordings.
   OriginOption origin;
   PipelineConfig pipeline;
+  std::string range_from;   ///< As SettingOptions::config() says it.
   std::string config_file;  ///< Of --config, empty without it.
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image, view_html;

@@ -104,8 +104,10 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
 }
 
 /// What a user would want to know before believing the results.
-std::vector<std::string> remarks(const FrameResult& result, const PointView& points) {
+std::vector<std::string> remarks(const FrameResult& result, const PointView& points, const Options& options) {
   std::vector<std::string> said;
+  const std::string range = range_remark(result, options.range_from);
+  if (!range.empty()) said.push_back(range);
   const std::string ground = with_options(ground_remark(result));
   if (!ground.empty()) said.push_back(ground);
   Aabb box;
@@ -136,7 +138,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   report.counts = result.counts;
   report.clusters = entries_of(result);
   report.origin = loaded.origin();
-  for (const std::string& remark : remarks(result, frame.points))
+  for (const std::string& remark : remarks(result, frame.points, options))
     complain(job.input + ": " + remark);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
@@ -164,7 +166,9 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
   for (;;) {
     if (job.tiles->used() == 0) throw IoError("none of the inputs could be read");
     try {
-      return worse(status, process(job, options, pipeline, report));
+      status = worse(status, process(job, options, pipeline, report));
+      say_notes(*job.tiles);
+      return status;
     } catch (const TileError& error) {
       complain(job.tiles->jobs()[error.tile()].input + ": " + error.what());
       job.tiles->leave_out(error.tile(), error.what());

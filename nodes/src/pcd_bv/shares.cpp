@@ -125,6 +125,13 @@ Status say_what_is_left_out(const Tiles& tiles) {
   return status;
 }
 
+void say_notes(const Tiles& tiles) {
+  for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
+    const std::string note = tiles.note(i);
+    if (!tiles.header(i).error && !note.empty()) complain(tiles.jobs()[i].input + ": " + note);
+  }
+}
+
 namespace {
 
 Status write_or_say_why(const std::filesystem::path& path, const PartialFile& file) {
@@ -154,6 +161,7 @@ Status make_partial_file(const Job& job, const Options& options) {
     const SharePoints points(*job.tiles, range, options.origin.at, options);
     add_share(points, range, execution, file);
     job.tiles->require_unchanged();
+    say_notes(*job.tiles);
   } catch (const TileError& error) {
     complain(job.tiles->jobs()[error.tile()].input + ": " + error.what());
     return Status::failed;

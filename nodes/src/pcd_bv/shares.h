@@ -62,4 +62,7 @@ Status make_partial_file(const Job& job, const Options& options);
 /// Complains of every input that is left out: failed if there is one.
 Status say_what_is_left_out(const Tiles& tiles);
 
+/// Says what was noticed about the others.
+void say_notes(const Tiles& tiles);
+
 }  // namespace pcl_bv

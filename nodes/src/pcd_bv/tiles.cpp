@@ -56,9 +56,12 @@ TileHeader describe_tile(const Job& job) {
     if (is_file(job) && !job.error) {
       const CloudHeader found = read_cloud_header(job.input, job.bin_fields);
       header = {found.cloud.size(), found.scalar, found.by_position && found.cloud.size() > kChunkPoints};
+      header.note = found.cloud.note;
     } else {
-      const PointView points = load_cloud(job, Serial{}).xyz();
+      const RawCloud cloud = load_cloud(job, Serial{});
+      const PointView points = cloud.xyz();
       header = {points.count, points.scalar};
+      header.note = cloud.note;
     }
   } catch (const std::bad_alloc&) {
     header.error = "not enough memory";
@@ -72,7 +75,8 @@ Tiles::Tiles(std::vector<Job> jobs, std::vector<TileHeader> headers, std::size_t
     : jobs_(std::move(jobs)),
       headers_(std::move(headers)),
       most_open_(threads + 1),
-      identities_(jobs_.size()) {
+      identities_(jobs_.size()),
+      notes_(jobs_.size()) {
   number_points();
 }
 
@@ -94,6 +98,11 @@ void Tiles::leave_out(std::size_t tile, const std::string& reason) {
   headers_[tile] = {};
   headers_[tile].error = reason;
   number_points();
+}
+
+std::string Tiles::note(std::size_t tile) const {
+  const std::lock_guard lock(mutex_);
+  return notes_[tile].empty() ? headers_[tile].note : notes_[tile];
 }
 
 std::size_t Tiles::tile_of(std::size_t point) const {
@@ -135,6 +144,7 @@ Tiles::Opened Tiles::open_now(std::size_t tile) const {
   if (known == Identity{}) known = identity;
   const bool same = known == identity && opened.xyz.count == headers_[tile].points;
   if (!same) throw IoError(kChangedWhileRead);
+  notes_[tile] = opened.cloud.note;
   return opened;
 }
 

@@ -27,6 +27,7 @@ struct TileHeader {
   ScalarType scalar = ScalarType::float32;
   bool by_position = false;            ///< As CloudHeader has it.
   std::optional<std::string> error{};  ///< Why it is left out; then there are no points.
+  std::string note{};                  ///< As RawCloud has it, as far as the header says.
 };
 
 /// Reads no points of files; generated clouds and those of recordings are made, counted and dropped.
@@ -60,6 +61,9 @@ class Tiles final : public PointSource {
 
   /// Inputs that are not left out.
   std::size_t used() const;
+
+  /// What was noticed about an input so far, as RawCloud::note.
+  std::string note(std::size_t tile) const;
 
   /// From here on its points are not of the cloud; those behind it have lesser numbers.
   void leave_out(std::size_t tile, const std::string& reason);
@@ -103,6 +107,7 @@ class Tiles final : public PointSource {
   mutable std::mutex mutex_;
   mutable std::list<std::shared_ptr<Slot>> open_;  // the one asked for last comes first
   mutable std::vector<Identity> identities_;       // of each input that has been opened
+  mutable std::vector<std::string> notes_;         // of each input that is read whole
   mutable std::atomic<std::size_t> loaded_ = 0;
 };
 

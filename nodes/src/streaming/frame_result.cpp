@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
 
@@ -67,6 +68,15 @@ std::string ground_remark(const FrameResult& result) {
     return "all points are taken for ground" + tried +
            ": try ground.up, ground.distance, or ground.method none";
   return {};
+}
+
+std::string range_remark(const FrameResult& result, const std::string& from) {
+  const FilterConfig& filter = result.config->filter;
+  const std::size_t finite = result.points - result.counts.nonfinite, out = result.counts.range;
+  constexpr std::size_t few = 100;
+  if (finite < few || 2 * out <= finite) return {};
+  return std::to_string(out) + " of " + std::to_string(finite) + " points are out of range: not " +
+         to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")";
 }
 
 std::vector<ClusterEntry> entries_of(const FrameResult& result) {

@@ -47,8 +47,9 @@ struct FrameResult {
 
   /// Of the volumes of each cluster, in the order asked for; where classes have volumes of their own, of all.
   std::vector<const Method*> methods;
-  std::vector<AnyVolume> volumes;    ///< Cluster by cluster, in each as `methods` says.
-  std::vector<std::uint8_t> wanted;  ///< Of `volumes`: 0 where the class has others, and it is empty; if empty, all are.
+  std::vector<AnyVolume> volumes;  ///< Cluster by cluster, in each as `methods` says.
+  std::vector<std::uint8_t>
+      wanted;  ///< Of `volumes`: 0 where the class has others, and it is empty; if empty, all are.
   std::vector<EstimationResult>
       results;  ///< What the fits of `volumes` said; those that failed left them empty.
   StageTimes ms;
@@ -73,6 +74,10 @@ std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& resu
 /// If ground was asked for and there is none in a hundred points or more, or nothing else: that, and which
 /// settings (by their keys) to try; else nothing.
 std::string ground_remark(const FrameResult& result);
+
+/// If the range (filter.range_min to filter.range_max) drops more than half of a hundred finite points or
+/// more: that, and what the range is; `from` says where it comes from ("--preset table"). Else nothing.
+std::string range_remark(const FrameResult& result, const std::string& from);
 
 /// The clusters as they are reported.
 std::vector<ClusterEntry> entries_of(const FrameResult& result);
