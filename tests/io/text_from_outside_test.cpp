@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/io/text_from_outside.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "files.h"
+#include "pcl_bv/io/read_json.h"
+
+namespace pcl_bv {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(const std::string& json) {
+  try {
+    static_cast<void>(read_json(json));
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string nested(int depth, const std::string& open = "[", const std::string& close = "]") {
+  std::string text;
+  for (int i = 0; i < depth; ++i)
+    text += open;
+  for (int i = 0; i < depth; ++i)
+    text += close;
+  return text;
+}
+
+TEST(TextFromOutside, ValuesOfJsonComeOneAfterAnother) {
+  const std::string text = " {\"a]\":[1,\"}\\\"\"]}\n[]7 \"x\"true\n";
+  std::vector<std::string> values;
+  std::size_t at = 0;
+  for (;;) {
+    const std::string_view value = next_json_value(text, at);
+    if (value.empty()) break;
+    values.emplace_back(value);
+  }
+  EXPECT_THAT(values, testing::ElementsAre("{\"a]\":[1,\"}\\\"\"]}", "[]", "7", "\"x\"", "true"));
+  EXPECT_EQ(at, text.size());
+}
+
+TEST(TextFromOutside, DepthEndsWhereItShouldWhateverFollows) {
+  EXPECT_EQ(read_json(nested(kMaxJsonDepth)).size(), 1U);
+  for (const int depth : {kMaxJsonDepth + 1, 20'000, 100'000}) {
+    EXPECT_EQ(error_of(nested(depth)), "line 1, column 65: nested more than 64 deep");
+    EXPECT_EQ(error_of(std::string(static_cast<std::size_t>(depth), '[')),
+              "line 1, column 65: nested more than 64 deep");
+    EXPECT_EQ(error_of(nested(depth, "{\"a\":", "}")), "line 1, column 321: nested more than 64 deep");
+  }
+  EXPECT_EQ(read_json("[" + std::string("\"") + std::string(1000, '[') + "\"]").size(), 1U);
+}
+
+TEST(TextFromOutside, WhatIsNoJsonHasItsPlaceInOurWords) {
+  EXPECT_EQ(error_of("{\n \"a\": nope}"), "line 2, column 8: is no JSON");
+  EXPECT_EQ(error_of("[1, 2"), "is cut off: the last value has no end");
+  EXPECT_EQ(error_of("{\"a"), "is cut off: the last value has no end");
+  EXPECT_EQ(error_of("[1e999]"), "line 1, column 1: a number is too large");
+  EXPECT_EQ(error_of("  "), "is no JSON: it is empty");
+  EXPECT_EQ(error_of("1 2"), "is no JSON: something follows the value");
+  for (const char* text :
+       {"]", "}", "[}", "{]", "\xff", "[\"\xff\"]", "\"\\u12\"", "{1:2}", "[1,]", ",", "[1 2]"})
+    EXPECT_THAT(error_of(text), testing::Not(HasSubstr("exception"))) << text;
+}
+
+// Keys in the order of the text would be compared with all before them: 10^5 of them took minutes.
+TEST(TextFromOutside, ManyKeysAreReadIntoAMap) {
+  std::string text = "{";
+  for (int i = 0; i < 100'000; ++i)
+    text += (i == 0 ? "\"" : ",\"") + std::to_string(i) + "\":0";
+  EXPECT_EQ(read_json(text + "}").size(), 100'000U);
+  static_assert(std::is_same_v<JsonFromOutside::object_t::key_compare, std::less<>>);
+}
+
+using FilesFromOutside = FileTest;
+
+TEST_F(FilesFromOutside, AreReadNoFartherThanTheyMayGo) {
+  const std::filesystem::path small = file("text");
+  write_text(small, std::string(1000, 'x'));
+  EXPECT_EQ(read_text_from_outside(small, 1000).size(), 1000U);
+  const auto error_of_file = [](const std::filesystem::path& path, std::size_t most) -> std::string {
+    try {
+      static_cast<void>(read_text_from_outside(path, most));
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error_of_file(small, 999), "has more than 999 bytes");
+  EXPECT_EQ(error_of_file("/dev/zero", 100'000), "has more than 100000 bytes");
+  EXPECT_EQ(error_of_file("/no/such/file", 1), "cannot be read");
+  EXPECT_EQ(error_of_file("/tmp", 1), "cannot be read");
+  EXPECT_EQ(read_text_from_outside("/dev/null", 1), "");
+}
+
+}  // namespace
+}  // namespace pcl_bv
