@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <boost/crc.hpp>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/read_json.h"
 
 namespace pcl_bv {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = JsonFromOutside;
 using Shares = std::vector<std::pair<std::size_t, std::size_t>>;
 
 constexpr std::string_view kFormat = "pcl_bv partial results ";
@@ -70,9 +70,10 @@ std::size_t whole(const Json& number) {
   return number.get<std::size_t>();
 }
 
-// Throws what nlohmann throws, and IoError.
+// Throws Json::exception, and IoError.
 PartialFile read_heading(std::string_view line) {
-  const Json json = Json::parse(line);
+  require(line.size() <= kMaxHeadingBytes, "its heading is too long");
+  const Json json = read_json(line);
   PartialFile file;
   file.inputs_hash = whole(json.at("inputs_hash"));
   file.inputs = whole(json.at("inputs"));
@@ -142,7 +143,8 @@ std::string PartialFile::missing() const {
 }
 
 std::string partial_file_content(const PartialFile& file) {
-  Json json{{"inputs", file.inputs}, {"inputs_hash", file.inputs_hash}, {"cloud_points", file.cloud_points}};
+  nlohmann::ordered_json json{
+      {"inputs", file.inputs}, {"inputs_hash", file.inputs_hash}, {"cloud_points", file.cloud_points}};
   if (file.origin) json["origin"] = {(*file.origin)[0], (*file.origin)[1], (*file.origin)[2]};
   json["filter"] = file.filter;
   json["range"] = file.counts.range;

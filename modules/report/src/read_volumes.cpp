@@ -3,97 +3,216 @@
 
 #include "pcl_bv/report/read_volumes.h"
 
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <cstdint>
+
+#include "pcl_bv/io/read_json.h"
 
 namespace pcl_bv {
 namespace {
 
-using ReadJson = nlohmann::json;
+using Json = JsonFromOutside;
 
-Eigen::Vector3d read_vector(const ReadJson& numbers) {
-  if (numbers.size() != 3) throw std::invalid_argument("three numbers are wanted, not " + numbers.dump());
-  return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument(what);
 }
 
-std::vector<Eigen::Vector3d> read_vectors(const ReadJson& list) {
+// "radius: three numbers are wanted, not [1,2]"
+[[noreturn]] void refuse(const char* key, const char* wanted, const Json& value) {
+  refuse(std::string(key) + ": " + wanted + ", not " + shown(value));
+}
+
+double number_of(const char* key, const Json& value) {
+  if (!value.is_number()) refuse(key, "a number is wanted", value);
+  return value.get<double>();
+}
+
+const Json& list_of(const char* key, const Json& value) {
+  if (!value.is_array()) refuse(key, "a list is wanted", value);
+  return value;
+}
+
+Eigen::Vector3d vector_of(const char* key, const Json& value) {
+  if (!value.is_array() || value.size() != 3) refuse(key, "three numbers are wanted", value);
+  return {number_of(key, value[0]), number_of(key, value[1]), number_of(key, value[2])};
+}
+
+std::vector<Eigen::Vector3d> vectors_of(const char* key, const Json& value) {
   std::vector<Eigen::Vector3d> found;
-  for (const ReadJson& element : list)
-    found.push_back(read_vector(element));
+  for (const Json& element : list_of(key, value))
+    found.push_back(vector_of(key, element));
   return found;
 }
 
-Eigen::Matrix3d read_columns(const ReadJson& list) {
-  if (list.size() != 3) throw std::invalid_argument("three axes are wanted");
+Eigen::Matrix3d columns_of(const char* key, const Json& value) {
+  const std::vector<Eigen::Vector3d> axes = vectors_of(key, value);
+  if (axes.size() != 3) refuse(key, "three axes are wanted", value);
   Eigen::Matrix3d m;
-  m << read_vector(list[0]), read_vector(list[1]), read_vector(list[2]);
+  m << axes[0], axes[1], axes[2];
   return m;
 }
 
-SlabVector read_slabs(const ReadJson& list) {
-  const auto numbers = list.get<std::vector<double>>();
-  if (numbers.size() > KdopSet::max_size) throw std::invalid_argument("too many slabs");
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+SlabVector slabs_of(const char* key, const Json& value) {
+  if (list_of(key, value).size() > KdopSet::max_size) refuse(key, "at most 49 numbers are wanted", value);
+  SlabVector slabs(static_cast<Eigen::Index>(value.size()));
+  for (std::size_t i = 0; i < value.size(); ++i)
+    slabs[static_cast<Eigen::Index>(i)] = number_of(key, value[i]);
+  return slabs;
 }
 
-Hull read_hull(const ReadJson& json) {
+std::int32_t vertex_of(const Json& value, std::size_t vertices) {
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= vertices)
+    refuse("faces", "numbers of vertices are wanted", value);
+  return value.get<std::int32_t>();
+}
+
+Hull read_hull(const Json& json) {
+  std::vector<Eigen::Vector3d> vertices = vectors_of("vertices", member(json, "vertices"));
   std::vector<Hull::Triangle> faces;
-  for (const ReadJson& face : json.at("faces"))
-    faces.push_back(face.get<Hull::Triangle>());
-  std::vector<HullPlane> planes;
-  for (const ReadJson& plane : json.at("planes")) {
-    const auto p = plane.get<std::array<double, 4>>();
-    planes.push_back({{p[0], p[1], p[2]}, p[3]});
+  for (const Json& face : list_of("faces", member(json, "faces"))) {
+    if (!face.is_array() || face.size() != 3) refuse("faces", "three numbers of vertices are wanted", face);
+    const auto vertex = [&](std::size_t i) { return vertex_of(face[i], vertices.size()); };
+    faces.push_back({vertex(0), vertex(1), vertex(2)});
   }
-  return {read_vectors(json.at("vertices")), std::move(faces), std::move(planes), json.value("rank", 3)};
+  std::vector<HullPlane> planes;
+  for (const Json& plane : list_of("planes", member(json, "planes"))) {
+    if (!plane.is_array() || plane.size() != 4) refuse("planes", "four numbers are wanted", plane);
+    const auto number = [&](std::size_t i) { return number_of("planes", plane[i]); };
+    planes.push_back({{number(0), number(1), number(2)}, number(3)});
+  }
+  int rank = 3;
+  if (const auto said = json.find("rank"); said != json.end()) {
+    if (!said->is_number_unsigned() || said->get<std::uint64_t>() > 3)
+      refuse("rank", "0, 1, 2 or 3 is wanted", *said);
+    rank = said->get<int>();
+  }
+  return {std::move(vertices), std::move(faces), std::move(planes), rank};
 }
 
-AnyVolume read_volume(const ReadJson& json) {
-  const auto shape = json.at("shape").get<std::string>();
-  const auto point = [&](const char* key) { return read_vector(json.at(key)); };
-  const auto number = [&](const char* key) { return json.at(key).get<double>(); };
+AnyVolume read_shape(const Json& json) {
+  const Json& name = member(json, "shape");
+  const auto point = [&](const char* key) { return vector_of(key, member(json, key)); };
+  const auto number = [&](const char* key) { return number_of(key, member(json, key)); };
+  const auto axes = [&](const char* key) { return columns_of(key, member(json, key)); };
+  const auto slabs = [&](const char* key) { return slabs_of(key, member(json, key)); };
+  const std::string shape = name.is_string() ? name.get<std::string>() : std::string();
   if (shape == "aabb") return Aabb(point("min"), point("max"));
   if (shape == "kdop") {
-    auto set = std::make_shared<const KdopSet>(read_vectors(json.at("directions")));
-    return Kdop(std::move(set), read_slabs(json.at("min")), read_slabs(json.at("max")));
+    auto set = std::make_shared<const KdopSet>(vectors_of("directions", member(json, "directions")));
+    return Kdop(std::move(set), slabs("min"), slabs("max"));
   }
   if (shape == "sphere") return Sphere(point("center"), number("radius"));
-  if (shape == "obb") return Obb(point("center"), read_columns(json.at("axes")), point("half_extents"));
+  if (shape == "obb") return Obb(point("center"), axes("axes"), point("half_extents"));
   if (shape == "cylinder")
     return Cylinder(point("center"), point("axis"), number("radius"), number("half_height"));
   if (shape == "capsule") return Capsule(point("a"), point("b"), number("radius"));
-  if (shape == "ellipsoid") return Ellipsoid(point("center"), read_columns(json.at("axes")), point("radii"));
+  if (shape == "ellipsoid") return Ellipsoid(point("center"), axes("axes"), point("radii"));
   if (shape == "hull") return read_hull(json);
-  throw std::invalid_argument("'" + shape + "' is no shape");
+  refuse(shown(name) + " is no shape");
 }
 
-void collect(const ReadJson& json, std::vector<AnyVolume>& volumes) {
-  if (json.is_object() && json.contains("shape")) {
-    if (!json.contains("empty") && !json.contains("failed")) volumes.push_back(read_volume(json));
-  } else if (json.is_structured()) {
-    for (const ReadJson& element : json)
-      collect(element, volumes);
+// Where an entry stands: "clusters[0].volumes[2]".
+struct Place {
+  const Place* above;
+  std::string key;  // empty: a number in a list
+  std::size_t number = 0;
+
+  std::string text() const {
+    const std::string before = above == nullptr ? std::string() : above->text();
+    if (key.empty()) return before + '[' + std::to_string(number) + ']';
+    return before + (before.empty() ? "" : ".") + key;
   }
+};
+
+enum class Found : std::uint8_t { nothing, volumes, volume };
+
+void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
+  if (const auto failed = json.find("failed"); failed != json.end())
+    refuse("is no volume: its fit failed, " + shown(*failed));
+  if (const auto is_empty = json.find("empty"); is_empty != json.end()) {
+    if (!is_empty->is_boolean()) refuse("empty", "true or false is wanted", *is_empty);
+    if (is_empty->get<bool>()) return;
+  }
+  AnyVolume volume = read_shape(json);
+  if (empty(volume)) refuse("no point is inside of it; \"empty\": true says so");
+  volumes.push_back(std::move(volume));
+}
+
+// What an entry that should be a volume is instead.
+[[noreturn]] void refuse_entry(const Json& entry, const Place& place) {
+  refuse(place.text() + ": is no volume: " + (entry.is_object() ? "it has no \"shape\"" : shown(entry)));
+}
+
+// A list or a group that is called "volumes", or has a volume, has nothing else: what is skipped unsaid would
+// be missed by those who rely on it. Numbers and texts beside named volumes may say what they like.
+Found collect(const Json& json, const Place* place, std::vector<AnyVolume>& volumes) {
+  if (json.is_object() && json.contains("shape")) {
+    try {
+      read_volume(json, volumes);
+    } catch (const std::invalid_argument& error) {
+      if (place == nullptr) throw;
+      refuse(place->text() + ": " + error.what());
+    }
+    return Found::volume;
+  }
+  const bool said = place != nullptr && place->key == "volumes";
+  if (!json.is_structured()) {
+    if (said) refuse_entry(json, *place);
+    return Found::nothing;
+  }
+  std::vector<Found> found;
+  for (const auto& [key, value] : json.items()) {
+    const Place inner{place, json.is_object() ? key : std::string(), found.size()};
+    found.push_back(collect(value, &inner, volumes));
+  }
+  const auto count = [&](Found what) { return std::count(found.begin(), found.end(), what); };
+  if (said || count(Found::volume) > 0) {
+    std::size_t i = 0;
+    for (const auto& [key, value] : json.items()) {
+      const bool must = said || json.is_array() || value.is_object();
+      if (must && found[i] == Found::nothing)
+        refuse_entry(value, {place, json.is_object() ? key : std::string(), i});
+      ++i;
+    }
+  }
+  return count(Found::nothing) == static_cast<std::ptrdiff_t>(found.size()) ? Found::nothing : Found::volumes;
+}
+
+std::vector<AnyVolume> volumes_in(std::string_view text) {
+  std::vector<AnyVolume> volumes;
+  std::optional<std::size_t> without;  // where the first value without volumes begins
+  bool bare = false;                   // whether some value is a volume: then all are
+  const auto refuse_value = [&](std::size_t at, const std::string& what) {
+    std::size_t end = 0;
+    next_json_value(text, end);
+    const bool alone = next_json_value(text, end).empty();
+    throw IoError((alone ? "" : position_in(text, at) + ": ") + what);
+  };
+  for (std::size_t at = 0;;) {
+    const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+    const std::optional<Json> json = read_next_json(text, at);
+    if (!json) break;
+    try {
+      const Found found = collect(*json, nullptr, volumes);
+      bare = bare || found == Found::volume;
+      if (found == Found::nothing && !without) without = begin;
+    } catch (const std::invalid_argument& error) {
+      refuse_value(begin, error.what());
+    }
+  }
+  if (bare && without) refuse_value(*without, "is no volume: it has no \"shape\"");
+  if (volumes.empty()) throw IoError("no volumes in it");
+  return volumes;
 }
 
 }  // namespace
 
 std::vector<AnyVolume> read_volumes(const std::filesystem::path& file) {
-  const auto fail = [&](const std::string& what) { throw IoError(file.string() + ": " + what); };
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) fail("cannot be read");
-  std::vector<AnyVolume> volumes;
   try {
-    while (in >> std::ws && !in.eof()) {
-      ReadJson json;
-      in >> json;  // one value; the next line may have another
-      collect(json, volumes);
-    }
-  } catch (const std::exception& error) {
-    fail(error.what());
+    return volumes_in(read_text_from_outside(file, kMaxVolumesBytes));
+  } catch (const IoError& error) {
+    throw IoError(file.string() + ": " + error.what());
   }
-  if (volumes.empty()) fail("no volumes in it");
-  return volumes;
 }
 
 }  // namespace pcl_bv
