@@ -53,6 +53,47 @@ TEST(LiveProtocol, AnythingElseIsSaidToBeUnknown) {
     EXPECT_TRUE(std::holds_alternative<Unknown>(parse_request(text))) << text.substr(0, 60);
 }
 
+TEST(LiveProtocol, ValuesThatAreNestedWithoutEndAreRefused) {
+  for (const std::size_t depth : {std::size_t{65}, std::size_t{20'000}, std::size_t{100'000}}) {
+    const std::string open =
+        R"({"op":"setParameters","parameters":[{"name":"x","value":)" + std::string(depth, '[');
+    for (const std::string& text : {open, open + std::string(depth, ']') + "}]}"}) {
+      const Request request = parse_request(text);
+      ASSERT_TRUE(std::holds_alternative<Unknown>(request));
+      EXPECT_THAT(std::get<Unknown>(request).why, testing::HasSubstr("nested more than 64 deep"));
+    }
+  }
+}
+
+TEST(LiveProtocol, ARequestNamesSoManyThingsAndNoMore) {
+  const auto list = [](std::size_t count, const std::string& of) {
+    std::string all;
+    for (std::size_t i = 0; i < count; ++i)
+      all += (i == 0 ? "" : ",") + of;
+    return '[' + all + ']';
+  };
+  const auto requests = [&](std::size_t count) {
+    return std::vector<std::string>{
+        R"({"op":"setParameters","parameters":)" + list(count, R"({"name":"x","value":1})") + "}",
+        R"({"op":"getParameters","parameterNames":)" + list(count, "\"x\"") + "}",
+        R"({"op":"subscribe","subscriptions":)" + list(count, R"({"id":1,"channelId":0})") + "}",
+        R"({"op":"unsubscribe","subscriptionIds":)" + list(count, "1") + "}"};
+  };
+  for (const std::string& text : requests(kMaxNames))
+    EXPECT_FALSE(std::holds_alternative<Unknown>(parse_request(text))) << text.substr(0, 40);
+  for (const std::string& text : requests(kMaxNames + 1))
+    EXPECT_TRUE(std::holds_alternative<Unknown>(parse_request(text))) << text.substr(0, 40);
+  EXPECT_TRUE(std::holds_alternative<Unknown>(
+      parse_request(R"({"op":"getParameters","id":")" + std::string(kMaxIdLength + 1, 'x') + "\"}")));
+}
+
+TEST(LiveProtocol, AnAnswerIsShortWhateverWasAsked) {
+  const std::string answer = status(Level::error, std::string(100'000, 'x'));
+  EXPECT_LT(answer.size(), kMaxStatusLength + 100);
+  const Request unknown = parse_request(R"({"op":")" + std::string(10'000, 'x') + "\"}");
+  EXPECT_LT(std::get<Unknown>(unknown).why.size(), 100U);
+}
+
 TEST(LiveProtocol, AMessagesHeadHasItsNumbersLittleEndian) {
   const MessageHead head = message_head(0x01020304, 0x1112131415161718);
   EXPECT_THAT(head, ElementsAre(1, 4, 3, 2, 1, 0x18, 0x17, 0x16, 0x15, 0x14, 0x13, 0x12, 0x11));

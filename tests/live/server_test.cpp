@@ -291,6 +291,83 @@ TEST_F(LiveServer, HostileClientsAreCutOffAndOthersGoOn) {
   EXPECT_TRUE(others_go_on());
 }
 
+TEST_F(LiveServer, NoRequestEndsItOrKeepsOthersWaiting) {
+  FramePipeline pipeline;
+  server_.offer(remote_settings(pipeline));
+  Client good(port_);
+  good.open();
+  subscribe(good, {frames_});
+  ASSERT_TRUE(wait_for([&] { return server_.wanted(frames_); }));
+  int number = 0;
+  const auto others_go_on = [&] {
+    send(frames_, ++number);
+    return good.await_message().number(5, 8) == static_cast<std::uint64_t>(number);
+  };
+  const auto deep = [](std::size_t depth) {
+    return R"({"op":"setParameters","parameters":[{"name":"x","value":)" + std::string(depth, '[') +
+           std::string(depth, ']') + "}]}";
+  };
+  std::string many = R"({"op":"setParameters","parameters":[)";
+  for (int i = 0; i < 60'000; ++i)
+    many += (i == 0 ? "" : ",") + std::string(R"({"name":"n)") + std::to_string(i) + R"("})";
+  many += "]}";
+  for (const std::string& text : {deep(100'000), many, R"({"op":")" + std::string(100'000, '[') + "\"}"}) {
+    Client bad(port_);  // more bytes than a request may have
+    bad.open();
+    try {
+      bad.send(text, true);
+    } catch (const boost::system::system_error&) {
+    }
+    EXPECT_TRUE(bad.is_closed());
+    EXPECT_TRUE(others_go_on());
+  }
+  Client bad(port_);  // as long as it may be
+  bad.open();
+  for (const std::string& text : {deep(30'000), many.substr(0, many.find(R"({"name":"n2000")") - 1) + "]}"}) {
+    ASSERT_LT(text.size(), Viewer::kLongestRequest);
+    bad.send(text, true);
+    EXPECT_THAT(bad.await("status")["message"].get<std::string>(),
+                testing::AnyOf(HasSubstr("nested more than 64 deep"), HasSubstr("names at most 100")));
+    EXPECT_TRUE(others_go_on());
+  }
+  bad.say({{"op", "setParameters"}, {"parameters", {{{"name", std::string(60'000, 'x')}, {"value", 1}}}}});
+  EXPECT_LE(bad.await("status")["message"].get<std::string>().size(), live::kMaxStatusLength);
+  EXPECT_TRUE(others_go_on());
+}
+
+TEST_F(LiveServer, SettingsChangeSoOftenASecondAndNoOftener) {
+  FramePipeline pipeline;
+  server_.offer(remote_settings(pipeline));
+  Client client(port_);
+  client.open();
+  const std::size_t requests = 2 * live::Hub::kMostChangesASecond;
+  for (std::size_t i = 0; i < requests; ++i)
+    client.say(
+        {{"op", "setParameters"},
+         {"parameters", {{{"name", "cluster.tolerance"}, {"value", 0.5 + 0.001 * static_cast<double>(i)}}}},
+         {"id", "x"}});
+  std::size_t done = 0, refused = 0;
+  while (done + refused < requests) {
+    const std::string op = client.next().op();
+    done += op == "parameterValues";
+    refused += op == "status";
+  }
+  EXPECT_GE(done, live::Hub::kMostChangesASecond);
+  EXPECT_GT(refused, 0U);
+}
+
+TEST_F(LiveServer, AClientThatSaysTooManyBytesASecondIsCutOff) {
+  Client client(port_);
+  client.open();
+  try {
+    for (std::size_t bytes = 0; bytes <= 4 * Viewer::kMostRequestBytesASecond;
+         bytes += Viewer::kLongestRequest)
+      client.send(std::string(Viewer::kLongestRequest, ' '), true);
+  } catch (const boost::system::system_error&) {
+  }
+  EXPECT_TRUE(client.is_closed());
+}
+
 TEST_F(LiveServer, SaysWhatIsLostOnceASecondAtMost) {
   Client client(port_);
   client.open();

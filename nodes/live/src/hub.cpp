@@ -80,6 +80,10 @@ void Hub::finish() {
 }
 
 void Hub::change(Viewer& viewer, const SetParameters& wanted) {
+  if (!changes_.allows(1)) {
+    return viewer.tell(status(Level::error, "settings are changed at most " +
+                                                std::to_string(kMostChangesASecond) + " times a second"));
+  }
   const std::string problem =
       settings_ == nullptr ? "there are no settings" : settings_->change(wanted.object);
   if (!problem.empty()) viewer.tell(status(Level::error, problem));
@@ -109,7 +113,7 @@ void Hub::handle(Viewer& viewer, const Request& request) {
 
 void Hub::remark(const std::string& line) {
   const std::lock_guard lock(mutex_);
-  if (std::exchange(last_remark_, line) != line && remarks_.size() < 100) remarks_.push_back(line);
+  if (std::exchange(last_remark_, line) != line && remarks_.size() < kMostRemarks) remarks_.push_back(line);
 }
 
 std::vector<std::string> Hub::take_remarks() {

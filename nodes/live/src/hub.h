@@ -28,9 +28,32 @@ struct Channel {
   std::atomic<int> readers{0};
 };
 
+/// So much a second.
+class RateLimit {
+ public:
+  explicit RateLimit(std::size_t most) : most_(most) {}
+  bool allows(std::size_t more) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - second_ > std::chrono::seconds(1)) {
+      second_ = now;
+      used_ = 0;
+    }
+    used_ += more;
+    return used_ <= most_;
+  }
+
+ private:
+  std::size_t most_, used_ = 0;
+  std::chrono::steady_clock::time_point second_{};
+};
+
 /// Used by the server's thread only, but for what says otherwise.
 class Hub {
  public:
+  static constexpr std::size_t kMostChangesASecond =
+      50;                                          ///< Of settings, by all viewers: each costs up to 1 ms.
+  static constexpr std::size_t kMostRemarks = 10;  ///< Until they are taken.
+
   explicit Hub(std::string session) : session_(std::move(session)) {}
 
   void add(std::shared_ptr<Channel> channel);
@@ -73,6 +96,7 @@ class Hub {
   std::int64_t last_time_ns_ = INT64_MIN;
   std::chrono::steady_clock::time_point noticed_{};
   std::uint64_t unsaid_ = 0;
+  RateLimit changes_{kMostChangesASecond};
   std::mutex mutex_;
   std::vector<std::string> remarks_;
   std::string last_remark_;

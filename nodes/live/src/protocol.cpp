@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "pcl_bv/io/read_json.h"
 #include "pcl_bv/messages/schema.h"
 
 namespace pcl_bv::live {
@@ -22,48 +23,70 @@ constexpr const char* kFrameSchema = R"({"title":"pcl_bv.Frame","type":"object",
 "ms":{"type":"object","properties":{"decode":{"type":"number"},"filter":{"type":"number"},"ground":{"type":"number"},
 "cluster":{"type":"number"},"fit":{"type":"number"},"track":{"type":"number"},"total":{"type":"number"}}}}})";
 
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+template <class AnyJson>
+std::string text_of(const AnyJson& json) {
+  return json.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
 }
 
-std::vector<std::string> strings_of(const Json& request, const char* key) {
+using FromClient = JsonFromOutside;
+
+struct TooMuch {
+  const char* why;
+};
+
+const FromClient& list_of(const FromClient& request, const char* key) {
+  const FromClient& list = request.at(key);
+  if (list.size() > kMaxNames) throw TooMuch{"a request names at most 100 things"};
+  return list;
+}
+
+std::string id_of(const FromClient& request) {
+  std::string id = request.value("id", "");
+  if (id.size() > kMaxIdLength) throw TooMuch{"an id has at most 200 bytes"};
+  return id;
+}
+
+std::vector<std::string> strings_of(const FromClient& request, const char* key) {
   std::vector<std::string> texts;
-  for (const Json& text : request.value(key, Json::array()))
+  if (!request.contains(key)) return texts;
+  for (const FromClient& text : list_of(request, key))
     texts.push_back(text.get<std::string>());
   return texts;
 }
 
-Request subscribe(const Json& request) {
+Request subscribe(const FromClient& request) {
   Subscribe wanted;
-  for (const Json& one : request.at("subscriptions"))
+  for (const FromClient& one : list_of(request, "subscriptions"))
     wanted.subscriptions.emplace_back(one.at("id").get<std::uint32_t>(),
                                       one.at("channelId").get<std::size_t>());
   return wanted;
 }
 
-Request set_parameters(const Json& request) {
+Request set_parameters(const FromClient& request) {
   SetParameters wanted;
-  Json object = Json::object();
-  for (const Json& one : request.at("parameters")) {
+  FromClient object = FromClient::object();
+  for (const FromClient& one : list_of(request, "parameters")) {
     wanted.names.push_back(one.at("name").get<std::string>());
-    object[wanted.names.back()] = one.value("value", Json("null"));
+    object[wanted.names.back()] = one.value("value", FromClient("null"));
   }
   wanted.object = text_of(object);
-  wanted.id = request.value("id", "");
+  wanted.id = id_of(request);
   return wanted;
 }
 
-Request request_of(const Json& request) {
+Request unsubscribe(const FromClient& request) {
+  return Unsubscribe{list_of(request, "subscriptionIds").get<std::vector<std::uint32_t>>()};
+}
+
+Request request_of(const FromClient& request) {
   const auto op = request.at("op").get<std::string>();
   if (op == "subscribe") return subscribe(request);
-  if (op == "unsubscribe")
-    return Unsubscribe{request.at("subscriptionIds").get<std::vector<std::uint32_t>>()};
-  if (op == "getParameters")
-    return GetParameters{strings_of(request, "parameterNames"), request.value("id", "")};
+  if (op == "unsubscribe") return unsubscribe(request);
+  if (op == "getParameters") return GetParameters{strings_of(request, "parameterNames"), id_of(request)};
   if (op == "setParameters") return set_parameters(request);
   if (op == "subscribeParameterUpdates") return WatchParameters{true};
   if (op == "unsubscribeParameterUpdates") return WatchParameters{false};
-  return Unknown{"'" + op + "' is not supported here"};
+  return Unknown{in_quotes(op) + " is not supported here"};
 }
 
 }  // namespace
@@ -82,12 +105,12 @@ std::optional<std::string> known_subprotocol(std::string_view offered) {
 }
 
 std::string server_info(const std::string& session) {
-  return text_of({{"op", "serverInfo"},
-                  {"name", "pcl_bv"},
-                  {"capabilities", {"time", "parameters", "parametersSubscribe"}},
-                  {"supportedEncodings", Json::array()},
-                  {"metadata", Json::object()},
-                  {"sessionId", session}});
+  return text_of(Json{{"op", "serverInfo"},
+                      {"name", "pcl_bv"},
+                      {"capabilities", {"time", "parameters", "parametersSubscribe"}},
+                      {"supportedEncodings", Json::array()},
+                      {"metadata", Json::object()},
+                      {"sessionId", session}});
 }
 
 std::string advertisement(const std::vector<MessageTopic>& topics, std::size_t first) {
@@ -101,11 +124,14 @@ std::string advertisement(const std::vector<MessageTopic>& topics, std::size_t f
                         {"schema", json ? kFrameSchema : schema_of(topics[i].type)},
                         {"schemaEncoding", json ? "jsonschema" : "ros2msg"}});
   }
-  return text_of({{"op", "advertise"}, {"channels", channels}});
+  return text_of(Json{{"op", "advertise"}, {"channels", channels}});
 }
 
 std::string status(Level level, const std::string& message) {
-  return text_of({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}});
+  const bool whole = message.size() <= kMaxStatusLength;
+  return text_of(Json{{"op", "status"},
+                      {"level", static_cast<int>(level)},
+                      {"message", whole ? message : message.substr(0, kMaxStatusLength - 3) + "..."}});
 }
 
 std::string parameter_values(const std::string& settings, const std::vector<std::string>& names,
@@ -138,11 +164,15 @@ std::string time_message(std::int64_t stamp_ns) {
 }
 
 Request parse_request(const std::string& text) {
-  const Json request = Json::parse(text, nullptr, false);
-  if (!request.is_object()) return Unknown{"a request is an object of JSON"};
   try {
+    const FromClient request = read_json(text);
+    if (!request.is_object()) return Unknown{"a request is an object of JSON"};
     return request_of(request);
-  } catch (const Json::exception&) {
+  } catch (const IoError& error) {
+    return Unknown{std::string("a request is an object of JSON: ") + error.what()};
+  } catch (const TooMuch& error) {
+    return Unknown{error.why};
+  } catch (const FromClient::exception&) {
     return Unknown{"a request lacks a field, or has one of another type"};
   }
 }

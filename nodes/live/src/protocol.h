@@ -63,7 +63,13 @@ struct Unknown {
 };
 using Request = std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, Unknown>;
 
-/// Any text: what makes no sense is Unknown.
+/// What one request may name, and how much of it comes back in answers: an answer is never much longer than
+/// the settings' values, whatever was asked.
+inline constexpr std::size_t kMaxNames = 100;     ///< Settings, channels or subscriptions; there are some 30.
+inline constexpr std::size_t kMaxIdLength = 200;  ///< Bytes.
+inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status' message.
+
+/// Any text: what makes no sense, or names too much, is Unknown.
 Request parse_request(const std::string& text);
 
 }  // namespace pcl_bv::live

@@ -10,7 +10,7 @@
 #include <csignal>
 #include <utility>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv::live {
 namespace {
@@ -39,7 +39,8 @@ Server::Server(const std::string& place) : address_(parse_address(place)), hub_(
   try {
     listen();
   } catch (const boost::system::system_error& error) {
-    throw IoError(error.code().message());
+    const bool of_system = error.code().category() == boost::system::system_category();
+    throw IoError(of_system ? system_reason(error.code().value()) : "there is no host of this name");
   }
   accept();
   thread_ = thread_without_signals([this] {
@@ -99,8 +100,18 @@ bool Server::wanted(std::size_t topic) const {
 
 void Server::send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) {
   if (!wanted(topic)) return;
+  if (waiting_bytes_ > 0 && waiting_bytes_ + message.size() > Viewer::kMostWaitingBytes) {
+    ++lost_;
+    return;
+  }
+  waiting_bytes_ += message.size();
   const Bytes copy = std::make_shared<const std::vector<std::byte>>(message);
-  in_its_thread([this, topic, stamp_ns, copy] { hub_.publish(topic, stamp_ns, copy); });
+  in_its_thread([this, topic, stamp_ns, copy] {
+    waiting_bytes_ -= copy->size();
+    if (const std::uint64_t lost = lost_.exchange(0); lost > 0)
+      hub_.notice(std::to_string(lost) + " messages were dropped: the server was busy");
+    hub_.publish(topic, stamp_ns, copy);
+  });
 }
 
 void Server::settings(const std::string&, std::int64_t) {

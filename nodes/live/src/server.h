@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -47,6 +48,8 @@ class Server final : public MessageCarrier {
   boost::asio::ip::tcp::acceptor acceptor_{io_};
   Hub hub_;
   int connections_ = 0;
+  std::atomic<std::size_t> waiting_bytes_{0};  // of messages on their way to the server's thread
+  std::atomic<std::uint64_t> lost_{0};
   std::vector<std::shared_ptr<Channel>> channels_;
   std::promise<void> ended_;
   std::thread thread_;

@@ -39,12 +39,8 @@ void Viewer::read() {
 }
 
 void Viewer::on_request() {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - second_ > std::chrono::seconds(1)) {
-    second_ = now;
-    requests_ = 0;
-  }
-  if (++requests_ > kMostRequestsASecond) return close(websocket::close_code::policy_error);
+  if (!requests_.allows(1) || !request_bytes_.allows(buffer_.size()))
+    return close(websocket::close_code::policy_error);
   if (!ws_.got_text()) return tell(status(Level::error, "clients cannot publish here"));
   hub_.handle(*this, parse_request(boost::beast::buffers_to_string(buffer_.data())));
 }

@@ -24,8 +24,11 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   static constexpr std::size_t kMostWaitingBytes = std::size_t{32}
                                                    << 20;  ///< Of messages: 16 clouds of 2 MB.
   static constexpr std::size_t kMostWaitingAnswers = 256;
-  static constexpr std::size_t kLongestRequest = std::size_t{1} << 20;
-  static constexpr int kMostRequestsASecond = 200;
+  /// Of a client in a second: reading them all keeps the others waiting for some milliseconds. 30 settings
+  /// are 2 kB.
+  static constexpr std::size_t kLongestRequest = std::size_t{64} << 10;
+  static constexpr std::size_t kMostRequestBytesASecond = 4 * kLongestRequest;
+  static constexpr std::size_t kMostRequestsASecond = 200;
 
   Viewer(boost::beast::tcp_stream&& stream, Hub& hub) : ws_(std::move(stream)), hub_(hub) {}
 
@@ -75,8 +78,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;
   bool counts_ = true;                                  // as a reader of what it has subscribed
   std::map<std::size_t, std::uint32_t> subscriptions_;  // by channel
-  std::chrono::steady_clock::time_point second_{};
-  int requests_ = 0;
+  RateLimit requests_{kMostRequestsASecond}, request_bytes_{kMostRequestBytesASecond};
 };
 
 }  // namespace pcl_bv::live
