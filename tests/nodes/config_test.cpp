@@ -12,7 +12,9 @@
 namespace pcl_bv {
 namespace {
 
+using testing::AnyOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
@@ -133,7 +135,8 @@ TEST(StreamConfig, AClassThatIsNotAllowedIsNamedWithItsLine) {
       {"- {value: 1, volumes: aabb}", "cluster.classes: volumes: 'aabb' is not a list of methods"},
       {"- {value: 1}\n  - {value: 1}", "cluster.classes: class 1 is there twice"},
       {"- {value: 1, tolerance: 0}", "cluster.classes: class 1: tolerance: 0 is not above 0"},
-      {"- {value: 1, tolerance: 1e-50}", "class 1: tolerance: 1e-50 is 0 as a float"},
+      {"- {value: 1, tolerance: 1e-50}",
+       "class 1: tolerance: 1e-50 is not above 0 and at most 1e+06: it is 0 as a float"},
       {"- {value: 1, max_size: 0}", "class 1: max_size: 0 is not a whole number of at least 1"},
       {"- {value: 1, max_size: 5}", "class 1: max_size, 5, is below min_size, 10"},
       {"- {value: 1, volumes: [box]}", "class 1: volumes: 'box' is no method; known are aabb"},
@@ -232,7 +235,8 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"threads: {}", "line 1: unknown key 'threads'"},
       {"threads: 1\n---\nbogus: 1", "line 3: a second document"},
       {"volumes: [obb, obb-min]", "volumes: 'obb-min' is named twice"},
-      {"cluster: {tolerance: 1e-50}", "cluster.tolerance: 1e-50 is 0 as a float"},
+      {"cluster: {tolerance: 1e-50}",
+       "cluster.tolerance: 1e-50 is not at least 0 and at most 1e+06: it is 0 as a float"},
       {"track: {gate: 101}", "track.gate: 101 is not above 0 and at most 100"},
   };
   for (const auto& [yaml, expected] : cases) {
@@ -291,7 +295,28 @@ TEST(StreamConfig, TextThatIsNoYamlIsAnErrorWithItsLine) {
   EXPECT_THAT(error_of("filter: 3"), HasSubstr("robot.yaml: line 1: "));
 }
 
+TEST(StreamConfig, NestedWithoutEndIsAnErrorInOurWords) {
+  const auto times = [](std::size_t count, const std::string& text) {
+    std::string all;
+    for (std::size_t i = 0; i < count; ++i)
+      all += text;
+    return all;
+  };
+  for (const std::size_t depth : {std::size_t{600}, std::size_t{100'000}}) {
+    for (const std::string& text :
+         {"a: " + times(depth, "["), "a: " + times(depth, "{a: "), times(depth, "- "), times(depth, "? ")})
+      EXPECT_THAT(error_of(text), HasSubstr("nested more than 500 deep"));
+  }
+  EXPECT_THAT(error_of("a: " + times(100, "[") + times(100, "]")), HasSubstr("unknown key 'a'"));
+  for (const char* text :
+       {"filter:\n  - ]\n", "a: b: c", "\"", "? [a]\n: b", "*x", "!!x", "%YAML", "a: &", "[a, b"})
+    EXPECT_THAT(error_of(text), Not(AnyOf(HasSubstr("bad "), HasSubstr("yaml-cpp"), HasSubstr("not found"))))
+        << text;
+  EXPECT_THAT(error_of(times(1'048'577, " ")), HasSubstr("has more than 1048576 bytes"));
+}
+
 TEST(StreamConfig, AFileThatCannotBeReadIsAnError) {
+  EXPECT_THROW(read_stream_config("/dev/zero"), ConfigError);
   EXPECT_THROW(read_stream_config("/nonexistent/robot.yaml"), ConfigError);
   EXPECT_THROW(read_stream_config("/tmp"), ConfigError);
 }

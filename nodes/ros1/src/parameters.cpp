@@ -15,7 +15,9 @@ namespace pcl_bv {
 namespace {
 
 // Parameters are the only place where whole numbers have 32 bits: what they cannot hold is in the file.
-YAML::Node yaml_of(XmlRpc::XmlRpcValue& value) {
+YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
+  constexpr int max_depth = 16;  // settings nest 4 deep
+  if (depth > max_depth) throw ConfigError("parameters are nested more than 16 deep");
   using Value = XmlRpc::XmlRpcValue;
   YAML::Node node;
   switch (value.getType()) {
@@ -30,12 +32,12 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value) {
     case Value::TypeArray:
       node = YAML::Node(YAML::NodeType::Sequence);
       for (int i = 0; i < value.size(); ++i)
-        node.push_back(yaml_of(value[i]));
+        node.push_back(yaml_of(value[i], depth + 1));
       return node;
     case Value::TypeStruct:
       node = YAML::Node(YAML::NodeType::Map);
       for (auto& [key, inner] : value)
-        node[key] = yaml_of(inner);
+        node[key] = yaml_of(inner, depth + 1);
       return node;
     default:
       throw ConfigError("a parameter is neither a number, a text, a list nor a group of others");
@@ -70,7 +72,7 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
     throw ConfigError(name + ": preset: " + error.what());
   }
   if (const std::string file = take("config"); !file.empty()) config = read_stream_config(file, config);
-  if (tree["volumes"] && tree["volumes"].IsScalar()) { // a command line has no lists: _volumes:=aabb,sphere
+  if (tree["volumes"] && tree["volumes"].IsScalar()) {  // a command line has no lists: _volumes:=aabb,sphere
     std::vector<std::string> methods;
     read_text(tree["volumes"].Scalar(), methods);
     tree["volumes"] = methods;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "command/values.h"
+#include "config/check.h"
 #include "pcl_bv/nodes/settings.h"
 
 namespace pcl_bv {
@@ -98,7 +99,7 @@ void SettingOptions::apply(StreamConfig& config) const {
       value = true;
     } else {
       parse_with(setting.option, own_part(setting, texts_.at(setting.option)),
-                 [&](const std::string& text) { read_text(text, value); });
+                 [&](const std::string& text) { read_setting(setting, text, value); });
     }
     if constexpr (std::is_same_v<decltype(value), std::vector<std::string>&>) keep_first_mentions(value);
     const std::string problem = problem_of(setting, value);

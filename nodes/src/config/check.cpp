@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "config/rows.h"
@@ -36,8 +37,6 @@ void check_classes(const ClusterConfig& all, std::vector<ConfigProblem>& problem
   if (!all.classes.empty() && !all.class_field) add("means nothing without cluster.class_field");
   for (const ClassConfig& own : all.classes) {
     const std::string name = "class " + std::to_string(own.value) + ": ";
-    if (own.tolerance && *own.tolerance > 0 && static_cast<float>(*own.tolerance) == 0)
-      add(name + "tolerance: " + to_text(*own.tolerance) + " is 0 as a float, which points are");
     const std::size_t least = own.min_size.value_or(all.least_size()),
                       most = own.max_size.value_or(all.max_size);
     if (least > most) add(name + "max_size, " + to_text(most) + ", is below min_size, " + to_text(least));
@@ -57,8 +56,6 @@ void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problem
   } else if (filter.own_box_min && !(filter.own_box_min->array() <= filter.own_box_max->array()).all()) {
     add("filter.own_box_max", "is below filter.own_box_min");
   }
-  if (c.cluster.tolerance > 0 && static_cast<float>(c.cluster.tolerance) == 0)
-    add("cluster.tolerance", to_text(c.cluster.tolerance) + " is 0 as a float, which points are");
   if (c.cluster.tolerance_per_metre > 0 && c.cluster.min_points > 1)
     add("cluster.min_points",
         to_text(c.cluster.min_points) + " is not 1 where the tolerance grows with the range");
@@ -93,21 +90,27 @@ auto checker(std::vector<ConfigProblem>& problems) {
 }  // namespace
 
 std::string problem_of(const Setting& setting, double value) {
-  const auto& [least, most, closed] = setting.range;
-  if ((closed ? value >= least : value > least) && value <= most) return {};  // false for NaN
+  const auto& [least, most, closed, as_float] = setting.range;
+  const bool vanishes = as_float && value > 0 && static_cast<float>(value) == 0;
+  if ((closed ? value >= least : value > least) && value <= most && !vanishes) return {};  // false for NaN
   std::string allowed = (closed ? " is not at least " : " is not above ") + to_text(least);
   if (most < kFinite) allowed += " and at most " + to_text(most);
   if (most == kFinite) allowed += " and finite";
+  if (vanishes) allowed += ": it is 0 as a float, which points are";
   return to_text(value) + allowed;
 }
 
+std::string whole_number_range(const NumberRange& range) {
+  std::string allowed = " of at least " + to_text(static_cast<std::size_t>(range.least));
+  if (range.most < kFinite) allowed += " and at most " + to_text(static_cast<std::size_t>(range.most));
+  return allowed;
+}
+
 std::string problem_of(const Setting& setting, std::size_t value) {
-  const auto& [least, most, closed] = setting.range;
+  const double least = setting.range.least, most = setting.range.most;
   const auto n = static_cast<double>(value);
   if (n >= least && (n <= most || most == kNoLimit)) return {};
-  std::string allowed = " is not a whole number of at least " + to_text(static_cast<std::size_t>(least));
-  if (most < kFinite) allowed += " and at most " + to_text(static_cast<std::size_t>(most));
-  return to_text(value) + allowed;
+  return to_text(value) + " is not a whole number" + whole_number_range(setting.range);
 }
 
 std::string problem_of(const Setting& /*setting*/, const Eigen::Vector3d& direction) {
@@ -148,11 +151,11 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfi
 }
 
 std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
-  for (auto own = classes.begin(); own != classes.end(); ++own) {
-    std::string name = "class " + std::to_string(own->value);
-    const auto same = [&](const ClassConfig& other) { return other.value == own->value; };
-    if (std::any_of(classes.begin(), own, same)) return name + " is there twice";
-    const std::string problem = problem_of_row(*own);
+  std::set<std::int64_t> values;
+  for (const ClassConfig& own : classes) {
+    std::string name = "class " + std::to_string(own.value);
+    if (!values.insert(own.value).second) return name + " is there twice";
+    const std::string problem = problem_of_row(own);
     if (!problem.empty()) return name.append(": ").append(problem);
   }
   return {};

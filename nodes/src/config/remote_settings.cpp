@@ -11,6 +11,8 @@
 #include <sstream>
 #include <type_traits>
 
+#include "config/check.h"
+#include "pcl_bv/io/read_json.h"
 #include "pcl_bv/kernels/isa.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/settings.h"
@@ -95,20 +97,20 @@ Json json_of(const std::optional<Value>& value) {
 }
 
 // As a configuration file would have it.
-std::string text_of(const Json& value) {
+std::string text_of(const JsonFromOutside& value) {
   if (value.is_string()) return value.get<std::string>();
-  if (!value.is_array()) return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (!value.is_array()) return value.dump(-1, ' ', false, JsonFromOutside::error_handler_t::replace);
   std::string list;
-  for (const Json& one : value)
+  for (const JsonFromOutside& one : value)
     list += (list.empty() ? "" : ",") + text_of(one);
   return list;
 }
 
 template <class Value>
-void set(const std::string& text, Value& value) {
-  read_text(text, value);
+void set(const Setting& setting, const std::string& text, Value& value) {
+  read_setting(setting, text, value);
 }
-void set(const std::string& text, std::vector<std::string>& names) {
+void set(const Setting&, const std::string& text, std::vector<std::string>& names) {
   names.clear();
   if (!text.empty()) read_text(text, names);
 }
@@ -135,7 +137,12 @@ class PipelineSettings final : public RemoteSettings {
   }
 
   std::string change(const std::string& object) override {
-    const Json wanted = Json::parse(object, nullptr, false);
+    JsonFromOutside wanted;
+    try {
+      wanted = read_json(object);
+    } catch (const IoError& error) {
+      return std::string("settings are not an object of keys and values: ") + error.what();
+    }
     if (!wanted.is_object()) return "settings are not an object of keys and values";
     const std::lock_guard lock(mutex_);
     PipelineConfig config = pipeline_.config();
@@ -151,13 +158,13 @@ class PipelineSettings final : public RemoteSettings {
   }
 
  private:
-  static std::string put(const std::string& key, const Json& value, PipelineConfig& config) {
+  static std::string put(const std::string& key, const JsonFromOutside& value, PipelineConfig& config) {
     if (is_fixed(key)) return key + ": cannot be changed while frames come";
     std::string problem = key + ": no such setting";
     visit_pipeline(config, [&](const Setting& setting, auto& field) {
       if (setting.key != key) return;
       try {
-        set(text_of(value), field);
+        set(setting, text_of(value), field);
         problem = problem_of(setting, field);
       } catch (const std::exception& error) {
         problem = error.what();

@@ -36,7 +36,7 @@ void visit_row(Row& row, Visit&& visit) {
   } else {
     visit(S{"value", "", ""}, row.value);
     visit(S{"drop", "", ""}, row.drop);
-    visit(S{"tolerance", "m", "", {0, 1e6, false}}, row.tolerance);
+    visit(S{"tolerance", "m", "", {0, 1e6, false, true}}, row.tolerance);
     visit(S{"min_size", "points", "", {0, kNoLimit}}, row.min_size);
     visit(S{"max_size", "points", "", {1, kNoLimit}}, row.max_size);
     visit(S{"volumes", "methods", ""}, row.volumes);

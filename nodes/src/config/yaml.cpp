@@ -3,8 +3,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -13,6 +11,8 @@
 #include "config/check.h"
 #include "config/rows.h"
 #include "config/words.h"
+#include "pcl_bv/io/text_from_outside.h"
+#include "pcl_bv/io/yaml_problem.h"
 #include "pcl_bv/nodes/settings.h"
 
 namespace pcl_bv {
@@ -42,7 +42,7 @@ class Reader {
     const YAML::Node* const node = take(std::string(setting.key));
     if (node == nullptr) return;
     try {
-      read(*node, value);
+      read(setting, *node, value);
     } catch (const std::invalid_argument& error) {
       fail(name_, line(*node), std::string(setting.key) + ": " + error.what() + in_unit<T>(setting));
     }
@@ -117,7 +117,7 @@ class Reader {
       const auto found = fields.find(std::string(field.key));
       if (found == fields.end()) return;
       try {
-        read(found->second, value);
+        read(field, found->second, value);
       } catch (const std::invalid_argument& error) {
         fail_at(found->second, where + found->first + ": " + error.what());
       }
@@ -142,30 +142,32 @@ class Reader {
   }
 
   template <typename T>
-  static void read(const YAML::Node& node, T& value) {
-    read_text(node.IsNull() ? "null" : scalar(node), value);
+  static void read(const Setting& setting, const YAML::Node& node, T& value) {
+    read_setting(setting, node.IsNull() ? "null" : scalar(node), value);
   }
-  static void read(const YAML::Node& node, double& value) {
+  static void read(const Setting& /*any*/, const YAML::Node& node, double& value) {
     if (!YAML::convert<double>::decode(node, value)) refuse(node, "a number");  // .inf, too
   }
-  static void read(const YAML::Node& node, bool& value) {
+  static void read(const Setting& /*any*/, const YAML::Node& node, bool& value) {
     if (!YAML::convert<bool>::decode(node, value)) refuse(node, "true or false");  // yes and no, too
   }
-  static void read(const YAML::Node& node, std::optional<double>& value) {
+  static void read(const Setting& setting, const YAML::Node& node, std::optional<double>& value) {
     value.reset();
-    if (!node.IsNull()) read(node, value.emplace());
+    if (!node.IsNull()) read(setting, node, value.emplace());
   }
-  static void read(const YAML::Node& node, std::optional<Eigen::Vector3d>& value) {
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::optional<Eigen::Vector3d>& value) {
     read_text(node.IsNull() ? "null" : elements(node, "a list of three numbers or null"), value);
   }
-  static void read(const YAML::Node& node, Eigen::Vector3d& value) {
+  static void read(const Setting& /*any*/, const YAML::Node& node, Eigen::Vector3d& value) {
     read_text(node.IsSequence() ? elements(node, "") : scalar(node), value);
   }
-  static void read(const YAML::Node& node, std::filesystem::path& file) { file = scalar(node); }
-  static void read(const YAML::Node& node, std::int64_t& value) {
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::filesystem::path& file) {
+    file = scalar(node);
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::int64_t& value) {
     if (!node.IsScalar() || !read_whole_text(node.Scalar(), value)) refuse(node, "a whole number");
   }
-  static void read(const YAML::Node& node, std::vector<std::string>& names) {
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::vector<std::string>& names) {
     const std::string list = elements(node, "a list of methods");
     names.clear();
     if (!list.empty()) read_text(list, names);
@@ -233,6 +235,8 @@ class Writer {
 StreamConfig parse_stream_config(const std::string& text, const std::string& name,
                                  const StreamConfig& defaults) {
   StreamConfig config = defaults;
+  if (text.size() > kMaxConfigBytes)
+    fail(name, 0, "has more than " + std::to_string(kMaxConfigBytes) + " bytes");
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) fail(name, documents[1].Mark().line + 1, "a second document");
@@ -241,16 +245,18 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
     reader.finish();
     reader.refuse(problems_of(config));
   } catch (const YAML::Exception& error) {
-    fail(name, error.mark.line + 1, error.msg);
+    fail(name, 0, yaml_problem(error));
   }
   return config;
 }
 
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) fail(file.string(), 0, "cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) fail(file.string(), 0, "cannot be read");
+  std::string text;
+  try {
+    text = read_text_from_outside(file, kMaxConfigBytes);
+  } catch (const IoError& error) {
+    fail(file.string(), 0, error.what());
+  }
   return parse_stream_config(text, file.string(), defaults);
 }
 

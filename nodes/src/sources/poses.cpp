@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
-#include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/text_from_outside.h"
 
 namespace pcl_bv {
 namespace {
@@ -58,14 +58,25 @@ std::optional<Pose> pose_of_tum(const Numbers& n) {
   return pose_of(turn, {number(1), number(2), number(3)});
 }
 
+std::string text_of(const std::filesystem::path& file) {
+  try {
+    return read_text_from_outside(file, kMaxPosesBytes);
+  } catch (const IoError& error) {
+    throw IoError(file.string() + ": " + error.what());
+  }
+}
+
 // What turns the sensor's coordinates into those of the camera whose poses KITTI gives.
 std::optional<Pose> camera_beside(const std::filesystem::path& poses) {
-  std::ifstream calibration(poses.parent_path() / "calib.txt");
+  const std::filesystem::path file = poses.parent_path() / "calib.txt";
+  std::error_code unknown;
+  if (!std::filesystem::exists(file, unknown)) return std::nullopt;
+  std::istringstream calibration(text_of(file));
   for (std::string line; std::getline(calibration, line);) {
     if (!line.starts_with("Tr:")) continue;
     const Numbers rows = numbers_of(std::string_view(line).substr(3));
     std::optional<Pose> pose = rows.size() == 12 ? pose_of_rows(rows) : std::nullopt;
-    if (!pose) throw IoError((poses.parent_path() / "calib.txt").string() + ": Tr is no pose of 12 numbers");
+    if (!pose) throw IoError(file.string() + ": Tr is no pose of 12 numbers");
     return pose;
   }
   return std::nullopt;
@@ -74,13 +85,12 @@ std::optional<Pose> camera_beside(const std::filesystem::path& poses) {
 }  // namespace
 
 Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frames) {
-  std::ifstream stream(file);
+  std::istringstream stream(text_of(file));
   std::size_t line_number = 0, columns = 0;
   const auto fail = [&](const std::string& what) {
     const std::string place = line_number > 0 ? ": line " + std::to_string(line_number) : "";
     throw IoError(file.string() + place + ": " + what);
   };
-  if (!stream || std::filesystem::is_directory(file)) fail("cannot be read");
   const std::optional<Pose> camera = camera_beside(file);
   for (std::string line; std::getline(stream, line);) {
     ++line_number;
@@ -101,7 +111,8 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
   line_number = 0;
   if (poses_.empty()) fail("no poses");
   if (by_stamp_) return;
-  if (!frames) fail("poses by frame, but of a live source nobody knows the first one: by time they have 8 numbers");
+  if (!frames)
+    fail("poses by frame, but of a live source nobody knows the first one: by time they have 8 numbers");
   if (poses_.size() != *frames)
     fail(std::to_string(poses_.size()) + " poses of " + std::to_string(*frames) + " frames");
 }

@@ -24,6 +24,7 @@ struct NumberRange {
   double least = 0;
   double most = kFinite;
   bool closed = true;
+  bool as_float = false;  ///< What is not 0, but is 0 as a float, which points are, is not allowed.
 };
 
 struct Setting {
@@ -64,7 +65,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"ground.max_slope_degrees", "degrees", "Greatest slope of the ground", {0, 89},
           "15 of a plane, 20 of zones", "--ground-slope", "DEG"}, c.ground.max_slope_degrees);
   visit(S{"cluster.tolerance", "m; 0: all points are one object",
-          "Points nearer are one object; 0: a whole cloud; TOL:PER_METRE grows", {0, 1e6}, {}, "--cluster", "TOL"},
+          "Points nearer are one object; 0: a whole cloud; TOL:PER_METRE grows", {0, 1e6, true, true}, {}, "--cluster", "TOL"},
         c.cluster.tolerance);
   visit(S{"cluster.min_size", "points", "Drop objects of fewer points", {0, kNoLimit},
           "10; without clusters 0", "--min-size", "N"}, c.cluster.min_size);
@@ -73,7 +74,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"cluster.min_points", "points; 1: no noise", "DBSCAN: drop points with fewer about them and no such one near",
           {1, kNoLimit}, {}, "--min-points", "N"}, c.cluster.min_points);
   visit(S{"cluster.tolerance_per_metre", "m per m", "The tolerance grows by this with the distance from the origin",
-          {0, 1e6}}, c.cluster.tolerance_per_metre);
+          {0, 1e6, true, true}}, c.cluster.tolerance_per_metre);
   visit(S{"cluster.oversized", "drop, keep, split",
           "Objects above --max-size: drop, keep, split (half the tolerance)", {}, {}, "--oversized", "RULE"},
         c.cluster.oversized);
