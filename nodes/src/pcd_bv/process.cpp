@@ -181,7 +181,10 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
 Status process_partials(const Job& job, const Options& options, Report& report) {
   Stopwatch watch;
   const std::optional<PartialFile> all = merge_files(job.partials);
-  if (!all) throw IoError("not all of the partial results can be merged");
+  if (!all) {  // each that cannot be has had its line
+    report.error = "not all of the partial results can be merged";
+    return Status::failed;
+  }
   if (!all->is_whole()) throw IoError("shares are missing: " + all->missing());
   const double read = watch.lap();
   const std::vector<const Method*> methods = options.pipeline.methods();

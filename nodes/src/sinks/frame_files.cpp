@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "line_file.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -79,19 +80,22 @@ void write_labels(const fs::path& file, const Frame& frame, const FrameResult& r
 class VtpSink : public FrameSink {
  public:
   explicit VtpSink(const SinkDescription& description)
-      : description_(with_folder(description)), index_(description.place / "frames.pvd") {
-    index_.write(std::string(pvd_begin), pvd_end);
-  }
+      : description_(with_folder(description)), index_(description.place / "frames.pvd") {}
   void write(const Frame& frame, const FrameResult& result) override {
     const bool tracked = result.config->track.enabled;
     std::string entries = add("frame", frame, volumes_vtp(entries_of(result), tracked), 0);
     if (description_.points)
       entries += add("points", frame, points_vtp(frame.points, labels_of(frame, result)), 1);
-    index_.write(std::move(entries), pvd_end);
+    append(entries);
   }
-  void close() override { index_.close(); }
+  void close() override {
+    append("");
+    index_.close();
+  }
 
  private:
+  void append(const std::string& entries) { index_.write(std::exchange(heading_, "") + entries, pvd_end); }
+
   std::string add(const char* stem, const Frame& frame, const std::string& content, int part) {
     const std::string name = numbered(stem, frame, description_.kind->files);
     write_file_atomically(description_.place / name, content);
@@ -101,6 +105,7 @@ class VtpSink : public FrameSink {
 
   SinkDescription description_;
   LineFile index_;
+  std::string heading_{pvd_begin};
   std::optional<std::int64_t> first_stamp_ns_;
 };
 

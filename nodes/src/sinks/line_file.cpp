@@ -10,26 +10,40 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 
 LineFile::LineFile(const std::filesystem::path& file) : descriptor_(STDOUT_FILENO) {
   if (file == "-") return;
   make_folder_of(file);
-  descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) throw IoError(std::strerror(errno));
+  constexpr int flags = O_WRONLY | O_CREAT | O_CLOEXEC;
+  descriptor_ = ::open(file.c_str(), flags | O_EXCL, 0644);
+  if (descriptor_ >= 0) {
+    made_ = file;
+  } else if (descriptor_ = ::open(file.c_str(), flags, 0644); descriptor_ < 0) {
+    throw IoError(system_reason(errno));
+  }
 }
 
 LineFile::~LineFile() {
   if (descriptor_ > STDOUT_FILENO) ::close(descriptor_);
+  if (!made_.empty()) ::unlink(made_.c_str());
+}
+
+// What is no regular file, as a pipe, keeps what is in it.
+void LineFile::begin() {
+  if (std::exchange(begun_, true) || descriptor_ == STDOUT_FILENO) return;
+  if (::ftruncate(descriptor_, 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));
+  made_.clear();
 }
 
 void LineFile::write(std::string text, std::string_view tail) {
-  if (tail_ > 0 && ::lseek(descriptor_, -tail_, SEEK_CUR) < 0) throw IoError(std::strerror(errno));
+  begin();
+  if (tail_ > 0 && ::lseek(descriptor_, -tail_, SEEK_CUR) < 0) throw IoError(system_reason(errno));
   tail_ = static_cast<off_t>(tail.size());
   text += tail;
   for (std::string_view rest = text; !rest.empty();) {
@@ -40,15 +54,16 @@ void LineFile::write(std::string text, std::string_view tail) {
       ::poll(&writable, 1, -1);
       continue;
     }
-    if (written < 0 && errno == EPIPE) throw ClosedPipe(std::strerror(errno));
-    if (written < 0) throw IoError(std::strerror(errno));
+    if (written < 0 && errno == EPIPE) throw ClosedPipe(system_reason(errno));
+    if (written < 0) throw IoError(system_reason(errno));
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
 void LineFile::close() {
   if (descriptor_ <= STDOUT_FILENO) return;
-  if (::close(std::exchange(descriptor_, -1)) != 0) throw IoError(std::strerror(errno));
+  begin();
+  if (::close(std::exchange(descriptor_, -1)) != 0) throw IoError(system_reason(errno));
 }
 
 }  // namespace pcl_bv

@@ -15,6 +15,7 @@
 namespace pcl_bv {
 
 /// A new file, or "-" for standard output, that grows by one write() a time where the system takes it whole.
+/// What was there before is replaced by the first write() or by close(): without either, nothing has changed.
 class LineFile {
  public:
   /// Throws IoError if it cannot be opened.
@@ -31,8 +32,12 @@ class LineFile {
   void close();
 
  private:
+  void begin();
+
   int descriptor_;
   off_t tail_ = 0;
+  std::filesystem::path made_;  // the file, if it was not there before, until something is in it
+  bool begun_ = false;
 };
 
 }  // namespace pcl_bv

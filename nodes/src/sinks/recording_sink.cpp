@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/nodes/message_sink.h"
 #include "pcl_bv/recording/mcap_writer.h"
@@ -24,7 +25,8 @@ class Recorder final : public MessageCarrier {
  public:
   explicit Recorder(std::unique_ptr<RecordingWriter> writer) : writer_(std::move(writer)) {}
   std::size_t add_topic(const MessageTopic& topic) override {
-    return writer_->add_topic({topic.name, topic.type, schema_of(topic.type), {{"offered_qos_profiles", kQos}}});
+    return writer_->add_topic(
+        {topic.name, topic.type, schema_of(topic.type), {{"offered_qos_profiles", kQos}}});
   }
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& cdr) override {
     writer_->write(topic, stamp_ns, stamp_ns, cdr.data(), cdr.size());
@@ -48,6 +50,7 @@ std::unique_ptr<FrameSink> open_recording_sink(const SinkDescription& descriptio
 }  // namespace
 
 std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description) {
+  make_folder_of(description.place);
   return open_recording_sink<McapWriter>(description);
 }
 

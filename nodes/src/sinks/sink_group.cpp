@@ -12,6 +12,35 @@
 
 namespace pcl_bv {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+// The outermost folder, or the file itself, that is not there yet.
+fs::path first_missing(const fs::path& place) {
+  std::error_code unknown;
+  fs::path missing;
+  for (fs::path at = fs::absolute(place, unknown);
+       !at.empty() && !fs::exists(fs::symlink_status(at, unknown)); at = at.parent_path())
+    missing = at;
+  return missing;
+}
+
+// The file, or the folder with the files in it, and the folders above that were made for it and are empty.
+void remove_what_was_made(const fs::path& place, const fs::path& outermost) {
+  std::error_code unknown;
+  if (fs::is_directory(place, unknown)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(place, unknown))
+      if (!entry.is_directory(unknown)) fs::remove(entry.path(), unknown);
+  }
+  for (fs::path at = place;; at = at.parent_path()) {
+    fs::remove(at, unknown);
+    if (at == outermost || at == at.parent_path()) return;
+  }
+}
+
+}  // namespace
+
 struct SinkGroup::Member {
   std::string name;
   std::unique_ptr<FrameSink> sink;  // null once it is given up
@@ -24,7 +53,14 @@ struct SinkGroup::Member {
 SinkGroup::SinkGroup(std::function<void(const std::string&)> say) : say_(std::move(say)) {
   if (!say_) throw std::invalid_argument("SinkGroup: nobody to tell");
 }
-SinkGroup::~SinkGroup() = default;
+
+// Sinks that were opened in vain, because another one could not be, leave nothing.
+SinkGroup::~SinkGroup() {
+  members_.clear();
+  if (used_) return;
+  for (const auto& [place, outermost] : made_)
+    remove_what_was_made(place, outermost);
+}
 
 void SinkGroup::add(std::string name, std::unique_ptr<FrameSink> sink) {
   Member& member = *members_.emplace_back(std::make_unique<Member>());
@@ -37,6 +73,10 @@ void SinkGroup::add(const SinkDescription& description) {
   const bool standard = description.place == "-";
   const std::string name =
       standard ? "standard output" : std::string(description.kind->name) + ':' + description.place.string();
+  std::error_code unknown;
+  if (!standard && !description.kind->live)
+    if (const fs::path missing = first_missing(description.place); !missing.empty())
+      made_.emplace_back(fs::absolute(description.place, unknown), missing);
   try {
     add(name, make_sink(description));
     for (const std::string& remark : members_.back()->sink->take_remarks())
@@ -90,6 +130,7 @@ void SinkGroup::offer(const std::shared_ptr<RemoteSettings>& settings) {
 }
 
 void SinkGroup::write(const Frame& frame, const FrameResult& result) {
+  used_ = true;
   each([&](Member& member) {
     const auto begin = std::chrono::steady_clock::now();
     member.sink->write(frame, result);
@@ -102,10 +143,12 @@ void SinkGroup::write(const Frame& frame, const FrameResult& result) {
 }
 
 void SinkGroup::write_lost(const Frame& frame, const std::string& reason) {
+  used_ = true;
   each([&](Member& member) { member.sink->write_lost(frame, reason); });
 }
 
 void SinkGroup::close() {
+  used_ = true;
   for (const std::unique_ptr<Member>& member : members_) {
     if (member->lacking > 1) say_(member->name + ": lacks " + std::to_string(member->lacking) + " frames");
     if (member->sink != nullptr) attempt(*member, [](Member& m) { m.sink->close(); });

@@ -75,10 +75,10 @@ struct SinkDescription {
 /// Reads what sink_syntax() says; opens nothing. Throws std::invalid_argument for anything else.
 SinkDescription parse_sink(const std::string& description);
 
-/// Opens it: a file is emptied, a folder made if it is not there. Throws IoError, std::invalid_argument
-/// without a kind. After each frame files hold whole lines (jsonl, csv; where the disk is full, the last one
-/// may be cut) and frames.pvd (vtp) lists it; files of a frame (vtp, image, labels) are named by
-/// FrameHeader::number.
+/// Opens it: a file is made if it is not there, and emptied by the first frame or by close(); a folder is
+/// made if it is not there. Throws IoError, std::invalid_argument without a kind. After each frame files hold
+/// whole lines (jsonl, csv; where the disk is full, the last one may be cut) and frames.pvd (vtp) lists it;
+/// files of a frame (vtp, image, labels) are named by FrameHeader::number.
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
 /// Calls the function with each result. Throws std::invalid_argument without one.
@@ -90,6 +90,9 @@ class SinkGroup {
  public:
   /// `say` is told of each failure in words, once in a row. Throws std::invalid_argument without it.
   explicit SinkGroup(std::function<void(const std::string&)> say);
+
+  /// Without a frame and without close(), as when one of them could not be opened, nothing stays of what they
+  /// made.
   ~SinkGroup();
 
   void add(std::string name, std::unique_ptr<FrameSink> sink);
@@ -120,6 +123,9 @@ class SinkGroup {
 
   std::function<void(const std::string&)> say_;
   std::vector<std::unique_ptr<Member>> members_;
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>>
+      made_;  // places, and what was missing above
+  bool used_ = false;
   std::atomic<bool> failed_{false}, alive_{false};
 };
 
