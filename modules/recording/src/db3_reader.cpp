@@ -13,6 +13,7 @@
 #include "chunked_reader.h"
 #include "formats.h"
 #include "pcl_bv/io/io_error.h"
+#include "sqlite_problem.h"
 
 namespace pcl_bv {
 namespace {
@@ -26,7 +27,7 @@ class Database {
     if (!open(file, "mode=ro&immutable=1") || !works()) fail();
   }
 
-  [[noreturn]] void fail() const { throw IoError(std::string("SQLite: ") + sqlite3_errmsg(get())); }
+  [[noreturn]] void fail() const { throw IoError(sqlite_problem(get())); }
   sqlite3* get() const { return database_.get(); }
 
  private:

@@ -4,7 +4,6 @@
 // rosbag2's folders: metadata.yaml and files one after the other, and files that are compressed whole.
 
 #include <unistd.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -14,6 +13,8 @@
 #include "chunked_reader.h"
 #include "formats.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/text_from_outside.h"
+#include "pcl_bv/io/yaml_problem.h"
 
 namespace pcl_bv {
 namespace {
@@ -89,12 +90,14 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   const fs::path metadata = folder / "metadata.yaml";
   std::vector<fs::path> files;
   try {
-    const YAML::Node root = YAML::LoadFile(metadata.string());
+    const YAML::Node root = YAML::Load(read_text_from_outside(metadata, kMaxMetadataBytes));
     for (const YAML::Node& file : root["rosbag2_bagfile_information"]["relative_file_paths"])
       files.push_back(folder /
                       fs::path(file.as<std::string>()).filename());  // older ones have the folder, too
   } catch (const YAML::Exception& error) {
-    throw IoError("metadata.yaml: " + std::string(error.what()));
+    throw IoError("metadata.yaml: " + yaml_problem(error));
+  } catch (const IoError& error) {
+    throw IoError(std::string("metadata.yaml: ") + error.what());
   }
   if (files.empty()) throw IoError("metadata.yaml names no files");
   return files;

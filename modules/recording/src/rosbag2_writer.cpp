@@ -15,6 +15,7 @@
 
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
+#include "sqlite_problem.h"
 
 namespace pcl_bv {
 namespace {
@@ -67,9 +68,9 @@ class Rosbag2Writer::State {
       fs::remove(folder_ / (file_ + more), unknown);
     fs::remove(folder_ / "metadata.yaml", unknown);
     if (sqlite3_open((folder_ / file_).c_str(), &database_) != SQLITE_OK) {
-      const std::string why = sqlite3_errmsg(database_);
+      const std::string why = sqlite_problem(database_);
       sqlite3_close(database_);
-      throw IoError("SQLite: " + why);
+      throw IoError(why);
     }
     try {
       run(kBegin);
@@ -134,7 +135,7 @@ class Rosbag2Writer::State {
     std::uint64_t messages;
   };
 
-  [[noreturn]] void fail() const { throw IoError(std::string("SQLite: ") + sqlite3_errmsg(database_)); }
+  [[noreturn]] void fail() const { throw IoError(sqlite_problem(database_)); }
   void run(const char* sql) {
     if (sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail();
   }
@@ -146,9 +147,9 @@ class Rosbag2Writer::State {
   }
   void step(sqlite3_stmt* statement) {
     const bool done = sqlite3_step(statement) == SQLITE_DONE;
-    const std::string why = done ? "" : sqlite3_errmsg(database_);
+    const std::string why = done ? "" : sqlite_problem(database_);
     sqlite3_reset(statement);
-    if (!done) throw IoError("SQLite: " + why);
+    if (!done) throw IoError(why);
   }
   void begin() {
     if (sqlite3_get_autocommit(database_) == 0) return;
