@@ -17,7 +17,14 @@ void refuse_type(const char* name, const std::string& wanted, py::handle value) 
 
 std::string shown(py::handle value) {
   constexpr std::size_t longest = 60;
-  std::string said = py::repr(value).cast<std::string>();
+  const py::object repr = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
+  Py_ssize_t size = 0;
+  const char* const characters = repr ? PyUnicode_AsUTF8AndSize(repr.ptr(), &size) : nullptr;
+  if (characters == nullptr) {  // nested too deep, or half of a surrogate pair
+    PyErr_Clear();
+    return std::string("one of ") + Py_TYPE(value.ptr())->tp_name;
+  }
+  std::string said(characters, static_cast<std::size_t>(size));
   std::replace(said.begin(), said.end(), '\n', ' ');
   if (said.size() > longest) said = said.substr(0, longest - 3) + "...";
   return said;
@@ -37,11 +44,30 @@ double number(py::handle value, const char* name, const NumberRange& range) {
   return read;
 }
 
-std::size_t whole_number(py::handle value, const char* name, const NumberRange& range) {
+namespace {
+
+py::object whole_object(py::handle value, const char* name) {
   if (PyBool_Check(value.ptr()) || PyIndex_Check(value.ptr()) == 0)
     refuse_type(name, "a whole number", value);
-  const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   if (!whole) throw py::error_already_set();
+  return whole;
+}
+
+}  // namespace
+
+std::int64_t signed_number(py::handle value, const char* name) {
+  const py::object whole = whole_object(value, name);
+  int overflow = 0;
+  const long long read = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
+  if (overflow != 0)
+    refuse_value(name,
+                 shown(value) + " is not at least -9223372036854775808 and at most 9223372036854775807");
+  return read;
+}
+
+std::size_t whole_number(py::handle value, const char* name, const NumberRange& range) {
+  const py::object whole = whole_object(value, name);
   const std::size_t read = PyLong_AsSize_t(whole.ptr());
   if (read == static_cast<std::size_t>(-1) && PyErr_Occurred() != nullptr) {
     PyErr_Clear();

@@ -21,6 +21,8 @@ namespace py = pybind11;
 
 double number(py::handle value, const char* name, const NumberRange& range);
 std::size_t whole_number(py::handle value, const char* name, const NumberRange& range);
+/// Of 64 bits, negative ones too.
+std::int64_t signed_number(py::handle value, const char* name);
 std::string text(py::handle value, const char* name);
 std::filesystem::path path(py::handle value, const char* name);
 
@@ -56,7 +58,7 @@ Execution execution_of(py::handle threads, py::handle isa);
 /// A rigid motion as a matrix of 4 x 4 whose last row is 0 0 0 1.
 Eigen::Isometry3d isometry(py::handle matrix, const char* name);
 
-/// An object in an error message: its repr(), of at most 60 characters.
+/// An object in an error message: its repr(), of at most 60 characters; its type where it has none.
 std::string shown(py::handle value);
 
 }  // namespace pcl_bv::python

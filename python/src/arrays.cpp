@@ -163,7 +163,22 @@ std::vector<std::int64_t> integers(py::handle object, const char* name, std::siz
   if (static_cast<std::size_t>(given.size()) != count)
     refuse_value(name, std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
   const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(given);
-  return {wide.data(), wide.data() + wide.size()};
+  std::vector<std::int64_t> numbers(wide.data(), wide.data() + wide.size());
+  if (kind == 'u' && std::any_of(numbers.begin(), numbers.end(), [](std::int64_t n) { return n < 0; }))
+    refuse_value(name, "a number is above 9223372036854775807");
+  return numbers;
+}
+
+std::vector<std::uint32_t> point_labels(py::handle labels, std::size_t count) {
+  const py::object of = py::hasattr(labels, "labels") ? py::object(labels.attr("labels"))
+                                                      : py::reinterpret_borrow<py::object>(labels);
+  std::vector<std::uint32_t> numbers;
+  for (const std::int64_t label : integers(of, "labels", count)) {
+    if (label < -2 || label > 4294967295)
+      refuse_value("labels", std::to_string(label) + " is not at least -2 and at most 4294967295");
+    numbers.push_back(static_cast<std::uint32_t>(label));
+  }
+  return numbers;
 }
 
 py::array read_only(py::array array) {

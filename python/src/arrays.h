@@ -30,6 +30,10 @@ py::array_t<double> doubles(py::handle object, const char* name);
 /// Integers, one for each of `count` points.
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count);
 
+/// Labels of `count` points, of an array or of what has `labels`: -1 and -2, none and ground, are 4294967295
+/// and 4294967294.
+std::vector<std::uint32_t> point_labels(py::handle labels, std::size_t count);
+
 /// Read-only, as all that volumes give: what is written into a copy would be lost without a word.
 py::array read_only(py::array array);
 py::array array_of(const Eigen::Vector3d& v);

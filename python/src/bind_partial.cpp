@@ -7,6 +7,7 @@
 
 #include "bind.h"
 #include "pcl_bv/trees/region_mask.h"
+#include "state.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
@@ -174,15 +175,22 @@ void bind_partial(py::module_& module) {
   py::class_<Partial>(module, "Partial", partial_doc)
       .def(py::init(&make_partial), "points"_a = py::none(), "first"_a = 0, py::kw_only(), "threads"_a = 1,
            init_doc(partial_doc).c_str())
-      .def("merge", merged, "other"_a, py::pos_only(), partial_merge_doc)
+      .def(
+          "merge",
+          [](const Partial& a, py::handle other) {
+            if (!py::isinstance<Partial>(other)) refuse_type("other", "a Partial", other);
+            return merged(a, other.cast<const Partial&>());
+          },
+          "other"_a, py::pos_only(), partial_merge_doc)
       .def("__add__", merged, py::is_operator())
       .def("fit", fit_partial, "method"_a, py::kw_only(), "up"_a = "z", "threads"_a = 1, partial_fit_doc)
       .def("to_bytes", bytes_of, to_bytes_doc)
       .def_static("from_bytes", from_bytes, "bytes"_a, py::pos_only(), from_bytes_doc)
       .def("__len__", &Partial::size)
       .def("__repr__", [](const Partial& p) { return "Partial(of " + std::to_string(p.size()) + " points)"; })
-      .def(py::pickle([](const Partial& p) { return bytes_of(p); },
-                      [](const py::bytes& b) { return from_bytes(b); }));
+      .def(py::pickle(
+          [](const Partial& p) -> py::object { return bytes_of(p); },
+          [](const py::object& state) { return of_state("Partial", [&] { return from_bytes(state); }); }));
   py::class_<RegionMask>(module, "RegionMask", mask_doc)
       .def(py::init(&make_mask), "volumes"_a, "padding"_a = 0, init_doc(mask_doc).c_str())
       .def("contains", mark, "points"_a, py::kw_only(), "threads"_a = 1, mask_contains_doc);

@@ -42,10 +42,7 @@ PictureObject show(py::handle points, py::handle volumes, py::handle labels, py:
   Picture& picture = object.picture;
   picture.points = object.points.view;
   if (!labels.is_none()) {
-    const py::object of = py::hasattr(labels, "labels") ? py::object(labels.attr("labels"))
-                                                        : py::reinterpret_borrow<py::object>(labels);
-    for (const std::int64_t label : integers(of, "labels", picture.points.count))
-      object.labels.push_back(static_cast<std::uint32_t>(label));  // -1 and -2: none, ground
+    object.labels = point_labels(labels, picture.points.count);
     picture.labels = object.labels.data();
   }
   add_volumes(volumes_of(volumes, "volumes"), picture);
@@ -134,7 +131,8 @@ void write_anything(py::handle file, py::handle what, py::handle labels) {
   if (extension == ".csv") return write_file_atomically(place, csv_text(found));
   const std::optional<MeshFormat> format = mesh_format(place);
   if (!format)
-    refuse_value("path", "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
+    refuse_value("path",
+                 "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
   const py::gil_scoped_release unlocked;
   write_volumes(place, found.clusters, *format);
 }

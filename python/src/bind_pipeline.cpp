@@ -52,8 +52,7 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
   result->points = points_of(points);
   if (!pose.is_none()) result->pose = Pose(isometry(pose, "pose").matrix());
   Frame frame = result->frame();
-  if (PyLong_Check(stamp_ns.ptr()) == 0) refuse_type("stamp_ns", "a whole number of nanoseconds", stamp_ns);
-  frame.header.stamp_ns = stamp_ns.cast<std::int64_t>();
+  frame.header.stamp_ns = signed_number(stamp_ns, "stamp_ns");
   frame.header.frame_id = text(frame_id, "frame_id");
   if (!seq.is_none()) frame.header.seq = whole_number(seq, "seq", {0, kNoLimit});
   if (!classes.is_none())

@@ -8,6 +8,7 @@
 #include "picture_object.h"
 #include "result_object.h"
 #include "result_state.h"
+#include "state.h"
 #include "view_html.h"
 #include "volume_object.h"
 
@@ -218,7 +219,8 @@ shows the same with at most 50000 points; write('x.html', result) makes the file
 constexpr std::size_t kMostPointsOfACell = 50'000;
 
 std::string in_a_notebook(const std::string& page) {
-  std::string cell = R"(<iframe style="width: 100%; height: 32em; border: 0" sandbox="allow-scripts" srcdoc=")";
+  std::string cell =
+      R"(<iframe style="width: 100%; height: 32em; border: 0" sandbox="allow-scripts" srcdoc=")";
   for (const char c : page)
     c == '"' ? cell += "&quot;" : c == '&' ? cell += "&amp;" : cell += c;
   return cell + "\"></iframe>";
@@ -284,8 +286,10 @@ void bind_result(py::module_& module) {
       .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })
       .def("__len__", [](const Shared& r) { return r->result.clusters.size(); })
       .def("__repr__", repr_of_result)
-      .def(py::pickle([](const Shared& r) { return state_of_result(r); },
-                      [](const py::dict& state) { return result_of_state(state); }));
+      .def(py::pickle([](const Shared& r) -> py::object { return state_of_result(r); },
+                      [](const py::object& state) {
+                        return of_state("Result", [&] { return result_of_state(state); });
+                      }));
 }
 
 }  // namespace pcl_bv::python

@@ -7,6 +7,7 @@
 #include "pcl_bv/segmentation/cloud_statistics.h"
 #include "pcl_bv/segmentation/ground_zones.h"
 #include "segmentation_docs.h"
+#include "state.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
@@ -29,7 +30,8 @@ ClassSettings class_settings(std::int64_t value, py::handle said, const ClusterS
       if (!PyBool_Check(of.ptr())) refuse_type("class_settings: drop", "True or False", of);
       own.drop = of.ptr() == Py_True;
     } else if (name == "tolerance") {
-      own.clusters.tolerance = static_cast<float>(number(of, "class_settings: tolerance", {0, 1e6, false}));
+      own.clusters.tolerance =
+          static_cast<float>(number(of, "class_settings: tolerance", {0, 1e6, false, true}));
     } else if (name == "min_size") {
       own.clusters.min_size = whole_number(of, "class_settings: min_size", {0, kNoLimit});
     } else if (name == "max_size") {
@@ -47,8 +49,7 @@ std::vector<ClassSettings> all_class_settings(py::handle said, const ClusterSett
   if (!py::isinstance<py::dict>(said))
     refuse_type("class_settings", "a dict of settings for each class", said);
   for (const auto& [value, of] : py::reinterpret_borrow<py::dict>(said)) {
-    if (PyLong_Check(value.ptr()) == 0) refuse_type("class_settings", "a class, an integer,", value);
-    own.push_back(class_settings(value.cast<std::int64_t>(), of, others));
+    own.push_back(class_settings(signed_number(value, "class_settings"), of, others));
   }
   return own;
 }
@@ -58,12 +59,12 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
                              py::handle oversized, py::handle classes, py::handle own_settings,
                              py::handle threads) {
   const PointArray array = points_of(points);
-  ClusterSettings settings{static_cast<float>(number(tolerance, "tolerance", {0, 1e6, false}))};
+  ClusterSettings settings{static_cast<float>(number(tolerance, "tolerance", {0, 1e6, false, true}))};
   settings.min_size = whole_number(min_size, "min_size", {0, kNoLimit});
   settings.max_size = size_or_unlimited(max_size, "max_size");
   settings.min_points = whole_number(min_points, "min_points", {1, kNoLimit});
   settings.tolerance_per_metre =
-      static_cast<float>(number(tolerance_per_metre, "tolerance_per_metre", {0, 1e6}));
+      static_cast<float>(number(tolerance_per_metre, "tolerance_per_metre", {0, 1e6, true, true}));
   settings.oversized = word<Oversized>(oversized, "oversized");
   const std::vector<ClassSettings> own = all_class_settings(own_settings, settings);
   if (classes.is_none() && !own.empty()) refuse_value("class_settings", "there are no classes");
@@ -136,11 +137,15 @@ py::dict statistics_of(py::handle points, py::handle threads) {
   return said;
 }
 
-py::object cluster_at(const py::object& self, std::int64_t i) {
+py::object cluster_at(const py::object& self, py::handle index) {
+  if (PyIndex_Check(index.ptr()) == 0) refuse_type("index", "a whole number", index);
+  const Py_ssize_t i =
+      PyNumber_AsSsize_t(index.ptr(), nullptr);  // the ends of its range for what is beyond them
+  if (i == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
   const auto& found = self.cast<const ClustersObject&>().found;
   const auto size = static_cast<std::int64_t>(found.size());
   if (i < -size || i >= size)
-    throw py::index_error("cluster " + std::to_string(i) + " of " + std::to_string(size));
+    throw py::index_error("cluster " + shown(index) + " of " + std::to_string(size));
   const auto at = static_cast<std::size_t>(i < 0 ? i + size : i);
   return view_of_part(found.cluster(at), found.cluster_size(at), self);
 }
@@ -160,22 +165,25 @@ std::vector<T> list_of(const py::handle& array) {
   return {values.data(), values.data() + values.size()};
 }
 
-ClustersObject from_state(const py::tuple& state) {
+ClustersObject from_state(py::handle given) {
+  const py::tuple state = parts_of_state(given, 5);
   ClustersObject c;
   c.points = state[0].cast<std::size_t>();
   c.found.indices = list_of<std::int32_t>(state[1]);
   c.found.offsets = list_of<std::size_t>(state[2]);
-  const py::tuple counts = state[3];
+  const py::tuple counts = parts_of_state(state[3], 4);
   c.found.small_points = counts[0].cast<std::size_t>();
   c.found.large_points = counts[1].cast<std::size_t>();
   c.found.noise_points = counts[2].cast<std::size_t>();
   c.found.class_points = counts[3].cast<std::size_t>();
   c.class_of = list_of<std::int64_t>(state[4]);
   const auto in_cloud = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < c.points; };
-  if (c.found.offsets.empty() || c.found.offsets.back() != c.found.indices.size() ||
+  if (c.points > std::numeric_limits<std::int32_t>::max() || c.found.offsets.empty() ||
+      c.found.offsets.front() != 0 || c.found.offsets.back() != c.found.indices.size() ||
       !std::is_sorted(c.found.offsets.begin(), c.found.offsets.end()) ||
-      !std::all_of(c.found.indices.begin(), c.found.indices.end(), in_cloud))
-    throw py::value_error("Clusters: a state that is none of theirs");
+      !std::all_of(c.found.indices.begin(), c.found.indices.end(), in_cloud) ||
+      !(c.class_of.empty() || c.class_of.size() == c.found.size()))
+    throw py::value_error("its numbers contradict each other");
   c.label_points();
   return c;
 }
@@ -188,9 +196,10 @@ py::tuple state_of_ground(const GroundObject& g) {
   return py::make_tuple(g.points, s.found, array_of(s.normal), s.offset, array(s.ground), array(s.rest));
 }
 
-GroundObject ground_from_state(const py::tuple& state) {
+GroundObject ground_from_state(py::handle given) {
+  const py::tuple state = parts_of_state(given, 6);
   GroundObject g;
-  g.points = state[0].cast<std::size_t>();
+  g.points = whole_number(state[0], "points", {0, std::numeric_limits<std::int32_t>::max()});
   g.split.found = state[1].cast<bool>();
   g.split.normal = vector3(state[2], "normal");
   g.split.offset = state[3].cast<double>();
@@ -199,7 +208,7 @@ GroundObject ground_from_state(const py::tuple& state) {
   for (const auto* list : {&g.split.ground, &g.split.rest}) {
     for (const std::int32_t i : *list) {
       if (i < 0 || static_cast<std::size_t>(i) >= g.points)
-        throw py::value_error("Ground: a state that is none of its own");
+        throw py::value_error("its numbers contradict each other");
     }
   }
   return g;
@@ -252,8 +261,9 @@ void bind_clusters(py::module_& module) {
       .def("__len__", [](const C& c) { return c.found.size(); })
       .def("__getitem__", cluster_at)
       .def("__repr__", repr_of_clusters)
-      .def(py::pickle([](const C& c) { return state_of(c); },
-                      [](const py::tuple& state) { return from_state(state); }));
+      .def(py::pickle(
+          [](const C& c) -> py::object { return state_of(c); },
+          [](const py::object& state) { return of_state("Clusters", [&] { return from_state(state); }); }));
   module.def("cluster", find_clusters, "points"_a, "tolerance"_a, py::kw_only(), "min_size"_a = 1,
              "max_size"_a = py::none(), "min_points"_a = 1, "tolerance_per_metre"_a = 0,
              "oversized"_a = "drop", "classes"_a = py::none(), "class_settings"_a = py::none(),
@@ -280,8 +290,10 @@ void bind_ground(py::module_& module) {
           [](const py::object& self) { return view_of_vector(self.cast<const G&>().split.rest, self); },
           "int32: numbers of the other finite points.")
       .def_property_readonly("mask", mask_of, "(N,) bool: which points are ground.")
-      .def(py::pickle([](const G& g) { return state_of_ground(g); },
-                      [](const py::tuple& state) { return ground_from_state(state); }))
+      .def(py::pickle([](const G& g) -> py::object { return state_of_ground(g); },
+                      [](const py::object& state) {
+                        return of_state("Ground", [&] { return ground_from_state(state); });
+                      }))
       .def("__repr__", [](const G& g) {
         return "Ground(found=" + std::string(g.split.found ? "True" : "False") +
                ", ground=" + std::to_string(g.split.ground.size()) +

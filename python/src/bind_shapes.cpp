@@ -5,6 +5,7 @@
 
 #include "bind.h"
 #include "read_shapes.h"
+#include "state.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
@@ -25,11 +26,16 @@ py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const cha
                                                   Make make) {
   py::class_<ShapeObject<Shape>, VolumeObject> type(module, name, doc);
   type.def(py::pickle(
-      [](const ShapeObject<Shape>& v) { return py::make_tuple(arguments_of(v.shape()), fit_state(v)); },
-      [make](const py::tuple& state) {
-        ShapeObject<Shape> object = object_of(make(py::tuple(state[0])));
-        set_fit_state(py::tuple(state[1]), object);
-        return object;
+      [](const ShapeObject<Shape>& v) -> py::object {
+        return py::make_tuple(arguments_of(v.shape()), fit_state(v));
+      },
+      [make, name](const py::object& state) {
+        return of_state(name, [&] {
+          const py::tuple parts = parts_of_state(state, 2);
+          ShapeObject<Shape> object = object_of(make(parts_of_state(parts[0], arguments_of(Shape()).size())));
+          set_fit_state(parts[1], object);
+          return object;
+        });
       }));
   return type;
 }
@@ -41,20 +47,27 @@ void property(Class& type, const char* name, std::size_t i, const char* doc) {
       name, [i](const ShapeObject<Shape>& v) { return py::object(arguments_of(v.shape())[i]); }, doc);
 }
 
+/// The shape of an argument that must be of the class itself.
+template <typename Shape>
+const Shape& same_shape(py::handle other) {
+  if (!py::isinstance<ShapeObject<Shape>>(other)) refuse_type("other", "a volume of the same class", other);
+  return other.cast<const ShapeObject<Shape>&>().shape();
+}
+
 /// Whether points are in both; merge() and extend(), which give new volumes.
 template <typename Shape, typename Class>
 void bind_merging(Class& type) {
   type.def(
       "overlaps",
-      [](const ShapeObject<Shape>& a, const ShapeObject<Shape>& b) { return a.shape().overlaps(b.shape()); },
+      [](const ShapeObject<Shape>& a, py::handle b) { return a.shape().overlaps(same_shape<Shape>(b)); },
       "other"_a, py::pos_only(), overlaps_doc);
   type.def(
       "merge",
-      [](const ShapeObject<Shape>& a, const ShapeObject<Shape>& b) {
+      [](const ShapeObject<Shape>& a, py::handle b) {
         if constexpr (std::is_same_v<Shape, Obb>) {
-          return object_of(a.shape().merged(b.shape()));
+          return object_of(a.shape().merged(same_shape<Shape>(b)));
         } else {
-          return object_of(Shape(a.shape()).merge(b.shape()));
+          return object_of(Shape(a.shape()).merge(same_shape<Shape>(b)));
         }
       },
       "other"_a, py::pos_only(), merge_doc);

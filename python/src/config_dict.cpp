@@ -29,28 +29,36 @@ std::string quoted(const std::string& text) {
   return yaml + '"';
 }
 
-std::string yaml_of(py::handle value, const std::string& key);
+constexpr int max_depth = 16;                // settings nest 4 deep; what holds itself has no end
+constexpr std::size_t max_values = 100'000;  // and what holds itself twice has 2^16 values
+
+struct Walk {
+  int depth = 0;
+  std::size_t values = 0;
+};
+
+std::string yaml_of(py::handle value, const std::string& key, Walk& walk);
 
 template <typename Sequence>
-std::string yaml_list(const Sequence& list, const std::string& key) {
+std::string yaml_list(const Sequence& list, const std::string& key, Walk& walk) {
   std::string yaml;
   for (const py::handle element : list)
-    yaml.append(yaml.empty() ? "" : ", ").append(yaml_of(element, key));
+    yaml.append(yaml.empty() ? "" : ", ").append(yaml_of(element, key, walk));
   return '[' + yaml + ']';
 }
 
-std::string yaml_map(const py::dict& map, const std::string& prefix) {
+std::string yaml_map(const py::dict& map, const std::string& prefix, Walk& walk) {
   std::string yaml;
   for (const auto& [name, value] : map) {
     if (!PyUnicode_Check(name.ptr())) refuse_type(the_name, "a key, a text,", name);
     const auto key = name.cast<std::string>();
     yaml.append(yaml.empty() ? "" : ", ").append(quoted(key)).append(": ");
-    yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key);
+    yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key, walk);
   }
   return '{' + yaml + '}';
 }
 
-std::string yaml_of(py::handle value, const std::string& key) {
+std::string yaml_of_any(py::handle value, const std::string& key, Walk& walk) {
   if (value.is_none()) return "null";
   if (PyBool_Check(value.ptr())) return value.ptr() == Py_True ? "true" : "false";
   if (PyUnicode_Check(value.ptr())) return quoted(value.cast<std::string>());
@@ -61,13 +69,23 @@ std::string yaml_of(py::handle value, const std::string& key) {
            : text == "nan"                 ? ".nan"
                                            : text;
   }
-  if (py::isinstance<py::dict>(value)) return yaml_map(py::reinterpret_borrow<py::dict>(value), key);
-  if (py::isinstance<py::list>(value)) return yaml_list(py::reinterpret_borrow<py::list>(value), key);
-  if (py::isinstance<py::tuple>(value)) return yaml_list(py::reinterpret_borrow<py::tuple>(value), key);
+  if (py::isinstance<py::dict>(value)) return yaml_map(py::reinterpret_borrow<py::dict>(value), key, walk);
+  if (py::isinstance<py::list>(value)) return yaml_list(py::reinterpret_borrow<py::list>(value), key, walk);
+  if (py::isinstance<py::tuple>(value)) return yaml_list(py::reinterpret_borrow<py::tuple>(value), key, walk);
   if (py::hasattr(value, "tolist"))
-    return yaml_of(value.attr("tolist")(), key);  // numpy's arrays and numbers
+    return yaml_of(value.attr("tolist")(), key, walk);  // numpy's arrays and numbers
   if (py::hasattr(value, "__fspath__")) return quoted(path(value, key.c_str()).string());
   refuse_type(key.c_str(), "a number, a text, a list or a dict", value);
+}
+
+std::string yaml_of(py::handle value, const std::string& key, Walk& walk) {
+  if (++walk.depth > max_depth)
+    refuse_value(key.c_str(), "nested more than " + std::to_string(max_depth) + " deep");
+  if (++walk.values > max_values)
+    refuse_value(key.c_str(), "more than " + std::to_string(max_values) + " values");
+  std::string yaml = yaml_of_any(value, key, walk);
+  --walk.depth;
+  return yaml;
 }
 
 /// Regions by volumes, which no file can say: taken out of the settings, and a name left in their place.
@@ -115,7 +133,8 @@ class RegionVolumes {
 StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
   try {
     RegionVolumes regions(settings);
-    StreamConfig config = parse_stream_config(yaml_map(regions.settings(), ""), the_name, defaults);
+    Walk walk;
+    StreamConfig config = parse_stream_config(yaml_map(regions.settings(), "", walk), the_name, defaults);
     regions.put_into(config.pipeline.filter.regions);
     return config;
   } catch (const ConfigError& error) {
@@ -218,8 +237,9 @@ template <typename T>
 std::string range_text(const Setting& setting, const T& /*value*/) {
   constexpr bool real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
   if constexpr (real || std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>) {
-    const auto& [least, most, closed] = setting.range;
-    return (closed ? ", >= " : ", > ") + to_text(least) + (most < kFinite ? ", <= " + to_text(most) : "");
+    const NumberRange& range = setting.range;
+    return (range.closed ? ", >= " : ", > ") + to_text(range.least) +
+           (range.most < kFinite ? ", <= " + to_text(range.most) : "");
   }
   return "";
 }

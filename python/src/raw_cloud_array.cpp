@@ -113,14 +113,7 @@ void write_cloud(const std::filesystem::path& path, py::handle points, py::handl
       py::isinstance<py::array>(points) && py::reinterpret_borrow<py::array>(points).dtype().has_fields();
   RawCloud cloud =
       records ? cloud_of_records(py::reinterpret_borrow<py::array>(points)) : cloud_of_points(array.view);
-  if (!labels.is_none()) {
-    std::vector<std::uint32_t> numbers;
-    const py::object of = py::hasattr(labels, "labels") ? py::object(labels.attr("labels"))
-                                                        : py::reinterpret_borrow<py::object>(labels);
-    for (const std::int64_t label : integers(of, "labels", array.view.count))
-      numbers.push_back(static_cast<std::uint32_t>(label));
-    set_uint32_field(cloud, "label", numbers);
-  }
+  if (!labels.is_none()) set_uint32_field(cloud, "label", point_labels(labels, array.view.count));
   const py::gil_scoped_release unlocked;
   write_pcd(path, cloud);
 }

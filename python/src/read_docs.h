@@ -71,7 +71,8 @@ inline constexpr const char* read_volumes_doc = R"(read_volumes(path)
 
 All volumes of a JSON file that pcd_bv, bv_stream or write() made, or of one by hand, bit by bit as they were.
 
-Those that are empty or failed are left out. Raises FileNotFoundError; OSError for what is no such file.
+Volumes with "empty": true are left out. Raises FileNotFoundError; OSError for a file that is no such file, naming the
+first entry that cannot be read ('clusters[0].volumes[2]').
 
 >>> import os, pcl_bv, tempfile
 >>> folder = tempfile.TemporaryDirectory()

@@ -93,7 +93,8 @@ Hull make_hull(py::handle vertices, py::handle faces, py::handle planes, py::han
   for (py::ssize_t i = 0; i < corners.size(); i += 3) {
     Hull::Triangle& triangle = triangles.emplace_back();
     std::transform(corners.data() + i, corners.data() + i + 3, triangle.begin(), [](double number) {
-      return static_cast<std::int32_t>(std::clamp(number, -1.0, 2147483647.0));
+      const bool whole = number >= 0 && number <= 2147483647.0 && number == std::floor(number);
+      return whole ? static_cast<std::int32_t>(number) : -1;  // which is no vertex either
     });
   }
   std::vector<HullPlane> half_spaces;

@@ -6,6 +6,7 @@
 #include "result_state.h"
 
 #include "config_dict.h"
+#include "state.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
@@ -45,13 +46,13 @@ py::object track(const std::optional<TrackEntry>& t) {
 }
 std::optional<TrackEntry> track(py::handle state) {
   if (state.is_none()) return {};
-  const auto t = state.cast<py::tuple>();
+  const py::tuple t = parts_of_state(state, 6);
   TrackEntry entry{t[0].cast<std::uint32_t>(), t[1].cast<std::size_t>()};
   entry.velocity = vector3(t[2], "velocity");
   entry.moving = t[3].cast<bool>();
   const std::vector<double> pose = vector<double>(t[4]), covariance = vector<double>(t[5]);
   if (pose.size() != entry.pose.size() || covariance.size() != entry.covariance.size())
-    throw py::value_error("Result: a state that is none of its own");
+    throw py::value_error("a track has a pose of 4 numbers and a covariance of 21");
   std::copy(pose.begin(), pose.end(), entry.pose.begin());
   std::copy(covariance.begin(), covariance.end(), entry.covariance.begin());
   return entry;
@@ -78,14 +79,16 @@ void require_sound(const FrameResult& result, std::size_t points) {
     return std::all_of(list.begin(), list.end(),
                        [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < points; });
   };
-  const bool sound =
-      result.points == points && !c.offsets.empty() && std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
-      (c.indices.empty() || c.offsets.back() == c.indices.size()) && c.offsets.back() <= points &&
-      in_cloud(c.indices) && in_cloud(result.kept) && in_cloud(result.ground.ground) &&
-      in_cloud(result.ground.rest) && (result.tracks.empty() || result.tracks.size() == c.size()) &&
-      (result.class_of.empty() || result.class_of.size() == c.size()) &&
-      result.volumes.size() == c.size() * result.methods.size();
-  if (!sound) throw py::value_error("Result: a state that is none of its own");
+  const bool sound = result.points == points && !c.offsets.empty() && c.offsets.front() == 0 &&
+                     (c.size() <= 1 || !c.indices.empty() || c.offsets.back() == 0) &&
+                     std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
+                     (c.indices.empty() || c.offsets.back() == c.indices.size()) &&
+                     c.offsets.back() <= points && in_cloud(c.indices) && in_cloud(result.kept) &&
+                     in_cloud(result.ground.ground) && in_cloud(result.ground.rest) &&
+                     (result.tracks.empty() || result.tracks.size() == c.size()) &&
+                     (result.class_of.empty() || result.class_of.size() == c.size()) &&
+                     result.volumes.size() == c.size() * result.methods.size();
+  if (!sound) throw py::value_error("its numbers contradict each other");
 }
 
 void take_volumes(const py::list& state, FrameResult& result) {
@@ -139,17 +142,20 @@ py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
   return state;
 }
 
-std::shared_ptr<ResultObject> result_of_state(const py::dict& state) {
+std::shared_ptr<ResultObject> result_of_state(py::handle given) {
+  if (!py::isinstance<py::dict>(given)) throw py::value_error("it is no dict");
+  const auto state = py::reinterpret_borrow<py::dict>(given);
   auto self = std::make_shared<ResultObject>();
   FrameResult& r = self->result;
   self->points = points_of(state["points"]);
   if (!state["pose"].is_none()) self->pose = Pose(isometry(state["pose"], "pose").matrix());
-  const py::tuple header = state["header"], ground = state["ground"], clusters = state["clusters"];
+  const py::tuple header = parts_of_state(state["header"], 4), ground = parts_of_state(state["ground"], 5),
+                  clusters = parts_of_state(state["clusters"], 3);
   r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), header[2].cast<std::string>(),
               header[3].cast<std::uint64_t>()};
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
   r.points = self->points.view.count;
-  r.counts = counts(py::tuple(state["counts"]));
+  r.counts = counts(parts_of_state(state["counts"], 8));
   r.kept = vector<std::int32_t>(state["kept"]);
   r.ground.found = ground[0].cast<bool>();
   r.ground.normal = vector3(ground[1], "normal");
@@ -164,7 +170,7 @@ std::shared_ptr<ResultObject> result_of_state(const py::dict& state) {
   for (const py::handle name : py::list(state["methods"]))
     r.methods.push_back(method_of(name));
   take_volumes(state["volumes"], r);
-  r.ms = times(py::tuple(state["ms"]));
+  r.ms = times(parts_of_state(state["ms"], 7));
   require_sound(r, self->points.view.count);
   return self;
 }

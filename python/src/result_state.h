@@ -9,6 +9,6 @@
 namespace pcl_bv::python {
 
 py::dict state_of_result(const std::shared_ptr<ResultObject>& result);
-std::shared_ptr<ResultObject> result_of_state(const py::dict& state);
+std::shared_ptr<ResultObject> result_of_state(py::handle state);
 
 }  // namespace pcl_bv::python

@@ -3,6 +3,8 @@
 
 #include "volume_object.h"
 
+#include "state.h"
+
 #include <mutex>
 #include <set>
 
@@ -167,14 +169,18 @@ py::tuple fit_state(const VolumeObject& volume) {
                         py::str(fit.reason.data(), fit.reason.size()));
 }
 
-void set_fit_state(const py::tuple& state, VolumeObject& volume) {
-  if (state.empty()) return;
-  volume.method = find_method(state[0].cast<std::string>());
-  volume.fit.status = static_cast<EstimationStatus>(state[1].cast<int>());
-  volume.fit.rank = state[2].cast<int>();
-  volume.fit.used = state[3].cast<std::size_t>();
-  volume.fit.dropped = state[4].cast<std::size_t>();
-  volume.fit.reason = kept_text(state[5].cast<std::string>());
+void set_fit_state(py::handle given, VolumeObject& volume) {
+  if (py::isinstance<py::tuple>(given) && py::len(given) == 0) return;
+  const py::tuple state = parts_of_state(given, 6);
+  volume.method = method_of(state[0]);
+  volume.fit.status = static_cast<EstimationStatus>(whole_number(state[1], "status", {0, 3}));
+  volume.fit.rank = static_cast<int>(whole_number(state[2], "rank", {0, 3}));
+  volume.fit.used = whole_number(state[3], "used", {0, kNoLimit});
+  volume.fit.dropped = whole_number(state[4], "dropped", {0, kNoLimit});
+  const std::string reason = text(state[5], "reason");
+  constexpr std::size_t longest = 200;  // reasons are never freed
+  if (reason.size() > longest) refuse_value("reason", "is longer than 200 bytes");
+  volume.fit.reason = kept_text(reason);
 }
 
 std::string repr_of(const VolumeObject& volume) {

@@ -51,7 +51,7 @@ py::tuple arguments_of(const Hull& hull);
 
 /// What pickle keeps of a fit, and back. Reasons are texts that are never freed.
 py::tuple fit_state(const VolumeObject& volume);
-void set_fit_state(const py::tuple& state, VolumeObject& volume);
+void set_fit_state(py::handle state, VolumeObject& volume);
 
 /// "Sphere(center=[1, 2, 3], radius=4, method='sphere-exact', used=100)", with six digits.
 std::string repr_of(const VolumeObject& volume);

@@ -90,6 +90,87 @@ class Errors(unittest.TestCase):
         self.refused(ValueError, ["pose", "4 x 4"], pipeline.process, POINTS, pose=np.eye(3))
         self.refused(ValueError, ["pose"], pipeline.process, POINTS, pose=2 * np.eye(4))
 
+    def test_numbers_of_any_size_are_named(self):
+        pipeline = pcl_bv.Pipeline(cluster={"tolerance": 0}, ground={"method": "none"}, volumes=["aabb"])
+        huge = (2**63, 2**64, -2**63 - 1, 10**400)
+        for value in huge:
+            self.refused(ValueError, ["stamp_ns", "-9223372036854775808", "9223372036854775807"], pipeline.process,
+                         POINTS, stamp_ns=value)
+            self.refused(ValueError, ["class_settings"], pcl_bv.cluster, POINTS, 1, classes=[0] * 50,
+                         class_settings={value: {"drop": True}})
+        for value in (-2**63, 2**63 - 1, np.int64(5)):
+            self.assertEqual(pipeline.process(POINTS, stamp_ns=value).stamp_ns, value)
+        for value in (-1, 2**64, 10**400):
+            calls = [("seq", lambda n: pipeline.process(POINTS, seq=n)), ("first", lambda n: pcl_bv.Partial(POINTS, n)),
+                     ("threads", lambda n: pcl_bv.fit(POINTS, "aabb", threads=n)),
+                     ("min_size", lambda n: pcl_bv.cluster(POINTS, 1, min_size=n)),
+                     ("max_size", lambda n: pcl_bv.cluster(POINTS, 1, max_size=n)),
+                     ("min_points", lambda n: pcl_bv.cluster(POINTS, 1, min_points=n)),
+                     ("number", lambda n: pcl_bv.read("synth:sphere:10", number=n)),
+                     ("bin_fields", lambda n: pcl_bv.read("synth:sphere:10", bin_fields=n)),
+                     ("width", lambda n: pcl_bv.show(POINTS, width=n)),
+                     ("height", lambda n: pcl_bv.show(POINTS, height=n))]
+            for name, call in calls:
+                self.refused(ValueError, [name, str(value)[:20]], call, value)
+                self.refused(TypeError, [name], call, "5")
+                self.refused(TypeError, [name], call, 1.5)
+                self.refused(TypeError, [name], call, True)
+        self.refused(TypeError, ["stamp_ns"], pipeline.process, POINTS, stamp_ns=True)
+        found = pcl_bv.cluster(POINTS, 1)
+        for value in (2**70, -2**70, 1000):
+            self.refused(IndexError, [str(value)], found.__getitem__, value)
+        self.refused(TypeError, ["index", "'a'"], found.__getitem__, "a")
+        for label in (2**32, -3, 2**63 - 1):
+            self.refused(ValueError, ["labels", str(label)], pcl_bv.write, "never.pcd", POINTS, [label] * 50)
+            self.refused(ValueError, ["labels", str(label)], pcl_bv.show, POINTS, labels=[label] * 50)
+        self.refused(ValueError, ["labels"], pcl_bv.fit, POINTS, "aabb", np.full(50, 2**64 - 1, np.uint64))
+
+    def test_a_number_that_is_zero_as_a_float_is_refused_like_zero(self):
+        for value in (0, -1, np.nan, np.inf, 1e-300, 1e300):
+            self.refused(ValueError, ["tolerance: ", "is not above 0 and at most 1e+06"], pcl_bv.cluster, POINTS, value)
+            self.refused(ValueError, ["class_settings: tolerance: ", "is not above 0 and at most 1e+06"], pcl_bv.cluster,
+                         POINTS, 1, classes=[0] * 50, class_settings={1: {"tolerance": value}})
+            if value != 0:
+                self.refused(ValueError, ["tolerance_per_metre: ", "is not at least 0 and at most 1e+06"], pcl_bv.cluster,
+                             POINTS, 1, tolerance_per_metre=value)
+                self.refused(ValueError, ["cluster.tolerance: ", "is not at least 0 and at most 1e+06"], pcl_bv.Pipeline,
+                             cluster={"tolerance": value})
+
+    def test_settings_without_end_are_no_crash(self):
+        deep = {}
+        for _ in range(100_000):
+            deep = {"a": deep}
+        deep_list = []
+        for _ in range(100_000):
+            deep_list = [deep_list]
+        itself = {}
+        itself["a"] = itself["b"] = itself
+        wide = {"a": [0] * 200_000}
+
+        class Odd:
+            def tolist(self):
+                return self
+        for settings in (deep, {"filter": deep_list}, itself, {"a": Odd()}):
+            self.refused(ValueError, ["nested more than 16 deep"], pcl_bv.Pipeline, settings)
+        self.refused(ValueError, ["more than 100000 values"], pcl_bv.Pipeline, wide)
+        pipeline = pcl_bv.Pipeline()
+        with self.assertRaises(ValueError):
+            pipeline.config = deep
+        while isinstance(deep, dict) and deep:  # Python's own end of it would recurse
+            deep = deep.pop("a")
+        for call in (lambda v: pcl_bv.fit(v, "aabb"), lambda v: pcl_bv.fit(POINTS, v),
+                     lambda v: pcl_bv.fit(POINTS, "aabb", v), lambda v: pcl_bv.Sphere(v, 1),
+                     lambda v: pcl_bv.Sphere([0, 0, 0], v), lambda v: pcl_bv.RegionMask(v),
+                     lambda v: pcl_bv.fit(POINTS, "obb-yaw", up=v), lambda v: pcl_bv.Partial(v)):
+            with self.assertRaises((ValueError, TypeError)):
+                call(deep_list)
+
+    def test_others_of_another_class_are_named(self):
+        ball = pcl_bv.Sphere([0, 0, 0], 1)
+        for call in (ball.merge, ball.overlaps, pcl_bv.Partial(POINTS).merge):
+            self.refused(TypeError, ["other"], call, 3)
+            self.refused(TypeError, ["other"], call, pcl_bv.Aabb([0, 0, 0], [1, 1, 1]))
+
     def test_files_that_cannot_be_read_are_named(self):
         self.refused(FileNotFoundError, ["/no/such.pcd"], pcl_bv.read, "/no/such.pcd")
         self.refused(FileNotFoundError, ["/no/such"], pcl_bv.frames, "/no/such")
