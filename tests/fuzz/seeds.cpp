@@ -76,9 +76,30 @@ void write_claims(const fs::path& folder) {
 
 void write_requests(const fs::path& folder) {
   write(folder / "live" / "subscribe", R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]})");
-  write(folder / "live" / "set", R"({"op":"setParameters","id":"a","parameters":[{"name":"b","value":[0.5,"c",true]}]})");
+  write(folder / "live" / "set",
+        R"({"op":"setParameters","id":"a","parameters":[{"name":"b","value":[0.5,"c",true]}]})");
   write(folder / "live" / "get", R"({"op":"getParameters","id":"a","parameterNames":["b"]})");
   write(folder / "live" / "address", "[::1]:8765");
+}
+
+// As fuzz_nested reads them: the reader, and a text with bytes that repeat what is before them.
+void write_nested(const fs::path& folder) {
+  const std::string deep_list = "[\x11\x01", deep_map = "{\"a\":\x10\x05";
+  const std::string set = R"({"op":"setParameters","parameters":[{"name":"x","value":)";
+  const std::string ball = R"({"shape":"sphere","center":[0,0,0],"radius":1},)";
+  write(folder / "nested" / "request", '\0' + set + deep_list);
+  write(folder / "nested" / "request_map", '\0' + set + deep_map);
+  write(folder / "nested" / "change",
+        std::string(1, '\0') + R"({"cluster.tolerance":0.5,"volumes":["aabb"]})");
+  write(folder / "nested" / "volumes", "\3[" + ball.substr(0, ball.size() - 1) + ']');
+  write(folder / "nested" / "volumes_many", "\3[" + ball + "\x0c/" + ball.substr(0, ball.size() - 1) + ']');
+  write(folder / "nested" / "volumes_deep", "\3{\"volumes\":" + deep_list + "]\x11\x01}");
+  write(folder / "nested" / "yaml",
+        "\2cluster: {tolerance: 0.5}\nvolumes: [aabb]\nfilter: {regions: [{file: a}]}\n");
+  for (const char* open :
+       {"[\x11\x01", "{a: \x10\x04", "- \x11\x02", "? \x11\x02", "&a [*a,\x10\x04", "a: \x10\x03"})
+    write(folder / "nested" / ("yaml" + std::to_string(static_cast<int>(*open))),
+          std::string("\2a: ") + open);
 }
 
 // A heading and results of few points, and of many, as fuzz_partial wants them.
@@ -163,14 +184,15 @@ void write_recordings(const fs::path& folder) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const fs::path folder = arguments[1];
-  for (const char* name :
-       {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "partial", "cloud", "live"})
+  for (const char* name : {"pcd", "ply", "lzf", "bin", "number", "text", "mcap", "bag", "packets", "partial",
+                           "cloud", "live", "nested"})
     fs::create_directories(folder / name);
   write_pcds(folder);
   write_streams(folder);
   write_plys(folder);
   write_claims(folder);
   write_requests(folder);
+  write_nested(folder);
   write_recordings(folder);
   write_partials(folder);
   write(folder / "bin" / "sweep", std::string(64, '\x3f'));
