@@ -102,7 +102,8 @@ PointArray records_of(const py::array& array, const char* name) {
   const Field x = field_of(record, "x", name), y = field_of(record, "y", name),
               z = field_of(record, "z", name);
   for (const Field* field : {&x, &y, &z}) {
-    const bool whole = (field->type.kind() == 'i' || field->type.kind() == 'u') && field->type.itemsize() <= 4;
+    const bool whole =
+        (field->type.kind() == 'i' || field->type.kind() == 'u') && field->type.itemsize() <= 4;
     if (!is_real(field->type) && !whole) refuse_numbers(name, field->type);
   }
   const py::ssize_t size = x.type.itemsize();

@@ -210,7 +210,7 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"ground: {max_slope_degrees: 90}", "is not at least 0 and at most 89"},
       {"ground: {distance: 0}", "ground.distance: 0 is not above 0"},
       {"cluster: {tolerance: -0.5}", "cluster.tolerance: -0.5 is not at least 0"},
-      {"cluster: {min_size: -3}", "cluster.min_size: '-3' is not a whole number (points)"},
+      {"cluster: {min_size: -3}", "cluster.min_size: '-3' is not a whole number of at least 0 (points)"},
       {"cluster: {min_size: 20, max_size: 10}", "cluster.max_size: 10 is below cluster.min_size, 20"},
       {"filter: {regions: [{file: a.json, pad: 1}]}", "filter.regions: unknown key 'pad' of a region"},
       {"filter: {regions: [{keep: true}]}", "filter.regions: a region has neither a file nor volumes"},

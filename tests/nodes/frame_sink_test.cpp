@@ -96,8 +96,9 @@ TEST_F(FrameSinks, NameFilesByTheRunnersNumberWhateverTheSourceCounts) {
 
 TEST_F(FrameSinks, AnIndexIsWholeAfterEachFrame) {
   Found found;
-  const auto sink = make_sink(parse_sink("vtp:" + path_.string() + ",points"));
+  make_sink(parse_sink("vtp:" + path_.string()))->close();
   EXPECT_EQ(read("frames.pvd"), std::string(pvd_begin) + std::string(pvd_end));
+  const auto sink = make_sink(parse_sink("vtp:" + path_.string() + ",points"));
   std::string entries;
   for (int i = 0; i < 12; ++i) {
     found.frame.header.number = static_cast<std::uint64_t>(i);
@@ -170,7 +171,8 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(error.what(),
                 "'" + std::string(bad) +
-                    "' is not jsonl:FILE, csv:FILE, mcap:FILE[,points], rosbag2:FOLDER[,points], dds:PREFIX, ws:[HOST:]PORT, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
+                    "' is not jsonl:FILE, csv:FILE, mcap:FILE[,points], rosbag2:FOLDER[,points], dds:PREFIX, "
+                    "ws:[HOST:]PORT, vtp:FOLDER[,points], image:FOLDER or labels:FOLDER");
     }
   }
 }
