@@ -114,6 +114,11 @@ void bind_boxes(py::module_& module) {
   obb.def_property_readonly(
       "pose", [](const ShapeObject<Obb>& v) { return array_of(Eigen::MatrixXd(v.shape().pose().matrix())); },
       "(4, 4): from the box's own coordinates to the frame.");
+  obb.def_property_readonly(
+      "yaw", [](const ShapeObject<Obb>& v) { return v.shape().yaw(); },
+      "Rotation of axes[0] about axes[2] from x, in radians, -pi (exclusive) to pi: the heading of an "
+      "upright\n"
+      "box; from y where axes[2] is less than 45 degrees from x. NaN if empty.");
   bind_merging<Obb>(obb);
 }
 

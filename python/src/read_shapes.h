@@ -34,6 +34,8 @@ inline constexpr const char* obb_doc = R"(Obb(center, axes, half_extents)
 --
 
 An oriented box: |axes[i] . (p - center)| <= half_extents[i]. Axes are orthonormal to 1e-12, else ValueError.
+Of obb-yaw and obb-lshape axes[2] is up and axes[0] the longer horizontal one: 2 * half_extents is length,
+width, height.
 
 >>> import numpy, pcl_bv
 >>> pcl_bv.Obb([0, 0, 0], numpy.eye(3), [3, 2, 1]).volume

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -221,13 +222,26 @@ TEST_F(PcdBv, UpTurnsUprightBoxesAndOrientedBoxesPassTheCheck) {
   for (const Json& volume : volumes) {
     EXPECT_EQ(volume["shape"], "obb");
     EXPECT_EQ(volume["outside"], 0);
-    EXPECT_GE(volume["half_extents"][0], volume["half_extents"][2]);
+    EXPECT_GE(volume["half_extents"][0], volume["half_extents"][1]);
   }
-  for (const int upright : {0, 1}) {
-    int along_y = 0;
-    for (const Json& axis : volumes[upright]["axes"])
-      along_y += axis == Json::parse("[0,1,0]") || axis == Json::parse("[0,-1,0]");
-    EXPECT_EQ(along_y, 1) << volumes[upright];
+  for (const int upright : {0, 1})
+    EXPECT_EQ(volumes[upright]["axes"][2], Json::parse("[0,-1,0]")) << volumes[upright];
+  for (const int any : {2, 3, 4})
+    EXPECT_GE(volumes[any]["half_extents"][1], volumes[any]["half_extents"][2]);
+}
+
+TEST_F(PcdBv, QuaternionsOfUprightBoxesAreThoseOfTheirRightHandedAxes) {
+  const std::string pole = ascii("pole.pcd", {"0 0 0", "0.2 0.1 4", "0.1 -0.3 1", "-0.1 0.2 3"});
+  for (const char* up : {"z", "-z", "x", "-y", "1,2,3"}) {
+    const Json volumes = run({"--volume", "obb-yaw,obb-lshape", "--up", up, "--format", "jsonl", pole})
+                             .json()["clusters"][0]["volumes"];
+    for (const Json& volume : volumes) {
+      const auto q = volume["quaternion"].get<std::vector<double>>();
+      const Eigen::Matrix3d turn = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).toRotationMatrix();
+      for (int axis = 0; axis < 3; ++axis)
+        for (int k = 0; k < 3; ++k)
+          EXPECT_NEAR(volume["axes"][axis][k].get<double>(), turn(k, axis), 1e-15) << up << volume;
+    }
   }
 }
 

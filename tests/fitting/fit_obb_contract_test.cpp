@@ -107,8 +107,8 @@ TEST(Obb, ACubeDoesNotFlipUnderNoise) {
   }
 }
 
-TEST(Obb, IsCanonical) {
-  for (const ObbMethod method : kMethods) {
+TEST(Obb, OfAnyAxesIsCanonical) {
+  for (const ObbMethod method : kAnyAxes) {
     const Obb box = fit(test::gaussian<float>(500, 12), method);
     EXPECT_EQ(box, box.canonical());
   }

@@ -57,6 +57,20 @@ class Volumes(unittest.TestCase):
             outside = np.array(volume.center) + [1e6, 0, 0]
             self.assertFalse(inside(volume, outside), method)
 
+    def test_upright_boxes_stand_on_their_third_axis(self):
+        pole = normal(300, 23, np.float32) * np.float32([0.3, 0.6, 5])
+        for method in ("obb-yaw", "obb-lshape"):
+            for up, lift in (([0, 0, 1], np.eye(3)), ([0, -1, 0], [[1, 0, 0], [0, 0, -1], [0, 1, 0]])):
+                box = pcl_bv.fit(pole @ np.float32(lift).T, method, up=up)
+                self.assertEqual(box.axes[2].tolist(), up)
+                self.assertAlmostEqual(np.linalg.det(box.axes), 1, 14)
+                length, width, height = 2 * box.half_extents
+                self.assertTrue(height > length >= width > 0, box)
+                self.assertTrue(-np.pi / 2 < box.yaw <= np.pi / 2 + 1e-9, box.yaw)
+                self.assertEqual(pickle.loads(pickle.dumps(box)).yaw, box.yaw)
+        turned = pcl_bv.Obb([0, 0, 0], [[0, 1, 0], [-1, 0, 0], [0, 0, 1]], [2, 1, 3])
+        self.assertAlmostEqual(turned.yaw, np.pi / 2, 15)
+
     def test_what_is_fitted_contains_its_points_and_verifies(self):
         for points, volume in fitted():
             finite = np.isfinite(points).all(axis=1)

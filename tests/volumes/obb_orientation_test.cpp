@@ -6,11 +6,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "exact.h"
+#include "obb_names.h"
 #include "obbs.h"
 #include "pcl_bv/volumes/obb.h"
 
@@ -20,24 +19,6 @@ namespace {
 using namespace pcl_bv::testing;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-// All 24 ways to name the axes of a box, right-handed.
-std::vector<Obb> all_names(const Obb& box) {
-  std::vector<Obb> names;
-  std::array<int, 3> order{0, 1, 2};
-  do {
-    for (int signs = 0; signs < 4; ++signs) {
-      Matrix3d axes;
-      Vector3d h;
-      for (int i = 0; i < 3; ++i) {
-        axes.col(i) = box.axis(order[static_cast<std::size_t>(i)]) * (i < 2 && (signs >> i & 1) ? -1 : 1);
-        h[i] = box.half_extents()[order[static_cast<std::size_t>(i)]];
-      }
-      names.emplace_back(box.center(), axes, h);  // the constructor turns axis 2
-    }
-  } while (std::next_permutation(order.begin(), order.end()));
-  return names;
-}
 
 TEST(ObbOrientation, CanonicalIsOneForAllNamesOfABox) {
   Random random(21);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -27,6 +28,12 @@ namespace {
 // off by at most 4.01 2^-53 of |q|_1; the bound is twice that, and covers its own addition.
 Projection component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(axis, q), 0x1p-50 * taxicab3(q) + kSmallestNormal};
+}
+
+// In one order, whatever the axes are called: products and sums have the same bits for all names of a box.
+Eigen::Vector3d descending(Eigen::Vector3d sizes) {
+  std::sort(sizes.begin(), sizes.end(), std::greater<>());
+  return sizes;
 }
 
 }  // namespace
@@ -112,12 +119,13 @@ bool Obb::contains(const Eigen::Vector3d& point) const {
 
 double Obb::volume() const {
   const FloatEnvironment environment;
-  return empty() ? 0 : (2 * half_extents_.x()) * (2 * half_extents_.y()) * (2 * half_extents_.z());
+  const Eigen::Vector3d h = descending(half_extents_);
+  return empty() ? 0 : (2 * h.x()) * (2 * h.y()) * (2 * h.z());
 }
 
 double Obb::surface_area() const {
   const FloatEnvironment environment;
-  const Eigen::Vector3d& h = half_extents_;
+  const Eigen::Vector3d h = descending(half_extents_);
   return empty() ? 0 : 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
 }
 

@@ -37,6 +37,19 @@ double along_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, const Ei
   return Expansion().add_dot(axis, to).add_dot(-axis, from).up();
 }
 
+// The coordinate axes; of two boxes with one third axis, as upright ones have, axes with that third.
+Eigen::Matrix3d frame_of(const Eigen::Vector3d& third, const Eigen::Vector3d& other_third) {
+  if (third != other_third) return Eigen::Matrix3d::Identity();
+  Eigen::Index least = 0;
+  third.cwiseAbs().minCoeff(&least);
+  Eigen::Matrix3d from_third;
+  from_third << third, Eigen::Vector3d::Unit(least), Eigen::Vector3d::Zero();
+  from_third = orthonormal_axes(from_third);
+  Eigen::Matrix3d axes;
+  axes << from_third.col(1), from_third.col(2), third;
+  return axes;
+}
+
 }  // namespace
 
 bool Obb::overlaps(const Obb& other) const {
@@ -94,11 +107,11 @@ Obb Obb::merged(const Obb& other) const {
     return from_slabs(axes, low, high);
   };
   Obb best = along(first.axes_);
-  for (const Eigen::Matrix3d& axes : {second.axes_, Eigen::Matrix3d(Eigen::Matrix3d::Identity())}) {
+  for (const Eigen::Matrix3d& axes : {second.axes_, frame_of(first.axes_.col(2), second.axes_.col(2))}) {
     const Obb box = along(axes);
     if (is_smaller(box, best)) best = box;
   }
-  return best;
+  return first.axes_.col(2) == second.axes_.col(2) ? best.upright(first.axes_.col(2)) : best;
 }
 
 }  // namespace pcl_bv

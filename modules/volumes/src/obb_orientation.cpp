@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/obb.h"
@@ -34,6 +35,28 @@ bool comes_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     if (std::abs(a[k] - b[k]) > same_component) return a[k] > b[k];
   }
   return false;
+}
+
+// The coordinate axis from which yaw() is counted.
+int yaw_reference(const Eigen::Vector3d& up) {
+  return std::abs(up.x()) > 0.7071067811865476 ? 1 : 0;
+}
+
+// Components along the reference and a quarter turn further, of axis 0 of a right-handed box.
+struct Heading {
+  double ahead, left;
+};
+
+Heading heading_of(const Eigen::Matrix3d& axes) {
+  const int k = yaw_reference(axes.col(2));
+  return {axes(k, 0), 0.0 - axes(k, 1)};
+}
+
+// Axes 0 and 1 turned by a half: then the yaw is from -pi/2 (exclusive) to pi/2.
+void face_ahead(Eigen::Matrix3d& axes) {
+  const Heading heading = heading_of(axes);
+  const bool sideways = std::abs(heading.ahead) <= same_component;
+  if (sideways ? heading.left < 0 : heading.ahead < 0) axes.leftCols<2>() = -axes.leftCols<2>();
 }
 
 using Order = std::array<int, 3>;
@@ -81,6 +104,36 @@ Obb Obb::canonical() const {
   Eigen::Matrix3d sorted;
   sorted << axis(order[0]), axis(order[1]), axis(order[2]);
   return named(*this, order, sorted);  // turns the last axis round if that is what makes them right-handed
+}
+
+Obb Obb::upright(const Eigen::Vector3d& up) const {
+  const FloatEnvironment environment;
+  if (empty()) return *this;
+  Eigen::Index vertical = 0;
+  const Eigen::Vector3d along{dot3(axes_.col(0), up), dot3(axes_.col(1), up), dot3(axes_.col(2), up)};
+  along.cwiseAbs().maxCoeff(&vertical);
+  const auto third = static_cast<int>(vertical), first = (third + 1) % 3, second = (third + 2) % 3;
+  Eigen::Matrix3d axes;
+  axes << axes_.col(first), axes_.col(second), axes_.col(third);
+  if (along[vertical] < 0) axes.rightCols<2>() = -axes.rightCols<2>();
+  face_ahead(axes);
+  Eigen::Matrix3d quarter;
+  quarter << axes.col(1), -axes.col(0), axes.col(2);
+  face_ahead(quarter);
+  const double same_size = 0x1p-40 * half_extents_.maxCoeff() + 0x1p-50 * center_.cwiseAbs().maxCoeff();
+  const double longer = half_extents_[second] - half_extents_[first];
+  const Heading a = heading_of(axes), b = heading_of(quarter);
+  const double nearer = std::abs(b.ahead) - std::abs(a.ahead);
+  const bool square = std::abs(longer) <= same_size, diagonal = std::abs(nearer) <= same_component;
+  const bool turn = !square ? longer > 0 : !diagonal ? nearer > 0 : b.left > a.left;
+  if (turn) return named(*this, {second, first, third}, quarter);
+  return named(*this, {first, second, third}, axes);
+}
+
+double Obb::yaw() const {
+  const FloatEnvironment environment;
+  const Heading heading = heading_of(axes_);
+  return empty() ? kNan : std::atan2(heading.left, heading.ahead);
 }
 
 Obb Obb::oriented_as(const Obb& previous) const {

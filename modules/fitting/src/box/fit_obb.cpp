@@ -32,7 +32,7 @@ Eigen::Vector3d unit_up(const Eigen::Vector3d& up) {
 EstimationResult fit_pca(const PointView& points, Obb& box, const Execution& execution) {
   const CloudSummary summary = summarize_bounds(points, execution);
   if (summary.supports.used > 0)
-    box = measured_box(principal_axes(summary), points, summary.supports, execution);
+    box = measured_box(principal_axes(summary), points, summary.supports, execution).canonical();
   return summary.result();
 }
 
@@ -42,7 +42,7 @@ EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& 
     const LocalFrame frame(supports);
     const Eigen::Matrix3d axes = dito_axes(few_points(points, supports, frame), supports, frame);
     const Aabb upright = aabb_of(supports);
-    if (!axes.isIdentity(0)) box = measured_box(axes, points, supports, execution);
+    if (!axes.isIdentity(0)) box = measured_box(axes, points, supports, execution).canonical();
     if (box.empty() || !(box.surface_area() < upright.surface_area())) box = Obb(upright).canonical();
   }
   return result_of(supports);
@@ -52,7 +52,8 @@ EstimationResult fit_minimal(const PointView& points, Obb& box, const Execution&
   const CloudSummary summary = summarize(points, execution);
   if (summary.supports.used > 0) {
     const LocalFrame frame(summary.supports);
-    box = measured_box(minimal_axes(points, summary, frame, execution), points, summary.supports, execution);
+    const Eigen::Matrix3d axes = minimal_axes(points, summary, frame, execution);
+    box = measured_box(axes, points, summary.supports, execution).canonical();
   }
   return summary.result();
 }
@@ -65,7 +66,7 @@ EstimationResult fit_upright(const PointView& points, const ObbOptions& options,
   if (supports.used > 0) {
     const LocalFrame frame(supports);
     const auto axes = options.method == ObbMethod::yaw ? yaw_axes : lshape_axes;
-    box = measured_box(axes(points, supports, frame, up, execution), points, supports, execution);
+    box = measured_box(axes(points, supports, frame, up, execution), points, supports, execution).upright(up);
   }
   return result_of(supports);
 }
@@ -132,10 +133,8 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution) {
   constexpr std::size_t few_points = 2048;
-  const Obb box = supports.used + supports.dropped <= few_points
-                      ? measure_few(axes, points, supports, execution.isa)
-                      : measure_many(axes, points, supports, execution);
-  return box.canonical();
+  return supports.used + supports.dropped <= few_points ? measure_few(axes, points, supports, execution.isa)
+                                                        : measure_many(axes, points, supports, execution);
 }
 
 Eigen::Matrix3d principal_axes(const CloudSummary& summary) {

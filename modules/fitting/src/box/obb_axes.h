@@ -15,7 +15,7 @@
 
 namespace pcl_bv {
 
-/// A canonical box along the axes around all valid points, of which there must be one: by exact arithmetic,
+/// A box along the axes around all valid points, of which there must be one: by exact arithmetic,
 /// and tight to a few units in the last place of the extents and of the centre. Columns unit and orthogonal
 /// to 1e-12; `supports` along any set. Needs a FloatEnvironment.
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,

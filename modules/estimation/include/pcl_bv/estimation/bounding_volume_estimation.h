@@ -197,7 +197,8 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   SphereOptions options_;
 };
 
-/// An oriented box: the smallest that is found unless another method is set. See fit_obb().
+/// An oriented box: the smallest that is found unless another method is set. The upright methods' boxes have
+/// their axis 2 up and axis 0 along the longer horizontal side. See fit_obb().
 template <typename PointT>
 class ObbEstimation : public BoundingVolumeEstimation<PointT, Obb> {
  public:

@@ -29,7 +29,8 @@ inline pcl::ModelCoefficients as_floats(std::initializer_list<double> values) {
 }  // namespace estimation_internal
 
 /// As PCLVisualizer::addCube() takes it: translation x y z, rotation as a quaternion x y z w, and the sizes
-/// along the box's axes 0, 1 and 2. Rounded to float, so not a bound.
+/// along the box's axes 0, 1 and 2 (of an upright box: length, width, height). Rounded to float, so not a
+/// bound.
 inline pcl::ModelCoefficients to_model_coefficients(const Obb& box) {
   const FloatEnvironment environment;
   const Eigen::Vector3d& c = box.center();

@@ -21,7 +21,7 @@ enum class ObbMethod : std::uint8_t {
            ///< the axis-aligned box where that has less.
   minimal,  ///< The least volume that a search over the convex hull finds; never more than the two above,
             ///< give or take rounding.
-  yaw,      ///< Upright: one axis is up, and the area seen from above is the least there is.
+  yaw,      ///< Upright: axis 2 is up, and the area seen from above is the least there is.
   lshape    ///< Upright: the points seen from above are as close as can be to the box's sides (Zhang et al.
             ///< 2017). For vehicles of which a LiDAR sees two sides, which the least area often turns wrong.
 };
@@ -36,8 +36,9 @@ struct ObbOptions {
   Eigen::Vector3d up;  ///< For `yaw` and `lshape`: against gravity, of any length from 1e-30 to 1e30.
 };
 
-/// An oriented box around the points, centre and half extents in the points' unit, its axes canonical().
-/// Whatever chose the axes, the box is measured along them on all points: it encloses each by exact
+/// An oriented box around the points, centre and half extents in the points' unit. Its axes are canonical();
+/// those of `yaw` and `lshape` are upright(up): axis 2 is up, axis 0 the longer horizontal one, so that the
+/// sizes along axes 0, 1 and 2 are length, width and height. Whatever chose the axes, the box is measured along them on all points: it encloses each by exact
 /// arithmetic and is tight along each axis but for the rounding of its centre.
 ///
 /// Empty input or no finite point: an empty box and `no_valid_points`. One point: a box of half extents 0.

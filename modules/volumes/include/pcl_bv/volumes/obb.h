@@ -109,13 +109,27 @@ class Obb {
 
   /// A box around both, by exact arithmetic: of those along the axes of this one, of the other and of the
   /// frame the one with the least volume (the least area, where flat). If one of the two holds the other by a
-  /// margin above rounding it is the result, unchanged. Commutative; not the smallest box there is.
+  /// margin above rounding it is the result, unchanged. Boxes with the same third axis, as upright ones have,
+  /// give one with that third axis, upright(). Commutative; not the smallest box there is.
   Obb merged(const Obb& other) const;
 
   /// The same box, its axes in a standard order and direction, so that noise does not turn it: half extents
   /// descend, those that agree to 2^-40 in the order of their axes (the one most along x first); axes 0 and 1
-  /// point where their largest component is positive. A fit's boxes are canonical.
+  /// point where their largest component is positive. A fit's boxes are canonical, those of upright methods
+  /// upright().
   Obb canonical() const;
+
+  /// The same box, its axes in the order and direction of every upright method: axis 2 is the one nearest to
+  /// `up` (any length from 1e-100 to 1e100) and points up, axis 0 is the longer of the other two and has a
+  /// yaw() from -pi/2 (exclusive) to pi/2, axis 1 makes them right-handed. Where the two agree to 2^-40, axis
+  /// 0 is the one with the smaller yaw (at 45 degrees: the positive one). Components below 1e-9 are treated
+  /// as 0, so that noise turns no box round. An empty box stays empty.
+  Obb upright(const Eigen::Vector3d& up) const;
+
+  /// The rotation of axis 0 about axis 2 in radians, from -pi (exclusive) to pi: 0 where axis 0, seen along
+  /// axis 2, points along x (along y, where axis 2 is less than 45 degrees from the x axis). With z up the
+  /// yaw of robotics: counter-clockwise from x. NaN if empty.
+  double yaw() const;
 
   /// The same box, its axes named so that it is turned least from `previous`, of the 24 ways: what a tracker
   /// needs whose box must not flip. Unchanged if either is empty.
