@@ -98,8 +98,7 @@ std::string csv_text(const Reported& found) {
     report.clusters = found.clusters;
     return report_csv_heading() + report_csv(report);
   }
-  std::string text =
-      "seq,stamp_ns,track," + std::string(csv_columns) + ',' + std::string(csv_track_columns) + '\n';
+  std::string text = frames_csv_heading();
   const std::string frame =
       std::to_string(found.frame->seq) + ',' + std::to_string(found.frame->stamp_ns) + ',';
   for (const ClusterEntry& cluster : found.clusters)

@@ -144,21 +144,27 @@ TEST_F(PcdBv, MeshOverAnInputIsRefused) {
   }
 }
 
+const std::string kCsvHeading =
+    "file,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume,length,width,height,yaw\n";
+
 TEST_F(PcdBv, CsvIsAHeadingAndALineForEachVolumeOfEachInput) {
   const std::string a = ascii("a,1.pcd", {"0 0 0", "1 2 3"}), b = ascii("b.pcd", {"nan 0 0"});
   const Result result = run({"--format", "csv", "--volume", "aabb,dop6", a, at("missing.pcd"), b});
   EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, StartsWith("file,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume,"
+                                     "length,width,height,yaw\n\"" +
+                                     a + "\",0,2,aabb,0.5,1,1.5,1,2,3,,,,,,6,,,,\n"));
   EXPECT_THAT(result.out,
-              StartsWith("file,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume\n\"" + a +
-                         "\",0,2,aabb,0.5,1,1.5,1,2,3,,,,,,6\n"));
-  EXPECT_THAT(result.out, testing::EndsWith(b + ",0,0,aabb,,,,,,,,,,,,\n" + b + ",0,0,dop6,,,,,,,,,,,,\n"));
+              testing::EndsWith(b + ",0,0,aabb,,,,,,,,,,,,,,,,\n" + b + ",0,0,dop6,,,,,,,,,,,,,,,,\n"));
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 5);
 }
 
 TEST_F(PcdBv, CsvOfNothingThatCanBeReadIsOnlyTheHeading) {
   const Result result = run({"--format", "csv", at("missing.pcd")});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.out, "file,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume\n");
+  EXPECT_EQ(
+      result.out,
+      "file,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume,length,width,height,yaw\n");
 }
 
 TEST_F(PcdBv, FolderOfOneCloudPutsItsFilesIntoAFolderToo) {

@@ -18,6 +18,7 @@ namespace pcl_bv {
 namespace {
 
 const std::string columns = "cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume";
+const std::string not_upright = ",,,,\n";
 
 Report report_of(const std::string& file, std::vector<ClusterEntry> clusters) {
   Report report;
@@ -34,15 +35,20 @@ std::string line_of(const std::string& method, const AnyVolume& volume) {
 
 TEST(Csv, ColumnsAreTheDocumentedOnes) {
   EXPECT_EQ(csv_columns, columns);
-  EXPECT_EQ(report_csv_heading(), "file," + columns + "\n");
+  EXPECT_EQ(report_csv_heading(), "file," + columns + ",length,width,height,yaw\n");
+  EXPECT_EQ(frames_csv_heading(),
+            "seq,stamp_ns,track," + columns + ",vx,vy,vz,x,y,z,yaw,length,width,height,box_yaw\n");
 }
 
 TEST(Csv, BoxHasCentreSizeAndVolume) {
-  EXPECT_EQ(line_of("aabb", Aabb({0, -1, 0.5}, {1, 2, 3})), "f,3,12,aabb,0.5,0.5,1.75,1,3,2.5,,,,,,7.5\n");
+  EXPECT_EQ(line_of("aabb", Aabb({0, -1, 0.5}, {1, 2, 3})),
+            "f,3,12,aabb,0.5,0.5,1.75,1,3,2.5,,,,,,7.5" + not_upright);
 }
 
 TEST(Csv, SphereHasCentreRadiusAndVolume) {
-  const std::string line = line_of("sphere-exact", Sphere({1, 2, -0.0}, 0.5));
+  std::string line = line_of("sphere-exact", Sphere({1, 2, -0.0}, 0.5));
+  ASSERT_EQ(line.substr(line.size() - not_upright.size()), not_upright);
+  line.resize(line.size() - not_upright.size());
   EXPECT_EQ(line.substr(0, line.rfind(',')), "f,3,12,sphere-exact,1,2,0,,,,,,,,0.5");
   EXPECT_EQ(std::strtod(line.c_str() + line.rfind(',') + 1, nullptr), Sphere({1, 2, 0}, 0.5).volume());
 }
@@ -54,7 +60,7 @@ TEST(Csv, KdopHasCentreOfMassAndSizeOfItsBox) {
   const Kdop kdop(KdopSet::dop6(), min, max);
   double x = 0, y = 0, z = 0, volume = 0;
   const std::string line = line_of("dop6", kdop);
-  ASSERT_EQ(std::sscanf(line.c_str(), "f,3,12,dop6,%lf,%lf,%lf,1,2,4,,,,,,%lf\n", &x, &y, &z, &volume), 4)
+  ASSERT_EQ(std::sscanf(line.c_str(), "f,3,12,dop6,%lf,%lf,%lf,1,2,4,,,,,,%lf,,,,\n", &x, &y, &z, &volume), 4)
       << line;
   EXPECT_EQ(Eigen::Vector3d(x, y, z), kdop.center());
   EXPECT_EQ(volume, kdop.volume());
@@ -62,13 +68,44 @@ TEST(Csv, KdopHasCentreOfMassAndSizeOfItsBox) {
 
 TEST(Csv, EmptyVolumeHasNoNumbers) {
   for (const AnyVolume& volume : {AnyVolume(Aabb()), AnyVolume(Sphere()), AnyVolume(Kdop())})
-    EXPECT_EQ(line_of("m", volume), "f,3,12,m,,,,,,,,,,,,\n");
+    EXPECT_EQ(line_of("m", volume), "f,3,12,m,,,,,,,,,,,," + not_upright);
 }
 
 TEST(Csv, AFitThatFailedHasNoNumbers) {
   std::string text;
   append_csv("f", {3, 12, {{"hull", Hull(), {}, "gave up"}}}, text);
-  EXPECT_EQ(text, "f,3,12,hull,,,,,,,,,,,,\n");
+  EXPECT_EQ(text, "f,3,12,hull,,,,,,,,,,,," + not_upright);
+}
+
+// A pole of 6 m, longer along y: sz is its height, and its yaw that of the longer side of its base.
+const Obb pole =
+    Obb({1, 2, 3}, Eigen::Matrix3d::Identity(), {0.25, 0.5, 3}).upright(Eigen::Vector3d::UnitZ());
+
+TEST(Csv, UprightBoxesHaveLengthWidthHeightAndYawInTheLastColumns) {
+  for (const char* method : {"obb-yaw", "obb-lshape"}) {
+    const std::string line = line_of(method, pole);
+    EXPECT_NE(line.find(",1,2,3,1,0.5,6,"), std::string::npos) << "sz is the height: " << line;
+    const std::string last = ",1,0.5,6,1.5707963267948966\n";
+    EXPECT_EQ(line.substr(line.size() - last.size()), last) << line;
+  }
+}
+
+TEST(Csv, BoxesOfOtherMethodsLeaveTheColumnsOfUprightOnesEmpty) {
+  for (const char* method : {"obb-pca", "obb-dito14", "obb-min", "best"}) {
+    const std::string line = line_of(method, pole);
+    EXPECT_EQ(line.substr(line.size() - not_upright.size()), not_upright) << line;
+  }
+  EXPECT_EQ(line_of("obb-yaw", Obb()), "f,3,12,obb-yaw,,,,,,,,,,,," + not_upright);
+}
+
+TEST(Csv, OfATrackTheLastColumnsComeAfterThoseOfTheTrack) {
+  ClusterEntry cluster{3, 12, {{"obb-yaw", pole, {}}, {"aabb", Aabb({0, 0, 0}, {1, 1, 1}), {}}}};
+  cluster.track.emplace();
+  cluster.track->pose = {7, 8, 9, -0.5};
+  std::string text;
+  append_csv("0,0,0", cluster, text, true);
+  EXPECT_NE(text.find(",0,0,0,7,8,9,-0.5,1,0.5,6,1.5707963267948966\n"), std::string::npos) << text;
+  EXPECT_NE(text.find(",0,0,0,7,8,9,-0.5,,,,\n"), std::string::npos) << text;
 }
 
 TEST(Csv, EveryLineHasAsManyFieldsAsTheHeading) {
@@ -95,9 +132,9 @@ TEST(Csv, ReportHasALineForEachVolumeOfEachCluster) {
   const Report report = report_of(
       "a,b.pcd", {{0, 9, {{"aabb", box, {}}, {"sphere-ritter", Sphere(), 1}}}, {1, 4, {{"aabb", box, {}}}}});
   EXPECT_EQ(report_csv(report),
-            "\"a,b.pcd\",0,9,aabb,0.5,0.5,0.5,1,1,1,,,,,,1\n"
-            "\"a,b.pcd\",0,9,sphere-ritter,,,,,,,,,,,,\n"
-            "\"a,b.pcd\",1,4,aabb,0.5,0.5,0.5,1,1,1,,,,,,1\n");
+            "\"a,b.pcd\",0,9,aabb,0.5,0.5,0.5,1,1,1,,,,,,1,,,,\n"
+            "\"a,b.pcd\",0,9,sphere-ritter,,,,,,,,,,,,,,,,\n"
+            "\"a,b.pcd\",1,4,aabb,0.5,0.5,0.5,1,1,1,,,,,,1,,,,\n");
 }
 
 TEST(Csv, FailedReportHasNoLines) {
@@ -109,13 +146,13 @@ TEST(Csv, FailedReportHasNoLines) {
 TEST(Csv, FirstColumnsAreTheCallers) {
   std::string text = "before\n";
   append_csv("0,1500,", {2, 1, {{"aabb", Aabb(), {}}}}, text);
-  EXPECT_EQ(text, "before\n0,1500,,2,1,aabb,,,,,,,,,,,,\n");
+  EXPECT_EQ(text, "before\n0,1500,,2,1,aabb,,,,,,,,,,,," + not_upright);
 }
 
 TEST(Csv, NumbersReadBackExactly) {
   const double odd = 0.1 + 0.2, tiny = std::numeric_limits<double>::denorm_min();
   const std::string line = line_of("s", Sphere({odd, -1e300, tiny}, 0));
-  EXPECT_EQ(line, "f,3,12,s,0.30000000000000004,-1e+300,5e-324,,,,,,,,0,0\n");
+  EXPECT_EQ(line, "f,3,12,s,0.30000000000000004,-1e+300,5e-324,,,,,,,,0,0" + not_upright);
 }
 
 TEST(Csv, NumberThatIsNotFiniteIsAnError) {

@@ -62,6 +62,36 @@ TEST(ReportText, ColumnsAreAligned) {
   EXPECT_EQ(rows[2].size(), rows[1].size());
 }
 
+// A pole of 6 m, longer along y.
+const Obb pole =
+    Obb({1, 2, 3}, Eigen::Matrix3d::Identity(), {0.25, 0.5, 3}).upright(Eigen::Vector3d::UnitZ());
+
+TEST(ReportText, UprightBoxesHaveLengthWidthHeightAndYaw) {
+  Report report;
+  report.file = "street.pcd";
+  report.clusters.push_back({0, 900, {{"obb-lshape", pole, {}}}});
+  const auto rows = lines(report_text(report));
+  EXPECT_THAT(rows[1], testing::MatchesRegex(" +id .* +length +width +height +yaw +volume"));
+  EXPECT_THAT(rows[2], testing::MatchesRegex(" +0 +900 +obb-lshape .* 1.0000 +0.5000 +6.0000 +1.57 +3.000"));
+}
+
+TEST(ReportText, BesideOtherShapesBothMeaningsOfTheSizesAreNamed) {
+  Report report = two_clusters();
+  report.clusters.push_back({2, 900, {{"obb-yaw", pole, {}}, {"obb-min", pole, {}}}});
+  const auto rows = lines(report_text(report));
+  EXPECT_THAT(rows[1], HasSubstr("length/x width/y height/z"));
+  EXPECT_THAT(rows[1], HasSubstr("yaw"));
+  EXPECT_THAT(rows[6], HasSubstr("1.57"));
+  EXPECT_THAT(rows[7], Not(HasSubstr("1.57"))) << "obb-min is not upright";
+  for (std::size_t i : {2, 6, 7})
+    EXPECT_EQ(rows[i].size(), rows[1].size()) << "not aligned";
+}
+
+TEST(ReportText, WithoutUprightBoxesThereIsNoYaw) {
+  EXPECT_THAT(report_text(two_clusters()), Not(HasSubstr("yaw")));
+  EXPECT_THAT(report_text(two_clusters()), HasSubstr("size x"));
+}
+
 TEST(ReportText, OutsideIsAColumnOnlyWhenChecked) {
   Report report = two_clusters();
   EXPECT_THAT(report_text(report), Not(HasSubstr("outside")));
@@ -82,10 +112,12 @@ TEST(ReportText, AnyMagnitudeFitsTheTerminal) {
       Report report;
       const Eigen::Vector3d low = Eigen::Vector3d(-1.23456789, -1, -1.1) * scale,
                             step = Eigen::Vector3d(1, 0.9, 0.1) * scale * size;
-      report.clusters.push_back(
-          {12345,
-           123456789,
-           {{"sphere-epos26", Sphere(low, scale * size), 123}, {"aabb", Aabb(low, low + step), 0}}});
+      const Eigen::Matrix3d turned = Eigen::AngleAxisd(-1.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      report.clusters.push_back({12345,
+                                 123456789,
+                                 {{"sphere-epos26", Sphere(low, scale * size), 123},
+                                  {"obb-lshape", Obb(low, turned, step), 0},
+                                  {"aabb", Aabb(low, low + step), 0}}});
       const auto rows = lines(report_text(report));
       for (std::size_t i = 1; i < rows.size(); ++i)
         EXPECT_LE(rows[i].size(), 120u) << rows[i];

@@ -3,6 +3,8 @@
 
 #include "pcl_bv/report/csv.h"
 
+#include <initializer_list>
+
 #include "csv_shape.h"
 #include "written.h"
 
@@ -27,6 +29,20 @@ void append_volume(const AnyVolume& any, std::string& text) {
   text += ',' + shortest(volume(any));
 }
 
+void append_upright(const VolumeEntry& entry, std::string& text) {
+  const Obb* const box = upright_box(entry);
+  if (box == nullptr) return append_columns(4, nullptr, text);
+  append_columns(3, Eigen::Vector3d(2 * box->half_extents()).data(), text);
+  text += ',' + shortest(box->yaw());
+}
+
+std::string joined(std::initializer_list<std::string_view> columns) {
+  std::string line;
+  for (const std::string_view& some : columns)
+    line.append(line.empty() ? "" : ",").append(some);
+  return line + '\n';
+}
+
 }  // namespace
 
 std::string csv_field(std::string_view text) {
@@ -48,6 +64,7 @@ void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std
       append_columns(3, cluster.track ? cluster.track->velocity.data() : nullptr, text);
       append_columns(4, cluster.track ? cluster.track->pose.data() : nullptr, text);
     }
+    append_upright(entry, text);
     text += '\n';
   }
 }
@@ -62,7 +79,11 @@ std::string report_csv(const Report& report) {
 }
 
 std::string report_csv_heading() {
-  return "file," + std::string(csv_columns) + '\n';
+  return joined({"file", csv_columns, csv_upright_columns});
+}
+
+std::string frames_csv_heading() {
+  return joined({"seq,stamp_ns,track", csv_columns, csv_track_columns, csv_tracked_upright_columns});
 }
 
 }  // namespace pcl_bv

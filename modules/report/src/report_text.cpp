@@ -12,7 +12,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t n_columns = 11;
+constexpr std::size_t n_columns = 12;
 constexpr std::size_t method_column = 2;  // the only one aligned to the left
 using Row = std::array<std::string, n_columns>;
 
@@ -57,7 +57,7 @@ int choose_decimals(const Report& report) {
 Row volume_row(const VolumeEntry& entry, int decimals) {
   Row row;
   row[method_column] = shown_method(entry);
-  if (entry.outside) row[10] = std::to_string(*entry.outside);
+  if (entry.outside) row[11] = std::to_string(*entry.outside);
   if (empty(entry.volume)) {
     row[3] = entry.failed.empty() ? "empty" : "failed";
     return row;
@@ -73,16 +73,17 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
     const Aabb box = aabb(entry.volume);
     for (int k = 0; k < 3; ++k)  // of a turned box along its own axes
       row[6 + k] = length(oriented ? 2 * oriented->half_extents()[k] : box.max()[k] - box.min()[k], decimals);
+    if (const Obb* const upright = upright_box(entry)) row[9] = format("%.*f", 2, upright->yaw());
   }
-  row[9] = four_digits(volume(entry.volume));
+  row[10] = four_digits(volume(entry.volume));
   return row;
 }
 
 std::vector<Row> table(const Report& report) {
   std::vector<Row> rows{
-      {"id", "points", "method", "centre x", "y", "z", "size x", "y", "z", "volume", "outside"}};
+      {"id", "points", "method", "centre x", "y", "z", "size x", "y", "z", "", "volume", "outside"}};
   const int decimals = choose_decimals(report);
-  bool checked = false;
+  bool checked = false, upright = false, other = false;
   for (const ClusterEntry& cluster : report.clusters) {
     for (const VolumeEntry& entry : cluster.volumes) {
       Row row = volume_row(entry, decimals);
@@ -91,10 +92,15 @@ std::vector<Row> table(const Report& report) {
         row[1] = std::to_string(cluster.points);
       }
       checked = checked || entry.outside;
+      (row[9].empty() ? other : upright) |= !row[8].empty();
       rows.push_back(std::move(row));
     }
   }
   if (!checked) rows.front().back().clear();
+  const std::array<std::string, 4> names =
+      other ? std::array<std::string, 4>{"length/x", "width/y", "height/z", "yaw"}
+            : std::array<std::string, 4>{"length", "width", "height", "yaw"};
+  if (upright) std::copy(names.begin(), names.end(), rows.front().begin() + 6);
   return rows;
 }
 
@@ -108,8 +114,9 @@ std::string aligned(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     std::string line;
     for (std::size_t c = 0; c < n_columns; ++c) {
+      if (width[c] == 0) continue;
       const std::string padding(width[c] - row[c].size(), ' ');
-      const bool inside_triple = c == 4 || c == 5 || c == 7 || c == 8;
+      const bool inside_triple = c == 4 || c == 5 || (c >= 7 && c <= 9);
       line += inside_triple ? " " : "  ";
       line += c == method_column ? row[c] + padding : padding + row[c];
     }

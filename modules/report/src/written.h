@@ -7,7 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
+#include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/report/report.h"
 
 namespace pcl_bv {
@@ -25,6 +27,14 @@ inline std::string shortest(double value) {
 inline std::string shown_method(const VolumeEntry& entry) {
   if (entry.method != "best" || empty(entry.volume)) return entry.method;
   return entry.method + " (" + std::string(shape_name(entry.volume)) + ')';
+}
+
+/// The box of an upright method, which has a length, a width, a height and a yaw; else, or if empty, null.
+inline const Obb* upright_box(const VolumeEntry& entry) {
+  const Obb* const box = std::get_if<Obb>(&entry.volume);
+  if (box == nullptr || box->empty()) return nullptr;
+  const Method* const method = find_method(entry.method);
+  return method != nullptr && method->upright ? box : nullptr;
 }
 
 }  // namespace pcl_bv

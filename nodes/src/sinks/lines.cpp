@@ -66,7 +66,7 @@ std::unique_ptr<FrameSink> open_jsonl(const SinkDescription& description) {
 std::unique_ptr<FrameSink> open_csv(const SinkDescription& description) {
   return std::make_unique<LineSink>(
       description,
-      "seq,stamp_ns,track," + std::string(csv_columns) + ',' + std::string(csv_track_columns) + '\n',
+      frames_csv_heading(),
       csv_lines);
 }
 

@@ -91,7 +91,8 @@ struct Report {
 std::string report_json(const Report& report);
 
 /// The report as a table of at most 120 columns: a line on the file, then one row for each volume with its
-/// centre, size and volume in the unit of the points. Rounded for reading: use JSON to compute. A failed
+/// centre, size and volume in the unit of the points. The sizes of upright boxes are length, width and
+/// height, and they have a yaw, radians (Obb::yaw()). Rounded for reading: use JSON to compute. A failed
 /// report gives no text.
 std::string report_text(const Report& report);
 
