@@ -7,9 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "pcl_bv/fitting/fit_obb.h"
 
 namespace pcl_bv {
 namespace {
@@ -173,7 +176,81 @@ TEST(BoxFilter, EmptyAndLyingBoxesStayAsTheyAre) {
   const Obb slant({1, 2, 3}, lying, {3, 2, 1});
   std::mt19937 random(6);
   const std::vector<float> some = block(0, random);
-  EXPECT_EQ(filter.steady(slant, view(some), {}, true, true), slant);
+  BoxFilter of_any_axes(false);
+  EXPECT_EQ(of_any_axes.steady(slant, view(some), {}, true, true), slant);
+  EXPECT_EQ(of_any_axes.steady(box, view(some), {}, true, true), box) << "upright by chance";
+}
+
+// Points of a block of this size, and of its nearer half.
+std::vector<float> half_block(const Eigen::Matrix3d& lift, const Eigen::Vector3d& size, bool whole) {
+  std::vector<float> xyz;
+  for (int i = 0; i <= 10; ++i)
+    for (int j = 0; j <= 10; ++j)
+      for (int k = 0; k <= 10; ++k) {
+        if (!whole && i > 5) continue;
+        const Eigen::Vector3d p =
+            lift * (Eigen::Vector3d(10, 4, 0) + size.cwiseProduct(Eigen::Vector3d(i - 5, j - 5, k - 5) / 10));
+        for (const double c : p)
+          xyz.push_back(static_cast<float>(c));
+      }
+  return xyz;
+}
+
+// Whichever extent is the largest and whichever way is up: poles, slabs, square bases.
+TEST(BoxFilter, BoxesOfEveryUprightMethodGrowForAnyUp) {
+  for (const ObbMethod method : {ObbMethod::yaw, ObbMethod::lshape})
+    for (const Eigen::Vector3d& up :
+         {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(0, -1, 0),
+          Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 2, 3)})
+      for (const Eigen::Vector3d& size : {Eigen::Vector3d(1, 0.6, 6), Eigen::Vector3d(4, 3, 0.5),
+                                          Eigen::Vector3d(4, 1, 2), Eigen::Vector3d(2, 2, 2)}) {
+        const Eigen::Matrix3d lift =
+            Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
+        BoxFilter filter;
+        Obb box, fitted;
+        for (int frame = 0; frame < 8; ++frame) {
+          const std::vector<float> xyz = half_block(lift, size, frame < 7);
+          fit_obb(view(xyz), {method, up}, fitted);
+          box = filter.steady(filter.face(fitted, {}), view(xyz), {}, true, true);
+        }
+        EXPECT_NE(box, fitted) << "the filter left it as it was";
+        EXPECT_LE((box.axis(2) - up.normalized()).norm(), 1e-15);
+        const Eigen::Vector3d sorted(std::max(size.x(), size.y()), std::min(size.x(), size.y()), size.z());
+        EXPECT_LE((2 * box.half_extents() - sorted).norm(), 0.1) << 2 * box.half_extents().transpose();
+      }
+}
+
+TEST(BoxFilter, AMergedClusterChangesNeitherSizesNorTurn) {
+  std::mt19937 random(7);
+  BoxFilter filter;
+  const auto steadied = [&](double degrees, double length, const BoxSighting& sighting) {
+    const std::vector<float> xyz = block(degrees, random, length);
+    return filter.steady(filter.face(upright_box(degrees, length, 2), sighting), view(xyz), sighting, true,
+                         true);
+  };
+  for (int i = 0; i < 10; ++i)
+    steadied(0, 4, {});
+  BoxSighting merged;
+  merged.merged = true;
+  for (int i = 0; i < 20; ++i) {
+    const Obb box = steadied(30, 9, merged);
+    EXPECT_NEAR(yaw_of(box), 0, 1e-9) << "turned by the mean before";
+    EXPECT_GT(2 * box.half_extents().x(), 7) << "but around all points";
+  }
+  EXPECT_LT(2 * steadied(0, 4, {}).half_extents().x(), 4.01);
+}
+
+TEST(BoxFilter, ASeparatedObjectLearnsItsSizesAnew) {
+  std::mt19937 random(8);
+  BoxFilter filter;
+  Obb box;
+  for (int i = 0; i < 12; ++i) {
+    BoxSighting sighting;
+    sighting.separated = i == 8;
+    const std::vector<float> xyz = block(0, random, i < 6 ? 9 : 4);
+    box = filter.steady(upright_box(0, 4, 2), view(xyz), sighting, false, true);
+    EXPECT_EQ(2 * box.half_extents().x() > 8, i < 8) << i;
+  }
 }
 
 }  // namespace

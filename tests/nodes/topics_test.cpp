@@ -107,6 +107,41 @@ TEST(Topics, HaveAnEntityForEachObjectAndDeleteWhatEnds) {
   }
 }
 
+template <typename Pose>
+Eigen::Vector3d third_axis(const Pose& pose) {
+  const auto& q = pose.orientation;
+  return Eigen::Quaterniond(q.w, q.x, q.y, q.z) * Eigen::Vector3d::UnitZ();
+}
+
+TEST(Topics, HaveUprightBoxesWhoseThirdAxisIsUp) {
+  for (const char* method : {"obb-yaw", "obb-lshape"}) {
+    for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.1, -0.2, 2)}) {
+      SCOPED_TRACE(method);
+      Street street;
+      street.config.volumes = {method};
+      street.config.track.smooth = street.config.track.grow = true;
+      street.config.ground.up = up;
+      street.pipeline.set_config(street.config);
+      for (std::size_t i = 0; i < 4; ++i)
+        street.process(i);
+      ShownObjects of_markers, of_scene;
+      msg::Detection3DArray detections;
+      msg::MarkerArray markers;
+      msg::SceneUpdate scene;
+      fill_detections(street.frame, street.result, detections);
+      fill_markers(street.frame, street.result, drawn(street.result), 300'000'000, of_markers, markers);
+      fill_scene(street.frame, street.result, drawn(street.result), 300'000'000, of_scene, scene);
+      ASSERT_GT(detections.detections.size(), 5U);
+      for (const msg::Detection3D& detection : detections.detections)
+        EXPECT_LE((third_axis(detection.bbox.center) - up.normalized()).norm(), 1e-15);
+      for (const msg::Marker& marker : markers.markers)
+        EXPECT_LE((third_axis(marker.pose) - up.normalized()).norm(), 1e-15);
+      for (const msg::SceneEntity& entity : scene.entities)
+        EXPECT_LE((third_axis(entity.cubes.at(0).pose) - up.normalized()).norm(), 1e-15);
+    }
+  }
+}
+
 TEST(Topics, HoldThePointsWithTheirLabels) {
   Street street;
   street.process(0);

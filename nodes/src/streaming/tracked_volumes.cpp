@@ -28,10 +28,11 @@ void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, const Trac
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
   if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
   if (filters_.size() < first + methods) filters_.resize(first + methods);
-  const BoxSighting sighting{tracker_.sensor(), assignment.velocity, assignment.moving};
+  const BoxSighting sighting{tracker_.sensor(), assignment.velocity, assignment.moving, assignment.merged,
+                             assignment.separated};
   for (std::size_t m = 0; m < methods; ++m) {
     BoxFilter& filter = filters_[first + m];
-    if (assignment.fresh) filter = BoxFilter();
+    if (assignment.fresh) filter = BoxFilter(methods_[m]->upright);
     Obb* const box = std::get_if<Obb>(&result.volumes[cluster * methods + m]);
     if (box == nullptr) continue;
     *box = filter.face(*box, sighting);

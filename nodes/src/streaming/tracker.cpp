@@ -18,6 +18,11 @@ namespace {
 
 constexpr double kGateCost = 16;         // four standard deviations
 constexpr std::size_t kHiddenShare = 4;  // frames inside another's box that count as one without a sighting
+constexpr std::size_t kSeparate = 5;     // sightings in a row of what came out of a box that was two objects
+
+bool holds(const Aabb& box, const Eigen::Vector3d& place) {
+  return (box.min().array() <= place.array()).all() && (place.array() <= box.max().array()).all();
+}
 
 Pose moved(const Pose& sensor, const PlanarMotion& motion) {
   Pose step = Pose::Identity();
@@ -36,7 +41,9 @@ struct Tracker::State {
   void find_sensor(double seconds, const std::vector<Aabb>& boxes);
   void find_pairs(const std::vector<Aabb>& boxes, double gate);
   void join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
-  void miss(const std::vector<Aabb>& boxes);
+  void miss(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void start(const std::vector<Aabb>& boxes, std::size_t box, std::vector<Assignment>& assignments);
+  void separate(std::vector<Assignment>& assignments);
   void bury(std::size_t death);
   std::size_t free_slot();
   Eigen::Vector3d apparent(const Eigen::Vector3d& place) const;
@@ -45,6 +52,7 @@ struct Tracker::State {
   std::vector<std::size_t> free;
   std::vector<char> track_taken, box_taken;
   std::vector<Aabb> expected;
+  std::vector<Aabb> predicted;  // of each box: where its track was expected, before it was seen
   std::vector<AssignmentPair> pairs;
   BoxGrid grid;
   SparseAssignment assignment;
@@ -111,8 +119,7 @@ void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];
     if (!track.alive) continue;
-    const Eigen::Vector3d centre = track.expected + (track.low + track.high) / 2;
-    grid.visit_near(centre, [&](std::size_t b) {
+    grid.visit_near(track.expected_box().center(), [&](std::size_t b) {
       const double cost = cost_of(track, boxes[b], gate) + (track.id ? 0 : 1);
       if (cost < kGateCost) pairs.push_back({t, b, cost});
     });
@@ -123,29 +130,57 @@ void Tracker::State::join(double seconds, const std::vector<Aabb>& boxes,
                           std::vector<Assignment>& assignments) {
   track_taken.assign(tracks.size(), 0);
   box_taken.assign(boxes.size(), 0);
+  predicted.assign(boxes.size(), Aabb());
   assignment.solve(tracks.size(), boxes.size(), pairs, kGateCost);
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const std::size_t b = assignment.columns()[t];
     if (b == SparseAssignment::none) continue;
     track_taken[t] = box_taken[b] = 1;
+    predicted[b] = tracks[t].expected_box();
     tracks[t].correct(boxes[b], sensor, seconds);
     assignments[b].slot = t;
   }
 }
 
 // A track whose place is inside the box of another is likely part of it, and comes back when they part.
-void Tracker::State::miss(const std::vector<Aabb>& boxes) {
+void Tracker::State::miss(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
     Track& track = tracks[t];
     if (!track.alive || track_taken[t] != 0) continue;
     bool hides = false;
-    const Eigen::Vector3d centre = track.expected + (track.low + track.high) / 2;
+    const Eigen::Vector3d centre = track.expected_box().center();
     grid.visit_near(centre, [&](std::size_t b) {
-      hides = hides || ((boxes[b].min().array() <= centre.array()).all() &&
-                        (centre.array() <= boxes[b].max().array()).all());
+      if (!holds(boxes[b], centre)) return;
+      hides = true;
+      if (track.id) assignments[b].merged = true;
     });
+    if (hides) track.apart = 0;
     if (hides && ++track.hidden % kHiddenShare != 0) continue;
     ++track.missed;
+  }
+}
+
+void Tracker::State::start(const std::vector<Aabb>& boxes, std::size_t box,
+                           std::vector<Assignment>& assignments) {
+  const std::size_t slot = free_slot();
+  tracks[slot].start(boxes[box], sensor);
+  assignments[box].slot = slot;
+  assignments[box].fresh = true;
+  const Eigen::Vector3d centre = boxes[box].center();
+  grid.visit_near(centre, [&](std::size_t b) {
+    if (box_taken[b] != 0 && holds(predicted[b], centre)) tracks[slot].out_of = assignments[b].slot;
+  });
+}
+
+void Tracker::State::separate(std::vector<Assignment>& assignments) {
+  for (const Assignment& own : assignments) {
+    Track& track = tracks[own.slot];
+    if (!track.out_of || ++track.apart < kSeparate) continue;
+    const Track& other = tracks[*track.out_of];
+    const bool lives = other.alive && other.age > track.age;  // a slot that is used again holds a younger one
+    const std::size_t box = lives ? assignment.columns()[*track.out_of] : SparseAssignment::none;
+    if (box != SparseAssignment::none) assignments[box].separated = true;
+    if (!lives || box != SparseAssignment::none) track.out_of.reset();
   }
 }
 
@@ -193,21 +228,17 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   s.move_sensor(seconds, boxes, pose);
   s.find_pairs(boxes, config.gate);
   s.join(seconds, boxes, assignments);
-  s.miss(boxes);
+  s.miss(boxes, assignments);
   s.bury(config.death);
   for (std::size_t b = 0; b < boxes.size(); ++b) {
-    if (s.box_taken[b] == 0) {
-      const std::size_t slot = s.free_slot();
-      s.tracks[slot].start(boxes[b], s.sensor);
-      assignments[b].slot = slot;
-      assignments[b].fresh = true;
-    }
+    if (s.box_taken[b] == 0) s.start(boxes, b, assignments);
     Track& track = s.tracks[assignments[b].slot];
     assignments[b].moving = track.moving;
     assignments[b].velocity = s.sensor.linear().transpose() * track.motion.velocity();
     if (!track.id && track.seen >= config.birth) track.id = s.next_id++;
     if (track.id) assignments[b].track = track.entry(s.sensor, pose.has_value(), s.apparent(track.expected));
   }
+  s.separate(assignments);
 }
 
 const Pose& Tracker::sensor() const {

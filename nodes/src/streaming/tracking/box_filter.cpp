@@ -20,10 +20,6 @@ constexpr double kStandsForget = 0.97;  // a frame, of what stands
 constexpr double kStep = 0.15;          // metres a frame by which sizes grow
 constexpr std::size_t kFree = 5;        // sightings that may be larger by any step
 
-bool upright(const Obb& box) {
-  return !box.empty() && std::abs(box.axes()(2, 2)) > 0.99;
-}
-
 // Of axis 0, turned by quarters about axis 2.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, int quarters) {
   Eigen::Matrix3d result = axes;
@@ -32,6 +28,16 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, int quarters) {
     result.col(1) = -result.col(0);
     result.col(0) = front;
   }
+  return result;
+}
+
+// Turned by an angle about axis 2, which keeps its bits.
+Eigen::Matrix3d about_third(const Eigen::Matrix3d& axes, double angle) {
+  Eigen::Matrix3d from_third;
+  from_third << axes.col(2), std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1), axes.col(1);
+  from_third = orthonormal_axes(from_third);
+  Eigen::Matrix3d result;
+  result << from_third.col(1), from_third.col(2), axes.col(2);
   return result;
 }
 
@@ -68,7 +74,7 @@ Obb BoxFilter::face(const Obb& box, const BoxSighting& sighting) {
     const Eigen::Matrix3d axes = orthonormal_axes(turn.transpose() * axes_);
     facing = box.oriented_as(Obb(box.center(), axes, box.half_extents()));
   }
-  if (sighting.moving && upright(facing)) {
+  if (sighting.moving && upright_) {
     int best = 0;
     for (int k = 1; k < 4; ++k) {
       if (turned(facing.axes(), k).col(0).dot(sighting.velocity) >
@@ -92,20 +98,22 @@ Obb BoxFilter::face(const Obb& box, const BoxSighting& sighting) {
 }
 
 double BoxFilter::smoothed_yaw(const Obb& box, const BoxSighting& sighting) {
-  const Eigen::Vector3d front = sighting.sensor.linear() * box.axis(0);
-  const double yaw = std::atan2(front.y(), front.x());
-  const double forget = sighting.moving ? kTurnsForget : kStandsForget;
-  // The longer a side, the better its direction is seen.
-  const double weight = box.half_extents().head<2>().maxCoeff();
-  cosine_ = forget * cosine_ + weight * std::cos(4 * yaw);
-  sine_ = forget * sine_ + weight * std::sin(4 * yaw);
+  const double yaw =
+      Obb(box.center(), orthonormal_axes(sighting.sensor.linear() * box.axes()), box.half_extents()).yaw();
+  if (!sighting.merged) {
+    const double forget = sighting.moving ? kTurnsForget : kStandsForget;
+    // The longer a side, the better its direction is seen.
+    const double weight = box.half_extents().head<2>().maxCoeff();
+    cosine_ = forget * cosine_ + weight * std::cos(4 * yaw);
+    sine_ = forget * sine_ + weight * std::sin(4 * yaw);
+  }
   if (cosine_ == 0 && sine_ == 0) return 0;
   return std::remainder(std::atan2(sine_, cosine_) / 4 - yaw, std::acos(0.0));  // by how much it is turned
 }
 
-double BoxFilter::grown(std::size_t axis, double seen) {
+double BoxFilter::grown(std::size_t axis, double seen, bool merged) {
   double& size = sizes_[axis];
-  if (seen > size) {
+  if (seen > size && !merged) {
     const double more = seen - size;
     size = seen_ <= kFree ? seen : size + std::min(0.3 * more, kStep);
   }
@@ -114,21 +122,23 @@ double BoxFilter::grown(std::size_t axis, double seen) {
 
 Obb BoxFilter::steady(const Obb& box, const PointView& points, const BoxSighting& sighting, bool smooth,
                       bool grow) {
-  if (!upright(box)) return box;
-  ++seen_;
+  if (box.empty() || !upright_) return box;
+  if (sighting.separated) {
+    sizes_ = {};
+    seen_ = 0;
+  }
+  if (!sighting.merged) ++seen_;
   Eigen::Matrix3d axes = box.axes();
   if (smooth) {
-    const double sense = axes(2, 2) > 0 ? 1 : -1, by = sense * smoothed_yaw(box, sighting);
-    axes.col(0) = std::cos(by) * box.axis(0) + std::sin(by) * box.axis(1);
-    axes = orthonormal_axes((Eigen::Matrix3d() << axes.col(0), box.axis(1), box.axis(2)).finished());
-    if (axes.col(2).dot(box.axis(2)) < 0) return box;
+    axes = about_third(axes, smoothed_yaw(box, sighting));
     axes_ = sighting.sensor.linear() * axes;  // names are kept by the turn that does not jitter
   }
   Eigen::Vector3d low, high;
   slabs_of(points, axes, box.center(), low, high);
   if (!(low.array() <= high.array()).all()) return box;
   for (int i = 0; grow && i < 2; ++i) {
-    const double more = grown(static_cast<std::size_t>(i), high[i] - low[i]) - (high[i] - low[i]);
+    const double more =
+        grown(static_cast<std::size_t>(i), high[i] - low[i], sighting.merged) - (high[i] - low[i]);
     const double sensor = -axes.col(i).dot(box.center());
     const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;  // inside: nobody knows which end
     high[i] += above * more;

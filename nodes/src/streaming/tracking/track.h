@@ -36,6 +36,8 @@ struct Track {
   double yaw = 0, yaw_variance = 1;
   bool alive = false, moving = false;
   std::optional<std::uint32_t> id;
+  std::optional<std::size_t> out_of;  // slot of the track inside whose expected box this one began
+  std::size_t apart = 0;              // sightings since then, or since it was last hidden
 
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
@@ -44,6 +46,7 @@ struct Track {
   /// expected where their velocities lead, an error of the sensor's velocity would become theirs and stay for
   /// good.
   Aabb standing_box(const Pose& sensor) const;
+  Aabb expected_box() const { return {expected + low, expected + high}; }
   Change change_to(const Aabb& box) const;
   void correct(const Aabb& box, const Pose& sensor, double seconds);
 
