@@ -39,9 +39,15 @@ class PipelineObject {
   std::uint64_t next_ = 0;
 };
 
+void warn_of(const PipelineConfig& config) {
+  for (const std::string& line : config.without_effect())
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle preset,
                                               const py::kwargs& settings) {
   PipelineConfig read = config_of(config, preset, settings);
+  warn_of(read);
   return std::make_unique<PipelineObject>(std::move(read));
 }
 
@@ -67,6 +73,7 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
 
 void set_config(PipelineObject& self, py::handle config) {
   PipelineConfig read = config_of(config, py::none(), {});
+  warn_of(read);
   const py::gil_scoped_release unlocked;
   self.set_config(std::move(read));
 }
@@ -94,7 +101,8 @@ preset: 'road' (the defaults), 'indoor' or 'table'.
 settings: whole stages as keywords, over config: cluster={'tolerance': 0.3}, volumes=['obb-yaw'], threads=0.
 
 Raises ValueError for an unknown key and for a value that is not allowed, naming key, value and range; OSError
-for a file that cannot be read. Threads may share a pipeline: they wait for one another.
+for a file that cannot be read. Warns (UserWarning) of a setting that has no effect. Threads may share a pipeline:
+they wait for one another.
 
 Settings, with defaults, [units] and ranges:
 )" + settings_text() +

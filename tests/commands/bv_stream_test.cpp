@@ -268,12 +268,28 @@ TEST_F(BvStream, WritesCsvAndMeshesThatParaViewPlays) {
   const std::string text = read_file(csv);
   EXPECT_EQ(text.substr(0, text.find('\n')),
             "seq,stamp_ns,track,cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume,"
-            "vx,vy,vz,x,y,z,yaw");
+            "vx,vy,vz,x,y,z,yaw,length,width,height,box_yaw");
+  EXPECT_THAT(text, HasSubstr(",,,,,,,,,,,\n1,100000000")) << "no track, no upright box";
   EXPECT_THAT(text, HasSubstr("\n0,0,,0,"));
   EXPECT_THAT(text, HasSubstr("\n1,100000000,,0,"));
   EXPECT_EQ(text.back(), '\n');
   EXPECT_THAT(read_file(folder + "/frame000001.vtp"), HasSubstr("PolyData"));
   EXPECT_THAT(read_file(folder + "/frames.pvd"), HasSubstr("frame000001.vtp"));
+}
+
+TEST_F(BvStream, SaysInALineWhichOptionHasNoEffect) {
+  const std::vector<std::string> some = {"--source", "synth:street-sequence:1", "--rate", "max"};
+  const auto said = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), some.begin(), some.end());
+    const Result result = stream(options);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.err;
+  };
+  EXPECT_EQ(said({"--track", "--grow", "--volume", "obb,aabb"}),
+            "bv_stream: --grow: has no effect without an upright box, obb-yaw or obb-lshape\n");
+  EXPECT_EQ(said({"--smooth"}), "bv_stream: --smooth: has no effect without --track\n");
+  EXPECT_EQ(said({"--oversized", "keep"}), "bv_stream: --oversized: has no effect without --max-size\n");
+  EXPECT_EQ(said({"--track", "--grow", "--smooth"}), "");
 }
 
 TEST_F(BvStream, MakesTheFoldersOfItsOutputs) {

@@ -6,6 +6,7 @@ import pickle
 import subprocess
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -106,6 +107,13 @@ class Pipelines(unittest.TestCase):
             self.assertEqual(pcl_bv.Pipeline(path).config["cluster"]["tolerance"], 0.7)
             with open(path) as file:
                 self.assertEqual(pcl_bv.Pipeline(file.read()).config["cluster"]["tolerance"], 0.7)
+
+    def test_settings_without_effect_are_warned_of(self):
+        with self.assertWarnsRegex(UserWarning, "track.grow: has no effect without an upright box"):
+            pcl_bv.Pipeline(volumes=["obb"], track={"enabled": True, "grow": True})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            pcl_bv.Pipeline(volumes=["obb-yaw"], track={"enabled": True, "grow": True})
 
     def test_regions_may_be_volumes(self):
         points = normal(1000, 34)

@@ -17,6 +17,8 @@ namespace pcl_bv {
 ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
     : name_(parameters.getNamespace()), topics_(topics) {
   const StreamConfig config = config_of(parameters);
+  for (const std::string& line : config.pipeline.without_effect())
+    ROS_WARN_STREAM(name_ << ": " << line);
   if (const auto& field = config.pipeline.cluster.class_field) class_field_ = field->name;
   pipeline_ = FramePipeline(config.pipeline);
   runner_ = std::make_unique<StreamRunner>(callbacks(), config.runner);

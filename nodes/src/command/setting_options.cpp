@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "command/messages.h"
 #include "command/values.h"
 #include "config/check.h"
 #include "pcl_bv/nodes/settings.h"
@@ -153,6 +154,8 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
   refuse_useless(config.pipeline);
   const std::vector<std::string> problems = config.validate();
   if (!problems.empty()) throw UsageError(problems.front());
+  for (const std::string& line : config.pipeline.without_effect())
+    complain(with_options(line));
   return config;
 }
 

@@ -97,7 +97,7 @@ struct TrackConfig {
   std::size_t birth = 3;  ///< Frames in which an object must have been seen to get its id.
   std::size_t death = 5;  ///< Frames without it after which it is gone.
   bool smooth = false;    ///< Upright boxes turn with the mean over time, still around all points.
-  bool grow = false;      ///< Upright boxes are as large as the object has been seen.
+  bool grow = false;      ///< Upright boxes are as long and wide as the object has been seen.
 };
 
 struct PipelineConfig {
@@ -114,6 +114,10 @@ struct PipelineConfig {
 
   /// One line for each value that is not allowed: the key as in the configuration file, the value, the range.
   std::vector<std::string> validate() const;
+
+  /// One line for each setting that changes nothing beside the others, as "track.smooth: has no effect without
+  /// track.enabled": for a warning, none is an error.
+  std::vector<std::string> without_effect() const;
 
   /// What `volumes` stands for, then what only classes have; methods that are unknown are left out.
   std::vector<const Method*> methods() const;

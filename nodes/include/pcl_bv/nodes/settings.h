@@ -94,9 +94,9 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"track.birth", "frames", "Sightings after which an object gets its id", {1, 1000}}, c.track.birth);
   visit(S{"track.death", "frames", "Frames without it after which an object is gone", {1, 1000}},
         c.track.death);
-  visit(S{"track.smooth", "", "Turn tracked boxes by the mean over time, around all points", {}, {}, "--smooth"},
+  visit(S{"track.smooth", "", "Turn tracked upright boxes by the mean over time, around all points", {}, {}, "--smooth"},
         c.track.smooth);
-  visit(S{"track.grow", "", "Make tracked boxes as large as objects have been seen", {}, {}, "--grow"},
+  visit(S{"track.grow", "", "Make tracked upright boxes as long and wide as objects have been seen", {}, {}, "--grow"},
         c.track.grow);
   visit(S{"threads", "0: all processors", "Threads, 0 for all processors", {0, 1024}, {}, "--threads", "N"},
         c.threads);

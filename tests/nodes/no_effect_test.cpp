@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A setting that changes nothing is said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/nodes/stream_config.h"
+
+namespace pcl_bv {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<std::string> without_effect(const std::string& yaml) {
+  return parse_stream_config(yaml, "").pipeline.without_effect();
+}
+
+TEST(WithoutEffect, AreNoSettingsOfTheDefaultsAndOfPresets) {
+  EXPECT_THAT(without_effect(""), IsEmpty());
+  EXPECT_THAT(whole_cloud_config().without_effect(), IsEmpty());
+  for (const char* preset : {"road", "indoor", "table"}) {
+    PipelineConfig config;
+    apply_preset(preset, config);
+    EXPECT_THAT(config.without_effect(), IsEmpty()) << preset;
+  }
+}
+
+TEST(WithoutEffect, AreSmoothAndGrowWithoutTracksOrUprightBoxes) {
+  EXPECT_THAT(without_effect("track: {smooth: true, grow: true}"),
+              ElementsAre("track.smooth: has no effect without track.enabled",
+                          "track.grow: has no effect without track.enabled"));
+  for (const char* volumes : {"obb", "obb-pca", "obb-dito14", "aabb", "dop26, sphere"})
+    EXPECT_THAT(without_effect(std::string("volumes: [") + volumes + "]\ntrack: {enabled: true, grow: true}"),
+                ElementsAre("track.grow: has no effect without an upright box, obb-yaw or obb-lshape"));
+  for (const char* volumes : {"", "obb-yaw", "aabb, obb-lshape"})
+    EXPECT_THAT(without_effect(std::string("volumes: [") + volumes +
+                               "]\ntrack: {enabled: true, smooth: true, grow: true}"),
+                IsEmpty());
+}
+
+TEST(WithoutEffect, AreTheGrowthOfNoSphereAndTheRuleForNothingOversized) {
+  EXPECT_THAT(
+      without_effect("{growth: sequential, volumes: [sphere, aabb]}"),
+      ElementsAre("growth: has no effect without a sphere that grows, sphere-ritter or sphere-epos*"));
+  EXPECT_THAT(without_effect("{growth: sequential, volumes: [sphere-epos26]}"), IsEmpty());
+  EXPECT_THAT(without_effect("cluster: {oversized: split}"),
+              ElementsAre("cluster.oversized: has no effect without cluster.max_size"));
+  EXPECT_THAT(without_effect("cluster: {oversized: split, max_size: 500}"), IsEmpty());
+}
+
+TEST(WithoutEffect, AreSettingsOfTheGroundWhereNoneIsRemoved) {
+  EXPECT_THAT(without_effect("ground: {method: none, sensor_height: 1, distance: 0.1, max_slope_degrees: 5}"),
+              ElementsAre("ground.sensor_height: has no effect without ground.method",
+                          "ground.distance: has no effect without ground.method",
+                          "ground.max_slope_degrees: has no effect without ground.method"));
+  EXPECT_THAT(without_effect("ground: {method: none, sensor: [1, 2, 3]}"),
+              ElementsAre("ground.sensor: has no effect without ground.method"));
+  EXPECT_THAT(without_effect("ground: {method: zones, sensor: [1, 2, 3], sensor_height: 1}"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace pcl_bv
