@@ -116,8 +116,8 @@ std::string aligned(const std::vector<Row>& rows) {
     for (std::size_t c = 0; c < n_columns; ++c) {
       if (width[c] == 0) continue;
       const std::string padding(width[c] - row[c].size(), ' ');
-      const bool inside_triple = c == 4 || c == 5 || (c >= 7 && c <= 9);
-      line += inside_triple ? " " : "  ";
+      const bool beside = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width[9] > 0);
+      line += beside ? " " : "  ";
       line += c == method_column ? row[c] + padding : padding + row[c];
     }
     line.erase(line.find_last_not_of(' ') + 1);
