@@ -73,7 +73,7 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
     const Aabb box = aabb(entry.volume);
     for (int k = 0; k < 3; ++k)  // of a turned box along its own axes
       row[6 + k] = length(oriented ? 2 * oriented->half_extents()[k] : box.max()[k] - box.min()[k], decimals);
-    if (const Obb* const upright = upright_box(entry)) row[9] = format("%.*f", 2, upright->yaw());
+    if (const Obb* const upright = upright_box(entry)) row[9] = length(upright->yaw(), 2);
   }
   row[10] = four_digits(volume(entry.volume));
   return row;

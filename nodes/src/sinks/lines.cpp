@@ -64,10 +64,7 @@ std::unique_ptr<FrameSink> open_jsonl(const SinkDescription& description) {
 }
 
 std::unique_ptr<FrameSink> open_csv(const SinkDescription& description) {
-  return std::make_unique<LineSink>(
-      description,
-      frames_csv_heading(),
-      csv_lines);
+  return std::make_unique<LineSink>(description, frames_csv_heading(), csv_lines);
 }
 
 }  // namespace pcl_bv
