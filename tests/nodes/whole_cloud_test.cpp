@@ -12,7 +12,9 @@
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/messages/types.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/trees/region_mask.h"
 
@@ -242,11 +244,32 @@ TEST(GroundPlace, ZonesStandAboutTheSensorWhereverItIs) {
   config.ground.sensor = Eigen::Vector3d(64, 0, 0);
   const std::size_t found = result_of(config, frame_of(moved, 0).points).counts.ground;
   config.ground.sensor.reset();
-  const std::size_t without = result_of(config, frame_of(moved, 0).points).counts.ground;
+  const FrameResult without = result_of(config, frame_of(moved, 0).points);
   EXPECT_LT(std::abs(static_cast<double>(found) - static_cast<double>(ground)),
             0.001 * static_cast<double>(ground));
-  EXPECT_GT(std::abs(static_cast<double>(without) - static_cast<double>(ground)),
-            0.001 * static_cast<double>(ground));
+  EXPECT_FALSE(without.sensor.around);
+  EXPECT_NEAR(without.sensor.at.x(), 64, 5);
+  EXPECT_LT(std::abs(static_cast<double>(without.counts.ground) - static_cast<double>(ground)),
+            0.01 * static_cast<double>(ground));
+}
+
+TEST(StreamHealth, SaysTheFirstWarningOfTheSettingsInForce) {
+  std::vector<float> moved = street(1, 64'000)[0];
+  for (std::size_t i = 0; i < moved.size(); i += 3)
+    moved[i] += 100;
+  PipelineConfig config = whole_cloud_config();
+  config.ground.method = GroundMethod::zones;
+  const Frame frame = frame_of(moved, 0);
+  StreamHealth health;
+  EXPECT_TRUE(health.heeds(frame, result_of(config, frame.points)));
+  msg::DiagnosticArray array;
+  health.fill(frame, array);
+  EXPECT_EQ(array.status.front().level, msg::DiagnosticStatus::WARN);
+  EXPECT_THAT(array.status.front().message, testing::HasSubstr("do not lie around a sensor in the origin"));
+  config.ground.sensor = Eigen::Vector3d(100, 0, 0);
+  health.heeds(frame, result_of(config, frame.points));
+  health.fill(frame, array);
+  EXPECT_EQ(array.status.front().message, "running");
 }
 
 TEST(GroundRemark, SaysWhenThereIsNoGroundOrNothingElse) {

@@ -353,7 +353,7 @@ TEST(GroundZones, RefuseSettingsOutOfRange) {
   for (const double bad : {-0.1, double{INFINITY}, double{NAN}})
     refuses([bad](auto& s) { s.sensor_height = bad; });
   for (const double bad : {double{INFINITY}, double{NAN}}) {
-    refuses([bad](auto& s) { s.sensor.y() = bad; });
+    refuses([bad](auto& s) { s.sensor = Eigen::Vector3d(0, bad, 0); });
     refuses([bad](auto& s) { s.up.y() = bad; });
   }
   refuses([](auto& s) { s.up.setZero(); });

@@ -32,10 +32,9 @@ constexpr double foot_share = 0.2;
 void check(const GroundZonesSettings& settings) {
   constexpr const char* who = "ground zones";
   check_ground(who, settings.distance, settings.max_slope_degrees, settings.sensor_height);
-  for (int axis = 0; axis < 3; ++axis) {
-    require(std::abs(settings.sensor[axis]) <= kMaxCoordinate, who, "sensor", settings.sensor[axis],
-            "finite");
-  }
+  const Eigen::Vector3d sensor = settings.sensor.value_or(Eigen::Vector3d::Zero());
+  for (int axis = 0; axis < 3; ++axis)
+    require(std::abs(sensor[axis]) <= kMaxCoordinate, who, "sensor", sensor[axis], "finite");
 }
 
 }  // namespace
@@ -45,11 +44,12 @@ struct GroundZones::Scratch : ZonePoints {
   GroundSurface surface;
 
   std::optional<Plane> central_plane(const PointView& view, const GroundZonesSettings& settings,
+                                     const Eigen::Vector3d& sensor, std::optional<double> sensor_height,
                                      GroundScratch& sample) {
     GroundPlaneSettings search;
     search.up = settings.up;
     search.max_slope_degrees = settings.max_slope_degrees;
-    search.sensor_height = settings.sensor_height;
+    search.sensor_height = sensor_height;
     search.seed = settings.seed;
     search.iterations = plane_tries;
     PointView seen = view;
@@ -58,7 +58,7 @@ struct GroundZones::Scratch : ZonePoints {
       list_near(rings, near);
       seen.indices = near.data();
       seen.count = near.size();
-      if (auto plane = find_ground_plane(seen, settings.sensor, search, sample, plane_sample)) return plane;
+      if (auto plane = find_ground_plane(seen, sensor, search, sample, plane_sample)) return plane;
     }
     return {};
   }
@@ -88,10 +88,16 @@ void GroundZones::split(const PointView& points, const GroundZonesSettings& sett
   check(settings);
   check_numbers(points);
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
-  const ZoneFrame frame(settings.up, settings.sensor);
+  split.sensor = settings.sensor ? SensorPlace{*settings.sensor}
+                                 : find_sensor(points, settings.up, Eigen::Vector3d::Zero(), split.scratch);
+  const bool estimated = !settings.sensor && !split.sensor.around;
+  const std::optional<double> height = estimated ? std::nullopt : settings.sensor_height;
+  const ZoneFrame frame(settings.up, split.sensor.at);
   scratch_->read(points, frame, policy);
-  std::optional<Plane> central = scratch_->central_plane(points, settings, split.scratch);
-  if (!central && settings.sensor_height) central = frame.level(*settings.sensor_height);
+  std::optional<Plane> central =
+      scratch_->central_plane(points, settings, split.sensor.at, height, split.scratch);
+  split.level = !central && height;
+  if (split.level) central = frame.level(*height);
   if (central) {
     const Slope plane = frame.slope(*central);
     const double max_slope = std::tan(settings.max_slope_degrees * std::numbers::pi / 180);

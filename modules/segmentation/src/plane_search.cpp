@@ -10,9 +10,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <random>
 
+#include "cloud_sample.h"
 #include "up_frame.h"
 
 namespace pcl_bv {
@@ -23,34 +23,6 @@ using Points = std::vector<Vector3d>;
 
 constexpr std::size_t cells_per_side = 32;
 constexpr std::size_t points_per_cell = 4;
-
-// Up to sample_size valid points, in an order that has no beat with the rows of a sensor: steps of the golden
-// section around the cloud visit each point once and cover it evenly at any moment.
-void draw(const PointView& points, std::uint32_t seed, std::size_t sample_size,
-          std::vector<Vector3d>& sample) {
-  sample.clear();
-  sample.reserve(sample_size);
-  const std::size_t n = points.count;
-  if (n == 0) return;
-  auto step = static_cast<std::size_t>(0.6180339887498949 * static_cast<double>(n));
-  while (std::gcd(step, n) != 1)
-    ++step;
-  std::size_t i = seed % n;
-  // All over the cloud: asked for some time before, they come while others are looked at.
-  std::array<std::size_t, 64> batch;
-  for (std::size_t visited = 0; visited < n && sample.size() < sample_size; visited += batch.size()) {
-    const std::size_t count = std::min({batch.size(), n - visited, sample_size - sample.size()});
-    for (std::size_t k = 0; k < count; ++k) {
-      batch[k] = i;
-      __builtin_prefetch(points.address(i));
-      i = i + step < n ? i + step : i + step - n;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const Coordinates p = load_point(points, batch[k]);
-      if (is_valid(p)) sample.push_back({p.x, p.y, p.z});
-    }
-  }
-}
 
 struct Spread {
   double low, middle, high;
@@ -110,7 +82,7 @@ Vector3d sample_ground(const PointView& points, const UpFrame& frame, std::uint3
   scratch.support.reserve(cells * points_per_cell);
   scratch.lowest.clear();
   scratch.lowest.reserve(cells);
-  draw(points, seed, sample_size, scratch.sample);
+  draw_sample(points, seed, sample_size, scratch.sample);
   if (scratch.sample.empty()) return Vector3d::Zero();
 
   const Vector3d vertical = cross3(frame.u, frame.v);

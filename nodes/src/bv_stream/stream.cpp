@@ -20,6 +20,7 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/frame_sink.h"
+#include "pcl_bv/nodes/frame_warnings.h"
 #include "pcl_bv/nodes/stream_runner.h"
 
 namespace pcl_bv {
@@ -44,6 +45,18 @@ class Progress {
   // Where results go to the terminal, too, they would be mixed.
   const bool terminal_ = errors_go_to_a_terminal() && isatty(STDOUT_FILENO) == 0;
 };
+
+// One line.
+void report(const RunnerStats& stats) {
+  const FrameTotals& f = stats.frames;
+  const auto count = [](std::uint64_t n, const char* what) { return std::to_string(n) + what; };
+  char latency[80];
+  std::snprintf(latency, sizeof latency, "latency p50 %.1f ms, p99 %.1f ms",
+                stats.ms.latency.percentile(0.5), stats.ms.latency.percentile(0.99));
+  say(count(f.in, " frames, ") + count(f.processed, " done, dropped ") +
+      count(f.dropped_queue, " queue, ") + count(f.dropped_age, " age, ") +
+      count(f.dropped_error, " error; ") + latency);
+}
 
 // What the reading thread does until the source ends, a signal comes, or nobody takes results any more.
 class Reader {
@@ -83,17 +96,6 @@ class Reader {
       report(runner_.stats());
     }
     return !interrupted_ && sinks_.alive();
-  }
-
-  static void report(const RunnerStats& stats) {
-    const FrameTotals& f = stats.frames;
-    const auto count = [](std::uint64_t n, const char* what) { return std::to_string(n) + what; };
-    char latency[80];
-    std::snprintf(latency, sizeof latency, "latency p50 %.1f ms, p99 %.1f ms",
-                  stats.ms.latency.percentile(0.5), stats.ms.latency.percentile(0.99));
-    say(count(f.in, " frames, ") + count(f.processed, " done, dropped ") +
-        count(f.dropped_queue, " queue, ") + count(f.dropped_age, " age, ") +
-        count(f.dropped_error, " error; ") + latency);
   }
 
   void hand_over(Frame frame) {
@@ -162,14 +164,13 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
                                      Progress& progress) {
   StreamRunner::Callbacks callbacks;
   callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
-  callbacks.on_result = [&, last_note = std::string(), last_remark = std::string(), out_of_range = false](
+  callbacks.on_result = [&, last_note = std::string(), warnings = FrameWarnings(), out_of_range = false](
                             const Frame& frame, const FrameResult& result) mutable {
     sinks.write(frame, result);
     if (!frame.note.empty() && frame.note != last_note) complain(named(frame, frame.note));
     last_note = frame.note;
-    const std::string remark = with_options(ground_remark(result));
-    if (!remark.empty() && remark != last_remark) complain(named(frame, remark));
-    last_remark = remark;
+    for (std::string& warning : warnings.take(frame, result))
+      complain(named(frame, with_options(std::move(warning))));
     const std::string range = range_remark(result, range_from);  // its numbers differ from frame to frame
     if (!range.empty() && !out_of_range) complain(named(frame, range));
     out_of_range = !range.empty();
@@ -209,6 +210,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   RunnerStats stats = runner.stats();
   stats.sinks = sinks.times();
   say_what_is_missing(stats.frames, reader.without_pose);
+  if (errors_go_to_a_terminal()) report(stats);  // scripts want a silent end
   const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
   try {

@@ -59,11 +59,18 @@ void read_growth(const std::string& text, ClusterConfig& cluster) {
 }  // namespace
 
 std::string with_options(std::string text) {
+  const auto replace = [&](std::string_view key, std::string_view option) {
+    const std::size_t at = text.find(key);
+    if (at == std::string::npos || text.find('_', at + key.size()) == at + key.size())
+      return;  // a longer key
+    text.replace(at, key.size(), option);
+  };
   const PipelineConfig any;
   visit_pipeline(any, [&](const Setting& setting, const auto&) {
-    const std::size_t at = setting.option.empty() ? std::string::npos : text.find(setting.key);
-    if (at != std::string::npos) text.replace(at, setting.key.size(), setting.option);
+    if (!setting.option.empty()) replace(setting.key, setting.option);
   });
+  replace("filter.range_max", "--range");
+  replace("cluster.tolerance_per_metre", "the growth of --cluster");
   return text;
 }
 
@@ -131,6 +138,8 @@ void SettingOptions::refuse_useless(const PipelineConfig& config) const {
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
   for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized", "--class"})
     refuse(option, clusters, "--cluster");
+  const bool zones = config.ground.method == GroundMethod::zones || line_.given("--ground");
+  refuse("--sensor", zones, "--ground zones");
   for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
     refuse(option, ground, "--ground");
 }

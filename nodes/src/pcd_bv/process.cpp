@@ -20,7 +20,7 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
-#include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/nodes/frame_warnings.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/segmentation/up.h"
 #include "shares.h"
@@ -104,16 +104,16 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
 }
 
 /// What a user would want to know before believing the results.
-std::vector<std::string> remarks(const FrameResult& result, const PointView& points, const Options& options) {
+std::vector<std::string> remarks(const Frame& frame, const FrameResult& result, const Options& options) {
   std::vector<std::string> said;
   const std::string range = range_remark(result, options.range_from);
   if (!range.empty()) said.push_back(range);
-  const std::string ground = with_options(ground_remark(result));
-  if (!ground.empty()) said.push_back(ground);
+  for (std::string& warning : FrameWarnings().take(frame, result))
+    said.push_back(with_options(std::move(warning)));
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)
     box.merge(aabb(result.volume(id, 0)));
-  const std::string coarse = coarse_remark(box, points.scalar);
+  const std::string coarse = coarse_remark(box, frame.points.scalar);
   if (!coarse.empty()) said.push_back(coarse);
   return said;
 }
@@ -127,6 +127,8 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
   Frame frame;
   frame.points = loaded.xyz();
+  frame.sensor = sensor_of(loaded.cloud());
+  if (frame.sensor && loaded.origin()) *frame.sensor -= *loaded.origin();
   if (const RawCloud& cloud = loaded.cloud(); !cloud.data.empty())
     frame.intensity = intensity_of(cloud.fields, cloud.data.data(), cloud.point_step);
   if (const auto& field = options.pipeline.cluster.class_field)
@@ -138,7 +140,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   report.counts = result.counts;
   report.clusters = entries_of(result);
   report.origin = loaded.origin();
-  for (const std::string& remark : remarks(result, frame.points, options))
+  for (const std::string& remark : remarks(frame, result, options))
     complain(job.input + ": " + remark);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();

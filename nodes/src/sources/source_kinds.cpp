@@ -44,6 +44,7 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
         if (!classes.empty())
           frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(*cloud, classes));
         frame.note = cloud->note;
+        frame.sensor = sensor_of(*cloud);
         frame.owner = cloud;
       });
 }

@@ -20,16 +20,21 @@ Settings settings_of(const GroundConfig& config) {
 
 }  // namespace
 
-void split_ground(const PointView& points, const GroundConfig& config, const ParallelPolicy& policy,
-                  GroundZones& zones, GroundSplit& split) {
+GroundPlaneSettings plane_settings(const GroundConfig& config) {
+  return settings_of<GroundPlaneSettings>(config);
+}
+
+void split_ground(const PointView& points, const GroundConfig& config, const SensorPlace& sensor,
+                  const ParallelPolicy& policy, GroundZones& zones, GroundSplit& split) {
   split.found = false;
   split.ground.clear();
   split.rest.clear();
   if (config.method == GroundMethod::plane) {
-    split_ground(points, settings_of<GroundPlaneSettings>(config), split);
+    split_ground(points, plane_settings(config), split);
   } else if (config.method == GroundMethod::zones) {
     auto settings = settings_of<GroundZonesSettings>(config);
-    settings.sensor = config.sensor.value_or(settings.sensor);
+    settings.sensor = sensor.at;
+    if (!sensor.around && !config.sensor) settings.sensor_height.reset();
     zones.split(points, settings, split, policy);
   }
 }

@@ -13,6 +13,7 @@
 
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/segmentation/sensor_place.h"
 #include "pcl_bv/segmentation/up.h"
 #include "stages/class_rules.h"
 #include "stages/filter.h"
@@ -74,6 +75,7 @@ struct FramePipeline::State {
   }
 
   PointView filter(const Prepared& now, const Frame& frame, FrameResult& result);
+  void find_sensor(const Prepared& now, const Frame& frame, FrameResult& result);
   PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
   void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
   void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
@@ -107,10 +109,34 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
   return result.kept_points(cloud);
 }
 
+// The settings' place is believed, the source's if the points lie around it.
+void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
+  const PipelineConfig& config = now.config;
+  result.sensor = {};
+  result.around_origin = true;
+  const bool counts_from_origin = config.filter.range_max < std::numeric_limits<double>::infinity() ||
+                                  config.cluster.tolerance_per_metre > 0;
+  if (frame.points.source != nullptr) return;
+  if (config.ground.method != GroundMethod::zones && !counts_from_origin) return;
+  const auto look = [&](const Eigen::Vector3d& place) {
+    return pcl_bv::find_sensor(frame.points, config.ground.up, place, result.ground.scratch);
+  };
+  result.sensor = look(Eigen::Vector3d::Zero());
+  result.around_origin = result.sensor.around;
+  if (config.ground.sensor) {
+    result.sensor = look(*config.ground.sensor);
+    result.sensor.at = *config.ground.sensor;
+  } else if (frame.sensor) {
+    const SensorPlace said = look(*frame.sensor);
+    if (said.around) result.sensor = said;
+  }
+}
+
 PointView FramePipeline::State::remove_ground(const Prepared& now, const PointView& points,
                                               FrameResult& result) {
   const GroundConfig& config = now.config.ground;
-  split_ground(points, config, now.execution.parallel, zones, result.ground);
+  split_ground(points, config, result.sensor, now.execution.parallel, zones, result.ground);
+  result.ground.sensor = result.sensor;
   if (config.method == GroundMethod::none) return points;
   result.counts.ground = result.ground.ground.size();
   return subset(points, result.ground.rest);
@@ -218,6 +244,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
     throw std::invalid_argument("a cloud that is not in memory can be filtered, but not be told apart");
   PointView points = state_->filter(*now, frame, result);
   result.ms.filter = watch.lap();
+  state_->find_sensor(*now, frame, result);
   points = state_->remove_ground(*now, points, result);
   result.ms.ground = watch.lap();
   state_->find_clusters(*now, frame, points, result);

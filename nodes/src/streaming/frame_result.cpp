@@ -10,6 +10,7 @@
 #include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/segmentation/up.h"
 #include "stages/filter.h"
+#include "stages/ground.h"
 
 namespace pcl_bv {
 
@@ -58,8 +59,7 @@ std::string ground_remark(const FrameResult& result) {
   const GroundConfig& ground = result.config->ground;
   const Counts& counts = result.counts;
   const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
-  constexpr std::size_t few = 100;  // a handful of points says nothing about settings
-  if (ground.method == GroundMethod::none || looked_at < few) return {};
+  if (ground.method == GroundMethod::none || looked_at < kFewPoints) return {};
   const std::string tried = " (up is " + up_text(ground.up) + ")";
   if (counts.ground == 0)
     return "no ground found" + tried +

@@ -46,11 +46,20 @@ struct Frame {
   /// Of each point, by point number, for those who look at it; `owner` keeps it. Not given: the source knows none.
   std::optional<FieldView> intensity{};
   std::optional<Pose> pose;  ///< Of the sensor in a fixed frame, if it is known.
+  /// Where the source says that the sensor is in the frame of the points, metres, as VIEWPOINT of a .pcd does.
+  std::optional<Eigen::Vector3d> sensor{};
 
   /// From when its latency counts. Replays at a pace: when it was due. A live source whose stamps are the
   /// system's time: steady_time(stamp_ns). If not set, StreamRunner::push() sets it to when it is called.
   std::chrono::steady_clock::time_point taken{};
 };
+
+/// The place that VIEWPOINT of a .pcd says, in the frame of the points, if it is not the origin.
+inline std::optional<Eigen::Vector3d> sensor_of(const RawCloud& cloud) {
+  const Eigen::Vector3d place(cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]);
+  const bool is_place = place.cwiseAbs().maxCoeff() > 0 && place.cwiseAbs().maxCoeff() <= kMaxCoordinate;
+  return is_place ? std::optional(place) : std::nullopt;
+}
 
 /// A time of the system's clock, nanoseconds since 1970, on the clock that is never set.
 inline std::chrono::steady_clock::time_point steady_time(std::int64_t system_ns) {

@@ -36,6 +36,12 @@ struct FrameResult {
   Counts counts;                   ///< Points that are in no cluster, by reason.
   std::vector<std::int32_t> kept;  ///< What passed the filter, if that dropped points: see kept_points().
   GroundSplit ground;              ///< The ground's points; not found if no ground was asked for.
+  /// Where zones begin: ground.sensor, otherwise Frame::sensor or the origin if the points lie around it,
+  /// otherwise where they are densest (find_sensor()). The origin if nothing depends on it.
+  SensorPlace sensor;
+  /// Whether the points lie around the origin, from which filter.range_max and cluster.tolerance_per_metre
+  /// count; true if neither is set and ground is not found by zones, and for points that are not in memory.
+  bool around_origin = true;
   /// Largest first; if none were asked for, all points left are one. That one has no index list if points
   /// did not have to be told apart, as without ground: see points_of().
   Clusters clusters;

@@ -56,7 +56,8 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
           {}, {}, "--ground", "KIND"}, c.ground.method);
   visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z",
           "Against gravity: x, y, z, -x, -y, -z or X,Y,Z", {}, {}, "--up", "AXIS"}, c.ground.up);
-  visit(S{"ground.sensor", "m, [x, y, z]", "Where the sensor is: the centre of zones", {}, "the origin"},
+  visit(S{"ground.sensor", "m, [x, y, z]", "Where the sensor is: zones begin there", {},
+          "the origin, or where points are densest", "--sensor", "X,Y,Z"},
         c.ground.sensor);
   visit(S{"ground.sensor_height", "m", "Height of the origin above the ground", {}, "learnt",
           "--sensor-height", "M"}, c.ground.sensor_height);

@@ -19,6 +19,7 @@
 #include "pcl_bv/nodes/cloud_message.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/nodes/frame_warnings.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
@@ -291,16 +292,17 @@ class StreamHealth {
   /// Of each frame; whether it is time to say it.
   bool heeds(const Frame& frame, const FrameResult& result);
 
-  /// diagnostic_msgs/DiagnosticArray: frames, lost ones, objects of the last and the slowest since the last time.
+  /// diagnostic_msgs/DiagnosticArray: frames, lost ones, objects of the last and the slowest since the last time;
+  /// as message the first warning of the configuration in force.
   template <class Array>
   void fill(const Frame& frame, Array& array) {
     using Status = typename std::decay<decltype(array.status.front())>::type;
     topics::set_header(frame, array.header);
     array.status.resize(1);
     Status& status = array.status.front();
-    status.level = lost_ > 0 ? Status::WARN : Status::OK;
+    status.level = lost_ > 0 || !warning_.empty() ? Status::WARN : Status::OK;
     status.name = "pcl_bv";
-    status.message = lost_ > 0 ? "frames were lost" : "running";
+    status.message = !warning_.empty() ? warning_ : lost_ > 0 ? "frames were lost" : "running";
     const std::array<std::pair<const char*, std::string>, 4> values = take_values();
     status.values.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -312,6 +314,9 @@ class StreamHealth {
  private:
   std::array<std::pair<const char*, std::string>, 4> take_values();
 
+  FrameWarnings warnings_;
+  std::shared_ptr<const PipelineConfig> warned_of_;
+  std::string warning_;
   std::uint64_t frames_ = 0, lost_ = 0;
   std::size_t objects_ = 0;
   std::int64_t said_ns_ = 0;

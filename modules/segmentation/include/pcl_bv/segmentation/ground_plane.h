@@ -34,12 +34,21 @@ struct GroundScratch {
   std::vector<Eigen::Vector3d> sample, support, lowest;
 };
 
+/// Where a cloud's sensor is (find_sensor() of sensor_place.h).
+struct SensorPlace {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< In the frame of the cloud, metres.
+  bool around = true;  ///< Whether the points lie around the place that was said; if not, `at` is estimated.
+  double far_share = 0;  ///< Share of the points that are 100 m or more from `at`, 0 to 1.
+};
+
 /// A cloud split into ground and rest. Reuse keeps the capacity.
 struct GroundSplit {
   bool found = false;  ///< Whether there is a plane; if not, all valid points are `rest`.
   /// Unit normal on the upper side; the height of p above the plane is normal.p - offset. 0 if not found.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double offset = 0;                 ///< Metres, in the frame of the cloud.
+  double offset = 0;     ///< Metres, in the frame of the cloud.
+  SensorPlace sensor{};  ///< Of zones: where they are centred; a place that is given is not checked.
+  bool level = false;    ///< Of zones: no plane was found, and level ground at sensor_height was assumed.
   std::vector<std::int32_t> ground;  ///< Numbers in the cloud (PointView::index) of the ground's points, in
                                      ///< the order of the view.
   std::vector<std::int32_t> rest;    ///< Those of the other valid points.

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/segmentation/sensor_place.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "cloud_sample.h"
+#include "ground_checks.h"
+#include "pcl_bv/numeric/float_environment.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/segmentation/up.h"
+#include "plane_search.h"
+#include "polar_cells.h"
+#include "up_frame.h"
+
+namespace pcl_bv {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kSample = 1024;
+constexpr std::size_t kFewPoints = 100;  // say nothing about a sensor
+constexpr double kNear = 12.5;           // metres: where the plane around the sensor is searched first
+constexpr double kNearShare = 0.05, kDenseShare = 0.5;
+
+/// Points seen from above, relative to where the sensor is said to be: u, v, 0.
+using FlatPoints = std::vector<Vector3d>;
+
+void sample_from_above(const PointView& points, const UpFrame& frame, const Vector3d& said,
+                       FlatPoints& flat) {
+  draw_sample(points, 1, kSample, flat);
+  flat.erase(std::remove(flat.begin(), flat.end(), Vector3d(Vector3d::Zero())), flat.end());
+  for (Vector3d& p : flat)
+    p = Vector3d(dot3(p - said, frame.u), dot3(p - said, frame.v), 0);
+}
+
+/// Share of the points within `radius` of `place`.
+double share_near(const FlatPoints& points, const Vector3d& place, double radius) {
+  const auto near = std::count_if(points.begin(), points.end(), [&](const Vector3d& p) {
+    return (p - place).squaredNorm() < radius * radius;
+  });
+  return static_cast<double>(near) / static_cast<double>(points.size());
+}
+
+/// The middle of the points about `place`, where there are some.
+Vector3d mean_near(const FlatPoints& points, const Vector3d& place) {
+  Vector3d sum = Vector3d::Zero();
+  double count = 0;
+  for (const Vector3d& p : points) {
+    if ((p - place).squaredNorm() >= kNear * kNear) continue;
+    sum += p;
+    ++count;
+  }
+  return count > 0 ? Vector3d(sum / count) : place;
+}
+
+/// Where the points are densest: of squares of 25 m in steps of half of that the fullest one, then the mean
+/// of what is near its middle, twice.
+Vector3d densest_place(const FlatPoints& points) {
+  using Square = std::pair<double, double>;
+  std::array<Square, 4 * kSample> corners;  // of each point those of its cell
+  auto end_of_all = corners.begin();
+  for (const Vector3d& p : points) {
+    const Square cell{std::floor(p.x() / kNear), std::floor(p.y() / kNear)};
+    for (const auto& [x, y] : {Square(0, 0), Square(1, 0), Square(0, 1), Square(1, 1)})
+      *end_of_all++ = {cell.first + x, cell.second + y};
+  }
+  std::sort(corners.begin(), end_of_all);
+  Square best{};
+  std::ptrdiff_t most = 0;
+  for (auto begin = corners.begin(); begin != end_of_all;) {
+    const auto end = std::upper_bound(begin, end_of_all, *begin);
+    if (end - begin > most) {
+      most = end - begin;
+      best = *begin;
+    }
+    begin = end;
+  }
+  const Vector3d middle(best.first * kNear, best.second * kNear, 0);
+  return mean_near(points, mean_near(points, middle));
+}
+
+bool is_around(const FlatPoints& points, const Vector3d& densest) {
+  const double near = share_near(points, Vector3d::Zero(), kNear);
+  if (near >= kNearShare) return true;
+  const bool some = share_near(points, Vector3d::Zero(), 2 * kNear) >= kNearShare;
+  return some && share_near(points, densest, kNear) < kDenseShare;
+}
+
+}  // namespace
+
+SensorPlace find_sensor(const PointView& points, const Vector3d& up, const Vector3d& said,
+                        GroundScratch& scratch) {
+  const FloatEnvironment environment;
+  const UpFrame frame(up);
+  for (int axis = 0; axis < 3; ++axis)
+    require(std::abs(said[axis]) <= kMaxCoordinate, "sensor", "place", said[axis], "finite");
+  FlatPoints& flat = scratch.sample;
+  sample_from_above(points, frame, said, flat);
+  SensorPlace place{said};
+  if (flat.size() < kFewPoints) return place;
+  constexpr double edge = ring_width * (ring_count - 1);
+  Vector3d at = Vector3d::Zero();
+  if (share_near(flat, at, kNear) < kNearShare) {
+    const Vector3d densest = densest_place(flat);
+    place.around = is_around(flat, densest);
+    if (!place.around) {
+      at = densest;
+      place.at += at.x() * frame.u + at.y() * frame.v;
+    }
+  }
+  place.far_share = 1 - share_near(flat, at, edge);
+  return place;
+}
+
+std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneSettings& settings,
+                                     const Vector3d& sensor, double found) {
+  constexpr double least_height = 0.2, least_share = 0.03, most_share = 0.95, most_below = 0.1;
+  const FloatEnvironment environment;
+  const Vector3d up = up_direction(settings.up);
+  GroundPlaneSettings search = settings;
+  search.sensor_height.reset();
+  GroundScratch scratch;
+  std::vector<Vector3d> directions{{0, 0, 1}, {0, -1, 0}, {0, 1, 0},  {0, 0, -1},
+                                   {1, 0, 0}, {-1, 0, 0}, {0, -1, -1}};
+  if (found > 0) directions = {-settings.up};
+  for (const Vector3d& direction : directions) {
+    search.up = direction;
+    if (dot3(up_direction(direction), up) > 0.9) continue;
+    const std::optional<Plane> plane = find_ground_plane(points, sensor, search, scratch, 2048);
+    if (!plane || height_above(*plane, sensor) < least_height) continue;
+    draw_sample(points, search.seed, kSample, scratch.sample);
+    double near = 0, below = 0;
+    for (const Vector3d& p : scratch.sample) {
+      const double height = height_above(*plane, p);
+      near += std::abs(height) <= search.distance;
+      below += height < -search.distance;
+    }
+    const double share = near / static_cast<double>(scratch.sample.size());
+    if (share >= std::max(least_share, 3 * found) && share <= most_share && below <= most_below * near)
+      return OtherUp{direction, share};
+  }
+  return {};
+}
+
+}  // namespace pcl_bv
