@@ -11,6 +11,10 @@ void refuse_value(const char* name, const std::string& what) {
   throw py::value_error(std::string(name) + ": " + what);
 }
 
+void warn(const std::string& text) {
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 void refuse_type(const char* name, const std::string& wanted, py::handle value) {
   throw py::type_error(std::string(name) + ": " + wanted + " is wanted, not " + shown(value));
 }

@@ -16,6 +16,9 @@ namespace py = pybind11;
 /// "threads: -1 is not at least 0".
 [[noreturn]] void refuse_value(const char* name, const std::string& what);
 
+/// Issues a UserWarning, which becomes an exception where Python's filters say so.
+void warn(const std::string& text);
+
 /// "tolerance: a number is wanted, not 'near'".
 [[noreturn]] void refuse_type(const char* name, const std::string& wanted, py::handle value);
 

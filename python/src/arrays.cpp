@@ -17,25 +17,93 @@ bool is_native(const py::dtype& type) {
   return type.byteorder() == '=' || type.byteorder() == '|';
 }
 
-[[noreturn]] void refuse_numbers(const char* name, const py::dtype& type) {
-  throw py::type_error(std::string(name) + ": float32 or float64 is wanted, not " +
-                       py::str(py::handle(type)).cast<std::string>() + ": give array.astype(numpy.float64)");
+/// What to do with numbers of this type, if they are an array's.
+std::string advice_for(const py::dtype& type) {
+  if (type.kind() == 'c') return ": give array.real";
+  if (type.kind() == 'f' || type.kind() == 'i' || type.kind() == 'u' || type.kind() == 'O')
+    return ": give array.astype(numpy.float64)";
+  return "";
 }
 
-[[noreturn]] void refuse_shape(const char* name, const py::array& array) {
+[[noreturn]] void refuse_numbers(const char* name, const py::dtype& type, bool from_array) {
+  throw py::type_error(std::string(name) + ": float32 or float64 is wanted, not " +
+                       py::str(py::handle(type)).cast<std::string>() + (from_array ? advice_for(type) : ""));
+}
+
+std::string shape_of(const py::array& array) {
   std::string shape;
   for (py::ssize_t i = 0; i < array.ndim(); ++i)
     shape += (i == 0 ? "" : ", ") + std::to_string(array.shape(i));
-  throw py::value_error(std::string(name) + ": the shape (" + shape + (array.ndim() == 1 ? ",)" : ")") +
-                        " is not (N, 3 or more) or (H, W, 3 or more)");
+  return "(" + shape + (array.ndim() == 1 ? ",)" : ")");
 }
 
+[[noreturn]] void refuse_shape(const char* name, const py::array& array) {
+  const bool one = array.ndim() == 1 && array.shape(0) >= 3 && array.shape(0) <= 8;
+  throw py::value_error(std::string(name) + ": the shape " + shape_of(array) +
+                        " is not (N, 3 or more) or (H, W, 3 or more)" +
+                        (one ? ": for one point give [point]" : ""));
+}
+
+/// Of rows of points and the numbers of each point: refuses and warns where they may be the other way round,
+/// as in nuScenes' (4, N). Points have 3 to a dozen numbers.
+void check_layout(const char* name, const py::array& array) {
+  const py::ssize_t columns = array.shape(array.ndim() - 1),
+                    rows = array.size() / std::max<py::ssize_t>(columns, 1);
+  const py::ssize_t first = array.shape(0);
+  if (columns <= 16 || columns <= first) return;
+  const std::string said = "the shape " + shape_of(array) + " is " + std::to_string(rows) + " points of " +
+                           std::to_string(columns) + " numbers: if each column is a point, give points" +
+                           (array.ndim() == 2 ? ".T" : " with x, y, z in the last axis") +
+                           ", if each row is, points[..., :3]";
+  if (columns >= 256) refuse_value(name, said);
+  if (first >= 3 && first <= 8) warn(std::string(name) + ": " + said);
+}
+
+/// numpy.asarray(), without a word of Python's for what is none.
 py::array from_any(py::handle object, const char* name) {
   py::array array = py::reinterpret_steal<py::array>(
       py::detail::npy_api::get().PyArray_FromAny_(object.ptr(), nullptr, 0, 0, 0, nullptr));
   if (array) return array;
-  PyErr_Clear();
-  refuse_type(name, "an array", object);
+  const py::error_already_set error;  // why a tensor on a graphics card is none, or rows of unequal length
+  const std::string reason = py::str(error.value()).cast<std::string>();
+  throw py::type_error(std::string(name) + ": an array is wanted, not " + shown(object) +
+                       (reason.empty() ? "" : ": " + reason));
+}
+
+/// Masked numbers become NaN, so that their points are dropped and counted.
+py::array without_mask(const py::array& array, const char* name) {
+  if (!is_masked(array)) return array;
+  if (!is_real(array.dtype())) refuse_numbers(name, array.dtype(), true);
+  return array.attr("filled")(std::nan(""));
+}
+
+/// Numbers of a list have no type that says what they are for: those that a double holds are taken.
+py::array from_list(const py::array& array, py::handle object, const char* name) {
+  const char kind = array.dtype().kind();
+  if (kind != 'i' && kind != 'u') return array;
+  const py::int_ limit(std::int64_t{1} << 53);  // as Python's numbers: numpy compares in float64
+  const auto value_of = [&](const char* which) { return py::int_(array.attr(which)()); };
+  const bool exact = array.size() == 0 || (value_of("max") <= limit && value_of("min") >= -limit);
+  if (!exact) refuse_value(name, "whole numbers beyond 2^53, which no float64 holds: " + shown(object));
+  return array.attr("astype")("f8");
+}
+
+/// A table with columns x, y and z, as pandas makes it, is seen by their names.
+py::object columns_xyz(py::handle object, const char* name) {
+  if (py::isinstance<py::array>(object) || PyList_Check(object.ptr()) || PyTuple_Check(object.ptr()) ||
+      !py::hasattr(object, "columns"))
+    return py::reinterpret_borrow<py::object>(object);
+  py::list wanted, columns(object.attr("columns"));
+  for (const char* axis : {"x", "y", "z"})
+    wanted.append(axis);
+  const bool named =
+      std::any_of(columns.begin(), columns.end(), [](auto c) { return PyUnicode_Check(c.ptr()); });
+  if (!named) return py::reinterpret_borrow<py::object>(object);
+  for (const auto& axis : wanted) {
+    if (!columns.contains(axis))
+      throw py::type_error(std::string(name) + ": a table without the columns x, y and z: " + shown(columns));
+  }
+  return object[wanted];
 }
 
 /// `columns` doubles or floats in each row, packed.
@@ -104,7 +172,7 @@ PointArray records_of(const py::array& array, const char* name) {
   for (const Field* field : {&x, &y, &z}) {
     const bool whole =
         (field->type.kind() == 'i' || field->type.kind() == 'u') && field->type.itemsize() <= 4;
-    if (!is_real(field->type) && !whole) refuse_numbers(name, field->type);
+    if (!is_real(field->type) && !whole) refuse_numbers(name, field->type, true);
   }
   const py::ssize_t size = x.type.itemsize();
   const auto count = static_cast<std::size_t>(array.shape(0));
@@ -113,13 +181,14 @@ PointArray records_of(const py::array& array, const char* name) {
   const bool side_by_side = real && y.type.itemsize() == size && z.type.itemsize() == size &&
                             y.offset == x.offset + size && z.offset == y.offset + size;
   const bool native = is_native(x.type) && is_native(y.type) && is_native(z.type);
-  if (!side_by_side || !native || stride < 3 * size) {
+  if (is_masked(array) || !side_by_side || !native || stride < 3 * size) {
     const bool wide = !fits_float32(x.type) || !fits_float32(y.type) || !fits_float32(z.type);
     py::array xyz(wide ? py::dtype::of<double>() : py::dtype::of<float>(),
                   std::vector<py::ssize_t>{array.shape(0), 3});
     for (py::ssize_t k = 0; k < 3; ++k) {
       const Field* const fields[] = {&x, &y, &z};
-      xyz[py::make_tuple(py::ellipsis(), k)] = array[py::str(fields[k]->name)];
+      const py::object column = array[py::str(fields[k]->name)].attr("astype")(xyz.dtype());  // a masked one stays so
+      xyz[py::make_tuple(py::ellipsis(), k)] = without_mask(column, name);
     }
     return packed(xyz);
   }
@@ -135,20 +204,35 @@ PointArray records_of(const py::array& array, const char* name) {
 
 }  // namespace
 
+bool is_masked(py::handle object) {
+  if (Py_TYPE(object.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;  // as nearly always
+  return py::isinstance<py::array>(object) &&
+         py::module_::import("numpy.ma").attr("isMaskedArray")(object).cast<bool>();
+}
+
 PointArray points_of(py::handle object, const char* name) {
+  const bool is_array = py::isinstance<py::array>(object);
+  const bool is_list = PyList_Check(object.ptr()) != 0 || PyTuple_Check(object.ptr()) != 0;
   py::array array =
-      py::isinstance<py::array>(object) ? py::reinterpret_borrow<py::array>(object) : from_any(object, name);
+      is_array ? py::reinterpret_borrow<py::array>(object) : from_any(columns_xyz(object, name), name);
+  if (is_list) array = from_list(array, object, name);
   const py::dtype type = array.dtype();
   if (type.has_fields())
     return records_of(array.ndim() == 1 ? array : py::array(array.attr("reshape")(-1)), name);
-  if (!is_real(type)) refuse_numbers(name, type);
-  if (array.ndim() == 3 && array.shape(2) >= 3)
+  if (!is_real(type)) refuse_numbers(name, type, !is_list);
+  if (array.ndim() == 1 && array.size() == 0)
+    return packed(py::array_t<double>(std::vector<py::ssize_t>{0, 3}));
+  if (array.ndim() < 2 || array.ndim() > 3 || array.shape(array.ndim() - 1) < 3) refuse_shape(name, array);
+  check_layout(name, array);
+  array = without_mask(array, name);
+  if (array.ndim() == 3)
     array = array.attr("reshape")(py::make_tuple(array.shape(0) * array.shape(1), array.shape(2)));
-  if (array.ndim() != 2 || array.shape(1) < 3) refuse_shape(name, array);
   return rows_of(array);
 }
 
 py::array_t<double> doubles(py::handle object, const char* name) {
+  if (is_masked(object))
+    refuse_type(name, "an array without a mask, as array.filled(numpy.nan) gives it,", object);
   const py::array given = from_any(object, name);
   const char kind = given.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u') refuse_type(name, "an array of numbers", object);
@@ -156,11 +240,16 @@ py::array_t<double> doubles(py::handle object, const char* name) {
 }
 
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count) {
+  if (is_masked(object))
+    refuse_type(name, "integers without a mask, as array.filled(-1) gives them,", object);
   const py::array given = from_any(object, name);
   const char kind = given.dtype().kind();
   if (kind != 'i' && kind != 'u' && given.size() > 0)
     throw py::type_error(std::string(name) + ": integers are wanted, not " +
                          py::str(py::handle(given.dtype())).cast<std::string>());
+  const py::int_ most(std::numeric_limits<std::int64_t>::max());
+  if (kind == 'u' && given.itemsize() == 8 && given.size() > 0 && py::int_(given.attr("max")()) > most)
+    refuse_value(name, py::str(given.attr("max")()).cast<std::string>() + " is more than 2^63 - 1");
   if (static_cast<std::size_t>(given.size()) != count)
     refuse_value(name, std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
   const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(given);

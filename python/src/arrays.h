@@ -20,9 +20,17 @@ struct PointArray {
 /// Points of an array (N, 3 or more) of float32 or float64 whose x, y, z are side by side, in rows any
 /// positive distance apart; (H, W, 3 or more), as its rows; or of records with the fields x, y and z,
 /// whatever their shape. Copied are Fortran's order, backward and overlapping rows, x, y, z that are not side
-/// by side, and bytes of the other order. Other objects become arrays first, as numpy.asarray() makes them.
-/// TypeError for other numbers, ValueError for other shapes.
+/// by side, masked arrays, whose masked numbers become NaN, and bytes of the other order. Other objects
+/// become arrays first, as numpy.asarray() makes them; of tables with named columns x, y and z only those;
+/// lists of whole numbers up to 2^53 become float64. An empty list has no point. Fields of records may be
+/// integers of up to 32 bits.
+///
+/// TypeError for other numbers, ValueError for other shapes, and where rows are shorter than columns and have
+/// 256 numbers or more: (4, N) is no N points. A UserWarning for 3 to 8 rows of more than 16.
 PointArray points_of(py::handle object, const char* name = "points");
+
+/// Whether it is an array with a mask (numpy.ma).
+bool is_masked(py::handle object);
 
 /// Numbers of any shape, as doubles in C's order.
 py::array_t<double> doubles(py::handle object, const char* name);

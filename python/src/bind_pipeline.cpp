@@ -6,6 +6,7 @@
 #include "bind.h"
 #include "config_dict.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/nodes/frame_warnings.h"
 #include "result_object.h"
 #include "volume_object.h"
 
@@ -19,7 +20,8 @@ class PipelineObject {
  public:
   explicit PipelineObject(PipelineConfig config) : pipeline_(std::move(config)) {}
 
-  void process(const Frame& frame, FrameResult& result) {
+  /// Returns the warnings that this pipeline has not given before.
+  std::vector<std::string> process(const Frame& frame, FrameResult& result) {
     const std::lock_guard lock(mutex_);
     if (frame.header.seq == 0) {
       Frame counted = frame;
@@ -29,6 +31,7 @@ class PipelineObject {
       next_ = frame.header.seq + 1;
       pipeline_.process(frame, result);
     }
+    return warnings_.take(frame, result);
   }
   PipelineConfig config() const { return pipeline_.config(); }
   void set_config(PipelineConfig config) { pipeline_.set_config(std::move(config)); }
@@ -36,6 +39,7 @@ class PipelineObject {
  private:
   std::mutex mutex_;
   FramePipeline pipeline_;
+  FrameWarnings warnings_;
   std::uint64_t next_ = 0;
 };
 
@@ -64,10 +68,13 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
   if (!classes.is_none())
     frame.classes =
         std::make_shared<std::vector<std::int64_t>>(integers(classes, "classes", result->points.view.count));
+  std::vector<std::string> warnings;
   {
     const py::gil_scoped_release unlocked;
-    self.process(frame, result->result);
+    warnings = self.process(frame, result->result);
   }
+  for (const std::string& text : warnings)
+    warn(text);
   return result;
 }
 
@@ -131,7 +138,8 @@ frame_id, seq: kept in the result; without seq, or with 0, the pipeline counts.
 pose: of the sensor in a fixed frame, 4 x 4, for tracks over the ground.
 classes: an integer for each point, for cluster.class_field and cluster.classes.
 
-Returns a Result. Raises as fit().
+Returns a Result. Raises as fit(). Warns (UserWarning, each kind once a pipeline and setting) where no ground is
+found, or everything is ground, and where the points do not lie around the sensor's place.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(track={'enabled': True, 'birth': 1})

@@ -3,6 +3,7 @@
 
 #include "bind.h"
 #include "clusters_object.h"
+#include "pcl_bv/nodes/frame_warnings.h"
 #include "pcl_bv/segmentation/class_clusters.h"
 #include "pcl_bv/segmentation/cloud_statistics.h"
 #include "pcl_bv/segmentation/ground_zones.h"
@@ -83,36 +84,70 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   return clusters;
 }
 
+/// What FrameWarnings says of a frame with this ground alone, in the words of ground()'s arguments.
+void warn_of_ground(const PointView& points, const GroundConfig& config, const GroundObject& found) {
+  PipelineConfig pipeline = whole_cloud_config();
+  pipeline.ground = config;
+  Frame frame;
+  frame.points = points;
+  FrameResult result;
+  result.config = std::make_shared<PipelineConfig>(std::move(pipeline));
+  result.points = points.count;
+  result.counts.ground = found.split.ground.size();
+  result.counts.nonfinite = points.count - result.counts.ground - found.split.rest.size();
+  result.sensor = found.split.sensor;
+  result.ground.level = found.split.level;
+  std::vector<std::string> texts;
+  {
+    const py::gil_scoped_release unlocked;
+    texts = FrameWarnings().take(frame, result);
+  }
+  for (std::string& text : texts) {
+    for (std::size_t at; (at = text.find("ground.")) != std::string::npos;)
+      text.erase(at, std::string_view("ground.").size());
+    warn(text);
+  }
+}
+
 GroundObject find_ground(py::handle points, py::handle method, py::handle up, py::handle sensor,
                          py::handle sensor_height, py::handle distance, py::handle max_slope_degrees,
                          py::handle threads) {
   const PointArray array = points_of(points);
-  const GroundMethod how = word<GroundMethod>(method, "method");
-  const auto set = [&](auto& settings) {
-    settings.up = up_argument(up);
-    if (!sensor_height.is_none()) settings.sensor_height = number(sensor_height, "sensor_height", {});
-    if (!distance.is_none()) settings.distance = number(distance, "distance", {0, kFinite, false});
-    if (!max_slope_degrees.is_none())
-      settings.max_slope_degrees = number(max_slope_degrees, "max_slope_degrees", {0, 89});
+  GroundConfig config;
+  config.method = word<GroundMethod>(method, "method");
+  if (config.method == GroundMethod::none) refuse_value("method", "'none' is not one of plane, zones");
+  config.up = up_argument(up);
+  if (!sensor_height.is_none()) config.sensor_height = number(sensor_height, "sensor_height", {});
+  if (!distance.is_none()) config.distance = number(distance, "distance", {0, kFinite, false});
+  if (!max_slope_degrees.is_none())
+    config.max_slope_degrees = number(max_slope_degrees, "max_slope_degrees", {0, 89});
+  const auto set = [&](auto settings) {
+    settings.up = config.up;
+    settings.sensor_height = config.sensor_height;
+    settings.distance = config.distance.value_or(settings.distance);
+    settings.max_slope_degrees = config.max_slope_degrees.value_or(settings.max_slope_degrees);
+    return settings;
   };
   const ParallelPolicy policy = policy_of(threads);
   GroundObject found;
   found.points = array.view.count;
-  if (how == GroundMethod::plane) {
-    GroundPlaneSettings settings;
-    set(settings);
+  if (config.method == GroundMethod::plane) {
     if (!sensor.is_none()) refuse_value("sensor", "a plane has no use for it");
+    const auto settings = set(GroundPlaneSettings());
     const py::gil_scoped_release unlocked;
     split_ground(array.view, settings, found.split);
-  } else if (how == GroundMethod::zones) {
-    GroundZonesSettings settings;
-    set(settings);
-    if (!sensor.is_none()) settings.sensor = vector3(sensor, "sensor");
+  } else {
+    if (!sensor.is_none()) config.sensor = vector3(sensor, "sensor");
+    auto settings = set(GroundZonesSettings());
+    settings.sensor = config.sensor;
     const py::gil_scoped_release unlocked;
     GroundZones().split(array.view, settings, found.split, policy);
-  } else {
-    refuse_value("method", "'none' is not one of plane, zones");
+    if (config.sensor) {
+      found.split.sensor = find_sensor(array.view, config.up, *config.sensor, found.split.scratch);
+      found.split.sensor.at = *config.sensor;
+    }
   }
+  warn_of_ground(array.view, config, found);
   found.split.scratch = {};
   return found;
 }

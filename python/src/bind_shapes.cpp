@@ -79,6 +79,7 @@ void bind_extend(Class& type) {
       "extend",
       [](const ShapeObject<Shape>& v, py::handle points) {
         const py::array_t<double> numbers = doubles(points, "points");
+        if (numbers.ndim() == 1 && numbers.size() == 0) return object_of(Shape(v.shape()));
         if (numbers.size() % 3 != 0 || numbers.ndim() > 2 || numbers.shape(numbers.ndim() - 1) != 3)
           refuse_value("points", "(3,) or (N, 3) numbers are wanted, not " + shown(points));
         Shape grown = v.shape();

@@ -17,10 +17,11 @@ using Self = const VolumeObject&;
 bool is_one_point(py::handle object) {
   if (py::isinstance<py::array>(object)) {
     const auto array = py::reinterpret_borrow<py::array>(object);
-    return array.ndim() == 1 && !array.dtype().has_fields();
+    return array.ndim() == 1 && array.size() > 0 && !array.dtype().has_fields();
   }
   return (PyTuple_Check(object.ptr()) || PyList_Check(object.ptr())) && PySequence_Size(object.ptr()) == 3 &&
-         PyNumber_Check(py::object(object[py::int_(0)]).ptr()) != 0;
+         PyNumber_Check(py::object(object[py::int_(0)]).ptr()) != 0 &&
+         !py::hasattr(object[py::int_(0)], "__len__");  // as arrays have
 }
 
 /// Three numbers, also such as are not finite.

@@ -109,8 +109,8 @@ py::array array_of_cloud(RawCloud&& cloud) {
 
 void write_cloud(const std::filesystem::path& path, py::handle points, py::handle labels) {
   const PointArray array = points_of(points);
-  const bool records =
-      py::isinstance<py::array>(points) && py::reinterpret_borrow<py::array>(points).dtype().has_fields();
+  const bool records = !is_masked(points) && py::isinstance<py::array>(points) &&
+                       py::reinterpret_borrow<py::array>(points).dtype().has_fields();
   RawCloud cloud =
       records ? cloud_of_records(py::reinterpret_borrow<py::array>(points)) : cloud_of_points(array.view);
   if (!labels.is_none()) set_uint32_field(cloud, "label", point_labels(labels, array.view.count));

@@ -64,12 +64,14 @@ Finds the ground and splits the points by it. Metres; points as fit() takes them
 
 method: 'zones', for outdoors: it may rise and fall; or 'plane', for rooms and tables.
 up: against gravity: 'x', '-z', ... or three numbers.
-sensor: where zones are centred; None: the origin.
+sensor: where zones are centred; None: the origin, or where the points are densest if they do not lie around it.
 sensor_height: of the sensor (with a plane: of the origin) above the ground; None: learnt.
 distance: points up to this far above the ground are ground; None: 0.15 of zones, 0.2 of a plane.
 max_slope_degrees: 0 to 89; None: 20 of zones, 15 of a plane.
 
-Returns a Ground. Nothing found is no error: found is False. Raises as cluster().
+Returns a Ground. Nothing found is no error: found is False. Raises as cluster(). Warns (UserWarning) where no
+ground is found, or everything is ground, where the points do not lie around the sensor's place, and where far
+more of them were ground if the cloud were turned upside down.
 
 >>> import pcl_bv
 >>> street = pcl_bv.read('synth:street:20000:1')

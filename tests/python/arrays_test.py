@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
 import unittest
+import warnings
 
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
@@ -143,6 +144,158 @@ class Arrays(unittest.TestCase):
         self.assertEqual(pcl_bv.fit(points, "aabb", written), expected)
         clusters = pcl_bv.cluster([[0.0, 0, 0], [9, 0, 0], [0.1, 0, 0]], 0.5)
         self.assertEqual(list(pcl_bv.fit([[0.0, 0, 0], [9, 0, 0], [0.1, 0, 0]], "aabb", clusters)), [0, 1])
+
+
+class Layouts(unittest.TestCase):
+    """Arrays that could mean two things are refused or warned of, everywhere points are taken."""
+
+    def entries(self):
+        box = pcl_bv.fit(normal(50, 1), "aabb")
+        return {
+            "fit": lambda points: pcl_bv.fit(points, "aabb"),
+            "cluster": lambda points: pcl_bv.cluster(points, 0.5),
+            "ground": lambda points: pcl_bv.ground(points, "plane"),
+            "statistics": pcl_bv.statistics,
+            "verify": lambda points: pcl_bv.verify(box, points),
+            "Partial": lambda points: pcl_bv.Partial(points),
+            "process": lambda points: pcl_bv.Pipeline(pcl_bv_settings()).process(points),
+            "contains": box.contains,
+            "distance": box.distance,
+        }
+
+    def each(self, check):
+        for name, entry in self.entries().items():
+            with self.subTest(entry=name):
+                check(entry)
+
+    def test_points_in_columns_are_refused_with_the_advice_to_transpose(self):
+        for shape in ((3, 1000), (4, 1000), (5, 34720), (6, 256), (1, 300), (64, 1024), (3, 480, 640)):
+            for dtype in (np.float32, np.float64):
+                with self.assertRaisesRegex(ValueError, r"points: the shape .* if each column is a point, give"):
+                    pcl_bv.fit(np.zeros(shape, dtype), "aabb")
+        self.each(lambda entry: self.assertRaisesRegex(ValueError, r"points\.T", entry, np.ones((4, 1000))))
+
+    def test_a_few_points_of_many_numbers_have_a_warning(self):
+        with self.assertWarnsRegex(UserWarning, r"points: the shape \(4, 100\) is 4 points of 100 numbers"):
+            pcl_bv.fit(np.ones((4, 100)), "aabb")
+
+    def test_points_with_features_are_taken_without_a_word(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for shape in ((3, 3), (4, 16), (2, 20), (9, 20), (500, 259), (1000, 4), (64, 1024, 3), (3, 40, 4)):
+                pcl_bv.fit(np.ones(shape), "aabb")
+
+    def test_masked_points_are_dropped_and_counted_as_those_that_are_not_finite(self):
+        points = normal(100, 21)
+        for dtype in (np.float32, np.float64):
+            mask = np.zeros((100, 3), bool)
+            mask[5, 0] = mask[7] = True
+            given = np.ma.masked_array(points.astype(dtype), mask=mask)
+            given.data[5] = given.data[7] = 1e6
+            box = pcl_bv.fit(given, "aabb")
+            self.assertEqual((box.used, box.dropped), (98, 2))
+            self.assertEqual(box, pcl_bv.fit(np.delete(given.data, [5, 7], axis=0), "aabb"))
+            self.assertEqual(given.data[5, 0], 1e6)  # as it was
+            layout = [("x", dtype), ("y", dtype), ("z", dtype), ("ring", "u1")]
+            rows = np.ma.masked_array(records(given.data, layout))
+            rows.mask["x"][5] = rows.mask["z"][7] = True
+            self.assertEqual(pcl_bv.fit(rows, "aabb"), box)
+        unmasked = np.ma.masked_array(points)
+        self.assertEqual(pcl_bv.fit(unmasked, "aabb"), pcl_bv.fit(points, "aabb"))
+        self.each(lambda entry: entry(given))
+
+    def test_masked_labels_and_vectors_are_refused(self):
+        masked = np.ma.masked_array(np.zeros(6, int), mask=[0, 0, 1, 0, 0, 0])
+        with self.assertRaisesRegex(TypeError, "labels: integers without a mask"):
+            pcl_bv.fit(normal(6), "aabb", labels=masked)
+        with self.assertRaisesRegex(TypeError, "classes: integers without a mask"):
+            pcl_bv.cluster(normal(6), 1, classes=masked)
+        with self.assertRaisesRegex(TypeError, "sensor: an array without a mask"):
+            pcl_bv.ground(normal(6), sensor=np.ma.masked_array([0.0, 0, 0], mask=[0, 1, 0]))
+
+    def test_an_empty_list_has_no_point(self):
+        for empty in ([], (), np.array([]), np.zeros((0, 3))):
+            self.assertEqual(pcl_bv.fit(empty, "aabb").status, "no_valid_points")
+            self.assertEqual(len(pcl_bv.cluster(empty, 1)), 0)
+            self.assertEqual(pcl_bv.fit(normal(5), "aabb").contains(empty).shape, (0,))
+            self.assertEqual(pcl_bv.fit(normal(5), "aabb").extend(empty), pcl_bv.fit(normal(5), "aabb"))
+        self.each(lambda entry: entry([]))
+
+    def test_lists_of_whole_numbers_are_points(self):
+        box = pcl_bv.fit([(0, 0, 0), (1, 2, 3)], "aabb")
+        self.assertEqual((list(box.min), list(box.max)), ([0, 0, 0], [1, 2, 3]))
+        self.assertEqual(pcl_bv.fit([[0, 0, 0], [1, 2.5, 3]], "aabb").max[1], 2.5)
+        with self.assertRaisesRegex(ValueError, r"beyond 2\^53"):
+            pcl_bv.fit([[0, 0, 0], [2**53 + 1, 0, 0]], "aabb")
+        self.each(lambda entry: entry([(0, 0, 0), (1, 2, 3)]))
+
+    def test_no_advice_to_call_astype_is_given_for_lists(self):
+        for wrong in ([["a", "b", "c"]], [[True, False, True]], [[1j, 0, 0]], [[2**70, 0, 0]]):
+            with self.assertRaises(TypeError) as caught:
+                pcl_bv.fit(wrong, "aabb")
+            self.assertNotIn("astype", str(caught.exception))
+
+    def test_advice_fits_the_type(self):
+        for dtype, advice in ((np.complex64, r"array\.real"), (np.int32, "astype"), (np.float16, "astype"),
+                              (np.longdouble, "astype"), (object, "astype")):
+            with self.assertRaisesRegex(TypeError, advice):
+                pcl_bv.fit(np.ones((4, 3), dtype), "aabb")
+        for dtype in (bool, "M8[s]", "U3"):
+            with self.assertRaises(TypeError) as caught:
+                pcl_bv.fit(np.ones((4, 3), bool).astype(dtype), "aabb")
+            self.assertNotIn("astype", str(caught.exception))
+        with self.assertRaisesRegex(ValueError, r"the shape \(3,\) .* for one point give \[point\]"):
+            pcl_bv.fit(np.ones(3), "aabb")
+
+    def test_records_of_integers_are_seen_as_files_have_them(self):
+        rows = records(np.arange(12).reshape(4, 3), [("x", "<i2"), ("y", ">i4"), ("z", "f4")])
+        self.assertEqual(list(pcl_bv.fit(rows, "aabb").max), [9, 10, 11])
+
+    def test_a_table_is_seen_by_the_names_of_its_columns(self):
+        points = normal(30, 22)
+
+        class Table:  # as pandas.DataFrame
+            def __init__(self, data):
+                self.data, self.columns = data, list(data)
+
+            def __getitem__(self, names):
+                return Table({name: self.data[name] for name in names})
+
+            def __array__(self, dtype=None, copy=None):
+                return np.stack([self.data[name] for name in self.columns], axis=1)
+
+        table = Table({"intensity": np.full(30, 99.0), "z": points[:, 2], "x": points[:, 0], "y": points[:, 1]})
+        self.assertEqual(pcl_bv.fit(table, "aabb"), pcl_bv.fit(points, "aabb"))
+        with self.assertRaisesRegex(TypeError, "a table without the columns x, y and z"):
+            pcl_bv.fit(Table({"a": points[:, 0], "b": points[:, 1], "c": points[:, 2]}), "aabb")
+
+    def test_an_object_that_makes_an_array_of_itself_is_one_and_says_why_not(self):
+        class Tensor:
+            def __init__(self, fails=False):
+                self.fails = fails
+
+            def __array__(self, dtype=None, copy=None):
+                if self.fails:
+                    raise RuntimeError("the tensor is on another device")
+                return normal(20, 23)
+
+        self.assertEqual(pcl_bv.fit(Tensor(), "aabb"), pcl_bv.fit(normal(20, 23), "aabb"))
+        with self.assertRaisesRegex(TypeError, "an array is wanted.*on another device"):
+            pcl_bv.fit(Tensor(True), "aabb")
+        with self.assertRaisesRegex(TypeError, "an array is wanted"):
+            pcl_bv.fit([[1.0, 2, 3], [4.0, 5]], "aabb")
+
+    def test_three_arrays_in_a_list_are_three_points(self):
+        box = pcl_bv.fit(normal(30, 24), "aabb")
+        self.assertEqual(list(box.contains([np.zeros(3), np.full(3, 99.0), np.zeros(3)])), [True, False, True])
+
+    def test_labels_beyond_an_int64_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "more than 2"):
+            pcl_bv.fit(normal(2), "aabb", labels=np.array([0, 2**63], np.uint64))
+
+
+def pcl_bv_settings():
+    return {"ground": {"method": "none"}, "filter": {"range_min": 0}, "cluster": {"tolerance": 0}}
 
 
 if __name__ == "__main__":

@@ -23,6 +23,44 @@ def run(*arguments):
                           capture_output=True).stdout
 
 
+class Warnings(unittest.TestCase):
+    """Of clouds that do not lie around their sensor."""
+
+    def street(self):
+        cloud = pcl_bv.read("synth:street:60000:2")
+        xyz = np.stack([cloud["x"], cloud["y"], cloud["z"]], axis=-1).reshape(-1, 3).astype(np.float64)
+        return xyz[np.einsum("ij,ij->i", xyz, xyz) > 1]
+
+    def test_a_street_aside_has_its_ground_and_a_warning(self):
+        street = self.street()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            right = len(pcl_bv.ground(street).ground)
+            pcl_bv.Pipeline().process(street)
+        aside = street + [100, 0, 0]
+        with self.assertWarnsRegex(UserWarning, "do not lie around a sensor in the origin.* use sensor"):
+            found = len(pcl_bv.ground(aside).ground)
+        self.assertLess(abs(found - right), 30)
+        with self.assertWarnsRegex(UserWarning, "few points lie around sensor"):
+            pcl_bv.ground(aside, sensor=(300, 0, 0))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            pcl_bv.ground(aside, sensor=(100, 0, 0))
+
+    def test_a_pipeline_warns_once(self):
+        aside = self.street() + [100, 0, 0]
+        pipeline = pcl_bv.Pipeline()
+        with self.assertWarnsRegex(UserWarning, "use ground.sensor"):
+            pipeline.process(aside)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            pipeline.process(aside)
+
+    def test_upside_down_has_a_warning(self):
+        with self.assertWarnsRegex(UserWarning, "use up -z"):
+            pcl_bv.ground(self.street() * [1, -1, -1])
+
+
 class Pipelines(unittest.TestCase):
     @unittest.skipUnless(os.path.exists(os.path.join(BIN, "bv_stream")), "the commands are not built")
     def test_frames_have_the_bits_of_bv_stream(self):
