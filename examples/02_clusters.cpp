@@ -18,7 +18,7 @@ int main() {
     cloud->push_back(p);
   }
 
-  pcl_bv::EuclideanClusterExtraction<pcl::PointXYZI> extraction;  // PCL's setters and clusters, without its wait
+  pcl_bv::EuclideanClusterExtraction<pcl::PointXYZI> extraction;  // PCL's setters and clusters: same result, faster
   extraction.setInputCloud(cloud);
   extraction.setClusterTolerance(0.5);
   extraction.setMinClusterSize(30);

@@ -19,7 +19,7 @@ int main() {
   config.ground.method = pcl_bv::GroundMethod::none;
   config.filter.range_min = 0;
   pcl_bv::RegionConfig arm;  // volumes, or a file of them: --drop-inside arm.json --padding 0.05
-  arm.volumes = {pcl_bv::Capsule({0, 0.3, -0.2}, {0.5, 0.3, -0.2}, 0.04)};
+  arm.volumes.emplace_back(pcl_bv::Capsule({0, 0.3, -0.2}, {0.5, 0.3, -0.2}, 0.04));
   arm.padding = 0.05;
   config.filter.regions = {arm};
   pcl_bv::FramePipeline pipeline(config);

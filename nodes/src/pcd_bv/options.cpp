@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* examples = R"(Examples:
   pcd_bv scan.pcd                                        volumes around the whole cloud
-  pcd_bv --volume dop26 --check --format json *.pcd      each proven to hold every point
+  pcd_bv --volume dop26 --check --format json *.pcd      checked: no point is left outside
   pcd_bv --ground zones --cluster 0.5 --image o.png s.pcd around each object, and a picture
   pcd_bv --cluster 0.5 --format jsonl sweeps/ | jq .counts
   pcd_bv --cluster 0.5 --format csv --mesh o.vtp s.bin   a line per volume, and ParaView's mesh
