@@ -171,23 +171,100 @@ TEST(CloudMessage, ThatDoesNotFitItsDataIsRefused) {
   EXPECT_EQ(error_of([](Made& m) { m.cloud.data.size -= 1; }),
             "the cloud announces 4 x 2 points of 16 bytes, but has 127 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.width = m.cloud.height = m.cloud.row_step = 0xFFFFFFFF; }),
-            "the cloud has rows of 4294967295 bytes for 4294967295 x 4294967295 points of 16 bytes");
+            "the cloud announces 4294967295 x 4294967295 points of 16 bytes, but has 128 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.point_step = 0; }), "the cloud has 4 x 2 points of 0 bytes");
-  EXPECT_EQ(error_of([](Made& m) { m.cloud.row_step = 63; }),
-            "the cloud has rows of 63 bytes for 4 x 2 points of 16 bytes");
+  EXPECT_EQ(error_of([](Made& m) {
+              m.cloud.row_step = 63;
+              m.bytes.resize(130);
+              m.cloud.data = {m.bytes.data(), m.bytes.size()};
+            }),
+            "the cloud has a row_step of 63 for 4 x 2 points of 16 bytes in 130 bytes; without padding a row "
+            "has 64");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields.erase(m.cloud.fields.begin() + 1); }),
-            "the cloud has no field y");
+            "the cloud has no field y, its fields are 'x, z, intensity'");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields[2].offset = 13; }),
             "the cloud has a field 'z' that reaches beyond the point_step of 16");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields[0].datatype = 9; }),
-            "the cloud has a field 'x' of datatype 9, not 1 to 8");
+            "the cloud has a field 'x' that is of datatype 9, not 1 to 8");
 }
 
-TEST(CloudMessage, WithFieldsLongerThanItsRecordsIsNotCopied) {
+TEST(CloudMessage, WithFieldsLongerThanTwoRecordsIsCopiedWithoutTheRest) {
   Made made = cloud_of(4);
   made.cloud.fields.insert(made.cloud.fields.end(), 5, {"a", 0, PointField::UINT8, 16});
   EXPECT_TRUE(points_in_place(made.cloud));
-  EXPECT_THROW(raw_cloud_of(made.cloud), MessageError);
+  const RawCloud raw = raw_cloud_of(made.cloud);
+  EXPECT_EQ(raw.point_step, 32U);
+  expect_points(raw.xyz(), 4);
+  EXPECT_THAT(raw.note, testing::StartsWith("field 'a' is left out: it would make"));
+  EXPECT_THAT(raw.note, testing::EndsWith("; and others"));
+}
+
+// Drivers write the bytes of all rows, the points of a row, or nothing.
+TEST(CloudMessage, WhoseDataAreJustItsPointsHasNoPaddingWhateverItsRowStep) {
+  for (const std::uint32_t row_step : {0U, 2U, 63U, 65U, 128U, 0xFFFFFFFFU}) {
+    Made made = cloud_of(4, 2);
+    made.cloud.row_step = row_step;
+    const auto view = points_in_place(made.cloud);
+    ASSERT_TRUE(view) << row_step;
+    expect_points(*view, 8);
+    const RawCloud raw = raw_cloud_of(made.cloud);
+    expect_points(raw.xyz(), 8);
+    EXPECT_EQ(raw.height, 2U);
+    made.cloud.is_bigendian = true;  // copied
+    EXPECT_EQ(raw_cloud_of(made.cloud).size(), 8U);
+  }
+}
+
+TEST(CloudMessage, OfOneRowIgnoresItsRowStep) {
+  for (const std::uint32_t height : {0U, 1U}) {
+    Made made = cloud_of(5);
+    made.cloud.height = height;
+    made.cloud.row_step = 7;
+    expect_points(*points_in_place(made.cloud), 5);
+    expect_points(raw_cloud_of(made.cloud).xyz(), 5);
+  }
+}
+
+// A field that nobody asked for costs nothing but itself, in place and copied, with the same words.
+TEST(CloudMessage, WithAFieldThatCannotBeReadIsReadWithoutIt) {
+  const auto note_of = [](msg::PointField field) {
+    Made made = cloud_of(4, 2);
+    made.cloud.fields[3] = std::move(field);
+    expect_points(*points_in_place(made.cloud), 8);
+    const RawCloud raw = raw_cloud_of(made.cloud);
+    expect_points(raw.xyz(), 8);
+    EXPECT_EQ(raw.fields.size(), 3U);
+    EXPECT_EQ(raw.note, unread_fields(made.cloud));
+    return raw.note;
+  };
+  EXPECT_EQ(note_of({"new", 12, 9, 1}), "field 'new' is left out: it is of datatype 9, not 1 to 8");
+  EXPECT_EQ(note_of({"none", 12, 0, 1}), "field 'none' is left out: it is of datatype 0, not 1 to 8");
+  EXPECT_EQ(note_of({"ring", 14, PointField::FLOAT32, 1}),
+            "field 'ring' is left out: it reaches beyond the point_step of 16");
+  EXPECT_EQ(note_of({"far", 0xFFFFFFFF, PointField::UINT8, 0xFFFFFFFF}),
+            "field 'far' is left out: it reaches beyond the point_step of 16");
+  EXPECT_EQ(note_of({"x", 12, PointField::FLOAT32, 1}), "field 'x' is left out: it occurs twice");
+  EXPECT_EQ(unread_fields(cloud_of(2).cloud), "");
+}
+
+TEST(CloudMessage, MayCountItsCoordinatesAsItLikes) {
+  Made made = cloud_of(4);
+  made.cloud.fields[0].count = 4;
+  made.cloud.fields[2].count = 0;
+  expect_points(*points_in_place(made.cloud), 4);
+  expect_points(raw_cloud_of(made.cloud).xyz(), 4);
+}
+
+TEST(CloudMessage, HasItsCoordinatesInUpperCaseWhereThereAreNoOthers) {
+  Made made = cloud_of(4);
+  made.cloud.fields = {{"X", 0, 7, 1}, {"Y", 4, 7, 1}, {"Z", 8, 7, 1}, {"intensity", 12, 7, 1}};
+  expect_points(*points_in_place(made.cloud), 4);
+  const RawCloud raw = raw_cloud_of(made.cloud);
+  expect_points(raw.xyz(), 4);
+  EXPECT_EQ(raw.fields[1].name, "y");
+  made.cloud.fields.push_back({"x", 12, 7, 1});  // that one counts
+  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_EQ(load_point(raw_cloud_of(made.cloud).xyz(), 1).x, 101);
 }
 
 TEST(CloudMessage, OfNoPointsIsEmpty) {
@@ -197,6 +274,28 @@ TEST(CloudMessage, OfNoPointsIsEmpty) {
   ASSERT_TRUE(points_in_place(made.cloud));
   EXPECT_TRUE(points_in_place(made.cloud)->empty());
   EXPECT_EQ(raw_cloud_of(made.cloud).size(), 0U);
+  EXPECT_EQ(raw_cloud_of(made.cloud).fields.size(), 4U);
+}
+
+// What filters publish when nothing is left.
+TEST(CloudMessage, OfNoPointsNeedsNoFieldsNorARecord) {
+  for (const std::uint32_t height : {0U, 1U}) {
+    for (const std::uint32_t step : {0U, 16U}) {
+      for (const bool fields : {false, true}) {
+        msg::PointCloud2 cloud;
+        cloud.height = height;
+        cloud.point_step = step;
+        if (fields) cloud.fields = {{"x", 0, 7, 1}, {"y", 40, 99, 1}};
+        ASSERT_TRUE(points_in_place(cloud));
+        EXPECT_TRUE(points_in_place(cloud)->empty());
+        EXPECT_EQ(unread_fields(cloud), "");
+        const RawCloud raw = raw_cloud_of(cloud);
+        EXPECT_EQ(raw.size(), 0U);
+        EXPECT_TRUE(raw.xyz().empty());
+        EXPECT_EQ(raw.fields.size(), 3U);  // as every cloud that is written has
+      }
+    }
+  }
 }
 
 TEST(CloudMessage, KeepsItsOtherFields) {

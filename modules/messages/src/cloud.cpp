@@ -4,6 +4,7 @@
 #include "pcl_bv/messages/cloud.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <tuple>
 #include <utility>
@@ -28,44 +29,74 @@ constexpr Datatype kDatatypes[]{{'I', 1}, {'U', 1}, {'I', 2}, {'U', 2},
   throw MessageError("the cloud " + what);
 }
 
-std::size_t checked_size(const msg::PointCloud2& cloud) {
-  const std::uint64_t width = cloud.width, height = cloud.height, step = cloud.point_step;
-  if (width == 0 || height == 0) return 0;
+// Where the points are.
+struct Layout {
+  std::size_t width = 0, height = 0;
+  std::uint64_t row = 0;  // bytes from one row to the next
+
+  std::size_t points() const { return width * height; }
+};
+
+// Drivers write all kinds of numbers into row_step, which repeats what width and point_step say, and leave
+// the height of an unorganised cloud at 0: where the data are just as many as the points need, the data
+// decide.
+Layout layout_of(const msg::PointCloud2& cloud) {
+  const std::uint64_t width = cloud.width, step = cloud.point_step, size = cloud.data.size;
+  const std::uint64_t packed = width * step;  // below 2^64
+  const std::uint64_t height = cloud.height == 0 && packed > 0 && packed == size ? 1 : cloud.height;
+  if (width == 0 || height == 0) return {};
   const std::string shape = std::to_string(width) + " x " + std::to_string(height) + " points of " +
                             std::to_string(step) + " bytes";
   if (step == 0) refuse("has " + shape);
-  const std::uint64_t row = height > 1 ? cloud.row_step : width * step;
-  if (row < width * step) refuse("has rows of " + std::to_string(row) + " bytes for " + shape);
-  // Below 2^64: (2^32 - 1)^2 + 2^64 / 2 of one row would not be, but is more than any data.
-  const std::uint64_t before_last = (height - 1) * row;
-  if (before_last > cloud.data.size || width * step > cloud.data.size - before_last)
-    refuse("announces " + shape + ", but has " + std::to_string(cloud.data.size) + " bytes");
-  return width * height;
+  if (size / packed < height) refuse("announces " + shape + ", but has " + std::to_string(size) + " bytes");
+  const auto fits = [&](std::uint64_t row) { return row >= packed && height - 1 <= (size - packed) / row; };
+  const bool exact = size % packed == 0 && size / packed == height;
+  if (height > 1 && !exact && !fits(cloud.row_step))
+    refuse("has a row_step of " + std::to_string(cloud.row_step) + " for " + shape + " in " +
+           std::to_string(size) + " bytes; without padding a row has " + std::to_string(packed));
+  return {width, height, height == 1 || exact ? packed : cloud.row_step};
 }
 
-const msg::PointField& field_named(const msg::PointCloud2& cloud, const char* name) {
-  const auto& fields = cloud.fields;
-  const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [&](const msg::PointField& field) { return field.name == name; });
-  if (found == fields.end()) refuse(std::string("has no field ") + name);
-  return *found;
-}
-
-// One that reaches out of the record, or is of no type, is a mistake of its writer.
-PointField checked_field(const msg::PointField& field, std::uint32_t point_step) {
-  const std::string name = "has a field " + in_quotes(field.name) + " ";
+// What is wrong with a field that reaches out of the record, or is of no type; empty if nothing is.
+std::string problem_of(const msg::PointField& field, std::uint32_t count, std::uint32_t point_step) {
   if (field.datatype < 1 || field.datatype > std::size(kDatatypes))
-    refuse(name + "of datatype " + std::to_string(field.datatype) + ", not 1 to 8");
-  const auto [type, size] = kDatatypes[field.datatype - 1];
-  const bool named = !field.name.empty() && field.name.find_first_of(" \t\n\v\f\r") == std::string::npos;
-  PointField checked{named ? field.name : "_", type, size, std::max(field.count, 1U), field.offset};
-  if (field.offset > point_step || std::uint64_t{checked.count} * size > point_step - field.offset)
-    refuse(name + "that reaches beyond the point_step of " + std::to_string(point_step));
-  return checked;
+    return "is of datatype " + std::to_string(field.datatype) + ", not 1 to 8";
+  const std::uint64_t bytes = std::uint64_t{count} * kDatatypes[field.datatype - 1].size;
+  if (field.offset > point_step || bytes > point_step - field.offset)
+    return "reaches beyond the point_step of " + std::to_string(point_step);
+  return {};
 }
 
-bool is_coordinate(const PointField& field) {
-  return field.name == "x" || field.name == "y" || field.name == "z";
+using Coordinates3 = std::array<const msg::PointField*, 3>;
+
+// X where there is no x, as some writers have it.
+Coordinates3 coordinates_of(const msg::PointCloud2& cloud) {
+  Coordinates3 found{};
+  const auto named = [&](const char* name) -> const msg::PointField* {
+    const auto at = std::find_if(cloud.fields.begin(), cloud.fields.end(),
+                                 [&](const msg::PointField& field) { return field.name == name; });
+    return at == cloud.fields.end() ? nullptr : &*at;
+  };
+  constexpr const char *lower[] = {"x", "y", "z"}, *upper[] = {"X", "Y", "Z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    found[axis] = named(lower[axis]);
+    if (found[axis] == nullptr) found[axis] = named(upper[axis]);
+    if (found[axis] == nullptr) {
+      std::string names;
+      for (const msg::PointField& field : cloud.fields)
+        names += (names.empty() ? "" : ", ") + field.name;
+      refuse(std::string("has no field ") + lower[axis] +
+             (names.empty() ? "" : ", its fields are " + in_quotes(names)));
+    }
+    const std::string problem = problem_of(*found[axis], 1, cloud.point_step);
+    if (!problem.empty()) refuse("has a field " + in_quotes(found[axis]->name) + " that " + problem);
+  }
+  return found;
+}
+
+PointField element_of(const msg::PointField& field, std::string name, std::uint32_t count) {
+  const auto [type, size] = kDatatypes[field.datatype - 1];
+  return {std::move(name), type, size, count, field.offset};
 }
 
 // Where a field lies in the message's record and how it becomes one of ours.
@@ -99,59 +130,114 @@ void copy_element(const std::byte* from, bool swap, const Move& move, std::byte*
 }
 
 // What coordinates become: 4 if float32 holds each, else 8.
-std::uint32_t coordinate_size(const std::vector<Move>& moves) {
-  std::uint32_t size = 4;
-  for (const auto& [from, to] : moves) {
-    if (is_coordinate(from) && (from.type == 'F' ? from.size == 8 : from.size == 4)) size = 8;
-  }
-  return size;
+std::uint32_t coordinate_size(const Coordinates3& xyz) {
+  const bool wide = std::any_of(xyz.begin(), xyz.end(), [](const msg::PointField* field) {
+    const auto [type, size] = kDatatypes[field->datatype - 1];
+    return type == 'F' ? size == 8 : size == 4;
+  });
+  return wide ? 8 : 4;
 }
 
-std::vector<Move> moves_of(const msg::PointCloud2& cloud) {
+// The fields that can be read, and a line about the others.
+struct Selection {
   std::vector<Move> moves;
-  for (const msg::PointField& field : cloud.fields) {
-    const PointField from = checked_field(field, cloud.point_step);
-    if (is_coordinate(from) && from.count != 1) refuse("has several " + from.name + " a point");
-    moves.push_back({from, from});
+  std::string note;
+  std::size_t left_out = 0;
+
+  void leave_out(const msg::PointField& field, const std::string& problem) {
+    constexpr std::size_t most = 3;  // in one line
+    if (++left_out <= most)
+      note += (note.empty() ? "" : "; ") + ("field " + in_quotes(field.name)) + " is left out: it " + problem;
+    if (left_out == most + 1) note += "; and others";
   }
+};
+
+Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) {
+  Selection selection;
   // Colours often stand in one place under two names; more than that is no record of points, and would be
   // long.
-  std::size_t bytes = 0;
-  for (const Move& move : moves)
-    bytes += move.from.bytes();
-  if (bytes > 2 * std::size_t{cloud.point_step}) refuse("has fields of more bytes than two of its records");
-  const std::uint32_t size = coordinate_size(moves);
-  std::size_t offset = 0;
-  for (auto& [from, to] : moves) {
-    if (is_coordinate(from)) std::tie(to.type, to.size) = std::pair('F', size);
+  const std::size_t most = 2 * std::size_t{cloud.point_step};
+  const std::uint32_t size = coordinate_size(xyz);
+  std::size_t bytes = 0, offset = 0;
+  for (const msg::PointField* const field : xyz)
+    bytes += kDatatypes[field->datatype - 1].size;
+  for (const msg::PointField& field : cloud.fields) {
+    const auto axis = static_cast<std::size_t>(std::find(xyz.begin(), xyz.end(), &field) - xyz.begin());
+    const bool coordinate = axis < xyz.size();
+    const std::uint32_t count = coordinate ? 1 : std::max(field.count, 1U);
+    std::string problem = problem_of(field, count, cloud.point_step);
+    if (!coordinate && problem.empty()) {
+      const std::size_t own = std::size_t{count} * kDatatypes[field.datatype - 1].size;
+      if (field.name == "x" || field.name == "y" || field.name == "z") {
+        problem = "occurs twice";
+      } else if (bytes + own > most) {
+        problem = "would make the fields longer than two records";
+      } else {
+        bytes += own;
+      }
+    }
+    if (!problem.empty()) {
+      selection.leave_out(field, problem);
+      continue;
+    }
+    const bool named = !field.name.empty() && field.name.find_first_of(" \t\n\v\f\r") == std::string::npos;
+    const PointField from = element_of(field,
+                                       coordinate ? std::string(1, "xyz"[axis])
+                                       : named    ? field.name
+                                                  : "_",
+                                       count);
+    PointField to = from;
+    if (coordinate) std::tie(to.type, to.size) = std::pair('F', size);
     to.offset = offset;
     offset += to.bytes();
+    selection.moves.push_back({from, to});
   }
-  return moves;
+  return selection;
+}
+
+void set_fields(RawCloud& cloud, const std::vector<Move>& moves) {
+  cloud.fields.clear();
+  cloud.point_step = 0;
+  for (const Move& move : moves) {
+    cloud.fields.push_back(move.to);
+    cloud.point_step += move.to.bytes();
+  }
+}
+
+// A filter that has nothing left publishes a cloud without points, and often without fields.
+RawCloud cloud_without_points(const msg::PointCloud2& cloud) {
+  RawCloud made = make_cloud({});
+  try {
+    set_fields(made, select_fields(cloud, coordinates_of(cloud)).moves);
+  } catch (const MessageError&) {  // it keeps x, y and z as float32
+  }
+  return made;
 }
 
 }  // namespace
 
 std::optional<PointView> points_in_place(const msg::PointCloud2& cloud) {
-  const std::size_t points = checked_size(cloud);
-  const msg::PointField &x = field_named(cloud, "x"), &y = field_named(cloud, "y"),
-                        &z = field_named(cloud, "z");
-  const PointField first = checked_field(x, cloud.point_step);
-  checked_field(y, cloud.point_step);
-  checked_field(z, cloud.point_step);
-  const bool floats = first.type == 'F' && x.datatype == y.datatype && x.datatype == z.datatype;
+  const Layout layout = layout_of(cloud);
+  if (layout.points() == 0) return PointView();
+  const auto [x, y, z] = coordinates_of(cloud);
+  const auto [type, size] = kDatatypes[x->datatype - 1];
+  const bool floats = type == 'F' && x->datatype == y->datatype && x->datatype == z->datatype;
   const bool side_by_side =
-      std::uint64_t{x.offset} + first.size == y.offset && std::uint64_t{y.offset} + first.size == z.offset;
-  const bool rows = cloud.height <= 1 || cloud.row_step == std::uint64_t{cloud.width} * cloud.point_step;
-  if (!floats || !side_by_side || !rows || (cloud.is_bigendian && points > 0)) return std::nullopt;
-  if (points == 0) return PointView();
+      std::uint64_t{x->offset} + size == y->offset && std::uint64_t{y->offset} + size == z->offset;
+  const bool rows = layout.row == std::uint64_t{layout.width} * cloud.point_step;
+  if (!floats || !side_by_side || !rows || cloud.is_bigendian) return std::nullopt;
   PointView view;
-  view.data = cloud.data.data + x.offset;
+  view.data = cloud.data.data + x->offset;
   view.stride = cloud.point_step;
-  view.readable = cloud.point_step - x.offset;
-  view.count = points;
-  view.scalar = first.size == 8 ? ScalarType::float64 : ScalarType::float32;
+  view.readable = cloud.point_step - x->offset;
+  view.count = layout.points();
+  view.scalar = size == 8 ? ScalarType::float64 : ScalarType::float32;
   return view;
+}
+
+std::string unread_fields(const msg::PointCloud2& cloud) {
+  if (layout_of(cloud).points() == 0) return {};
+  return select_fields(cloud, coordinates_of(cloud)).note;
 }
 
 std::optional<FieldView> intensity_in_place(const msg::PointCloud2& cloud) {
@@ -166,24 +252,21 @@ std::optional<FieldView> intensity_in_place(const msg::PointCloud2& cloud) {
 }
 
 RawCloud raw_cloud_of(const msg::PointCloud2& cloud) {
-  const std::size_t points = checked_size(cloud);
-  for (const char* name : {"x", "y", "z"})
-    field_named(cloud, name);
-  const std::vector<Move> moves = moves_of(cloud);
+  const Layout layout = layout_of(cloud);
+  const std::size_t points = layout.points();
+  if (points == 0) return cloud_without_points(cloud);
+  const Selection selection = select_fields(cloud, coordinates_of(cloud));
   RawCloud made;
-  made.width = points > 0 ? cloud.width : 0;
-  made.height = points > 0 ? cloud.height : 1;
-  for (const Move& move : moves) {
-    made.fields.push_back(move.to);
-    made.point_step += move.to.bytes();
-  }
+  made.note = selection.note;
+  made.width = layout.width;
+  made.height = layout.height;
+  set_fields(made, selection.moves);
   made.data.resize(points * made.point_step);
   std::byte* to = made.data.data();
   for (std::size_t i = 0; i < points; ++i, to += made.point_step) {
-    const std::byte* const record = cloud.data.data +
-                                    i / cloud.width * (cloud.height > 1 ? cloud.row_step : 0) +
-                                    i % cloud.width * cloud.point_step;
-    for (const Move& move : moves) {
+    const std::byte* const record =
+        cloud.data.data + i / layout.width * layout.row + i % layout.width * cloud.point_step;
+    for (const Move& move : selection.moves) {
       for (std::uint32_t k = 0; k < move.from.count; ++k)
         copy_element(record + move.from.offset + std::size_t{k} * move.from.size, cloud.is_bigendian, move,
                      to + move.to.offset + std::size_t{k} * move.to.size);

@@ -11,14 +11,18 @@
 
 namespace pcl_bv {
 
-void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame) {
+msg::PointCloud2 cloud_in(const CloudMessage& message) {
   msg::PointCloud2 cloud;
   if (message.ros1) {
     read_ros1(message.data, message.size, cloud);
   } else {
     read_cdr(message.data, message.size, cloud);
   }
-  read_cloud_message(cloud, message.owner, class_field, frame);
+  return cloud;
+}
+
+void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame) {
+  read_cloud_message(cloud_in(message), message.owner, class_field, frame);
 }
 
 void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<const void>& owner,
@@ -31,14 +35,21 @@ void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<con
     frame.points = *in_place;
     frame.intensity = intensity_in_place(cloud);
     frame.owner = owner;
+    frame.note = unread_fields(cloud);
   }
-  if (in_place && class_field.empty()) return;
+  const bool wants_classes = !class_field.empty();
+  if (wants_classes && in_place && in_place->empty()) {
+    frame.classes = std::make_shared<std::vector<std::int64_t>>();
+    return;
+  }
+  if (in_place && !wants_classes) return;
   const auto copy = std::make_shared<RawCloud>(raw_cloud_of(cloud));
-  if (!class_field.empty())
+  if (wants_classes)
     frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(*copy, class_field));
   if (!in_place) {
     frame.points = copy->xyz();
     frame.intensity = intensity_of(copy->fields, copy->data.data(), copy->point_step);
+    frame.note = copy->note;
     frame.owner = copy;
   }
 }
