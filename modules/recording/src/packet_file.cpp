@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::uint64_t kWindow = 1U << 20U;
 constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::uint32_t kLongest = 1U << 20U;  // bytes of a packet, where lengths are doubted
+constexpr std::int64_t kNear = 24 * 3600;      // seconds from the last packet, where times are doubted
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
 
 // Of networks, whatever the file has.
@@ -74,21 +76,58 @@ std::uint32_t PacketFile::u32(const std::byte* at) const {
   return swapped_ ? reversed(value) : value;
 }
 
-// So many bytes from where the file is, or null if there are not as many.
 const std::byte* PacketFile::need(std::size_t bytes) {
-  if (bytes > file_.size() - at_) return nullptr;
-  if (at_ < window_at_ || at_ + bytes > window_at_ + window_.size()) {
-    window_.resize(std::max<std::uint64_t>(bytes, std::min<std::uint64_t>(kWindow, file_.size() - at_)));
-    window_at_ = at_;
-    file_.read(at_, window_.data(), window_.size());
-  }
-  return window_.data() + (at_ - window_at_);
+  return need_at(at_, bytes);
 }
 
-bool PacketFile::cut() {
-  remarks_.push_back("the file ends within a packet, at byte " + std::to_string(at_));
-  at_ = file_.size();
+// So many bytes of the file, or null if there are not as many.
+const std::byte* PacketFile::need_at(std::uint64_t at, std::size_t bytes) {
+  if (at > file_.size() || bytes > file_.size() - at) return nullptr;
+  if (at < window_at_ || at + bytes > window_at_ + window_.size()) {
+    window_.resize(std::max<std::uint64_t>(bytes, std::min<std::uint64_t>(kWindow, file_.size() - at)));
+    window_at_ = at;
+    file_.read(at, window_.data(), window_.size());
+  }
+  return window_.data() + (at - window_at_);
+}
+
+// Goes on at the next place where two packets in a row can be; where there is none the file is cut.
+bool PacketFile::go_on() {
+  const std::uint64_t damage = at_;
+  const std::string where = ", at byte " + std::to_string(damage);
+  for (++at_; at_ < file_.size(); ++at_) {
+    if (begins_packet()) {
+      remarks_.push_back("passed over " + std::to_string(at_ - damage) + " bytes that are no packet" + where);
+      return true;
+    }
+  }
+  remarks_.push_back("the file ends within a packet" + where);
   return false;
+}
+
+// Headers have no mark: lengths that agree with one another and with what follows, and a time near the last
+// one.
+bool PacketFile::begins_packet() {
+  std::uint64_t at = at_;
+  for (int packet = 0; packet < 2 && at < file_.size(); ++packet) {
+    const std::byte* const head = need_at(at, blocks_ ? 12 : 16);
+    if (head == nullptr) return false;
+    const std::uint32_t length = blocks_ ? u32(head + 4) : u32(head + 8);
+    if (blocks_) {
+      const bool known = u32(head) >= 1 && u32(head) <= 6;
+      if (!known || length < 12 || length % 4 != 0 || length > kLongest) return false;
+      const std::byte* const end = need_at(at + length - 4, 4);
+      if (end == nullptr || u32(end) != length) return false;
+      at += length;
+    } else {
+      const std::int64_t seconds = u32(head);
+      if (length > u32(head + 12) || u32(head + 12) > kLongest || length == 0 ||
+          std::abs(seconds - last_seconds_) > kNear || u32(head + 4) >= interfaces_[0].ticks)
+        return false;
+      at += 16 + std::uint64_t{length};
+    }
+  }
+  return at <= file_.size();
 }
 
 bool PacketFile::next(Payload& payload) {
@@ -98,11 +137,15 @@ bool PacketFile::next(Payload& payload) {
 bool PacketFile::next_pcap(Payload& payload) {
   while (at_ < file_.size()) {
     const std::byte* const head = need(16);
-    if (head == nullptr) return cut();
-    const std::uint32_t size = u32(head + 8);
-    payload.time_ns = std::int64_t{u32(head)} * kSecond + u32(head + 4) * (kSecond / interfaces_[0].ticks);
-    const std::byte* const packet = need(std::size_t{16} + size);
-    if (packet == nullptr) return cut();
+    const std::uint32_t size = head == nullptr ? 0 : u32(head + 8);
+    const std::byte* const packet =
+        head == nullptr || size > kLongest ? nullptr : need(std::size_t{16} + size);
+    if (packet == nullptr) {
+      if (!go_on()) return false;
+      continue;
+    }
+    last_seconds_ = u32(packet);
+    payload.time_ns = last_seconds_ * kSecond + u32(packet + 4) * (kSecond / interfaces_[0].ticks);
     at_ += 16 + size;
     if (unwrap(interfaces_[0].link, packet + 16, size, payload)) return true;
   }
@@ -112,22 +155,32 @@ bool PacketFile::next_pcap(Payload& payload) {
 bool PacketFile::next_block(Payload& payload) {
   while (at_ < file_.size()) {
     const std::byte* const head = need(12);
-    if (head == nullptr) return cut();
-    if (u32(head) == kSection) {  // says the byte order of itself and what follows
-      std::uint32_t order;
-      std::memcpy(&order, head + 8, 4);
-      if (order != kByteOrder && reversed(order) != kByteOrder) return cut();
-      swapped_ = order != kByteOrder;
-      interfaces_.clear();
+    const bool section = head != nullptr && u32(head) == kSection;
+    if (section && !begin_section(head)) {
+      if (!go_on()) return false;
+      continue;
     }
-    const std::uint32_t type = u32(head), length = u32(head + 4);
+    const std::uint32_t type = head == nullptr ? 0 : u32(head), length = head == nullptr ? 0 : u32(head + 4);
     const std::byte* const block = length < 12 || length % 4 != 0 ? nullptr : need(length);
-    if (block == nullptr) return cut();
+    if (block == nullptr || u32(block + length - 4) != length) {
+      if (!go_on()) return false;
+      continue;
+    }
     at_ += length;
     if (type == 1) add_interface(block + 8, length - 12);
     if (packet_of_block(block, length, type, payload)) return true;
   }
   return false;
+}
+
+// Says the byte order of itself and what follows.
+bool PacketFile::begin_section(const std::byte* head) {
+  std::uint32_t order;
+  std::memcpy(&order, head + 8, 4);
+  if (order != kByteOrder && reversed(order) != kByteOrder) return false;
+  swapped_ = order != kByteOrder;
+  interfaces_.clear();
+  return true;
 }
 
 // Enhanced packets (6) have times, simple ones (3) none: those keep the last one.
@@ -191,11 +244,22 @@ bool PacketFile::unwrap(unsigned link, const std::byte* data, std::size_t size, 
   if ((std::to_integer<unsigned>(ip[0]) >> 4U) != 4 || header < 20 || !whole ||
       std::to_integer<int>(ip[9]) != 17 || size < skip + header + 8)
     return false;
-  const std::size_t udp = big16(ip + header + 4);
-  if (udp < 8 || udp > size - skip - header) return false;
+  const std::size_t most = size - skip - header;
+  std::size_t udp = big16(ip + header + 4);
+  if (udp < 8 || udp > most) udp = most;  // what is there counts
   payload.data = ip + header + 8;
   payload.size = udp - 8;
+  payload.address = static_cast<std::uint32_t>(big16(ip + 12) << 16U | big16(ip + 14));
+  payload.from_port = static_cast<std::uint16_t>(big16(ip + header));
+  payload.to_port = static_cast<std::uint16_t>(big16(ip + header + 2));
   return true;
+}
+
+std::string Payload::source() const {
+  std::string text;
+  for (unsigned shift = 32; shift > 0; shift -= 8)
+    text += (text.empty() ? "" : ".") + std::to_string(address >> (shift - 8) & 0xFFU);
+  return text + ':' + std::to_string(to_port);
 }
 
 }  // namespace pcl_bv

@@ -4,95 +4,48 @@
 #include "pcl_bv/recording/velodyne.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
 #include <fstream>
+#include <map>
 #include <optional>
+#include <stdexcept>
 
-#include "packet_file.h"
+#include "velodyne_sensor.h"
 
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kPacket = 1206, kBlock = 100, kBlocks = 12, kLasers = 32;
-constexpr double kDegree = 3.14159265358979323846 / 180;
+// Packets of one address and port, mostly of one sensor; of a relay or a played back file perhaps of several.
+struct Origin {
+  std::string name;
+  std::vector<VelodyneSensor> sensors{};
+  std::vector<std::byte> waiting{};  // a packet that none of them expects, until the next one says why
+  std::int64_t waiting_time_ns = 0;
 
-// A sensor: of 32 returns of a block the beams in turn, and how far a firing takes.
-struct Model {
-  std::string_view name;
-  std::uint8_t factory;  // the last byte of a packet
-  std::size_t beams;
-  double metres;                        // of a step of distance
-  double block_ns, laser_ns;            // from a block to the next, from a laser (or pair) to the next
-  std::array<double, kLasers> degrees;  // up, of each beam
-  std::array<double, kLasers> aside;    // azimuth of each beam, degrees
+  Payload waiting_packet() const { return {waiting_time_ns, waiting.data(), waiting.size()}; }
 };
 
-constexpr Model kModels[] = {
-    {"VLP-16",
-     0x22,
-     16,
-     0.002,
-     110'592,
-     2304,
-     {-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15},
-     {}},
-    {"HDL-32E",
-     0x21,
-     32,
-     0.002,
-     46'080,
-     1152,
-     {-30.67, -9.33,  -29.33, -8,     -28,    -6.67, -26.67, -5.33,  -25.33, -4,     -24,
-      -2.67,  -22.67, -1.33,  -21.33, 0,      -20,   1.33,   -18.67, 2.67,   -17.33, 4,
-      -16,    5.33,   -14.67, 6.67,   -13.33, 8,     -12,    9.33,   -10.67, 10.67},
-     {}},
-    {"VLP-32C",
-     0x28,
-     32,
-     0.004,
-     55'296,
-     1152,
-     {-25,    -1,     -1.667, -15.639, -11.31, 0,      -0.667, -8.843, -7.254, 0.333,  -0.333,
-      -6.148, -5.333, 1.333,  0.667,   -4,     -4.667, 1.667,  1,      -3.667, -3.333, 3.333,
-      2.333,  -2.667, -3,     7,       4.667,  -2.333, -2,     15,     10.333, -1.333},
-     {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
-      1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
+constexpr std::size_t kMostSensors = 8;  // of one origin
 
-// Azimuths are hundredths of a degree.
-constexpr std::size_t kTurn = 36'000;
-struct Turn {
-  double sine, cosine;
-};
-
-const std::vector<Turn>& turns() {
-  static const auto all = [] {
-    std::vector<Turn> made(kTurn);
-    for (std::size_t i = 0; i < kTurn; ++i) {
-      const double angle = static_cast<double>(i) / 100 * kDegree;
-      made[i] = {std::sin(angle), std::cos(angle)};
-    }
-    return made;
-  }();
-  return all;
-}
-
-std::uint16_t word(const std::byte* at) {
-  std::uint16_t value;
-  std::memcpy(&value, at, 2);
-  return value;
-}
-
-const Model* model_of(const Payload& packet) {
-  if (packet.size != kPacket || word(packet.data) != 0xEEFF) return nullptr;
-  const auto factory = std::to_integer<std::uint8_t>(packet.data[kPacket - 1]);
-  const auto* const found = std::find_if(std::begin(kModels), std::end(kModels),
-                                         [&](const Model& model) { return model.factory == factory; });
-  return found == std::end(kModels) ? nullptr : found;
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names)
+    list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
 }  // namespace
+
+RawCloud raw_cloud_of(const VelodyneSweep& sweep) {
+  RawCloud cloud;
+  cloud.fields = {{"x", 'F', 4, 1, 0},          {"y", 'F', 4, 1, 4},     {"z", 'F', 4, 1, 8},
+                  {"intensity", 'F', 4, 1, 12}, {"ring", 'U', 4, 1, 16}, {"time_ns", 'U', 4, 1, 20}};
+  static_assert(sizeof(VelodynePoint) == 24);
+  cloud.point_step = sizeof(VelodynePoint);
+  cloud.width = sweep.points.size();
+  const auto* const begin = reinterpret_cast<const std::byte*>(sweep.points.data());
+  cloud.data.assign(begin, begin + cloud.width * cloud.point_step);
+  return cloud;
+}
 
 bool is_capture(const std::filesystem::path& file) {
   std::error_code unknown;
@@ -103,99 +56,143 @@ bool is_capture(const std::filesystem::path& file) {
 }
 
 struct VelodyneReader::State {
-  explicit State(const std::filesystem::path& path) : file(path) {
+  State(const std::filesystem::path& path, const std::string& sensor) : file(path), only(sensor) {
     packets.emplace(file);
-    const Model* found = nullptr;
-    for (Payload packet; found == nullptr && packets->next(packet);)
-      found = model_of(packet);
-    if (found == nullptr) throw IoError("no packet of a VLP-16, HDL-32E or VLP-32C");
-    model = found;
-    std::array<double, kLasers> sorted = model->degrees;
-    std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(model->beams));
-    for (std::size_t i = 0; i < model->beams; ++i) {
-      ring[i] = static_cast<std::uint32_t>(std::find(sorted.begin(), sorted.end(), model->degrees[i]) -
-                                           sorted.begin());
-      sine[i] = std::sin(model->degrees[i] * kDegree);
-      cosine[i] = std::cos(model->degrees[i] * kDegree);
-      aside[i] = static_cast<std::size_t>(std::lround(100 * model->aside[i]) + static_cast<long>(kTurn));
+    Strangers strangers;
+    for (Payload packet; model == nullptr && packets->next(packet);) {
+      const VelodyneModel* const found = velodyne_model(packet);
+      const bool other = !only.empty() && packet.source() != only;
+      if (found != nullptr && !other) model = found;
+      if (found == nullptr || other) strangers.note(packet, found);
     }
+    if (model == nullptr) strangers.refuse(only);
     rewind();
   }
 
+  // What a capture without the packets that are wanted has instead.
+  struct Strangers {
+    std::vector<std::string> sensors, others;
+
+    static void add(std::vector<std::string>& names, std::string name) {
+      if (names.size() < 5 && std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(std::move(name));
+    }
+    void note(const Payload& packet, const VelodyneModel* found) {
+      if (found != nullptr) return add(sensors, packet.source());
+      const int product = velodyne_product(packet);
+      add(others, product < 0 ? std::to_string(packet.size) + " bytes from " + packet.source()
+                              : "Velodyne's product " + std::to_string(product) + " from " + packet.source());
+    }
+    [[noreturn]] void refuse(const std::string& only) const {
+      if (!only.empty() && !sensors.empty())
+        throw std::invalid_argument("no packets of a sensor at " + only + "; there are " + listed(sensors));
+      const std::string all = listed(others);
+      throw IoError("no packet of a VLP-16, HDL-32E or VLP-32C; UDP packets: " +
+                    (all.empty() ? "none" : all));
+    }
+  };
+
   void rewind() {
     packets.emplace(file);
-    sweep = VelodyneSweep();
+    origins.clear();
+    sensors = 0;
     whole.clear();
-    last_azimuth = 0;
+    done = false;
   }
 
-  // Adds a packet's returns; each sweep that ends goes to `whole`.
-  void add(const Payload& packet) {
-    const bool dual = std::to_integer<int>(packet.data[kPacket - 2]) == 0x39;
-    const std::size_t step = dual ? 2 : 1;
-    // The second firing of a block of a VLP-16 is half way to the next block, by this packet's first two.
-    const int first = azimuth(packet, 0), second = azimuth(packet, step);
-    const double half = (second < first ? second + 36'000 - first : second - first) / 2.0;
-    for (std::size_t block = 0; block < kBlocks; block += step) {
-      const std::size_t firing = block / step;
-      for (std::size_t laser = 0; laser < kLasers; ++laser) {
-        double at = azimuth(packet, block);
-        if (laser >= model->beams) at += half;
-        if (at > 36'000) at -= 36'000;
-        if (at < last_azimuth) end_sweep();
-        last_azimuth = at;
-        if (sweep.points.empty()) sweep.stamp_ns = packet.time_ns;
-        const double time = static_cast<double>(packet.time_ns - sweep.stamp_ns) +
-                            static_cast<double>(firing) * model->block_ns +
-                            static_cast<double>(laser) * model->laser_ns;
-        const std::byte* const one = returned(packet, block, laser);
-        add_point(one, laser, at, time);
-        if (dual && std::memcmp(one, returned(packet, block + 1, laser), 3) != 0)
-          add_point(returned(packet, block + 1, laser), laser, at, time);
+  bool read_packet() {
+    Payload packet;
+    if (done || !packets->next(packet)) return false;
+    const VelodyneModel* const found = velodyne_model(packet);
+    if (found == nullptr) return true;
+    Origin& origin = origin_of(packet);
+    if (only.empty() || origin.name == only) take(*found, packet, origin);
+    return true;
+  }
+
+  Origin& origin_of(const Payload& packet) {
+    const auto [found, fresh] = origins.try_emplace(packet.key());
+    if (fresh) found->second.name = packet.source();
+    return found->second;
+  }
+
+  void take(const VelodyneModel& found, const Payload& packet, Origin& origin) {
+    VelodyneSensor* sensor = expecting(found, packet, origin);
+    if (!origin.waiting.empty()) {
+      const Payload earlier = origin.waiting_packet();
+      const VelodyneModel& its = *velodyne_model(earlier);
+      // The sensor goes on where it was: the packet between was another's. Else it has jumped.
+      if (sensor != nullptr && origin.sensors.size() < kMostSensors) {
+        const auto place = static_cast<std::size_t>(sensor - origin.sensors.data());
+        add_sensor(its, origin).add(earlier, whole);
+        sensor = &origin.sensors[place];
+      } else {
+        origin.sensors.front().finish(whole);
+        origin.sensors.front().add(earlier, whole);
+        sensor = expecting(found, packet, origin);
       }
+      origin.waiting.clear();
     }
+    const bool known = std::any_of(origin.sensors.begin(), origin.sensors.end(),
+                                   [&](const VelodyneSensor& one) { return &one.model() == &found; });
+    if (sensor == nullptr && !known) sensor = &add_sensor(found, origin);
+    if (sensor != nullptr) return sensor->add(packet, whole);
+    origin.waiting.assign(packet.data, packet.data + packet.size);
+    origin.waiting_time_ns = packet.time_ns;
   }
 
-  void end_sweep() {
-    if (!sweep.points.empty()) whole.push_back(std::move(sweep));
-    sweep = VelodyneSweep();
+  static VelodyneSensor* expecting(const VelodyneModel& found, const Payload& packet, Origin& origin) {
+    for (VelodyneSensor& sensor : origin.sensors) {
+      if (&sensor.model() == &found && sensor.expects(packet)) return &sensor;
+    }
+    return nullptr;
   }
 
-  static int azimuth(const Payload& packet, std::size_t block) {
-    return word(packet.data + kBlock * block + 2);
-  }
-  static const std::byte* returned(const Payload& packet, std::size_t block, std::size_t laser) {
-    return packet.data + kBlock * block + 4 + 3 * laser;
+  VelodyneSensor& add_sensor(const VelodyneModel& found, Origin& origin) {
+    if (++sensors > 1 && sensors > said_sensors) {
+      std::vector<std::string> names;
+      for (const auto& [key, one] : origins)
+        names.push_back(one.name);
+      remarks.push_back("packets of " + std::to_string(sensors) + " sensors (" + listed(names) +
+                        "): each frame is a revolution of one of them" +
+                        (names.size() > 1 ? ", --topic chooses one" : ""));
+      said_sensors = sensors;
+    }
+    return origin.sensors.emplace_back(found, sensors - 1);
   }
 
-  void add_point(const std::byte* at, std::size_t laser, double hundredths, double time) {
-    const double distance = word(at) * model->metres;
-    if (distance == 0) return;  // no return
-    const std::size_t beam = laser % model->beams;
-    const Turn& turn = turns()[(static_cast<std::size_t>(hundredths) + aside[beam]) % kTurn];
-    const double level = distance * cosine[beam];
-    sweep.points.push_back({static_cast<float>(level * turn.sine), static_cast<float>(level * turn.cosine),
-                            static_cast<float>(distance * sine[beam]),
-                            static_cast<float>(std::to_integer<int>(at[2])), ring[beam],
-                            static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9))});
+  void finish() {
+    done = true;
+    const std::size_t before = whole.size();
+    for (auto& [key, origin] : origins) {
+      if (!origin.waiting.empty()) {
+        origin.sensors.front().finish(whole);
+        origin.sensors.front().add(origin.waiting_packet(), whole);
+      }
+      for (VelodyneSensor& sensor : origin.sensors)
+        sensor.finish(whole);
+    }
+    std::stable_sort(whole.begin() + static_cast<std::ptrdiff_t>(before), whole.end(),
+                     [](const VelodyneSweep& a, const VelodyneSweep& b) { return a.stamp_ns < b.stamp_ns; });
   }
 
   std::filesystem::path file;
+  std::string only;
   std::optional<PacketFile> packets;
-  const Model* model = kModels;
-  std::array<std::uint32_t, kLasers> ring{};
-  std::array<double, kLasers> sine{}, cosine{};
-  std::array<std::size_t, kLasers> aside{};  // hundredths of a degree, a turn more
-  VelodyneSweep sweep;
-  std::vector<VelodyneSweep> whole;
-  double last_azimuth = 0;
+  const VelodyneModel* model = nullptr;
+  std::map<std::uint64_t, Origin> origins;
+  std::size_t sensors = 0, said_sensors = 0;
+  std::deque<VelodyneSweep> whole;
+  std::vector<std::string> remarks;
+  bool done = false;
 };
 
-VelodyneReader::VelodyneReader(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {}
+VelodyneReader::VelodyneReader(const std::filesystem::path& file, const std::string& sensor)
+    : state_(std::make_unique<State>(file, sensor)) {}
 VelodyneReader::~VelodyneReader() = default;
 
 std::string_view VelodyneReader::model() const {
-  return state_->model->name;
+  return name_of(*state_->model);
 }
 
 void VelodyneReader::rewind() {
@@ -204,19 +201,19 @@ void VelodyneReader::rewind() {
 
 bool VelodyneReader::next(VelodyneSweep& sweep) {
   State& state = *state_;
-  for (Payload packet; state.whole.empty() && state.packets->next(packet);) {
-    const Model* const model = model_of(packet);
-    if (model != nullptr && model == state.model) state.add(packet);
+  while (state.whole.empty() && state.read_packet()) {
   }
-  if (state.whole.empty()) state.end_sweep();
+  if (state.whole.empty() && !state.done) state.finish();
   if (state.whole.empty()) return false;
   sweep = std::move(state.whole.front());
-  state.whole.erase(state.whole.begin());
+  state.whole.pop_front();
   return true;
 }
 
 std::vector<std::string> VelodyneReader::remarks() const {
-  return state_->packets->remarks();
+  std::vector<std::string> all = state_->packets->remarks();
+  all.insert(all.end(), state_->remarks.begin(), state_->remarks.end());
+  return all;
 }
 
 }  // namespace pcl_bv

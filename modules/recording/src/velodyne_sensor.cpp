@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "velodyne_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace pcl_bv {
+
+// A sensor: of 32 returns of a block the beams in turn, and how far a firing takes.
+struct VelodyneModel {
+  std::string_view name;
+  std::uint8_t factory;  // the last byte of a packet
+  std::size_t beams;
+  double metres;              // of a step of distance
+  double block_ns, laser_ns;  // from a block to the next, from a laser (or pair) to the next
+  std::array<double, kVelodyneLasers> degrees;  // up, of each beam
+  std::array<double, kVelodyneLasers> aside;    // azimuth of each beam, degrees
+};
+
+namespace {
+
+constexpr std::size_t kBlock = 100, kBlocks = 12;
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+constexpr VelodyneModel kModels[] = {
+    {"VLP-16",
+     0x22,
+     16,
+     0.002,
+     110'592,
+     2304,
+     {-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15},
+     {}},
+    {"HDL-32E",
+     0x21,
+     32,
+     0.002,
+     46'080,
+     1152,
+     {-30.67, -9.33,  -29.33, -8,     -28,    -6.67, -26.67, -5.33,  -25.33, -4,     -24,
+      -2.67,  -22.67, -1.33,  -21.33, 0,      -20,   1.33,   -18.67, 2.67,   -17.33, 4,
+      -16,    5.33,   -14.67, 6.67,   -13.33, 8,     -12,    9.33,   -10.67, 10.67},
+     {}},
+    {"VLP-32C",
+     0x28,
+     32,
+     0.004,
+     55'296,
+     1152,
+     {-25,    -1,     -1.667, -15.639, -11.31, 0,      -0.667, -8.843, -7.254, 0.333,  -0.333,
+      -6.148, -5.333, 1.333,  0.667,   -4,     -4.667, 1.667,  1,      -3.667, -3.333, 3.333,
+      2.333,  -2.667, -3,     7,       4.667,  -2.333, -2,     15,     10.333, -1.333},
+     {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
+      1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
+
+// Azimuths are hundredths of a degree.
+constexpr std::size_t kTurn = 36'000;
+struct Turn {
+  double sine, cosine;
+};
+
+const std::vector<Turn>& turns() {
+  static const auto all = [] {
+    std::vector<Turn> made(kTurn);
+    for (std::size_t i = 0; i < kTurn; ++i) {
+      const double angle = static_cast<double>(i) / 100 * kDegree;
+      made[i] = {std::sin(angle), std::cos(angle)};
+    }
+    return made;
+  }();
+  return all;
+}
+
+constexpr double kForgotten = 0.3e9;  // nanoseconds without a packet after which a sensor can be anywhere
+constexpr double kStrange = 6'000;    // hundredths of a degree from where it should be: another sensor
+constexpr unsigned kLate = 8;         // packets behind the end of a turn, 10 ms, until it is complete
+
+std::uint16_t word(const std::byte* at) {
+  std::uint16_t value;
+  std::memcpy(&value, at, 2);
+  return value;
+}
+
+int azimuth_of(const Payload& packet, std::size_t block) {
+  return word(packet.data + kBlock * block + 2);
+}
+
+const std::byte* return_of(const Payload& packet, std::size_t block, std::size_t laser) {
+  return packet.data + kBlock * block + 4 + 3 * laser;
+}
+
+// Blocks of one firing: two of dual returns.
+std::size_t step_of(const Payload& packet) {
+  return std::to_integer<int>(packet.data[kVelodynePacket - 2]) == 0x39 ? 2 : 1;
+}
+
+// The shorter way from one azimuth to the other, -180 to 180 degrees.
+double way_between(double from, double to) {
+  return std::remainder(to - from, static_cast<double>(kTurn));
+}
+
+// From the first firing to the last one.
+double way_within(const Payload& packet) {
+  return way_between(azimuth_of(packet, 0), azimuth_of(packet, kBlocks - step_of(packet)));
+}
+
+}  // namespace
+
+int velodyne_product(const Payload& packet) {
+  if (packet.size < kVelodynePacket || word(packet.data) != 0xEEFF) return -1;
+  return std::to_integer<int>(packet.data[kVelodynePacket - 1]);
+}
+
+const VelodyneModel* velodyne_model(const Payload& packet) {
+  const int product = velodyne_product(packet);
+  const auto* const found =
+      std::find_if(std::begin(kModels), std::end(kModels),
+                   [&](const VelodyneModel& model) { return model.factory == product; });
+  return found == std::end(kModels) ? nullptr : found;
+}
+
+std::string_view name_of(const VelodyneModel& model) {
+  return model.name;
+}
+
+VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
+    : model_(&model), number_(number) {
+  std::array<double, kVelodyneLasers> sorted = model.degrees;
+  std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(model.beams));
+  for (std::size_t i = 0; i < model.beams; ++i) {
+    ring_[i] = static_cast<std::uint32_t>(std::find(sorted.begin(), sorted.end(), model.degrees[i]) -
+                                          sorted.begin());
+    sine_[i] = std::sin(model.degrees[i] * kDegree);
+    cosine_[i] = std::cos(model.degrees[i] * kDegree);
+    aside_[i] = static_cast<std::size_t>(std::lround(100 * model.aside[i]) + static_cast<long>(kTurn));
+  }
+  sweep_.sensor = number;
+}
+
+// From the newest packet's first block to that of this one, by the number of turns that fits its time best.
+double VelodyneSensor::ahead(const Payload& packet) const {
+  const double expected = speed_ * static_cast<double>(packet.time_ns - last_time_ns_);
+  return expected + way_between(place_ + expected, azimuth_of(packet, 0));
+}
+
+bool VelodyneSensor::expects(const Payload& packet) const {
+  const auto passed = static_cast<double>(packet.time_ns - last_time_ns_);
+  if (!started_ || std::abs(passed) > kForgotten) return true;
+  return std::abs(ahead(packet) - speed_ * passed) <= kStrange;
+}
+
+// From packet to packet once there are two, which no jitter of a single one and no other rate of firing
+// changes much.
+void VelodyneSensor::learn_speed(const Payload& packet, double way) {
+  const std::size_t firings = kBlocks / step_of(packet) - 1;
+  if (speed_ == 0) speed_ = way_within(packet) / (static_cast<double>(firings) * model_->block_ns);
+  const auto passed = static_cast<double>(packet.time_ns - last_time_ns_);
+  if (!started_ || !(passed > 0.2e6 && passed < 5e6) || way * speed_ <= 0 || std::abs(way) > 3'000) return;
+  speed_ += (way / passed - speed_) / 8;
+}
+
+void VelodyneSensor::begin_turn(std::int64_t turn, std::deque<VelodyneSweep>& whole) {
+  turn_ = turn;
+  since_turn_ = 0;
+  if (!previous_.points.empty()) whole.push_back(std::move(previous_));
+  previous_ = std::exchange(sweep_, VelodyneSweep());
+  sweep_.sensor = number_;
+}
+
+void VelodyneSensor::finish(std::deque<VelodyneSweep>& whole) {
+  for (VelodyneSweep* const sweep : {&previous_, &sweep_}) {
+    if (!sweep->points.empty()) whole.push_back(std::move(*sweep));
+    *sweep = VelodyneSweep();
+    sweep->sensor = number_;
+  }
+  started_ = false;
+}
+
+void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole) {
+  if (started_ && std::abs(static_cast<double>(packet.time_ns - last_time_ns_)) > kForgotten) finish(whole);
+  const double way = started_ ? ahead(packet) : 0;
+  learn_speed(packet, way);
+  const std::size_t step = step_of(packet);
+  const double forward = speed_ < 0 ? -1 : 1;
+  double place = started_ ? place_ + way : azimuth_of(packet, 0);
+  if (!started_) turn_ = static_cast<std::int64_t>(std::floor(place / kTurn));
+  if (!started_ || forward * way > 0) {
+    place_ = place;
+    last_time_ns_ = packet.time_ns;
+  }
+  started_ = true;
+  // The second firing of a block of a VLP-16 is half way to the next block, by this packet's first two.
+  const double half = way_between(azimuth_of(packet, 0), azimuth_of(packet, step)) / 2;
+  for (std::size_t block = 0; block < kBlocks; block += step) {
+    if (block > 0) place += way_between(azimuth_of(packet, block - step), azimuth_of(packet, block));
+    for (std::size_t laser = 0; laser < kVelodyneLasers; ++laser) {
+      const double at = laser >= model_->beams ? place + half : place;
+      auto turn = static_cast<std::int64_t>(std::floor(at / kTurn));
+      if (at > place && at == static_cast<double>(turn) * kTurn) --turn;
+      if (forward * static_cast<double>(turn - turn_) > 0) begin_turn(turn, whole);
+      const bool late = turn != turn_ && !previous_.points.empty();
+      VelodyneSweep& sweep = late ? previous_ : sweep_;
+      if (sweep.points.empty()) sweep.stamp_ns = packet.time_ns;
+      const double time = static_cast<double>(packet.time_ns - sweep.stamp_ns) +
+                          static_cast<double>(block / step) * model_->block_ns +
+                          static_cast<double>(laser) * model_->laser_ns;
+      add_firing(packet, block, laser, at - std::floor(at / kTurn) * kTurn, time, sweep);
+    }
+  }
+  if (++since_turn_ < kLate || previous_.points.empty()) return;
+  whole.push_back(std::exchange(previous_, VelodyneSweep()));
+}
+
+void VelodyneSensor::add_firing(const Payload& packet, std::size_t block, std::size_t laser, double azimuth,
+                                double time, VelodyneSweep& sweep) const {
+  const std::byte* const one = return_of(packet, block, laser);
+  add_point(one, laser, azimuth, time, sweep);
+  if (step_of(packet) == 1) return;
+  const std::byte* const other = return_of(packet, block + 1, laser);
+  if (std::memcmp(one, other, 3) != 0) add_point(other, laser, azimuth, time, sweep);
+}
+
+void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hundredths, double time,
+                               VelodyneSweep& sweep) const {
+  const double distance = word(at) * model_->metres;
+  if (distance == 0) return;  // no return
+  const std::size_t beam = laser % model_->beams;
+  const Turn& turn = turns()[(static_cast<std::size_t>(hundredths) + aside_[beam]) % kTurn];
+  const double level = distance * cosine_[beam];
+  sweep.points.push_back({static_cast<float>(level * turn.sine), static_cast<float>(level * turn.cosine),
+                          static_cast<float>(distance * sine_[beam]),
+                          static_cast<float>(std::to_integer<int>(at[2])), ring_[beam],
+                          static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9))});
+}
+
+}  // namespace pcl_bv
