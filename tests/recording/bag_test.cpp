@@ -137,6 +137,26 @@ TEST_F(Bag, ADamagedChunkCostsThatChunk) {
   }
 }
 
+// Not closed, and with a record between the chunks that says it is longer than the file.
+TEST_F(Bag, GoesOnBehindDamageBetweenChunks) {
+  const nlohmann::json expected = make("none");
+  std::string bytes = bytes_of("a.bag");
+  const std::size_t second = bytes.find("compression=", bytes.find("compression=") + 1);
+  ASSERT_NE(second, std::string::npos);
+  for (std::size_t at = second - 12; at < second - 4; ++at)
+    bytes[at] = '\x7F';  // the length of what is before, or of the header
+  bytes.replace(bytes.find("index_pos=") + 10, 8, std::string(8, '\0'));
+  put("b.bag", bytes);
+  const auto reader = open_recording(at("b.bag"));
+  const nlohmann::json found = found_in(*reader);
+  EXPECT_GT(found.size(), expected.size() / 2);
+  EXPECT_LT(found.size(), expected.size());
+  for (const auto& message : found)
+    EXPECT_NE(std::find(expected.begin(), expected.end(), message), expected.end());
+  EXPECT_THAT(reader->remarks(),
+              testing::Contains(testing::StartsWith("passed over what is no record, at byte ")));
+}
+
 TEST_F(Bag, DamagedAnywhereIsReadOrRefused) {
   make("lz4");
   const std::string bytes = bytes_of("a.bag");

@@ -172,6 +172,170 @@ TEST_F(Mcap, WithoutChunksIsReadInTheOrderOfTheTimes) {
                 {"/points", 10, 11, "abc"}, {"/points", 20, 21, "abc"}, {"/points", 30, 31, "abc"}}));
 }
 
+// A file record by record; with a chunk where it is asked for.
+class McapBuilder {
+ public:
+  McapBuilder() {
+    writer_.bytes(mcap::kMagic.data(), mcap::kMagic.size());
+    writer_.begin(mcap::Op::header);
+    writer_.text("");
+    writer_.text("made");
+    writer_.end();
+  }
+  static void describe(mcap::Writer& writer, bool schema, bool channel) {
+    if (schema) mcap::put(writer, mcap::Schema{1, "sensor_msgs/PointCloud2", "ros1msg", ""});
+    if (channel) mcap::put(writer, mcap::Channel{5, 1, "/points", "ros1", {}});
+  }
+  static void message(mcap::Writer& writer, std::uint64_t time) {
+    writer.begin(mcap::Op::message);
+    writer.number(std::uint16_t{5});
+    writer.number(std::uint32_t{0});
+    writer.number(time);
+    writer.number(time);
+    writer.bytes("abc", 3);
+    writer.end();
+  }
+  McapBuilder& chunk(const std::vector<std::uint64_t>& times, bool described) {
+    std::vector<std::byte> records;
+    mcap::Writer inside(records);
+    describe(inside, described, described);
+    for (const std::uint64_t time : times)
+      message(inside, time);
+    mcap::ChunkIndex& index = chunks_.emplace_back();
+    index.first_time = times.front();
+    index.last_time = times.back();
+    index.offset = bytes_.size();
+    writer_.begin(mcap::Op::chunk);
+    writer_.number(index.first_time);
+    writer_.number(index.last_time);
+    writer_.number(static_cast<std::uint64_t>(records.size()));
+    writer_.number(std::uint32_t{0});
+    writer_.text("");
+    writer_.number(static_cast<std::uint64_t>(records.size()));
+    writer_.bytes(records.data(), records.size());
+    writer_.end();
+    index.bytes = bytes_.size() - index.offset;
+    return *this;
+  }
+  McapBuilder& loose(std::uint64_t time) {
+    message(writer_, time);
+    return *this;
+  }
+  McapBuilder& described() {
+    describe(writer_, true, true);
+    return *this;
+  }
+  McapBuilder& junk(const std::string& text) {
+    writer_.bytes(text.data(), text.size());
+    return *this;
+  }
+  std::string without_summary() const {
+    return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+  }
+  // The summary says what it is told, true or not.
+  std::string closed(bool schema, bool channel, const mcap::Statistics* statistics) {
+    writer_.begin(mcap::Op::data_end);
+    writer_.number(std::uint32_t{0});
+    writer_.end();
+    const std::uint64_t start = bytes_.size();
+    describe(writer_, schema, channel);
+    for (const mcap::ChunkIndex& index : chunks_)
+      mcap::put(writer_, index);
+    if (statistics != nullptr) mcap::put(writer_, *statistics);
+    writer_.begin(mcap::Op::footer);
+    writer_.number(start);
+    writer_.number(std::uint64_t{0});
+    writer_.number(std::uint32_t{0});
+    writer_.end();
+    writer_.bytes(mcap::kMagic.data(), mcap::kMagic.size());
+    return without_summary();
+  }
+
+ private:
+  std::vector<std::byte> bytes_;
+  mcap::Writer writer_{bytes_};
+  std::vector<mcap::ChunkIndex> chunks_;
+};
+
+std::vector<std::int64_t> times_of(RecordingReader& reader) {
+  std::vector<std::int64_t> times;
+  for (const Sent& sent : all_of(reader))
+    times.push_back(sent.log_time);
+  return times;
+}
+
+TEST_F(Mcap, WhoseSummaryDoesNotDescribeItsChannelsIsReadWithoutIt) {
+  for (const bool schema : {false, true}) {
+    for (const bool channel : {false, true}) {
+      SCOPED_TRACE(testing::Message() << "schema " << schema << ", channel " << channel);
+      const mcap::Statistics said{3, 1, 1, 0, 0, 1, 1, 3, {{5, 3}}};
+      put("a.mcap", McapBuilder().chunk({1, 2, 3}, true).closed(schema, channel, &said));
+      const auto reader = open_recording(at("a.mcap"));
+      ASSERT_EQ(reader->topics().size(), 1U);
+      EXPECT_EQ(reader->topics()[0].type, "sensor_msgs/msg/PointCloud2");
+      EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 3}));
+    }
+  }
+}
+
+TEST_F(Mcap, HasItsMessagesOutsideOfChunksToo) {
+  const mcap::Statistics statistics{6, 1, 1, 0, 0, 2, 1, 6, {{5, 6}}};
+  for (const mcap::Statistics* said : {&statistics, static_cast<const mcap::Statistics*>(nullptr)}) {
+    McapBuilder made;
+    made.loose(1).chunk({2, 4}, true).loose(5).chunk({6}, false).loose(3).loose(7);
+    put("a.mcap", made.closed(true, true, said));
+    const auto reader = open_recording(at("a.mcap"));
+    EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 7}));
+    EXPECT_THAT(reader->remarks(), testing::IsEmpty());
+    EXPECT_EQ(reader->topics()[0].messages, 0U);  // seven, not six: who wants to know must count
+  }
+}
+
+TEST_F(Mcap, HasChunksThatItsSummaryDoesNotName) {
+  const std::string head = McapBuilder().without_summary();
+  const std::string second = McapBuilder().chunk({3}, false).without_summary().substr(head.size());
+  const mcap::Statistics said{2, 1, 1, 0, 0, 1, 1, 2, {{5, 2}}};
+  McapBuilder made;
+  const std::size_t first_end = made.chunk({1, 2}, true).without_summary().size();
+  std::string bytes = made.closed(true, true, &said);
+  bytes.insert(first_end, second);
+  const std::size_t footer = bytes.size() - mcap::kFileEnd + mcap::kRecordStart;
+  std::uint64_t start;  // of the summary, which lies farther behind now
+  std::memcpy(&start, bytes.data() + footer, 8);
+  start += second.size();
+  std::memcpy(bytes.data() + footer, &start, 8);
+  put("a.mcap", bytes);
+  const auto reader = open_recording(at("a.mcap"));
+  EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(reader->topics()[0].messages, 0U);  // nobody knows without counting
+}
+
+// Without an index what is behind the damage is found by the fields of chunks, which agree with one another.
+TEST_F(Mcap, GoesOnBehindDamageBetweenChunks) {
+  for (const char* junk : {"\x01\xFF\xFF\xFF\xFF\xFF\xFF\xFF\x7F", "????????????????????????", "\x07\x30"}) {
+    McapBuilder made;
+    made.chunk({1, 2}, true).junk(junk).junk("..............").chunk({3}, false).chunk({4}, false);
+    put("a.mcap", made.without_summary());
+    const auto reader = open_recording(at("a.mcap"));
+    EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 3, 4})) << junk;
+    EXPECT_THAT(reader->remarks(), testing::Contains(testing::StartsWith("passed over what is no record")));
+  }
+}
+
+TEST_F(Mcap, AChunkWithADamagedRecordHasTheMessagesBeforeIt) {
+  for (const bool indexed : {true, false}) {
+    McapBuilder made;
+    made.chunk({1, 2, 3}, true).chunk({4}, false);
+    std::string bytes = indexed ? made.closed(true, true, nullptr) : made.without_summary();
+    const std::size_t third = bytes.find("abc", bytes.find("abc", bytes.find("abc") + 1) + 1) - 22 - 8;
+    bytes[third + 6] = '\x7F';  // its length
+    put("a.mcap", bytes);
+    const auto reader = open_recording(at("a.mcap"));
+    EXPECT_EQ(times_of(*reader), (std::vector<std::int64_t>{1, 2, 4})) << indexed;
+    EXPECT_FALSE(reader->remarks().empty());
+  }
+}
+
 TEST_F(Mcap, OfNoMessagesIsEmpty) {
   McapWriter(at("a.mcap")).close();
   const auto reader = open_recording(at("a.mcap"));

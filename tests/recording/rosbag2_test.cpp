@@ -144,6 +144,102 @@ TEST_F(Rosbag2, AFolderOfMcapFilesIsOneRecording) {
   EXPECT_EQ(reader->topics()[0].messages, 2U);
 }
 
+// After a crash.
+TEST_F(Rosbag2, AFolderOfMcapFilesNeedsNoMetadata) {
+  shell("mkdir bag");
+  for (const char* name : {"bag/bag_10.mcap", "bag/bag_2.mcap", "bag/bag_0.mcap"}) {
+    McapWriter writer(at(name));
+    writer.add_topic({"/points", "sensor_msgs/msg/PointCloud2", "", {}});
+    writer.write(0, std::atoi(name + 8), 0, nullptr, 0);
+    writer.close();
+  }
+  EXPECT_EQ(all_of(*open_recording(at("bag"))),
+            (std::vector<Sent>{{"/points", 0, 0, ""}, {"/points", 2, 0, ""}, {"/points", 10, 0, ""}}));
+  put("bag/cloud.pcd", "");  // a folder of clouds with a recording beside them
+  EXPECT_FALSE(is_recording(at("bag")));
+}
+
+TEST_F(Rosbag2, ReadsTheFilesThatAreThereWhateverItsMetadataSays) {
+  shell("mkdir bag");
+  const std::vector<Sent> sent = make("bag/bag_1.db3", 20, 1000);
+  put("bag/bag_2.db3", "SQLite format 3, but no more");
+  put("bag/metadata.yaml",
+      "rosbag2_bagfile_information: {relative_file_paths: [bag_0.db3, bag_1.db3, bag_2.db3]}\n");
+  const auto reader = open_recording(at("bag"));
+  EXPECT_EQ(all_of(*reader), sent);
+  EXPECT_THAT(reader->remarks(),
+              testing::ElementsAre("passed over bag_0.db3: no such file or folder",
+                                   testing::StartsWith("passed over bag_2.db3: SQLite: ")));
+  shell("rm bag/bag_2.db3");
+  for (const char* cut :
+       {"rosbag2_bagfile_information: {relative_file_paths: [", "rosbag2_bagfile_information:\n"}) {
+    put("bag/metadata.yaml", cut);
+    const auto again = open_recording(at("bag"));
+    EXPECT_EQ(all_of(*again), sent);
+    EXPECT_THAT(again->remarks(),
+                testing::ElementsAre(testing::EndsWith(": all files of the folder are read")));
+  }
+  put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [bag_1.db3]}\n");
+  make("bag/bag_7.db3", 3, 5000);
+  const auto named = open_recording(at("bag"));
+  EXPECT_EQ(all_of(*named), sent);
+  EXPECT_THAT(named->remarks(),
+              testing::ElementsAre("metadata.yaml does not name bag_7.db3: it is not read"));
+}
+
+// A page of 4 KiB after the other is overwritten, as by a bad sector: the first one with the header and the
+// list of tables, the root of the messages, the index of times, what holds rows. Only rows on that page can
+// be lost.
+TEST_F(Rosbag2, ADamagedPageCostsTheMessagesOnIt) {
+  const std::vector<Sent> sent = make("a.db3", 400, 1'700'000'000'000'000'000);
+  const std::string bytes = bytes_of("a.db3");
+  const std::size_t pages = bytes.size() / 4096;
+  std::size_t opened = 0, whole = 0;
+  for (std::size_t page = 0; page < pages; ++page) {
+    SCOPED_TRACE(page);
+    std::string damaged = bytes;
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(4096 * page), 4096, '\xAA');
+    put("b.db3", damaged);
+    try {
+      const auto reader = open_recording(at("b.db3"));
+      const std::vector<Sent> found = all_of(*reader);
+      ++opened;
+      whole += found == sent ? 1 : 0;
+      EXPECT_GT(found.size(), 250U);
+      EXPECT_TRUE(std::includes(sent.begin(), sent.end(), found.begin(), found.end(),
+                                [](const Sent& a, const Sent& b) { return a.log_time < b.log_time; }));
+      if (found == sent) continue;
+      ASSERT_EQ(reader->remarks().size(), 1U);
+      EXPECT_THAT(reader->remarks()[0], testing::HasSubstr("messages on damaged pages are passed over"));
+    } catch (const IoError&) {  // only without the list of topics
+    }
+  }
+  EXPECT_EQ(opened, pages - 1);
+  EXPECT_GE(whole, 4U);  // the first page, the root, the schema, the index of times
+}
+
+// Larger than a page, as clouds are.
+TEST_F(Rosbag2, MessagesOfManyPagesAreReadFromADamagedFile) {
+  std::vector<Sent> sent;
+  {
+    Rosbag2Writer writer(at("out"));
+    writer.add_topic({"/points", "sensor_msgs/msg/PointCloud2", "", {}});
+    std::mt19937 random(5);
+    for (std::int64_t i = 0; i < 20; ++i) {
+      std::string data(3000 + random() % 30'000, '\0');
+      for (char& c : data)
+        c = static_cast<char>(random());
+      writer.write(0, i, i, reinterpret_cast<const std::byte*>(data.data()), data.size());
+      sent.push_back({"/points", i, i, data});
+    }
+    writer.close();
+  }
+  std::string bytes = bytes_of("out/out_0.db3");
+  std::fill_n(bytes.begin(), 4096, '\0');
+  put("b.db3", bytes);
+  EXPECT_EQ(all_of(*open_recording(at("b.db3"))), sent);
+}
+
 TEST_F(Rosbag2, WhatIsWrittenIsReadBackByOursAndBySqlite) {
   std::vector<Sent> sent;
   {

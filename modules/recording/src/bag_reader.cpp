@@ -6,93 +6,16 @@
 #include <bzlib.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
-#include <map>
 #include <optional>
 
+#include "bag_records.h"
 #include "chunked_reader.h"
 #include "formats.h"
 #include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 namespace {
-
-enum class BagOp : std::uint8_t { message = 2, bag_header, index, chunk, chunk_info, connection };
-
-constexpr std::size_t kMagicBytes = 13;
-
-// BagBytes in turn. Throws IoError where they end.
-class BagBytes {
- public:
-  BagBytes(const std::byte* data, std::size_t size) : data_(data), size_(size) {}
-  std::size_t left() const { return size_; }
-  const std::byte* take(std::size_t size) {
-    if (size > size_) throw IoError("a record ends within a field");
-    const std::byte* const here = data_;
-    data_ += size;
-    size_ -= size;
-    return here;
-  }
-  std::uint32_t length() {
-    std::uint32_t value;
-    std::memcpy(&value, take(4), 4);
-    return value;
-  }
-
- private:
-  const std::byte* data_;
-  std::size_t size_;
-};
-
-// name=value, each after its length.
-class BagHeader {
- public:
-  BagHeader(const std::byte* data, std::size_t size) {
-    for (BagBytes bytes(data, size); bytes.left() > 0;) {
-      const std::uint32_t length = bytes.length();
-      const std::string_view field(reinterpret_cast<const char*>(bytes.take(length)), length);
-      const std::size_t equals = std::min(field.find('='), field.size());
-      fields_[field.substr(0, equals)] = field.substr(std::min(equals + 1, field.size()));
-    }
-  }
-
-  template <class T>
-  T number(std::string_view name) const {
-    const std::string_view text = this->text(name);
-    T value{};
-    if (text.size() != sizeof value) throw IoError("a record without its " + std::string(name));
-    std::memcpy(&value, text.data(), sizeof value);
-    return value;
-  }
-  std::string_view text(std::string_view name) const {
-    const auto found = fields_.find(name);
-    return found == fields_.end() ? std::string_view() : found->second;
-  }
-  BagOp op() const { return static_cast<BagOp>(number<std::uint8_t>("op")); }
-
-  // Seconds and nanoseconds, 32 bits each.
-  std::int64_t time(std::string_view name) const {
-    const auto both = number<std::uint64_t>(name);
-    return static_cast<std::int64_t>((both & 0xFFFFFFFFU) * 1'000'000'000U + (both >> 32U));
-  }
-
- private:
-  std::map<std::string_view, std::string_view> fields_;
-};
-
-struct BagRecord {
-  BagHeader header;
-  const std::byte* data;
-  std::size_t size;
-};
-
-BagRecord take_bag_record(BagBytes& bytes) {
-  const std::uint32_t header_size = bytes.length();
-  const std::byte* const header = bytes.take(header_size);
-  const std::uint32_t size = bytes.length();
-  return {BagHeader(header, header_size), bytes.take(size), size};
-}
 
 void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, std::vector<std::byte>& to) {
   // Its best is 1 : 20 000, but of more than 8 MiB nobody has so much of the same.
@@ -202,36 +125,73 @@ class BagReader final : public ChunkedReader {
   void scan() {
     std::vector<std::byte> raw, unpacked;
     Decompressor decompressor;
+    std::uint64_t previous = 0;  // its length may be what is damaged
     for (std::uint64_t at = kMagicBytes; at < file_.size();) {
       const std::optional<BagPlace> place = place_at(at);
-      if (!place) {
-        remark("the file ends within a record, at byte " + std::to_string(at));
-        return;
+      const std::optional<BagOp> op = place ? op_of(*place) : std::nullopt;
+      if (!op) {
+        const std::uint64_t found = find_chunk(std::max(previous, std::uint64_t{kMagicBytes}) + 1);
+        const char* const what =
+            found == file_.size() ? "the file ends within a record" : "passed over what is no record";
+        remark(std::string(what) + ", at byte " + std::to_string(at));
+        previous = at = found;
+        continue;
       }
       try {
         const BagHeader header(place->header.data(), place->header.size());
-        if (header.op() == BagOp::connection) {
+        if (*op == BagOp::connection) {
           const std::vector<std::byte> data = bytes_of(*place);
           note_connection(header, data.data(), data.size());
-        } else if (header.op() == BagOp::chunk) {
+        } else if (*op == BagOp::chunk) {
           scan_chunk(at, unpack(*place, decompressor, raw, unpacked));
         }
       } catch (const IoError& error) {
         remark("passed over what is at byte " + std::to_string(at) + ": " + error.what());
       }
+      previous = at;
       at = place->data + place->size;
     }
   }
 
+  static std::optional<BagOp> op_of(const BagPlace& place) {
+    try {
+      return BagHeader(place.header.data(), place.header.size()).op();
+    } catch (const IoError&) {
+      return std::nullopt;
+    }
+  }
+
+  // Where the next chunk begins whose header says so; the file's end if there is none.
+  std::uint64_t find_chunk(std::uint64_t from) const {
+    constexpr std::string_view mark("\x04\0\0\0op=\x05", 8);
+    constexpr std::uint64_t window = 1U << 20U, longest = 256;  // of a header
+    std::string bytes;
+    for (std::uint64_t at = from; at < file_.size(); at += window) {
+      bytes.resize(std::min<std::uint64_t>(window + mark.size(), file_.size() - at));
+      file_.read(at, bytes.data(), bytes.size());
+      for (std::size_t hit = bytes.find(mark); hit != std::string::npos; hit = bytes.find(mark, hit + 1)) {
+        const std::uint64_t least = std::max(from, at + hit - std::min(at + hit, longest));
+        for (std::uint64_t begin = at + hit; begin-- > least;) {
+          const std::optional<BagPlace> place = place_at(begin);
+          if (place && place->header.size() <= longest && place->data > at + hit + mark.size() &&
+              op_of(*place) == BagOp::chunk)
+            return begin;
+        }
+      }
+    }
+    return file_.size();
+  }
+
   void scan_chunk(std::uint64_t at, BagBytes records) {
-    Part part{at, std::numeric_limits<std::int64_t>::max()};
+    const std::size_t place = found_parts_.size();
+    found_parts_.push_back({at, std::numeric_limits<std::int64_t>::max()});
     while (records.left() > 0) {
       const BagRecord record = take_bag_record(records);
       if (record.header.op() == BagOp::connection) note_connection(record.header, record.data, record.size);
-      if (record.header.op() == BagOp::message)
-        part.first_time_ns = std::min(part.first_time_ns, record.header.time("time"));
+      if (record.header.op() != BagOp::message) continue;
+      std::int64_t& first = found_parts_[place].first_time_ns;
+      first = std::min(first, record.header.time("time"));
     }
-    found_parts_.push_back(part);
   }
 
   BagBytes unpack(const BagPlace& place, Decompressor& decompressor, std::vector<std::byte>& raw,

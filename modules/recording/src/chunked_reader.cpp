@@ -86,8 +86,9 @@ void ChunkedReader::load_next() {
   try {
     load(number, loaded->buffers, loaded->messages);
   } catch (const IoError& error) {
-    remark("passed over the chunk at byte " + std::to_string(part.offset) + ": " + error.what());
-    loaded->messages.clear();
+    const bool some = !loaded->messages.empty();  // those before the damage are whole
+    remark(std::string("passed over the ") + (some ? "rest of the " : "") + "chunk at byte " +
+           std::to_string(part.offset) + ": " + error.what());
   }
   std::stable_sort(
       loaded->messages.begin(), loaded->messages.end(),

@@ -36,7 +36,7 @@ class ChunkedReader : public RecordingReader {
   void start(std::vector<RecordedTopic> topics, std::vector<Part> parts);
 
   /// Appends the messages of a part whose topics are wanted(), in their order in the file. Throws IoError for
-  /// a part that is damaged: it is passed over.
+  /// a part that is damaged: what comes behind those that it has appended is passed over.
   virtual void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) = 0;
 
   bool wanted(std::size_t topic) const { return wanted_[topic]; }

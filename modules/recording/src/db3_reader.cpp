@@ -5,12 +5,14 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <memory>
 #include <stdexcept>
 
 #include "chunked_reader.h"
+#include "db3_pages.h"
 #include "formats.h"
 #include "pcl_bv/io/io_error.h"
 #include "sqlite_problem.h"
@@ -67,6 +69,11 @@ class Query {
   Query(const Query&) = delete;
   Query& operator=(const Query&) = delete;
 
+  // From the beginning, with this number in the place of the question mark.
+  void begin(std::int64_t number) {
+    sqlite3_reset(statement_);
+    sqlite3_bind_int64(statement_, 1, number);
+  }
   bool next() {
     const int status = sqlite3_step(statement_);
     if (status != SQLITE_ROW && status != SQLITE_DONE) database_.fail();
@@ -77,9 +84,12 @@ class Query {
     const unsigned char* const text = sqlite3_column_text(statement_, column);
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
   }
+  // Throws IoError where the pages that it goes on in are damaged.
   const std::byte* blob(int column, std::size_t& size) const {
     const void* const data = sqlite3_column_blob(statement_, column);
     size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+    const int status = sqlite3_errcode(database_.get());
+    if (status != SQLITE_OK && status != SQLITE_ROW) database_.fail();
     return static_cast<const std::byte*>(data);
   }
 
@@ -88,18 +98,27 @@ class Query {
   sqlite3_stmt* statement_ = nullptr;
 };
 
+// A message, by its row in the table or, where that is damaged, by its place among those that pages hold. The
+// order of the times is ours, so that an index of them, which has pages of its own, need not be whole.
+struct Row {
+  std::int64_t time = 0, id = 0;
+  std::size_t topic = 0;
+};
+
 class Db3Reader final : public RecordingReader {
  public:
-  explicit Db3Reader(const std::filesystem::path& file) : database_(file) {
-    std::map<std::int64_t, std::uint64_t> counts;
-    for (Query rows(database_, "SELECT topic_id, count(*) FROM messages GROUP BY topic_id"); rows.next();)
-      counts[rows.number(0)] = static_cast<std::uint64_t>(rows.number(1));
-    for (Query rows(database_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
-         rows.next();) {
-      const std::int64_t id = rows.number(0);
-      topic_of_[id] = add_topic(topics_, {rows.text(1), ros2_type(rows.text(2)), rows.text(3), counts[id]});
+  explicit Db3Reader(const std::filesystem::path& file) {
+    try {
+      read_tables(file);
+    } catch (const IoError& error) {
+      read_pages(file, error.what());
     }
-    start(std::vector<bool>(topics_.size(), true));
+    if (of_no_topic_ > 0)
+      remark(std::to_string(of_no_topic_) + " messages of topics that are not described are passed over");
+    for (const Row& row : rows_)
+      ++topics_[row.topic].messages;
+    std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
+    wanted_.assign(topics_.size(), true);
   }
 
   const std::vector<RecordedTopic>& topics() const override { return topics_; }
@@ -108,36 +127,78 @@ class Db3Reader final : public RecordingReader {
     std::vector<bool> wanted(topics_.size(), false);
     for (const std::size_t topic : topics)
       wanted.at(topic) = true;
-    start(wanted);
+    wanted_ = std::move(wanted);
+    next_ = 0;
   }
 
   bool next(RecordedMessage& message) override {
-    while (rows_) {
+    while (next_ < rows_.size()) {
+      const Row& row = rows_[next_++];
+      if (!wanted_[row.topic]) continue;
+      message.topic = row.topic;
+      message.log_time_ns = message.publish_time_ns = row.time;
       try {
-        if (!rows_->next()) break;
-        message.topic = topic_of_.at(rows_->number(0));
-        message.log_time_ns = message.publish_time_ns = rows_->number(1);
-        message.data = rows_->blob(2, message.size);
+        if (!load(row, message)) continue;
         unpack(message);
         return true;
       } catch (const IoError& error) {
-        remark(error.what() + std::string(", after the message of ") + std::to_string(message.log_time_ns));
-        if (sqlite3_errcode(database_.get()) != SQLITE_ROW) break;  // the file; else only the message
+        remark(error.what() + std::string(", in the message of ") + std::to_string(row.time));
       }
     }
-    rows_.reset();
     return false;
   }
 
  private:
-  void start(const std::vector<bool>& wanted) {
-    std::string ids;
-    for (const auto& [id, topic] : topic_of_) {
-      if (wanted[topic]) ids += (ids.empty() ? "" : ",") + std::to_string(id);
+  void read_tables(const std::filesystem::path& file) {
+    database_ = std::make_unique<Database>(file);
+    for (Query rows(*database_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+         rows.next();)
+      add(rows.number(0), {rows.text(1), ros2_type(rows.text(2)), rows.text(3)});
+    for (Query rows(*database_, "SELECT id, topic_id, timestamp FROM messages NOT INDEXED ORDER BY id");
+         rows.next();)
+      add(rows.number(1), Row{rows.number(2), rows.number(0)});
+    data_ = std::make_unique<Query>(*database_, "SELECT data FROM messages NOT INDEXED WHERE id = ?");
+  }
+
+  void read_pages(const std::filesystem::path& file, const std::string& problem) {
+    topics_.clear();
+    topic_of_.clear();
+    rows_.clear();
+    of_no_topic_ = 0;
+    pages_ = std::make_unique<Db3Pages>(file);
+    for (const auto& [id, topic] : pages_->topics())
+      add(id, topic);
+    std::int64_t place = 0;
+    for (const Db3Pages::Message& message : pages_->messages())
+      add(message.topic, Row{message.time, place++});
+    if (topics_.empty()) throw IoError(problem);
+    remark(problem + ": messages on damaged pages are passed over, " + std::to_string(rows_.size()) +
+           " are there");
+  }
+
+  void add(std::int64_t id, const RecordedTopic& topic) { topic_of_[id] = add_topic(topics_, topic); }
+  void add(std::int64_t topic, Row row) {
+    const auto found = topic_of_.find(topic);
+    if (found == topic_of_.end()) {
+      ++of_no_topic_;
+      return;
     }
-    rows_ = std::make_unique<Query>(
-        database_, "SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN (" + ids +
-                       ") ORDER BY timestamp, id");
+    row.topic = found->second;
+    rows_.push_back(row);
+  }
+
+  // False for one that was deleted meanwhile.
+  bool load(const Row& row, RecordedMessage& message) {
+    if (pages_) {
+      pages_->load(pages_->messages()[static_cast<std::size_t>(row.id)], raw_);
+      message.data = raw_.data();
+      message.size = raw_.size();
+      return true;
+    }
+    data_->begin(row.id);
+    if (!data_->next()) return false;
+    message.data = data_->blob(0, message.size);
+    return true;
   }
 
   // rosbag2 can compress each message; CDR never begins as a frame of zstd does.
@@ -149,12 +210,17 @@ class Db3Reader final : public RecordingReader {
     message.size = unpacked_.size();
   }
 
-  Database database_;
+  std::unique_ptr<Database> database_;
+  std::unique_ptr<Query> data_;      // after the database, which must outlive it
+  std::unique_ptr<Db3Pages> pages_;  // instead of both
   std::vector<RecordedTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_of_;
-  std::unique_ptr<Query> rows_;  // after the database, which must outlive it
+  std::uint64_t of_no_topic_ = 0;
+  std::vector<Row> rows_;  // by time, equal ones by id
+  std::vector<bool> wanted_;
+  std::size_t next_ = 0;
   Decompressor decompressor_;
-  std::vector<std::byte> unpacked_;
+  std::vector<std::byte> raw_, unpacked_;
 };
 
 }  // namespace

@@ -13,7 +13,11 @@ const std::vector<RecordingFormat>& recording_formats() {
   static const std::vector<RecordingFormat> formats{
       {"MCAP", [](const Path&, Start start) { return start.starts_with(mcap::kMagic); }, open_mcap},
       {"ROS 1 bag", [](const Path&, Start start) { return start.starts_with("#ROSBAG V2.0\n"); }, open_bag},
-      {"rosbag2's .db3", [](const Path&, Start start) { return start.starts_with("SQLite format 3"); },
+      // Also one whose first page is damaged.
+      {"rosbag2's .db3",
+       [](const Path& file, Start start) {
+         return start.starts_with("SQLite format 3") || (file.extension() == ".db3" && !start.empty());
+       },
        open_db3},
       {"its .zstd",
        [](const Path& file, Start start) {

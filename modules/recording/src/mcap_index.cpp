@@ -6,42 +6,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "mcap_scan.h"
+
 namespace pcl_bv {
 namespace mcap {
 namespace {
-
-// Messages outside of chunks are taken together up to this.
-constexpr std::uint64_t kLooseBytes = 1U << 20U;
-
-std::vector<std::byte> bytes_at(const InputFile& file, std::uint64_t offset, std::uint64_t size) {
-  std::vector<std::byte> bytes(size);
-  file.read(offset, bytes.data(), bytes.size());
-  return bytes;
-}
-
-// Schemas and channels, wherever they are.
-void note(const Record& record, Index& index) {
-  if (record.op == Op::schema) {
-    Schema schema;
-    take(record.fields(), schema);
-    index.schemas[schema.id] = std::move(schema);
-  } else if (record.op == Op::channel) {
-    Channel channel;
-    take(record.fields(), channel);
-    index.channels[channel.id] = std::move(channel);
-  }
-}
-
-void note_chunk(const Record& record, std::uint64_t end, Index& index) {
-  ChunkIndex chunk;
-  take(record.fields(), chunk);
-  if (chunk.offset > end || chunk.bytes > end - chunk.offset)
-    throw IoError("a chunk lies outside of the file");
-  Part& part = index.parts.emplace_back();
-  part = {chunk.offset, chunk.bytes, chunk.first_time, chunk.last_time};
-  for (const auto& [channel, offset] : chunk.indexes)
-    part.channels.insert(channel);
-}
 
 // The records of the summary. Throws IoError if it is not whole.
 std::vector<std::byte> read_summary(const InputFile& file) {
@@ -65,109 +34,49 @@ std::vector<std::byte> read_summary(const InputFile& file) {
   return summary;
 }
 
-// Nothing if it does not say where all messages are.
-std::optional<Index> by_summary(const InputFile& file) {
-  const std::vector<std::byte> summary = read_summary(file);
-  Index index;
-  std::optional<Statistics> statistics;
-  for (Fields records(summary.data(), summary.size()); records.left() > 0;) {
-    const Record record = take_record(records);
-    note(record, index);
-    if (record.op == Op::chunk_index) note_chunk(record, file.size(), index);
-    if (record.op == Op::statistics) take(record.fields(), statistics.emplace());
-  }
-  const bool all = statistics && (statistics->messages == 0 || statistics->chunks == index.parts.size());
-  if (!all || (index.parts.empty() && statistics->messages > 0) || index.channels.empty())
-    return std::nullopt;
-  index.messages = statistics->channel_messages;
-  std::sort(index.parts.begin(), index.parts.end(),
-            [](const Part& a, const Part& b) { return a.offset < b.offset; });
-  return index;
+void note_chunk(const Record& record, std::uint64_t end, Summary& summary) {
+  ChunkIndex chunk;
+  take(record.fields(), chunk);
+  if (chunk.offset > end || chunk.bytes > end - chunk.offset)
+    throw IoError("a chunk lies outside of the file");
+  Part& part = summary.chunks[chunk.offset];
+  part = {chunk.offset, chunk.bytes, chunk.first_time, chunk.last_time};
+  for (const auto& [channel, offset] : chunk.indexes)
+    part.channels.insert(channel);
+  summary.index_bytes[chunk.offset] = chunk.index_bytes;
 }
 
-// Walks over the records of a file.
-class Scan {
- public:
-  explicit Scan(const InputFile& file) : file_(file) {}
+// Whether each channel that the summary names, or whose messages it counts or indexes, is described there.
+bool describes_channels(const Summary& summary, const Index& index) {
+  const auto known = [&](std::uint16_t id) {
+    const auto channel = index.channels.find(id);
+    return channel != index.channels.end() &&
+           (channel->second.schema == 0 || index.schemas.count(channel->second.schema) > 0);
+  };
+  const auto first_known = [&](const auto& pair) { return known(pair.first); };
+  return std::all_of(index.channels.begin(), index.channels.end(), first_known) &&
+         (!summary.statistics || std::all_of(summary.statistics->channel_messages.begin(),
+                                             summary.statistics->channel_messages.end(), first_known)) &&
+         std::all_of(summary.chunks.begin(), summary.chunks.end(), [&](const auto& chunk) {
+           const std::set<std::uint16_t>& channels = chunk.second.channels;
+           return std::all_of(channels.begin(), channels.end(), known);
+         });
+}
 
-  Index all() {
-    std::uint64_t at = kMagic.size();
-    while (at + kRecordStart <= file_.size()) {
-      const std::vector<std::byte> start = bytes_at(file_, at, kRecordStart);
-      Fields fields(start.data(), start.size());
-      const auto op = static_cast<Op>(fields.number<std::uint8_t>());
-      const auto size = fields.number<std::uint64_t>();
-      if (size > file_.size() - at - kRecordStart) {
-        index_.remarks.push_back("the file ends within a record, at byte " + std::to_string(at));
-        break;
-      }
-      look(op, at, size);
-      if (op == Op::data_end) break;
-      at += kRecordStart + size;
-    }
-    return std::move(index_);
+// Nothing if there is no summary, or none that describes all channels.
+std::optional<Summary> by_summary(const InputFile& file, Index& index) {
+  const std::vector<std::byte> bytes = read_summary(file);
+  Summary summary;
+  for (Fields records(bytes.data(), bytes.size()); records.left() > 0;) {
+    const Record record = take_record(records);
+    note(record, index);
+    if (record.op == Op::chunk_index) note_chunk(record, file.size(), summary);
+    if (record.op == Op::statistics) take(record.fields(), summary.statistics.emplace());
   }
-
- private:
-  void look(Op op, std::uint64_t at, std::uint64_t size) {
-    if (op == Op::message) return add_loose(at, size);
-    loose_ = false;
-    if (op == Op::chunk) return add_chunk(at, size);
-    if (op != Op::schema && op != Op::channel) return;
-    const std::vector<std::byte> record = bytes_at(file_, at + kRecordStart, size);
-    attempt(at, [&] { note({op, record.data(), record.size()}, index_); });
-  }
-
-  void add_loose(std::uint64_t at, std::uint64_t size) {
-    if (size < kMessageStart) {
-      index_.remarks.push_back("a message without a time, at byte " + std::to_string(at));
-      return;
-    }
-    const std::vector<std::byte> start = bytes_at(file_, at + kRecordStart + 6, 8);
-    const auto time = Fields(start.data(), start.size()).number<std::uint64_t>();
-    if (!loose_ || index_.parts.back().bytes > kLooseBytes)
-      index_.parts.push_back({at, 0, time, time, false});
-    loose_ = true;
-    Part& part = index_.parts.back();
-    part.bytes = at + kRecordStart + size - part.offset;
-    part.first_time = std::min(part.first_time, time);
-    part.last_time = std::max(part.last_time, time);
-  }
-
-  // Channels may be nowhere else than inside.
-  void add_chunk(std::uint64_t at, std::uint64_t size) {
-    Part part{at, kRecordStart + size, 0, 0};
-    attempt(at, [&] {
-      const std::vector<std::byte> times =
-          bytes_at(file_, at + kRecordStart, std::min<std::uint64_t>(size, 16));
-      Fields fields(times.data(), times.size());
-      part.first_time = fields.number<std::uint64_t>();
-      part.last_time = fields.number<std::uint64_t>();
-      Fields records = load_part(file_, part, decompressor_, raw_, unpacked_);
-      while (records.left() > 0) {
-        const Record record = take_record(records);
-        note(record, index_);
-        if (record.op == Op::message) part.channels.insert(record.fields().number<std::uint16_t>());
-      }
-      index_.parts.push_back(part);
-    });
-  }
-
-  template <class Do>
-  void attempt(std::uint64_t at, const Do& what) {
-    try {
-      what();
-    } catch (const IoError& error) {
-      index_.remarks.push_back("passed over what is at byte " + std::to_string(at) + ": " + error.what());
-    }
-  }
-
-  const InputFile& file_;
-  Index index_;
-  Decompressor decompressor_;
-  std::vector<std::byte> raw_, unpacked_;
-  bool loose_ = false;  // whether the last part is of messages that this one follows
-};
+  if (index.channels.empty() || summary.chunks.empty() || !describes_channels(summary, index))
+    return std::nullopt;
+  return summary;
+}
 
 }  // namespace
 
@@ -203,15 +112,26 @@ Index index_of(const InputFile& file) {
   char start[8] = {};
   if (file.size() >= sizeof start) file.read(0, start, sizeof start);
   if (std::string_view(start, sizeof start) != kMagic) throw IoError("does not begin as MCAP does");
-  std::string problem = "it says not where all messages are";
+  std::string problem = "its summary does not describe all channels and chunks";
+  Index index;
+  std::optional<Summary> summary;
   try {
-    if (std::optional<Index> index = by_summary(file)) return std::move(*index);
+    summary = by_summary(file, index);
   } catch (const IoError& error) {
     problem = error.what();
   }
-  Index index = Scan(file).all();
-  index.remarks.insert(index.remarks.begin(),
-                       "without an index (" + problem + "): all of it was looked through");
+  if (!summary) {
+    index = Index();
+    mcap::scan(file, Summary(), index);
+    index.remarks.insert(index.remarks.begin(),
+                         "without an index (" + problem + "): all of it was looked through");
+    return index;
+  }
+  const Unknown unknown = mcap::scan(file, *summary, index);
+  const std::optional<Statistics>& counted = summary->statistics;
+  if (counted && counted->chunks == summary->chunks.size() && unknown.chunks == 0 &&
+      unknown.loose_messages == 0)
+    index.messages = counted->channel_messages;
   return index;
 }
 

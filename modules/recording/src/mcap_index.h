@@ -32,8 +32,9 @@ struct Index {
   std::vector<std::string> remarks;
 };
 
-/// What is in a file: by its summary, or, where that is missing, damaged or says nothing of chunks, by
-/// walking over its records. Throws IoError if it does not begin as MCAP does.
+/// What is in a file, by a walk over its records, which passes over the chunks that the summary describes.
+/// Where the summary is missing, damaged, or lacks chunks or a channel's schema, chunks are read, too. Throws
+/// IoError if the file does not begin as MCAP does.
 Index index_of(const InputFile& file);
 
 /// The records of a part, which look into `raw` or `unpacked`. Throws IoError for a part that is damaged.

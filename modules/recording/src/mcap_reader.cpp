@@ -51,11 +51,15 @@ class McapReader final : public ChunkedReader {
       const mcap::Record record = mcap::take_record(records);
       if (record.op != mcap::Op::message) continue;
       mcap::Fields fields = record.fields();
-      const auto topic = topic_of_.find(fields.number<std::uint16_t>());
+      const auto channel = fields.number<std::uint16_t>();
+      const auto topic = topic_of_.find(channel);
       fields.number<std::uint32_t>();  // its number in the channel
       RecordedMessage message;
       message.log_time_ns = signed_time(fields.number<std::uint64_t>());
       message.publish_time_ns = signed_time(fields.number<std::uint64_t>());
+      if (topic == topic_of_.end() && unknown_.insert(channel).second)
+        remark("messages of channel " + std::to_string(channel) +
+               ", which is not described, are passed over");
       if (topic == topic_of_.end() || !wanted(topic->second)) continue;
       message.topic = topic->second;
       message.data = fields.here();
@@ -67,6 +71,7 @@ class McapReader final : public ChunkedReader {
   InputFile file_;
   mcap::Index index_;
   std::map<std::uint16_t, std::size_t> topic_of_;  // by channel
+  std::set<std::uint16_t> unknown_;                // channels of messages
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "chunked_reader.h"
 #include "formats.h"
+#include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/text_from_outside.h"
 #include "pcl_bv/io/yaml_problem.h"
@@ -24,13 +25,25 @@ namespace fs = std::filesystem;
 // As one, each from its beginning to its end: a recorder begins a file where it ends the last one.
 class JoinedReader final : public RecordingReader {
  public:
-  explicit JoinedReader(std::vector<fs::path> files) : files_(std::move(files)) {
-    for (const fs::path& file : files_) {
-      Member& member = members_.emplace_back();
-      member.reader = open_named(file);
-      for (const RecordedTopic& topic : member.reader->topics())
-        member.topics.push_back(add_topic(topics_, topic));
+  /// Remarks are what was noticed of the folder.
+  JoinedReader(std::vector<fs::path> files, const std::vector<std::string>& remarks) {
+    for (const std::string& line : remarks)
+      remark(line);
+    std::string problem;
+    for (fs::path& file : files) {
+      try {
+        Member member;
+        member.reader = open_recording(file);
+        for (const RecordedTopic& topic : member.reader->topics())
+          member.topics.push_back(add_topic(topics_, topic));
+        members_.push_back(std::move(member));
+        files_.push_back(std::move(file));
+      } catch (const IoError& error) {
+        problem = file.filename().string() + ": " + error.what();
+        remark("passed over " + problem);
+      }
     }
+    if (members_.empty()) throw IoError(problem);
   }
 
   const std::vector<RecordedTopic>& topics() const override { return topics_; }
@@ -66,14 +79,6 @@ class JoinedReader final : public RecordingReader {
     std::size_t remarks = 0;
   };
 
-  static std::unique_ptr<RecordingReader> open_named(const fs::path& file) {
-    try {
-      return open_recording(file);
-    } catch (const IoError& error) {
-      throw IoError(file.filename().string() + ": " + error.what());
-    }
-  }
-
   void pass_on_remarks() {
     Member& member = members_[at_];
     for (const std::vector<std::string>& all = member.reader->remarks(); member.remarks < all.size();)
@@ -86,6 +91,7 @@ class JoinedReader final : public RecordingReader {
   std::size_t at_ = 0;
 };
 
+// The files that metadata.yaml names.
 std::vector<fs::path> files_of(const fs::path& folder) {
   const fs::path metadata = folder / "metadata.yaml";
   std::vector<fs::path> files;
@@ -111,17 +117,33 @@ bool has_metadata(const fs::path& folder) {
   return start.find("rosbag2_bagfile_information") != std::string::npos;
 }
 
-// The files of rosbag2 in a folder without metadata.yaml, as after a crash: NAME_0.db3, NAME_1.db3, ...
-std::vector<fs::path> parts_in(const fs::path& folder) {
+bool is_member(const fs::path& file) {
+  const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
+  return name.extension() == ".db3" || name.extension() == ".mcap";
+}
+
+// The files of rosbag2 in a folder: NAME_0.db3, NAME_1.db3, ... or .mcap, in natural order.
+std::vector<fs::path> members_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code unknown;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, unknown)) {
-    if (entry.path().extension() == ".db3") files.push_back(entry.path());
+    if (is_member(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    const std::string x = a.string(), y = b.string();
-    return x.size() != y.size() ? x.size() < y.size() : x < y;
+    return natural_less(a.filename().native(), b.filename().native());
   });
+  return files;
+}
+
+// Those of a folder without metadata.yaml, as after a crash. A folder of clouds may hold a recording, too.
+std::vector<fs::path> parts_in(const fs::path& folder) {
+  std::vector<fs::path> files = members_in(folder);
+  if (files.empty()) return files;
+  try {
+    if (!list_clouds(folder).empty()) files.clear();
+  } catch (const IoError&) {
+    files.clear();
+  }
   return files;
 }
 
@@ -161,8 +183,26 @@ bool is_rosbag2_folder(const fs::path& folder) {
   return fs::is_directory(folder, unknown) && (has_metadata(folder) || !parts_in(folder).empty());
 }
 
+// A recorder writes metadata.yaml last: what it says may be older than the files, or never have been
+// finished.
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
-  return std::make_unique<JoinedReader>(has_metadata(folder) ? files_of(folder) : parts_in(folder));
+  if (!has_metadata(folder))
+    return std::make_unique<JoinedReader>(parts_in(folder), std::vector<std::string>());
+  std::vector<std::string> remarks;
+  std::vector<fs::path> files;
+  const std::vector<fs::path> there = members_in(folder);
+  try {
+    files = files_of(folder);
+  } catch (const IoError& error) {
+    if (there.empty()) throw;
+    remarks.push_back(std::string(error.what()) + ": all files of the folder are read");
+    files = there;
+  }
+  for (const fs::path& file : there) {
+    if (std::find(files.begin(), files.end(), file) == files.end())
+      remarks.push_back("metadata.yaml does not name " + file.filename().string() + ": it is not read");
+  }
+  return std::make_unique<JoinedReader>(std::move(files), remarks);
 }
 
 // SQLite wants a file; the name of the temporary one may go as soon as it is open.

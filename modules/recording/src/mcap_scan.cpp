@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mcap_scan.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace pcl_bv {
+namespace mcap {
+namespace {
+
+// Messages outside of chunks are taken together up to this.
+constexpr std::uint64_t kLooseBytes = 1U << 20U;
+
+// Walks over the records of a file, but not into the chunks that the summary describes.
+class Scan {
+ public:
+  Scan(const InputFile& file, Index& index, const Summary& summary)
+      : file_(file), index_(index), summary_(summary) {
+    for (const auto& [offset, part] : summary.chunks)
+      unseen_.insert(offset);
+  }
+
+  Unknown all() {
+    std::uint64_t previous = 0;  // a record whose length may be what is damaged begins here
+    for (std::uint64_t at = kMagic.size(); at + kRecordStart <= file_.size();) {
+      if (const auto known = summary_.chunks.find(at); known != summary_.chunks.end()) {
+        loose_ = false;
+        index_.parts.push_back(known->second);
+        unseen_.erase(at);
+        at = behind(*known);
+        previous = at - 1;
+        continue;
+      }
+      const std::vector<std::byte> start = bytes_at(file_, at, kRecordStart);
+      Fields fields(start.data(), start.size());
+      const auto op = static_cast<Op>(fields.number<std::uint8_t>());
+      const auto size = fields.number<std::uint64_t>();
+      if (!is_record(op) || size > file_.size() - at - kRecordStart ||
+          (op == Op::chunk && !is_chunk_at(at))) {
+        at = find_chunk(previous + 1, at);
+        previous = at;
+        continue;
+      }
+      previous = op == Op::chunk ? at + kRecordStart + size - 1 : at;
+      look(op, at, size);
+      if (op == Op::data_end) break;
+      at += kRecordStart + size;
+    }
+    add_rest();
+    return found_;
+  }
+
+ private:
+  // Of the specification, and the private ones from 0x80 on.
+  static bool is_record(Op op) {
+    const auto code = static_cast<std::uint8_t>(op);
+    return code >= 0x80 || (code >= 0x01 && code <= 0x0F);
+  }
+
+  // The index of a chunk's messages is passed over if it is as long as the summary says.
+  std::uint64_t behind(const std::pair<const std::uint64_t, Part>& chunk) const {
+    const std::uint64_t end = chunk.first + chunk.second.bytes;
+    const std::uint64_t index = summary_.index_bytes.at(chunk.first);
+    const auto next = summary_.chunks.upper_bound(chunk.first);
+    const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
+    return end <= most && index <= most - end ? end + index : end;
+  }
+
+  // Where the next chunk begins, known or by its own fields, which must agree with one another: the file's
+  // end if there is none. What lies before cannot be read.
+  std::uint64_t find_chunk(std::uint64_t from, std::uint64_t damage) {
+    constexpr std::size_t window = 1U << 20U, overlap = 64;
+    const auto next = summary_.chunks.lower_bound(from);
+    const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
+    std::uint64_t found = most;
+    for (std::uint64_t at = from; at < most && found == most; at += window) {
+      const std::vector<std::byte> bytes =
+          bytes_at(file_, at, std::min<std::uint64_t>(window + overlap, file_.size() - at));
+      for (std::size_t i = 0; i < std::min<std::uint64_t>(window, most - at) && found == most; ++i) {
+        if (bytes[i] == std::byte{static_cast<std::uint8_t>(Op::chunk)} &&
+            is_chunk(bytes.data() + i, bytes.size() - i, file_.size() - at - i))
+          found = at + i;
+      }
+    }
+    const std::string where = ", at byte " + std::to_string(damage);
+    index_.remarks.push_back(found == file_.size() ? "the file ends within a record" + where
+                                                   : "passed over what is no record" + where);
+    loose_ = false;
+    return found;
+  }
+
+  bool is_chunk_at(std::uint64_t at) const {
+    const std::vector<std::byte> bytes = bytes_at(file_, at, std::min<std::uint64_t>(64, file_.size() - at));
+    return is_chunk(bytes.data(), bytes.size(), file_.size() - at);
+  }
+
+  static bool is_chunk(const std::byte* bytes, std::size_t size, std::uint64_t left) {
+    try {
+      Fields fields(bytes, size);
+      fields.number<std::uint8_t>();
+      const auto length = fields.number<std::uint64_t>();
+      if (length > left - std::min<std::uint64_t>(left, kRecordStart)) return false;
+      fields.take(28);  // times, size, CRC
+      const std::string_view name = fields.text();
+      const bool known = std::any_of(std::begin(kCompressions), std::end(kCompressions),
+                                     [&](Compression c) { return name_of(c) == name; });
+      return known && length == 40 + name.size() + fields.number<std::uint64_t>();
+    } catch (const IoError&) {
+      return false;
+    }
+  }
+
+  // Chunks that the summary knows, but that lie behind where the walk ended.
+  void add_rest() {
+    for (const std::uint64_t offset : unseen_)
+      index_.parts.push_back(summary_.chunks.at(offset));
+    std::stable_sort(index_.parts.begin(), index_.parts.end(),
+                     [](const Part& a, const Part& b) { return a.offset < b.offset; });
+  }
+
+  void look(Op op, std::uint64_t at, std::uint64_t size) {
+    if (op == Op::message) return add_loose(at, size);
+    loose_ = false;
+    if (op == Op::chunk) return add_chunk(at, size);
+    if (op != Op::schema && op != Op::channel) return;
+    const std::vector<std::byte> record = bytes_at(file_, at + kRecordStart, size);
+    attempt(at, [&] { note({op, record.data(), record.size()}, index_); });
+  }
+
+  void add_loose(std::uint64_t at, std::uint64_t size) {
+    if (size < kMessageStart) {
+      index_.remarks.push_back("a message without a time, at byte " + std::to_string(at));
+      return;
+    }
+    const std::vector<std::byte> start = bytes_at(file_, at + kRecordStart + 6, 8);
+    const auto time = Fields(start.data(), start.size()).number<std::uint64_t>();
+    if (!loose_ || index_.parts.back().bytes > kLooseBytes)
+      index_.parts.push_back({at, 0, time, time, false});
+    loose_ = true;
+    ++found_.loose_messages;
+    Part& part = index_.parts.back();
+    part.bytes = at + kRecordStart + size - part.offset;
+    part.first_time = std::min(part.first_time, time);
+    part.last_time = std::max(part.last_time, time);
+  }
+
+  // Channels may be nowhere else than inside.
+  void add_chunk(std::uint64_t at, std::uint64_t size) {
+    ++found_.chunks;
+    Part part{at, kRecordStart + size, 0, 0};
+    attempt(at, [&] {
+      Fields records = load_part(file_, part, decompressor_, raw_, unpacked_);
+      part.first_time = UINT64_MAX;
+      const std::size_t place = index_.parts.size();
+      index_.parts.push_back(part);
+      while (records.left() > 0) {
+        const Record record = take_record(records);
+        note(record, index_);
+        if (record.op == Op::message) note_message(record.fields(), index_.parts[place]);
+      }
+    });
+  }
+
+  static void note_message(Fields fields, Part& part) {
+    part.channels.insert(fields.number<std::uint16_t>());
+    fields.number<std::uint32_t>();  // its number in the channel
+    const auto time = fields.number<std::uint64_t>();
+    part.first_time = std::min(part.first_time, time);
+    part.last_time = std::max(part.last_time, time);
+  }
+
+  template <class Do>
+  void attempt(std::uint64_t at, const Do& what) {
+    try {
+      what();
+    } catch (const IoError& error) {
+      index_.remarks.push_back("passed over what is at byte " + std::to_string(at) + ": " + error.what());
+    }
+  }
+
+  const InputFile& file_;
+  Index& index_;
+  const Summary& summary_;
+  std::set<std::uint64_t> unseen_;  // of the summary's chunks
+  Unknown found_;
+  Decompressor decompressor_;
+  std::vector<std::byte> raw_, unpacked_;
+  bool loose_ = false;  // whether the last part is of messages that this one follows
+};
+
+}  // namespace
+
+std::vector<std::byte> bytes_at(const InputFile& file, std::uint64_t offset, std::uint64_t size) {
+  std::vector<std::byte> bytes(size);
+  file.read(offset, bytes.data(), bytes.size());
+  return bytes;
+}
+
+void note(const Record& record, Index& index) {
+  if (record.op == Op::schema) {
+    Schema schema;
+    take(record.fields(), schema);
+    index.schemas[schema.id] = std::move(schema);
+  } else if (record.op == Op::channel) {
+    Channel channel;
+    take(record.fields(), channel);
+    index.channels[channel.id] = std::move(channel);
+  }
+}
+
+Unknown scan(const InputFile& file, const Summary& summary, Index& index) {
+  return Scan(file, index, summary).all();
+}
+
+}  // namespace mcap
+}  // namespace pcl_bv
