@@ -41,6 +41,116 @@ TEST(StampInName, ReadsTimesAndNoFrameNumbers) {
   EXPECT_EQ(stamp_in_name("99999999999.5"), -1);
 }
 
+// 2012-12-14T14:22:59 and 2024-03-21T12:59:59, UTC.
+constexpr std::int64_t k2012 = 1'355'494'979'000'000'000, k2024 = 1'711'025'999'000'000'000;
+
+TEST(StampInName, ReadsDatesWithTimes) {
+  for (const char* name : {"frame_20121214T142259.814212", "20121214_142259.814212", "20121214-142259-814212",
+                           "20121214142259814212", "2012-12-14T14-22-59.814212", "2012_12_14_14_22_59_814212",
+                           "cloud 2012-12-14 14:22:59,814212Z", "2012.12.14T14.22.59.814212",
+                           "2012-12-14T15:22:59.814212+01:00", "2012-12-14-22-22-59-814212000+0800"})
+    EXPECT_EQ(stamp_in_name(name), k2012 + 814'212'000) << name;
+  EXPECT_EQ(stamp_in_name("2024-03-21-12-59-59_0"), k2024);
+  EXPECT_EQ(stamp_in_name("20240321125959"), k2024);
+  EXPECT_EQ(stamp_in_name("2024-02-29T00-00-00"), stamp_in_name("2024-02-28T23-59-59") + 1'000'000'000);
+  EXPECT_EQ(stamp_in_name("2023-02-29T00-00-01"), 1'000'000'000);  // no such day: of a day
+  EXPECT_EQ(stamp_in_name("2024-03-21T24-00-00"), -1);
+  EXPECT_EQ(stamp_in_name("2024-03-21_cloud7"), -1);
+  EXPECT_EQ(stamp_in_name("12-59-59.9"), 46'799'900'000'000);  // of a day
+}
+
+TEST(StampInName, TakesTheSurestOfSeveralNumbers) {
+  EXPECT_EQ(stamp_in_name("n015-2018-07-24-11-22-45+0800__LIDAR_TOP__1532402927647951"),
+            1'532'402'927'647'951'000);
+  EXPECT_EQ(stamp_in_name("1532402927647951_cam0"), 1'532'402'927'647'951'000);
+  EXPECT_EQ(stamp_in_name("1317384506.25_part_3"), 1'317'384'506'250'000'000);
+  EXPECT_EQ(stamp_in_name("1317384506_250000000"), 1'317'384'506'250'000'000);
+  EXPECT_EQ(stamp_in_name("1317384506250"), 1'317'384'506'250'000'000);
+  EXPECT_EQ(stamp_in_name("1317384506"), 1'317'384'506'000'000'000);
+}
+
+class NamedFrames : public Folder {
+ protected:
+  struct Read {
+    std::vector<std::int64_t> stamps;
+    std::vector<std::string> remarks;
+  };
+  Read read_names(const std::vector<std::string>& names) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+    for (const std::string& name : names)
+      write(name + ".pcd",
+            "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+            "POINTS 1\nDATA ascii\n1 2 3\n");
+    ReplayOptions options;
+    options.from_name = true;
+    const auto source = open_source(path_.string(), options);
+    Read read;
+    for (Frame frame; next(*source, frame);)
+      read.stamps.push_back(frame.header.stamp_ns);
+    read.remarks = source->take_remarks();
+    return read;
+  }
+  void expect_steps(const std::vector<std::string>& names, const std::vector<std::int64_t>& steps) {
+    const Read read = read_names(names);
+    ASSERT_EQ(read.stamps.size(), steps.size() + 1) << names.front();
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      EXPECT_EQ(read.stamps[i + 1] - read.stamps[i], steps[i]) << names.front() << ", " << i;
+    EXPECT_THAT(read.remarks, testing::IsEmpty()) << names.front();
+  }
+};
+
+TEST_F(NamedFrames, WithTimesOfDayAscendOverMinutesAndDays) {
+  expect_steps({"frame_20121214T142259.814212", "frame_20121214T142300.068683"}, {254'471'000});
+  for (const auto& [before, after] : std::vector<std::pair<std::string, std::string>>{
+           {"frame_20121214T235959.900000", "frame_20121215T000000.100000"},
+           {"2024-03-21T12-59-59.900", "2024-03-21T13-00-00.100"},
+           {"2024-02-28T23-59-59.900Z", "2024-02-29T00-00-00.100Z"},
+           {"2023-12-31_23-59-59-900", "2024-01-01_00-00-00-100"},
+           {"20240331_235959_900000", "20240401_000000_100000"},
+           {"13-59-59.900", "14-00-00.100"}})
+    expect_steps({before, after}, {200'000'000});
+}
+
+TEST_F(NamedFrames, WithFractionsWithoutLeadingZerosAreWholeNanoseconds) {
+  const auto stamps =
+      read_names({"899.11149430", "899.99999999", "899.199999999", "899.299999999", "900.5000000"}).stamps;
+  EXPECT_EQ(stamps, (std::vector<std::int64_t>{899'011'149'430, 899'099'999'999, 899'199'999'999,
+                                               899'299'999'999, 900'005'000'000}));
+  expect_steps({"7.50", "7.150", "7.250", "8.50"}, {100'000'000, 100'000'000, 800'000'000});  // milliseconds
+  expect_steps({"a_1317384506.90000", "a_1317384506.190000"}, {100'000'000});                 // microseconds
+  expect_steps({"20240321T125959.90000", "20240321T125959.190000"}, {100'000'000});
+}
+
+// Natural order has 12.5 before 12.25.
+TEST_F(NamedFrames, WithShortDecimalsComeInTheOrderOfTheirTimes) {
+  const Read read = read_names({"12.0", "12.25", "12.5", "12.75", "13.0"});
+  EXPECT_EQ(read.stamps, (std::vector<std::int64_t>{12'000'000'000, 12'250'000'000, 12'500'000'000,
+                                                    12'750'000'000, 13'000'000'000}));
+  EXPECT_THAT(read.remarks,
+              testing::ElementsAre(testing::HasSubstr("in the order of the times in their names")));
+}
+
+TEST_F(NamedFrames, SayThatTheirTimesDoNotAscend) {
+  for (const auto& names :
+       std::vector<std::vector<std::string>>{{"a_1317384506.250", "b_1317384506.250"},
+                                             {"a_1317384507.250", "b_1317384506.250"},
+                                             {"0_2024-03-21T12-59-59", "1_2024-03-21T12-59-59"}}) {
+    const Read read = read_names(names);
+    EXPECT_EQ(read.stamps.size(), 2U);
+    EXPECT_THAT(read.remarks,
+                testing::ElementsAre(testing::HasSubstr("the times in the names do not ascend")));
+  }
+}
+
+// The recording's beginning and the frame's number are no time.
+TEST_F(NamedFrames, WithADateAndACountHaveTheTimesThatAscend) {
+  const Read read = read_names({"20240321_125959_000", "20240321_125959_001", "20240321_125959_002"});
+  EXPECT_THAT(read.remarks, testing::SizeIs(1));
+  expect_steps({"2018-07-24-11-22-45__1532402927647951", "2018-07-24-11-22-45__1532402927697951"},
+               {50'000'000});
+}
+
 TEST_F(FolderSource, GivesItsCloudsInNaturalOrderWithTheRatesStamps) {
   add("frame10.pcd", 10);
   add("frame9.pcd", 9);
@@ -213,7 +323,9 @@ TEST(FunctionSource, ItsExceptionsCostTheirFramesOnly) {
 
 TEST(SourceKinds, AreListedForUsers) {
   EXPECT_EQ(source_syntax(),
-            "A folder of clouds, one file\nor a recording (.mcap, .bag, .db3 or its folder)\nor packets of a Velodyne (.pcap, .pcapng)\nor dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)\nor synth:street-sequence[:FRAMES[:SEED]]\n"
+            "A folder of clouds, one file\nor a recording (.mcap, .bag, .db3 or its folder)\nor packets of a "
+            "Velodyne (.pcap, .pcapng)\nor dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)\nor "
+            "synth:street-sequence[:FRAMES[:SEED]]\n"
             "or synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]");
 }
 

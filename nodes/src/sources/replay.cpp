@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "sources.h"
 
@@ -15,11 +16,12 @@ namespace {
 class Replay : public FrameSource {
  public:
   Replay(std::size_t length, std::vector<std::filesystem::path> files, const ReplayOptions& options,
-         std::function<void(std::size_t, Frame&)> load)
+         std::function<void(std::size_t, Frame&)> load, NameTimes times)
       : length_(length),
         files_(std::move(files)),
         options_(options),
         load_(std::move(load)),
+        times_(std::move(times)),
         end_(options.loops < SIZE_MAX / length ? length * std::max<std::size_t>(options.loops, 1)
                                                : SIZE_MAX) {
     if (!options.poses.empty()) poses_ = Poses(options.poses, length);
@@ -42,6 +44,11 @@ class Replay : public FrameSource {
     return Next::frame;
   }
 
+  std::vector<std::string> take_remarks() override {
+    if (times_.remark.empty()) return {};
+    return {std::exchange(times_.remark, {})};
+  }
+
  private:
   Frame named(std::size_t place) const {
     Frame frame;
@@ -49,7 +56,7 @@ class Replay : public FrameSource {
     frame.header.seq = seq_;
     frame.header.frame_id = options_.frame_id;
     frame.header.stamp_ns = options_.from_name
-                                ? stamp_in_name(files_[place].stem().string())
+                                ? times_.stamps[place]
                                 : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
     frame.pose = poses_.at(place, frame.header.stamp_ns);
     return frame;
@@ -59,6 +66,7 @@ class Replay : public FrameSource {
   std::vector<std::filesystem::path> files_;
   ReplayOptions options_;
   std::function<void(std::size_t, Frame&)> load_;
+  NameTimes times_;
   std::uint64_t end_, seq_ = 0;
   Poses poses_;
 };
@@ -67,8 +75,8 @@ class Replay : public FrameSource {
 
 std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
                                          const ReplayOptions& options,
-                                         std::function<void(std::size_t, Frame&)> load) {
-  return std::make_unique<Replay>(length, std::move(files), options, std::move(load));
+                                         std::function<void(std::size_t, Frame&)> load, NameTimes times) {
+  return std::make_unique<Replay>(length, std::move(files), options, std::move(load), std::move(times));
 }
 
 }  // namespace pcl_bv

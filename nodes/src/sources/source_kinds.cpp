@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
+#include <utility>
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
@@ -23,17 +25,35 @@ namespace {
 
 constexpr std::string_view kSynth = "synth:", kDds = "dds:";
 
+// Their times, and the files in the order of those where that of the names is another.
+NameTimes times_of(std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> stems;
+  for (const std::filesystem::path& file : files)
+    stems.push_back(file.stem().string());
+  NameTimes times = times_of_names(stems);
+  if (std::all_of(times.stamps.begin(), times.stamps.end(), [](std::int64_t stamp) { return stamp < 0; }))
+    throw std::invalid_argument(files.front().string() +
+                                ": no time in its name, nor in others: whole numbers below 1e9 count frames");
+  if (!times.sort) return times;
+  std::vector<std::pair<std::int64_t, std::filesystem::path>> sorted;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    sorted.emplace_back(times.stamps[i], std::move(files[i]));
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < files.size(); ++i)
+    std::tie(times.stamps[i], files[i]) = std::move(sorted[i]);
+  times.remark = "the frames come in the order of the times in their names, which is not that of the names";
+  return times;
+}
+
 std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOptions& options) {
   std::error_code unknown;
   if (!std::filesystem::exists(name, unknown)) throw IoError(name + ": no such file or folder");
   std::vector<std::filesystem::path> files{name};
   if (std::filesystem::is_directory(name, unknown)) files = list_clouds(name);
   if (files.empty()) throw IoError(name + ": no cloud in this folder");
-  const auto unnamed = [](const auto& file) { return stamp_in_name(file.stem().string()) < 0; };
-  if (options.from_name && std::all_of(files.begin(), files.end(), unnamed))
-    throw std::invalid_argument(
-        files.front().string() +
-        ": no time in its name, nor in others: whole numbers below 1e15 count frames");
+  NameTimes times;
+  if (options.from_name) times = times_of(files);
   const std::size_t length = files.size();
   return make_replay(
       length, std::move(files), options,
@@ -46,7 +66,8 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
         frame.note = cloud->note;
         frame.sensor = sensor_of(*cloud);
         frame.owner = cloud;
-      });
+      },
+      std::move(times));
 }
 
 Pose pose_of(const std::array<double, 12>& rows) {

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "name_times.h"
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {
@@ -27,10 +28,12 @@ class Poses {
 };
 
 /// `length` frames, of these files if there are any, again and again: `load` fills in the cloud of the one at
-/// a place, and its owner, and throws if it cannot.
+/// a place, and its owner, and throws if it cannot. `times` are the stamps where options.from_name asks for
+/// them.
 std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
                                          const ReplayOptions& options,
-                                         std::function<void(std::size_t place, Frame&)> load);
+                                         std::function<void(std::size_t place, Frame&)> load,
+                                         NameTimes times = {});
 
 std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options);

@@ -1,50 +1,160 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Times as recorders write them into file names.
+// What the times in the names of a folder mean.
 
-#include "config/words.h"
+#include <algorithm>
+#include <functional>
+
+#include "name_times.h"
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {
 namespace {
 
-constexpr std::int64_t kLeastStamp = 1'000'000'000'000'000;  // whole: smaller ones count frames
+using Times = std::vector<WrittenTime>;
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
+constexpr std::int64_t kDay = 86'400'000'000'000;
+
+bool ascend(const std::vector<std::int64_t>& stamps) {
+  return std::adjacent_find(stamps.begin(), stamps.end(), std::greater_equal<>()) == stamps.end();
 }
 
-// -1 if it is none or too great.
-std::int64_t whole(std::string_view digits) {
-  std::int64_t value = 0;
-  return read_whole_text(digits, value) ? value : -1;
+std::vector<std::int64_t> decimal_stamps(const Times& times) {
+  std::vector<std::int64_t> stamps(times.size());
+  std::transform(times.begin(), times.end(), stamps.begin(), stamp_of);
+  return stamps;
+}
+
+// Fractions that are whole milli-, micro- or nanoseconds, by the longest one.
+std::vector<std::int64_t> unpadded_stamps(Times times) {
+  std::size_t longest = 0;
+  for (const WrittenTime& time : times)
+    longest = std::max(longest, time.fraction.size());
+  longest = (longest + 2) / 3 * 3;
+  for (WrittenTime& time : times)
+    time.fraction.insert(0, longest - time.fraction.size(), '0');
+  return decimal_stamps(times);
+}
+
+// The longest step from one time to the next, in middling ones: sensors keep their pace.
+double unevenness(std::vector<std::int64_t> stamps) {
+  std::sort(stamps.begin(), stamps.end());
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < stamps.size(); ++i)
+    steps.push_back(stamps[i] - stamps[i - 1]);
+  std::sort(steps.begin(), steps.end());
+  return static_cast<double>(steps.back()) / std::max(1.0, static_cast<double>(steps[steps.size() / 2]));
+}
+
+// Zeros decide where there are any: only what is padded begins with one, only what is not cut short ends in
+// one.
+bool are_unpadded(const Times& times) {
+  const auto any = [&](auto holds) { return std::any_of(times.begin(), times.end(), holds); };
+  const std::size_t size = times.front().fraction.size();
+  if (!any([&](const WrittenTime& time) { return time.fraction.size() != size; })) return false;
+  if (any([](const WrittenTime& time) { return time.fraction.size() > 9; })) return false;
+  const auto zero = [](const WrittenTime& time, bool first) {
+    const std::string& text = time.fraction;
+    return text.size() > 1 && (first ? text.front() : text.back()) == '0';
+  };
+  if (any([&](const WrittenTime& time) { return zero(time, true); })) return false;
+  if (any([&](const WrittenTime& time) { return zero(time, false); })) return true;
+  const double unpadded = unevenness(unpadded_stamps(times)), decimal = unevenness(decimal_stamps(times));
+  const bool nine = any([](const WrittenTime& time) { return time.fraction.size() == 9; });
+  return unpadded < decimal || (unpadded == decimal && nine);
+}
+
+// 20121214_142259_000017: the recording's beginning and a frame's number.
+bool count_frames(const Times& times) {
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (!times[i].may_count || times[i].seconds != times[0].seconds || !times[i - 1].may_count ||
+        std::stoll(times[i].fraction) != std::stoll(times[i - 1].fraction) + 1)
+      return false;
+  }
+  return times.size() > 1;
+}
+
+NameTimes meaning_of(const Times& times) {
+  NameTimes meaning;
+  const bool unpadded = are_unpadded(times);
+  meaning.stamps = unpadded ? unpadded_stamps(times) : decimal_stamps(times);
+  if (times.front().kind == TimeKind::day) {
+    std::int64_t days = 0;
+    for (std::size_t i = 1; i < meaning.stamps.size(); ++i) {
+      if (meaning.stamps[i] + days < meaning.stamps[i - 1] - kDay / 2) days += kDay;
+      meaning.stamps[i] += days;
+    }
+  }
+  const auto other_length = [&](const WrittenTime& time) {
+    return time.fraction.size() != times.front().fraction.size();
+  };
+  meaning.sort =
+      !unpadded && !ascend(meaning.stamps) && std::any_of(times.begin(), times.end(), other_length);
+  return meaning;
+}
+
+// The last time of this kind in each name, or the first one; empty if a name has none.
+Times chosen(const std::vector<Times>& all, TimeKind kind, bool last) {
+  Times times;
+  const auto is_kind = [kind](const WrittenTime& time) { return time.kind == kind; };
+  for (const Times& some : all) {
+    const auto front = std::find_if(some.begin(), some.end(), is_kind);
+    if (front == some.end()) return {};
+    times.push_back(last ? *std::find_if(some.rbegin(), some.rend(), is_kind) : *front);
+  }
+  return times;
+}
+
+std::string order_remark(const std::vector<std::int64_t>& stamps, const std::vector<std::string>& stems) {
+  std::size_t first = 0, wrong = 0;
+  std::int64_t before = -1;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    if (stamps[i] < 0) continue;
+    if (before >= 0 && stamps[i] <= before && wrong++ == 0) first = i;
+    before = stamps[i];
+  }
+  if (wrong == 0) return {};
+  return "the times in the names do not ascend in the order of the names: '" + stems[first] +
+         "' is not later than the one before, " + std::to_string(wrong) + " of " +
+         std::to_string(stems.size()) + " are not";
 }
 
 }  // namespace
 
+NameTimes times_of_names(const std::vector<std::string>& stems) {
+  std::vector<Times> all;
+  for (const std::string& stem : stems)
+    all.push_back(times_in(stem));
+  std::optional<NameTimes> found;
+  for (const TimeKind kind : kTimeKinds) {
+    for (const bool last : {true, false}) {
+      Times times = chosen(all, kind, last);
+      if (times.empty()) continue;
+      if (count_frames(times)) {
+        for (WrittenTime& time : times)
+          time.fraction.clear();
+      }
+      NameTimes meaning = meaning_of(times);
+      if (ascend(meaning.stamps)) return meaning;
+      if (!found || (meaning.sort && !found->sort)) found = std::move(meaning);
+    }
+  }
+  if (!found) {
+    found.emplace();
+    for (const std::string& stem : stems)
+      found->stamps.push_back(stamp_in_name(stem));
+  }
+  if (!found->sort) found->remark = order_remark(found->stamps, stems);
+  return *std::move(found);
+}
+
 std::int64_t stamp_in_name(std::string_view stem) {
-  std::size_t end = stem.size();
-  while (end > 0 && !is_digit(stem[end - 1]))
-    --end;
-  std::size_t begin = end;
-  while (begin > 0 && is_digit(stem[begin - 1]))
-    --begin;
-  const std::string_view last = stem.substr(begin, end - begin);
-  std::size_t before = begin;
-  if (begin > 0 && stem[begin - 1] == '.') {
-    for (--before; before > 0 && is_digit(stem[before - 1]);)
-      --before;
+  const std::vector<Times> one{times_in(stem)};
+  for (const TimeKind kind : kTimeKinds) {
+    if (const Times times = chosen(one, kind, true); !times.empty()) return stamp_of(times.front());
   }
-  if (before + 1 >= begin) {
-    const std::int64_t stamp = whole(last);
-    return stamp < kLeastStamp ? -1 : stamp < 10 * kLeastStamp ? 1000 * stamp : stamp;
-  }
-  std::string nanoseconds(last.substr(0, 9));
-  nanoseconds.append(9 - nanoseconds.size(), '0');
-  const std::int64_t seconds = whole(stem.substr(before, begin - 1 - before));
-  constexpr std::int64_t most = INT64_MAX / 1'000'000'000 - 1;
-  return seconds < 0 || seconds > most ? -1 : seconds * 1'000'000'000 + whole(nanoseconds);
+  return -1;
 }
 
 }  // namespace pcl_bv

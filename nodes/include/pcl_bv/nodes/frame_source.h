@@ -56,8 +56,10 @@ inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
 /// How recordings become frames.
 struct ReplayOptions {
   double rate_hz = 10;         ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
-  /// Stamps that frames have themselves: of files by stamp_in_name(), where a name without one is a FrameError;
-  /// of messages those of their headers, and where they are 0 of when they were recorded.
+  /// Stamps that frames have themselves: of files by stamp_in_name(), but in one way for all of a folder, whose stamps
+  /// ascend if there is such a way, also with fractions that are milli-, micro- or nanoseconds without leading zeros; a
+  /// remark says that none does. A name without one is a FrameError. Of messages those of their headers, and where they
+  /// are 0 of when they were recorded.
   bool from_name = false;
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
   std::size_t loops = 1;       ///< How often; at least once.
@@ -108,9 +110,10 @@ std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOp
 /// there until it returns. Its exceptions are those of next().
 std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
-/// The stamp in a file's name without its extension, nanoseconds; -1 without one. Of its last number: seconds
-/// if it has a decimal point, microseconds from 1e15 to 1e16 (2001 to 2286), nanoseconds from there on.
-/// Smaller ones count frames.
+/// The stamp in a file's name without its extension, nanoseconds; -1 without one. The surest way of writing a time that
+/// is there counts, the last of its kind: a time since 1970 (seconds with a fraction, or a whole number of milli-, micro-
+/// or nanoseconds of 2001 and later), a date with hours, minutes and seconds (UTC, or with a zone such as +0800), a time
+/// of day, or other seconds with a decimal point. Other numbers count frames. For a folder see ReplayOptions::from_name.
 std::int64_t stamp_in_name(std::string_view stem);
 
 }  // namespace pcl_bv
