@@ -303,6 +303,7 @@ class Pipeline:
         seq: Optional[int] = None,
         pose: Optional[ArrayLike] = None,
         classes: Optional[ArrayLike] = None,
+        recorded_ns: int = 0,
     ) -> Result: ...
 
 class Picture:
@@ -332,6 +333,8 @@ class Frame:
     def points(self) -> NDArray[Any]: ...
     @property
     def stamp_ns(self) -> int: ...
+    @property
+    def recorded_ns(self) -> int: ...
     @property
     def seq(self) -> int: ...
     @property

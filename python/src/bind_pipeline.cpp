@@ -57,12 +57,13 @@ std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle pres
 
 std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle points, py::handle stamp_ns,
                                             py::handle frame_id, py::handle seq, py::handle pose,
-                                            py::handle classes) {
+                                            py::handle classes, py::handle recorded_ns) {
   auto result = std::make_shared<ResultObject>();
   result->points = points_of(points);
   if (!pose.is_none()) result->pose = Pose(isometry(pose, "pose").matrix());
   Frame frame = result->frame();
   frame.header.stamp_ns = signed_number(stamp_ns, "stamp_ns");
+  frame.recorded_ns = signed_number(recorded_ns, "recorded_ns");
   frame.header.frame_id = text(frame_id, "frame_id");
   if (!seq.is_none()) frame.header.seq = whole_number(seq, "seq", {0, kNoLimit});
   if (!classes.is_none())
@@ -126,7 +127,7 @@ ValueError: cluster.tolerance: -1 is not at least 0 and at most 1e+06
 }
 
 constexpr const char* process_doc =
-    R"(process(self, points, *, stamp_ns=0, frame_id='', seq=None, pose=None, classes=None)
+    R"(process(self, points, *, stamp_ns=0, frame_id='', seq=None, pose=None, classes=None, recorded_ns=0)
 --
 
 Processes one frame; of a stream, frames come in the order of their stamps. The GIL is released.
@@ -137,6 +138,7 @@ stamp_ns: when the sensor took it, nanoseconds. Tracks need it.
 frame_id, seq: kept in the result; without seq, or with 0, the pipeline counts.
 pose: of the sensor in a fixed frame, 4 x 4, for tracks over the ground.
 classes: an integer for each point, for cluster.class_field and cluster.classes.
+recorded_ns: when it was recorded or came; tracks use it where stamps do not advance. A UserWarning says so once.
 
 Returns a Result. Raises as fit(). Warns (UserWarning, each kind once a pipeline and setting) where no ground is
 found, or everything is ground, and where the points do not lie around the sensor's place.
@@ -155,7 +157,7 @@ void bind_pipeline(py::module_& module) {
       .def(py::init(&make_pipeline), "config"_a = py::none(), py::kw_only(), "preset"_a = py::none(),
            init_doc(pipeline_doc()).c_str())
       .def("process", process_frame, "points"_a, py::kw_only(), "stamp_ns"_a = 0, "frame_id"_a = "",
-           "seq"_a = py::none(), "pose"_a = py::none(), "classes"_a = py::none(), process_doc)
+           "seq"_a = py::none(), "pose"_a = py::none(), "classes"_a = py::none(), "recorded_ns"_a = 0, process_doc)
       .def_property(
           "config", [](const PipelineObject& p) { return dict_of(p.config()); }, set_config,
           "All settings as a dict, which Pipeline() takes back; setting it takes effect with the next frame.")

@@ -144,7 +144,8 @@ TEST(Pipeline, ClassesHaveVolumesOfTheirOwn) {
     found.push_back(line);
     EXPECT_TRUE(entry.track);
   }
-  EXPECT_EQ(found, (std::vector<std::string>{"1: aabb obb-min", "2: obb-min sphere-exact", "3: aabb obb-min"}));
+  EXPECT_EQ(found,
+            (std::vector<std::string>{"1: aabb obb-min", "2: obb-min sphere-exact", "3: aabb obb-min"}));
   for (std::size_t m = 0; m < 3; ++m)
     EXPECT_EQ(result.has(1, m), !empty(result.volume(1, m)));
 }
@@ -298,6 +299,64 @@ TEST(Pipeline, TracksDoNotDependOnTheVolumesAskedFor) {
 }
 
 // The axes of a box keep their names and directions from frame to frame.
+// A ball of points at 5 m/s, ten frames a second, whose driver writes these stamps.
+std::vector<FrameResult> ball_with_stamps(const std::vector<std::int64_t>& stamps, bool recorded) {
+  PipelineConfig config;
+  config.ground.method = GroundMethod::none;
+  config.cluster.tolerance = 1;
+  config.cluster.min_size = 2;
+  config.track.enabled = true;
+  config.track.birth = 1;
+  FramePipeline pipeline(config);
+  std::vector<FrameResult> results;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    std::vector<float> xyz;
+    for (int k = 0; k < 20; ++k)
+      for (const float c : {10 + 0.5F * static_cast<float>(i) + 0.1F * static_cast<float>(k % 5),
+                            0.1F * static_cast<float>(k / 5), 0.F})
+        xyz.push_back(c);
+    Frame frame = frame_of(xyz, i);
+    frame.header.stamp_ns = stamps[i];
+    if (recorded) frame.recorded_ns = 7'000'000'000 + static_cast<std::int64_t>(i) * 100'000'000;
+    pipeline.process(frame, results.emplace_back());
+  }
+  return results;
+}
+
+double speed_of(const FrameResult& result) {
+  return result.tracks.at(0).value().velocity.norm();
+}
+
+TEST(Pipeline, TracksUseTheTimesOfRecordingWhereStampsDoNotAdvance) {
+  const std::vector<std::int64_t> good{100, 200, 300, 400, 500, 600, 700, 800, 900, 1000}, equal(10, 100),
+      backwards{1000, 900, 800, 700, 600, 500, 400, 300, 200, 100},
+      pairs{100, 100, 300, 300, 500, 500, 700, 700, 900, 900},
+      set_back{100, 200, 300, 400, 500, 10, 110, 210, 310, 410};
+  const auto stamps = [](std::vector<std::int64_t> milliseconds) {
+    for (std::int64_t& stamp : milliseconds)
+      stamp *= 1'000'000;
+    return milliseconds;
+  };
+  const double speed = speed_of(ball_with_stamps(stamps(good), false).back());
+  EXPECT_NEAR(speed, 5, 0.1);
+  for (const auto& bad : {equal, backwards, pairs, set_back}) {
+    const std::vector<FrameResult> results = ball_with_stamps(stamps(bad), true);
+    EXPECT_EQ(speed_of(results.back()), speed);
+    EXPECT_TRUE(std::any_of(results.begin(), results.end(),
+                            [](const FrameResult& one) { return one.track_time == TrackTime::recorded; }));
+    EXPECT_EQ(track_remark(results.front()), "");
+  }
+  EXPECT_EQ(track_remark(ball_with_stamps(stamps(good), true).back()), "");
+  EXPECT_EQ(track_remark(ball_with_stamps(stamps(equal), true).back()),
+            "its stamp is not later than the one before: tracks use the times of recording");
+  const FrameResult lost = ball_with_stamps(stamps(equal), false).back();
+  EXPECT_EQ(speed_of(lost), 0);
+  EXPECT_EQ(track_remark(lost),
+            "its stamp is not later than the one before: tracks learn no velocity from it");
+  // A clock that was set back costs one step, as before.
+  EXPECT_EQ(ball_with_stamps(stamps(set_back), false).back().track_time, TrackTime::stamps);
+}
+
 TEST(Pipeline, BoxesOfATrackDoNotFlip) {
   PipelineConfig config;
   config.volumes = {"obb-yaw"};

@@ -66,7 +66,7 @@ void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
   Frame frame;
   frame.taken = std::chrono::steady_clock::now();
   frame.header.seq = cloud->header.seq;
-  frame.header.stamp_ns = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  frame.header.stamp_ns = frame.recorded_ns = static_cast<std::int64_t>(ros::Time::now().toNSec());
   try {
     read_cloud(cloud, class_field_, frame);
   } catch (const std::exception& error) {
@@ -78,6 +78,7 @@ void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
 
 // Messages are handed over, so that nodelets in the same manager get them without a copy.
 void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
+  if (!frame.note.empty()) ROS_WARN_STREAM_THROTTLE(60, name_ << ": " << frame.note);
   if (labels_.getNumSubscribers() > 0) {
     const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
     fill_points(frame, result, *cloud);

@@ -37,13 +37,13 @@ struct Texts {
 void declare_frames(CommandLine& line, Texts& t) {
   line.option("--source", t.source, "SOURCE", source_syntax());
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
-  line.option("--topic", t.topic, "NAME", "The topic of a recording, where several have clouds");
+  line.option("--topic", t.topic, "NAME", "The topic of a recording, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
   line.option(
       "--rate", t.rate, "HZ",
       "Frames a second, recorded (by their stamps) or max\n(10; recorded where the source is a recording)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
   line.option("--stamps", t.stamps, "RULE",
-              "Times of the frames: by rate, or name: by the number in it\n"
+              "Times of the frames: by rate, or name: by the time in it\n"
               "(rate; name with --rate recorded)");
   line.option("--frame-id", t.frame_id, "NAME", "The coordinate frame of the points");
   line.option("--poses", t.poses, "FILE", "Where the sensor was: poses of KITTI by frame, or of TUM by time");

@@ -15,8 +15,12 @@ namespace {
 
 class MessageSource final : public FrameSource {
  public:
-  MessageSource(std::unique_ptr<MessageReceiver> receiver, const std::string& name, const ReplayOptions& options)
-      : receiver_(std::move(receiver)), name_(name), class_field_(options.class_field), frame_id_(options.frame_id) {
+  MessageSource(std::unique_ptr<MessageReceiver> receiver, const std::string& name,
+                const ReplayOptions& options)
+      : receiver_(std::move(receiver)),
+        name_(name),
+        class_field_(options.class_field),
+        frame_id_(options.frame_id) {
     if (receiver_ == nullptr) throw std::invalid_argument("make_message_source: no receiver");
     if (!options.poses.empty()) poses_ = Poses(options.poses, std::nullopt);
   }
@@ -29,7 +33,7 @@ class MessageSource final : public FrameSource {
     frame.file = name_;
     frame.taken = came;
     frame.header.seq = seq_++;
-    frame.header.stamp_ns = message.sent_ns;
+    frame.header.stamp_ns = frame.recorded_ns = message.sent_ns;
     try {
       read_cloud_message({message.data, message.size, message.owner, false}, class_field_, frame);
     } catch (const std::exception& error) {
@@ -37,7 +41,8 @@ class MessageSource final : public FrameSource {
     }
     if (!frame_id_.empty()) frame.header.frame_id = frame_id_;
     frame.pose = poses_.at(0, frame.header.stamp_ns);
-    frame.decode_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - came).count();
+    frame.decode_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - came).count();
     return Next::frame;
   }
 
@@ -52,8 +57,8 @@ class MessageSource final : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver> receiver, const std::string& name,
-                                                 const ReplayOptions& options) {
+std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver> receiver,
+                                                 const std::string& name, const ReplayOptions& options) {
   return std::make_unique<MessageSource>(std::move(receiver), name, options);
 }
 

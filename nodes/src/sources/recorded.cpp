@@ -36,7 +36,7 @@ class Recorded final : public FrameSource {
     frame = Frame();
     frame.file = name_;
     frame.header.seq = seq_++;
-    frame.header.stamp_ns = message.log_time_ns;
+    frame.header.stamp_ns = frame.recorded_ns = message.log_time_ns;
     const std::size_t place = place_++;
     try {
       read(message, frame);

@@ -252,10 +252,11 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   state_->fit(*now, frame.points, result);
   result.ms.fit = watch.lap();
   result.tracks.clear();
+  result.track_time = TrackTime::stamps;
   const bool nothing = result.clusters.size() == 1 && result.clusters.cluster_size(0) == 0;  // has no place
   if (now->config.track.enabled && nothing) result.tracks.resize(result.clusters.size());
   if (now->config.track.enabled && !nothing) {
-    state_->tracks.update(now->config.track, state_->views, frame.pose, result);
+    state_->tracks.update(now->config.track, state_->views, frame, result);
   } else {
     state_->tracks.reset();
   }

@@ -79,6 +79,17 @@ std::string range_remark(const FrameResult& result, const std::string& from) {
          to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")";
 }
 
+std::string track_remark(const FrameResult& result) {
+  switch (result.track_time) {
+    case TrackTime::recorded:
+      return "its stamp is not later than the one before: tracks use the times of recording";
+    case TrackTime::none:
+      return "its stamp is not later than the one before: tracks learn no velocity from it";
+    default:
+      return {};
+  }
+}
+
 std::vector<ClusterEntry> entries_of(const FrameResult& result) {
   std::vector<ClusterEntry> entries(result.clusters.size());
   for (std::size_t id = 0; id < entries.size(); ++id) {

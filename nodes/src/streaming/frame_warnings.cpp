@@ -101,8 +101,12 @@ std::string level_ground(const Found& f) {
          " m below the sensor, within 0.5 m: level ground is assumed there";
 }
 
-constexpr std::string (*kKinds[])(const Found&) = {ground_found,     little_ground, sensor_elsewhere,
-                                                   origin_elsewhere, far_points,    level_ground};
+std::string stamps_stand(const Found& f) {
+  return track_remark(f.result);
+}
+
+constexpr std::string (*kKinds[])(const Found&) = {
+    ground_found, little_ground, sensor_elsewhere, origin_elsewhere, far_points, level_ground, stamps_stand};
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 
 #include "tracked_volumes.h"
 
+#include <algorithm>
+
 #include "pcl_bv/fitting/fit.h"
 
 namespace pcl_bv {
@@ -41,8 +43,32 @@ void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, const Trac
   }
 }
 
+// Behind a stamp that did not advance the next one says nothing of the time between them either.
+std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
+  const auto passed = [](std::int64_t from, std::int64_t to) {
+    std::int64_t nanoseconds = 0;
+    return __builtin_sub_overflow(to, from, &nanoseconds) ? 0 : std::max<std::int64_t>(nanoseconds, 0);
+  };
+  const std::int64_t by_stamps = started_ ? passed(stamp_ns_, stamp_ns) : 0;
+  const std::int64_t by_records = started_ && recorded_ns_ != 0 ? passed(recorded_ns_, recorded_ns) : 0;
+  const bool doubted = source_ == TrackTime::recorded && by_records > 0;
+  if (!started_) {
+    now_ns_ = stamp_ns;
+  } else if (by_stamps > 0 && !doubted) {
+    source_ = TrackTime::stamps;
+    now_ns_ += by_stamps;
+  } else {
+    source_ = by_stamps > 0 ? TrackTime::stamps : by_records > 0 ? TrackTime::recorded : TrackTime::none;
+    now_ns_ += by_records;
+  }
+  started_ = true;
+  stamp_ns_ = stamp_ns;
+  recorded_ns_ = recorded_ns;
+  return now_ns_;
+}
+
 void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointView>& clusters,
-                            const std::optional<Pose>& pose, FrameResult& result) {
+                            const Frame& frame, FrameResult& result) {
   if (methods_ != result.methods) {
     methods_ = result.methods;
     filters_.clear();
@@ -50,7 +76,9 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   boxes_.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
     boxes_.push_back(box_of(result, i, clusters[i]));
-  tracker_.update(result.header.stamp_ns, boxes_, config, assignments_, pose);
+  tracker_.update(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, config, assignments_,
+                  frame.pose);
+  result.track_time = clock_.source();
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     result.tracks.push_back(assignments_[i].track);
     keep_axes(assignments_[i], config, i, clusters[i], result);

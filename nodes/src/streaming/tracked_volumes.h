@@ -13,22 +13,40 @@
 
 namespace pcl_bv {
 
+/// The time of tracks: that of the stamps where they advance. Drivers write the same stamp into every
+/// message, or set their clock back.
+class TrackClock {
+ public:
+  /// Nanoseconds from the first stamp on, never less than before.
+  std::int64_t at(std::int64_t stamp_ns, std::int64_t recorded_ns);
+  TrackTime source() const { return source_; }
+
+ private:
+  bool started_ = false;
+  std::int64_t now_ns_ = 0, stamp_ns_ = 0, recorded_ns_ = 0;  // of the last frame
+  TrackTime source_ = TrackTime::stamps;
+};
+
 class TrackedVolumes {
  public:
   /// Fills result.tracks, and names the axes of each oriented box as those of the same object's last one; if
   /// asked for, oriented boxes are steadied.
-  /// `clusters`: the points of each; `pose`: of the sensor in a fixed frame, if it is known.
-  void update(const TrackConfig& config, const std::vector<PointView>& clusters,
-              const std::optional<Pose>& pose, FrameResult& result);
+  /// `clusters`: the points of each.
+  void update(const TrackConfig& config, const std::vector<PointView>& clusters, const Frame& frame,
+              FrameResult& result);
 
   /// Forgets all tracks, but not which ids were given.
-  void reset() { tracker_.reset(); }
+  void reset() {
+    tracker_.reset();
+    clock_ = TrackClock();
+  }
 
  private:
   void keep_axes(const Tracker::Assignment& assignment, const TrackConfig& config, std::size_t cluster,
                  const PointView& points, FrameResult& result);
 
   Tracker tracker_;
+  TrackClock clock_;
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
   std::vector<const Method*> methods_;  // of filters_

@@ -38,16 +38,20 @@ struct Frame {
   /// FramePipeline::process(); StreamRunner::push() refuses points without it.
   std::shared_ptr<const void> owner;
 
-  double decode_ms = 0;      ///< What reading it cost, if somebody measured it.
-  std::string file;          ///< Where it comes from; empty if not from a file.
-  std::string note;          ///< What its source noticed and did not refuse, for people; mostly empty.
+  double decode_ms = 0;  ///< What reading it cost, if somebody measured it.
+  std::string file;      ///< Where it comes from; empty if not from a file.
+  std::string note;      ///< What its source noticed and did not refuse, for people; mostly empty.
   /// The class of each point, by point number, where somebody has told them apart; else null.
   std::shared_ptr<const std::vector<std::int64_t>> classes;
-  /// Of each point, by point number, for those who look at it; `owner` keeps it. Not given: the source knows none.
+  /// Of each point, by point number, for those who look at it; `owner` keeps it. Not given: the source knows
+  /// none.
   std::optional<FieldView> intensity{};
   std::optional<Pose> pose;  ///< Of the sensor in a fixed frame, if it is known.
   /// Where the source says that the sensor is in the frame of the points, metres, as VIEWPOINT of a .pcd does.
   std::optional<Eigen::Vector3d> sensor{};
+  /// When it was recorded or sent, nanoseconds of that machine's clock; 0: not known. For tracks whose stamps
+  /// do not advance.
+  std::int64_t recorded_ns = 0;
 
   /// From when its latency counts. Replays at a pace: when it was due. A live source whose stamps are the
   /// system's time: steady_time(stamp_ns). If not set, StreamRunner::push() sets it to when it is called.
@@ -67,4 +71,4 @@ inline std::chrono::steady_clock::time_point steady_time(std::int64_t system_ns)
   return std::chrono::steady_clock::now() - (since_1970 - std::chrono::nanoseconds(system_ns));
 }
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
@@ -25,6 +26,13 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Wall-clock milliseconds of each stage; `total` is from the cloud in memory to the volumes, without decode.
 struct StageTimes {
   double decode = 0, filter = 0, ground = 0, cluster = 0, fit = 0, track = 0, total = 0;
+};
+
+/// Where the time between a tracked frame and the one before comes from.
+enum class TrackTime : std::uint8_t {
+  stamps,    ///< They advance.
+  recorded,  ///< The stamp is not later than the last one, or that was not; Frame::recorded_ns is.
+  none       ///< Neither is: tracks stay where they were.
 };
 
 /// Reuse keeps the capacity. Indices are those of the frame's cloud.
@@ -48,6 +56,7 @@ struct FrameResult {
   std::vector<std::int64_t> class_of;  ///< Of each cluster, if they are told apart by class; else empty.
   std::shared_ptr<const PointSource> filtered;  ///< Instead of `kept`, for big clouds without index lists.
 
+  TrackTime track_time = TrackTime::stamps;  ///< Only with tracking.
   /// For each cluster its track, none until the track is born; empty without tracking.
   std::vector<std::optional<TrackEntry>> tracks;
 
@@ -85,6 +94,9 @@ std::string ground_remark(const FrameResult& result);
 /// more: that, and what the range is; `from` says where it comes from ("--preset table"). Else nothing.
 std::string range_remark(const FrameResult& result, const std::string& from);
 
+/// If the frame is tracked and its stamp does not advance: that, and what tracks use instead; else nothing.
+std::string track_remark(const FrameResult& result);
+
 /// The clusters as they are reported.
 std::vector<ClusterEntry> entries_of(const FrameResult& result);
 
@@ -97,4 +109,4 @@ FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 /// are no ground. Views the frame, the result and the labels.
 Picture picture_of(const Frame& frame, const FrameResult& result, const std::vector<std::uint32_t>& labels);
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

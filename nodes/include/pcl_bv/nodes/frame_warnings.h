@@ -13,7 +13,8 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// What a user wants to know before believing results: no ground or nothing else, a cloud that does not lie
-/// around its sensor's place or is upside down, a sensor height that fits no plane.
+/// around its sensor's place or is upside down, a sensor height that fits no plane, stamps of tracked frames
+/// that do not advance.
 class FrameWarnings {
  public:
   /// Returns those that were not yet returned under the result's configuration: of a stream each kind comes
@@ -26,4 +27,4 @@ class FrameWarnings {
   std::uint32_t said_ = 0;  // bits of kinds
 };
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv
