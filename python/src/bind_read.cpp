@@ -11,8 +11,6 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/nodes/recorded_clouds.h"
-#include "pcl_bv/recording/recording.h"
-#include "pcl_bv/recording/velodyne.h"
 #include "pcl_bv/report/read_volumes.h"
 #include "pcl_bv/synth/synth.h"
 #include "raw_cloud_array.h"
@@ -48,30 +46,10 @@ void warn(const std::string& name, const std::string& note) {
     throw py::error_already_set();
 }
 
-RawCloud raw_of(const VelodyneSweep& sweep) {
-  RawCloud cloud;
-  cloud.fields = {{"x", 'F', 4, 1, 0},          {"y", 'F', 4, 1, 4},     {"z", 'F', 4, 1, 8},
-                  {"intensity", 'F', 4, 1, 12}, {"ring", 'U', 4, 1, 16}, {"time_ns", 'U', 4, 1, 20}};
-  static_assert(sizeof(VelodynePoint) == 24);
-  cloud.point_step = sizeof(VelodynePoint);
-  cloud.width = sweep.points.size();
-  const auto* const begin = reinterpret_cast<const std::byte*>(sweep.points.data());
-  cloud.data.assign(begin, begin + cloud.width * cloud.point_step);
-  return cloud;
-}
-
 RawCloud load_cloud(const std::string& name, const std::string& topic, std::size_t number,
                     std::size_t bin_fields, const ParallelPolicy& policy) {
   if (name.rfind("synth:", 0) == 0) return to_raw_cloud(make_synth(parse_synth(name.substr(6))));
-  if (is_recording(name)) return RecordedClouds(name, topic).load(number);
-  if (is_capture(name)) {
-    VelodyneReader reader(name);
-    VelodyneSweep sweep;
-    for (std::size_t i = 0; i <= number; ++i) {
-      if (!reader.next(sweep)) throw IoError("the recording ends before this cloud");
-    }
-    return raw_of(sweep);
-  }
+  if (has_recorded_clouds(name)) return RecordedClouds(name, topic).load(number);
   return read_cloud(name, policy, bin_fields);
 }
 
@@ -121,19 +99,24 @@ py::array points_of_frame(const FrameObject& object) {
 
 class FramesObject {
  public:
-  FramesObject(const std::string& name, const ReplayOptions& options) : source_(open_source(name, options)) {}
+  FramesObject(const std::string& name, const ReplayOptions& options)
+      : name_(name), source_(open_source(name, options)) {}
 
-  /// Nothing at the end. Lets Ctrl-C through while nothing comes.
+  /// Nothing at the end. Lets Ctrl-C through while nothing comes. What was noticed is a UserWarning.
   std::optional<Frame> next() {
     for (;;) {
       Frame frame;
       Next what = Next::end;
+      std::vector<std::string> remarks;
       {
         const py::gil_scoped_release unlocked;
         const std::lock_guard lock(mutex_);
         if (source_) what = source_->next(frame, std::chrono::milliseconds(100));
+        if (source_) remarks = source_->take_remarks();
         if (what == Next::end) source_.reset();
       }
+      for (const std::string& remark : remarks)
+        warn(name_, remark);
       if (what == Next::frame) return frame;
       if (what == Next::end) return {};
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -142,6 +125,7 @@ class FramesObject {
 
  private:
   std::mutex mutex_;
+  std::string name_;
   std::unique_ptr<FrameSource> source_;
 };
 
@@ -189,6 +173,9 @@ void bind_read(py::module_& module) {
       .def_property_readonly("points", points_of_frame, "(N, 3), float32 or float64, not copied.")
       .def_property_readonly(
           "stamp_ns", [](const F& f) { return f.frame.header.stamp_ns; }, "Nanoseconds.")
+      .def_property_readonly(
+          "recorded_ns", [](const F& f) { return f.frame.recorded_ns; },
+          "When it was recorded or sent, nanoseconds; 0 where nobody says.")
       .def_property_readonly(
           "seq", [](const F& f) { return f.frame.header.seq; }, "Its number in the source.")
       .def_property_readonly(

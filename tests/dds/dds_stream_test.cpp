@@ -207,7 +207,7 @@ TEST_F(Dds, SaysThatATopicHasAnotherType) {
   const auto carrier = middleware("dds").carrier("");
   carrier->add_topic({"/points", "sensor_msgs/msg/Image"});
   EXPECT_TRUE(wait_for([&] { return !node.errors().empty(); }));
-  EXPECT_THAT(node.errors(), HasSubstr("dds:/points: also published as sensor_msgs::msg::dds_::Image_, which is not read"));
+  EXPECT_THAT(node.errors(), HasSubstr("dds:/points: published as sensor_msgs/msg/Image, which is not read: only sensor_msgs/msg/PointCloud2 is"));
   EXPECT_EQ(node.end(SIGTERM), 0);
 }
 

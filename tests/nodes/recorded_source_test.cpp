@@ -12,6 +12,7 @@
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
+#include "pcl_bv/nodes/recorded_clouds.h"
 #include "pcl_bv/recording/mcap_writer.h"
 
 namespace pcl_bv {
@@ -132,7 +133,49 @@ TEST_F(RecordedSource, OfSeveralTopicsWantsOneNamed) {
 
 TEST_F(RecordedSource, WithoutCloudsSaysWhatIsThere) {
   record({});
-  EXPECT_EQ(refusal({}), "unreadable: " + file() + ": no topic of sensor_msgs/msg/PointCloud2; topics: /tf");
+  EXPECT_EQ(refusal({}),
+            "unreadable: " + file() +
+                ": no topic of sensor_msgs/msg/PointCloud2; topics: /tf (tf2_msgs/msg/TFMessage)");
+  ReplayOptions options = as_recorded();
+  options.topic = "/points";
+  EXPECT_EQ(refusal(options), "no topic /points; there are /tf (tf2_msgs/msg/TFMessage)");
+}
+
+// Filters publish a default cloud when nothing is left: nothing is there, and tracks age.
+TEST_F(RecordedSource, GivesAnEmptyFrameForACloudWithoutPointsAndFields) {
+  record({"/points"}, 3, [](std::size_t i, msg::PointCloud2& cloud) {
+    if (i != 1) return;
+    const msg::Header header = cloud.header;
+    cloud = msg::PointCloud2();
+    cloud.header = header;
+  });
+  for (const char* classes : {"", "class"}) {
+    ReplayOptions options = as_recorded();
+    options.class_field = classes;
+    const std::vector<Frame> frames = frames_of(*open_source(file(), options));
+    ASSERT_EQ(frames.size(), 3U);
+    EXPECT_EQ(frames[1].points.count, 0U);
+    EXPECT_EQ(frames[1].header.stamp_ns, 1'050'000'000);
+    EXPECT_EQ(frames[1].classes != nullptr, *classes != '\0');
+  }
+  RecordedClouds clouds(file(), "");
+  EXPECT_EQ(clouds.count(), 3U);
+  EXPECT_EQ(clouds.load(1).size(), 0U);
+}
+
+TEST_F(RecordedSource, SaysTheSameOfAFieldThatCannotBeReadHoweverItIsRead) {
+  record({"/points"}, 1, [](std::size_t, msg::PointCloud2& cloud) { cloud.fields[3].datatype = 9; });
+  const std::vector<Frame> frames = frames_of(*open_source(file(), as_recorded()));
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].note, "field 'class' is left out: it is of datatype 9, not 1 to 8");
+  EXPECT_EQ(RecordedClouds(file(), "").load(0).note, frames[0].note);
+}
+
+TEST_F(RecordedSource, KnowsWhenItsCloudsWereRecorded) {
+  record({"/points"});
+  const std::vector<Frame> frames = frames_of(*open_source(file(), as_recorded()));
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[2].recorded_ns, 77'000'002);
 }
 
 TEST_F(RecordedSource, GoesOnAfterACloudThatDoesNotFitItsData) {

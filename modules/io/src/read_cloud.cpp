@@ -83,11 +83,14 @@ void refuse_other_formats(const std::filesystem::path& path) {
       {" .obj .stl .off .gltf .glb .dae .3ds ",
        "is a mesh, no cloud: sample points of it, as with pcl_mesh_sampling"},
       {" .e57 .rcp .rcs .fls .zfs ", "is a scanner's own format: convert it to .las, .ply or .pcd"},
-      {" .bag .mcap .db3 .pcap ", "is a recording, no cloud: extract its clouds as .pcd files"},
+      {" .bag .mcap .db3 .pcap .pcapng ",
+       "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does"},
       {" .xyz .txt .csv .asc .pts ", "is plain text: a .pcd header before the lines makes it a cloud"}};
   const std::string extension = " " + lower_case_extension(path) + " ";
   for (const auto& [extensions, what] : kinds) {
-    if (extensions.find(extension) != std::string_view::npos) throw IoError(std::string(what));
+    if (extensions.find(extension) == std::string_view::npos) continue;
+    static_cast<void>(InputFile(path));  // no such file, or an empty one, is the better reason
+    throw IoError(std::string(what));
   }
 }
 

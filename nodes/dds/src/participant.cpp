@@ -179,6 +179,16 @@ std::string dds_type(const std::string& type) {
   return name + "dds_::" + type.substr(begin) + '_';
 }
 
+std::string ros_type(std::string type) {
+  if (const std::size_t own = type.find("dds_::"); own != std::string::npos && type.ends_with('_')) {
+    type.pop_back();
+    type.erase(own, 6);
+  }
+  for (std::size_t colons = type.find("::"); colons != std::string::npos; colons = type.find("::"))
+    type.replace(colons, 2, "/");
+  return type;
+}
+
 Qos make_qos() {
   return {dds_create_qos(), dds_delete_qos};
 }

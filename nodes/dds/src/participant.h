@@ -65,6 +65,8 @@ std::string dds_topic(const std::string& topic);
 
 /// ROS's name of a type as DDS's ("sensor_msgs/msg/PointCloud2": "sensor_msgs::msg::dds_::PointCloud2_").
 std::string dds_type(const std::string& type);
+/// The other way round, for people.
+std::string ros_type(std::string type);
 
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
 Qos make_qos();

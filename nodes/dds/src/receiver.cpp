@@ -106,7 +106,7 @@ class Receiver final : public MessageReceiver {
       const auto& writer = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
       if (!infos[i].valid_data || name_ != writer.topic_name || type_ == writer.type_name) continue;
       if (others_.insert(writer.type_name).second)
-        all.push_back("also published as " + std::string(writer.type_name) + ", which is not read");
+        all.push_back("published as " + ros_type(writer.type_name) + ", which is not read: only " + ros_type(type_) + " is");
     }
     if (count > 0) dds_return_loan(publications_.get(), samples, count);
     dds_requested_incompatible_qos_status_t refused{};

@@ -41,6 +41,22 @@ std::vector<std::string> last_first(const CLI::App& app, int argc, const char* c
   return arguments;
 }
 
+// "--loop --track": the value was forgotten, and CLI11 takes the next option for it.
+void refuse_options_as_values(const CLI::App& app, int argc, const char* const* argv) {
+  const auto option_of = [&](std::string_view argument) -> const CLI::Option* {
+    return argument.starts_with("--") && argument.size() > 2 ? app.get_option_no_throw(std::string(argument))
+                                                             : nullptr;
+  };
+  for (int i = 1; i + 1 < argc && std::string_view(argv[i]) != "--"; ++i) {
+    const CLI::Option* const option = option_of(argv[i]);
+    if (option == nullptr || option->get_items_expected_max() == 0) continue;
+    ++i;
+    if (option_of(argv[i]) != nullptr)
+      throw UsageError(option->get_name() + " needs a value (" + option->get_type_name() +
+                       "), but the option " + argv[i] + " comes next");
+  }
+}
+
 void refuse_empty_values(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     const std::vector<std::string>& values = option->results();
@@ -85,6 +101,7 @@ void CommandLine::flag(const char* name, bool& value, const std::string& help) {
 
 std::optional<std::string> CommandLine::parse(int argc, const char* const* argv) {
   try {
+    refuse_options_as_values(*app_, argc, argv);
     app_->parse(last_first(*app_, argc, argv));
     refuse_empty_values(*app_);
   } catch (const CLI::CallForHelp&) {

@@ -14,7 +14,6 @@
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "pcl_bv/recording/recording.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/synth/synth.h"
 #include "tiles.h"
@@ -49,7 +48,7 @@ std::vector<Job> expand_recording(const std::string& argument, const std::string
 
 std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   try {
-    if (!is_synth(argument) && is_recording(argument)) return expand_recording(argument, topic);
+    if (!is_synth(argument) && has_recorded_clouds(argument)) return expand_recording(argument, topic);
   } catch (const IoError& error) {
     return {{argument, error.what()}};
   } catch (const std::invalid_argument& error) {

@@ -124,15 +124,19 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   const bool told_apart = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
   LoadedCloud loaded(job, told_apart || job.labels, policy, options.origin);
   const double read = watch.lap();
-  if (!loaded.cloud().note.empty()) complain(job.input + ": " + loaded.cloud().note);
+  const std::string note = job.recording ? job.recording->unsaid(loaded.cloud().note) : loaded.cloud().note;
+  if (!note.empty()) complain(job.input + ": " + note);
   Frame frame;
   frame.points = loaded.xyz();
   frame.sensor = sensor_of(loaded.cloud());
   if (frame.sensor && loaded.origin()) *frame.sensor -= *loaded.origin();
   if (const RawCloud& cloud = loaded.cloud(); !cloud.data.empty())
     frame.intensity = intensity_of(cloud.fields, cloud.data.data(), cloud.point_step);
-  if (const auto& field = options.pipeline.cluster.class_field)
-    frame.classes = std::make_shared<std::vector<std::int64_t>>(integers_of(loaded.cloud(), field->name));
+  if (const auto& field = options.pipeline.cluster.class_field) {
+    const bool any = frame.points.count > 0;  // a cloud without points may lack the field
+    frame.classes = std::make_shared<std::vector<std::int64_t>>(any ? integers_of(loaded.cloud(), field->name)
+                                                                    : std::vector<std::int64_t>());
+  }
   FrameResult result;
   pipeline.process(frame, result);
   if (job.tiles) report.parts = job.tiles->used();

@@ -15,9 +15,8 @@ namespace {
 class Packets final : public FrameSource {
  public:
   Packets(const std::string& name, const ReplayOptions& options)
-      : name_(name), options_(options), reader_(name) {
+      : name_(name), options_(options), reader_(name, options.topic) {
     if (!options_.class_field.empty()) throw std::invalid_argument("packets have no field of classes");
-    if (!options_.topic.empty()) throw std::invalid_argument("packets have no topics");
     if (!options_.poses.empty()) poses_ = Poses(options_.poses, count());
   }
 
@@ -41,7 +40,8 @@ class Packets final : public FrameSource {
     if (!sweep->points.empty()) {
       const VelodynePoint& first = sweep->points.front();
       frame.points = PointView::of(&first.x, sizeof(VelodynePoint), sweep->points.size());
-      frame.intensity = FieldView{reinterpret_cast<const std::byte*>(&first.intensity), sizeof(VelodynePoint)};
+      frame.intensity =
+          FieldView{reinterpret_cast<const std::byte*>(&first.intensity), sizeof(VelodynePoint)};
     }
     frame.owner = sweep;
     frame.decode_ms =

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/messages/cloud.h"
-#include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/nodes/cloud_message.h"
 #include "pcl_bv/recording/recording.h"
+#include "pcl_bv/recording/velodyne.h"
 
 namespace pcl_bv {
 namespace {
@@ -19,10 +21,21 @@ bool has_clouds(const RecordedTopic& topic) {
   return topic.type == msg::PointCloud2::ros_type && (topic.encoding == "cdr" || topic.encoding == "ros1");
 }
 
-std::string list_of(const std::vector<RecordedTopic>& topics, bool (*which)(const RecordedTopic&)) {
+std::string clouds_of(const std::vector<RecordedTopic>& topics) {
   std::string list;
   for (const RecordedTopic& topic : topics) {
-    if (which(topic)) list += (list.empty() ? "" : ", ") + topic.name;
+    if (has_clouds(topic)) list += (list.empty() ? "" : ", ") + topic.name;
+  }
+  return list;
+}
+
+// With what one must know to convert them: "/points (livox_ros_driver2/msg/CustomMsg)".
+std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
+  std::string list;
+  for (const RecordedTopic& topic : topics) {
+    const bool usual = topic.encoding == "cdr" || topic.encoding == "ros1" || topic.encoding.empty();
+    list += (list.empty() ? "" : ", ") + topic.name + " (" +
+            (topic.type.empty() ? "of no type" : topic.type) + (usual ? "" : ", " + topic.encoding) + ')';
   }
   return list.empty() ? "none" : list;
 }
@@ -30,41 +43,72 @@ std::string list_of(const std::vector<RecordedTopic>& topics, bool (*which)(cons
 }  // namespace
 
 std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name) {
-  const std::string clouds = list_of(topics, has_clouds);
+  const std::string clouds = clouds_of(topics);
+  const std::string others =
+      clouds.empty() ? "there are " + topics_with_types(topics) : "those with clouds: " + clouds;
   const auto number = [&](auto found) { return static_cast<std::size_t>(found - topics.begin()); };
   if (!name.empty()) {
-    const auto found = std::find_if(topics.begin(), topics.end(),
-                                    [&](const RecordedTopic& topic) { return topic.name == name; });
-    if (found == topics.end())
-      throw std::invalid_argument("no topic " + name + "; those with clouds: " + clouds);
-    if (!has_clouds(*found))
-      throw std::invalid_argument("topic " + name + " is of " + found->type + " (" + found->encoding +
-                                  "), not of clouds; those with clouds: " + clouds);
-    return number(found);
+    const auto is_named = [&](const RecordedTopic& topic) { return topic.name == name; };
+    const auto found = std::find_if(topics.begin(), topics.end(), is_named);
+    if (found == topics.end()) throw std::invalid_argument("no topic " + name + "; " + others);
+    // Several senders may use one name for messages of several types.
+    const auto cloud = std::find_if(topics.begin(), topics.end(), [&](const RecordedTopic& topic) {
+      return is_named(topic) && has_clouds(topic);
+    });
+    if (cloud != topics.end()) return number(cloud);
+    throw std::invalid_argument("topic " + name + " is of " +
+                                (found->type.empty() ? "no type" : found->type) + " (" + found->encoding +
+                                "), not of clouds; " + others);
   }
   const auto count = std::count_if(topics.begin(), topics.end(), has_clouds);
   if (count > 1)
     throw std::invalid_argument("several topics have clouds: " + clouds + "; say which with --topic");
   if (count == 0)
     throw IoError("no topic of " + std::string(msg::PointCloud2::ros_type) +
-                  "; topics: " + list_of(topics, [](const RecordedTopic&) { return true; }));
+                  "; topics: " + topics_with_types(topics));
   return number(std::find_if(topics.begin(), topics.end(), has_clouds));
+}
+
+bool has_recorded_clouds(const std::filesystem::path& file) {
+  return is_recording(file) || is_capture(file);
 }
 
 struct RecordedClouds::State {
   std::unique_ptr<RecordingReader> reader;
+  std::unique_ptr<VelodyneReader> packets;  // instead of it
   std::size_t topic = 0;
-  std::size_t next = 0;  // number of the message that comes next
+  std::size_t next = 0;  // number of the cloud that comes next
+  std::string said;
   mutable std::mutex mutex;
 
   void rewind() {
-    reader->select({topic});
+    if (packets) {
+      packets->rewind();
+    } else {
+      reader->select({topic});
+    }
     next = 0;
   }
+
+  // Of the next cloud the bytes; false at the end.
+  bool take() { return packets ? packets->next(sweep) : reader->next(message); }
+
+  RawCloud cloud() const {
+    if (packets) return raw_cloud_of(sweep);
+    const bool ros1 = reader->topics()[topic].encoding != "cdr";
+    return raw_cloud_of(cloud_in({message.data, message.size, nullptr, ros1}));
+  }
+
+  RecordedMessage message;
+  VelodyneSweep sweep;
 };
 
 RecordedClouds::RecordedClouds(const std::filesystem::path& file, const std::string& topic)
     : state_(std::make_unique<State>()) {
+  if (is_capture(file)) {
+    state_->packets = std::make_unique<VelodyneReader>(file, topic);
+    return;
+  }
   state_->reader = open_recording(file);
   state_->topic = cloud_topic(state_->reader->topics(), topic);
   state_->rewind();
@@ -73,34 +117,32 @@ RecordedClouds::~RecordedClouds() = default;
 
 std::size_t RecordedClouds::count() {
   const std::lock_guard lock(state_->mutex);
-  std::size_t messages = state_->reader->topics()[state_->topic].messages;
-  if (messages > 0) return messages;
+  std::size_t clouds = state_->packets ? 0 : state_->reader->topics()[state_->topic].messages;
+  if (clouds > 0) return clouds;
   state_->rewind();
-  for (RecordedMessage message; state_->reader->next(message);)
-    ++messages;
+  while (state_->take())
+    ++clouds;
   state_->rewind();
-  return messages;
+  return clouds;
 }
 
 RawCloud RecordedClouds::load(std::size_t number) {
   const std::lock_guard lock(state_->mutex);
   if (number < state_->next) state_->rewind();
-  RecordedMessage message;
   for (; state_->next <= number; ++state_->next) {
-    if (!state_->reader->next(message)) throw IoError("the recording ends before this cloud");
+    if (!state_->take()) throw IoError("the recording ends before this cloud");
   }
-  msg::PointCloud2 cloud;
-  if (state_->reader->topics()[state_->topic].encoding == "cdr") {
-    read_cdr(message.data, message.size, cloud);
-  } else {
-    read_ros1(message.data, message.size, cloud);
-  }
-  return raw_cloud_of(cloud);
+  return state_->cloud();
+}
+
+std::string RecordedClouds::unsaid(const std::string& note) {
+  const std::lock_guard lock(state_->mutex);
+  return note == std::exchange(state_->said, note) ? std::string() : note;
 }
 
 std::vector<std::string> RecordedClouds::remarks() const {
   const std::lock_guard lock(state_->mutex);
-  return state_->reader->remarks();
+  return state_->packets ? state_->packets->remarks() : state_->reader->remarks();
 }
 
 }  // namespace pcl_bv

@@ -15,15 +15,21 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct RecordedTopic;
 
-/// The place of the topic of this name, or, if it is empty, of the only one with sensor_msgs/msg/PointCloud2, in CDR
-/// or ROS 1's encoding. Throws std::invalid_argument, listing those that would do, if the topic is not there, has no
-/// clouds, or has to be named; IoError if no topic has clouds.
+/// The place of the topic of this name, or, if it is empty, of the only one with sensor_msgs/msg/PointCloud2,
+/// in CDR or ROS 1's encoding. Throws std::invalid_argument, listing those that would do, if the topic is not
+/// there, has no clouds, or has to be named; IoError if no topic has clouds.
 std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name);
 
-/// The clouds of a recording, by their numbers. May be asked by several threads at a time, one of which waits.
+/// Whether there are clouds of a recording (open_recording()) or of a sensor's packets (VelodyneReader), by
+/// the first bytes.
+bool has_recorded_clouds(const std::filesystem::path& file);
+
+/// The clouds of a recording or of a capture of packets, by their numbers. May be asked by several threads at
+/// a time, one of which waits.
 class RecordedClouds {
  public:
-  /// Throws as open_recording() and cloud_topic() do.
+  /// `topic`: of packets the address of a sensor. Throws as open_recording() and cloud_topic(), or
+  /// VelodyneReader, do.
   RecordedClouds(const std::filesystem::path& file, const std::string& topic);
   ~RecordedClouds();
   RecordedClouds(const RecordedClouds&) = delete;
@@ -36,6 +42,9 @@ class RecordedClouds {
   /// reading from the beginning. Throws IoError if it is not there, MessageError if it is no cloud.
   RawCloud load(std::size_t number);
 
+  /// The note of a cloud unless it is that of the cloud before, which all clouds of a driver have.
+  std::string unsaid(const std::string& note);
+
   /// What was damaged so far, a line each.
   std::vector<std::string> remarks() const;
 
@@ -44,4 +53,4 @@ class RecordedClouds {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv
