@@ -203,7 +203,7 @@ std::vector<T> list_of(const py::handle& array) {
 ClustersObject from_state(py::handle given) {
   const py::tuple state = parts_of_state(given, 5);
   ClustersObject c;
-  c.points = state[0].cast<std::size_t>();
+  c.points = points_of_state(state[0]);
   c.found.indices = list_of<std::int32_t>(state[1]);
   c.found.offsets = list_of<std::size_t>(state[2]);
   const py::tuple counts = parts_of_state(state[3], 4);
@@ -213,13 +213,12 @@ ClustersObject from_state(py::handle given) {
   c.found.class_points = counts[3].cast<std::size_t>();
   c.class_of = list_of<std::int64_t>(state[4]);
   const auto in_cloud = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < c.points; };
-  if (c.points > std::numeric_limits<std::int32_t>::max() || c.found.offsets.empty() ||
-      c.found.offsets.front() != 0 || c.found.offsets.back() != c.found.indices.size() ||
+  if (c.found.offsets.empty() || c.found.offsets.front() != 0 ||
+      c.found.offsets.back() != c.found.indices.size() ||
       !std::is_sorted(c.found.offsets.begin(), c.found.offsets.end()) ||
       !std::all_of(c.found.indices.begin(), c.found.indices.end(), in_cloud) ||
       !(c.class_of.empty() || c.class_of.size() == c.found.size()))
     throw py::value_error("its numbers contradict each other");
-  c.label_points();
   return c;
 }
 
@@ -234,7 +233,7 @@ py::tuple state_of_ground(const GroundObject& g) {
 GroundObject ground_from_state(py::handle given) {
   const py::tuple state = parts_of_state(given, 6);
   GroundObject g;
-  g.points = whole_number(state[0], "points", {0, std::numeric_limits<std::int32_t>::max()});
+  g.points = points_of_state(state[0]);
   g.split.found = state[1].cast<bool>();
   g.split.normal = vector3(state[2], "normal");
   g.split.offset = state[3].cast<double>();
@@ -267,7 +266,7 @@ void bind_clusters(py::module_& module) {
   using C = ClustersObject;
   py::class_<C>(module, "Clusters", clusters_doc)
       .def_property_readonly(
-          "labels", [](const py::object& self) { return view_of_vector(self.cast<const C&>().labels, self); },
+          "labels", [](const py::object& self) { return view_of_vector(self.cast<C&>().labelled(), self); },
           "(N,) int32: the number of each point's cluster, -1 for none.")
       .def_property_readonly(
           "indices",

@@ -14,7 +14,13 @@ struct ClustersObject {
   Clusters found;
   std::size_t points = 0;
   std::vector<std::int64_t> class_of{};  ///< Empty without classes.
-  std::vector<std::int32_t> labels{};    ///< Of all points; -1: none.
+  std::vector<std::int32_t> labels{};  ///< Of all points; -1: none. Of a state: made when they are asked for.
+
+  /// With the GIL held. A state of some bytes may claim 2^31 points: whoever asks for their labels gets them.
+  const std::vector<std::int32_t>& labelled() {
+    if (labels.size() != points) label_points();
+    return labels;
+  }
 
   void label_points() {
     labels.assign(points, -1);

@@ -153,6 +153,7 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
                   clusters = parts_of_state(state["clusters"], 3);
   r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), header[2].cast<std::string>(),
               header[3].cast<std::uint64_t>()};
+  if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("its settings are no dict");
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
   r.points = self->points.view.count;
   r.counts = counts(parts_of_state(state["counts"], 8));

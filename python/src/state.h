@@ -20,7 +20,7 @@ auto of_state(const std::string& name, const Make& make) {
     throw py::value_error(what);
   } catch (const py::cast_error&) {
     throw py::value_error(what);
-  } catch (const py::builtin_exception& error) {
+  } catch (const std::runtime_error& error) {  // ours, of settings and of arguments
     throw py::value_error(what + ": " + error.what());
   } catch (const std::length_error&) {
     throw py::value_error(what);
@@ -35,6 +35,12 @@ inline py::tuple parts_of_state(py::handle state, std::size_t count) {
   auto parts = py::reinterpret_borrow<py::tuple>(state);
   if (parts.size() != count) throw py::value_error("it has not " + std::to_string(count) + " parts");
   return parts;
+}
+
+/// A number of points; an array of one number is none.
+inline std::size_t points_of_state(py::handle part) {
+  if (PyLong_Check(part.ptr()) == 0) throw py::value_error("its number of points is no whole number");
+  return whole_number(part, "points", {0, std::numeric_limits<std::int32_t>::max()});
 }
 
 }  // namespace pcl_bv::python
