@@ -187,7 +187,8 @@ PointArray records_of(const py::array& array, const char* name) {
                   std::vector<py::ssize_t>{array.shape(0), 3});
     for (py::ssize_t k = 0; k < 3; ++k) {
       const Field* const fields[] = {&x, &y, &z};
-      const py::object column = array[py::str(fields[k]->name)].attr("astype")(xyz.dtype());  // a masked one stays so
+      const py::object column =
+          array[py::str(fields[k]->name)].attr("astype")(xyz.dtype());  // a masked one stays so
       xyz[py::make_tuple(py::ellipsis(), k)] = without_mask(column, name);
     }
     return packed(xyz);

@@ -526,8 +526,9 @@ TEST_F(BvStream, ATerminalShowsTheFrameBelowTheProblemsAndASummaryInTheEnd) {
   const std::string erased = "\r" + std::string(std::string("frame 0: 0 objects, 0.0 ms").size(), ' ') + "\r";
   EXPECT_THAT(result.err, testing::StartsWith("frame 0: 0 objects, "));
   EXPECT_THAT(result.err, HasSubstr(" ms" + erased + "bv_stream: " + at("sweeps/2.pcd") + ": frame 1: "));
-  EXPECT_THAT(result.err,
-              HasSubstr(erased + "bv_stream: 3 frames, 2 done, dropped 0 queue, 0 age, 1 error; latency p50 "));
+  EXPECT_THAT(
+      result.err,
+      HasSubstr(erased + "bv_stream: 3 frames, 2 done, dropped 0 queue, 0 age, 1 error; latency p50 "));
 }
 
 TEST_F(BvStream, AllMeansEveryMethodButTheHull) {

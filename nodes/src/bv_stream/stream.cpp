@@ -51,11 +51,10 @@ void report(const RunnerStats& stats) {
   const FrameTotals& f = stats.frames;
   const auto count = [](std::uint64_t n, const char* what) { return std::to_string(n) + what; };
   char latency[80];
-  std::snprintf(latency, sizeof latency, "latency p50 %.1f ms, p99 %.1f ms",
-                stats.ms.latency.percentile(0.5), stats.ms.latency.percentile(0.99));
-  say(count(f.in, " frames, ") + count(f.processed, " done, dropped ") +
-      count(f.dropped_queue, " queue, ") + count(f.dropped_age, " age, ") +
-      count(f.dropped_error, " error; ") + latency);
+  std::snprintf(latency, sizeof latency, "latency p50 %.1f ms, p99 %.1f ms", stats.ms.latency.percentile(0.5),
+                stats.ms.latency.percentile(0.99));
+  say(count(f.in, " frames, ") + count(f.processed, " done, dropped ") + count(f.dropped_queue, " queue, ") +
+      count(f.dropped_age, " age, ") + count(f.dropped_error, " error; ") + latency);
 }
 
 // What the reading thread does until the source ends, a signal comes, or nobody takes results any more.
