@@ -66,7 +66,7 @@ Eigen::Vector3d Aabb::support(const Eigen::Vector3d& direction) const {
 double Aabb::distance(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
-  if (empty()) return kInfinity;
+  if (empty() || !point.allFinite()) return kInfinity;
   const Eigen::Vector3d excess = (min_ - point).cwiseMax(point - max_).cwiseMax(0.0);
   return excess.stableNorm();
 }

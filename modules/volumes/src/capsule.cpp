@@ -60,7 +60,8 @@ bool Capsule::contains(const Eigen::Vector3d& point) const {
   if (empty()) return false;
   const Eigen::Vector3d q = point - a_, e = b_ - a_;
   const double size = taxicab3(q) + taxicab3(e);
-  return distance_to_segment(q, e) <= radius_ + (0x1p-48 * (size + radius_) + kSmallestNormal);
+  return distance_to_segment(q, e) <= radius_ + (0x1p-48 * (size + radius_) + kSmallestNormal) &&
+         point.allFinite();
 }
 
 double Capsule::volume() const {
@@ -88,7 +89,7 @@ Eigen::Vector3d Capsule::support(const Eigen::Vector3d& direction) const {
 double Capsule::distance(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
-  if (empty()) return kInfinity;
+  if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   return std::max(0.0, distance_to_segment(point - a_, b_ - a_) - radius_);
 }
@@ -96,7 +97,7 @@ double Capsule::distance(const Eigen::Vector3d& point) const {
 std::optional<RayInterval> Capsule::intersect(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
-  if (empty()) return std::nullopt;
+  if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
   // Grown by the rounding of the axis; contains() is as generous.
   const double size = (b_ - a_).lpNorm<1>() + radius_;
   const double grown = radius_ + 0x1p-46 * size + kSmallestNormal;

@@ -72,7 +72,8 @@ bool Cylinder::contains(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d q = point - center_;
   const auto [along, across] = see(axis_, q);
   const double doubt = 0x1p-48 * taxicab3(q) + kSmallestNormal;
-  return std::abs(along) <= half_height_ + doubt && across.stableNorm() <= radius_ + doubt;
+  return std::abs(along) <= half_height_ + doubt && across.stableNorm() <= radius_ + doubt &&
+         point.allFinite();
 }
 
 double Cylinder::volume() const {
@@ -97,7 +98,7 @@ Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
 double Cylinder::distance(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
-  if (empty()) return kInfinity;
+  if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   const auto [along, across] = see(axis_, point - center_);
   return Eigen::Vector2d(std::max(0.0, std::abs(along) - half_height_),

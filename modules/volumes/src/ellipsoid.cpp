@@ -50,7 +50,7 @@ bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
     const double ratio = along > 0 ? along / radii_[i] : 0;
     sum += ratio * ratio;
   }
-  return !point.hasNaN() && sum <= 1 + 0x1p-48;
+  return sum <= 1 + 0x1p-48 && point.allFinite();
 }
 
 double Ellipsoid::volume() const {

@@ -53,7 +53,7 @@ double Ellipsoid::surface_area() const {
 double Ellipsoid::distance(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
-  if (empty()) return kInfinity;
+  if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   const Eigen::Vector3d q = point - center_;
   const double unit = radii_.maxCoeff();

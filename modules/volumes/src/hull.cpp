@@ -115,7 +115,7 @@ bool Hull::contains(const Eigen::Vector3d& point) const {
     const auto [s, error] = project(plane.normal, point);
     if (!(s - error <= plane.offset)) return false;
   }
-  return !empty();
+  return !empty() && point.allFinite();
 }
 
 double Hull::volume() const {
@@ -158,7 +158,7 @@ Eigen::Vector3d Hull::support(const Eigen::Vector3d& direction) const {
 double Hull::distance(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
-  if (empty()) return kInfinity;
+  if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   const auto [body, unit] = body_of(*this);
   return volumes_internal::distance(body, (point - body.origin) / unit) * unit;

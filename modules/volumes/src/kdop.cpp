@@ -67,7 +67,7 @@ bool Kdop::contains(const Eigen::Vector3d& point) const {
     const auto [s, error] = project(set_->direction(i), point);
     if (!(s - error <= max(i) && s + error >= min(i))) return false;
   }
-  return true;
+  return point.allFinite();
 }
 
 std::optional<RayInterval> Kdop::intersect(const Eigen::Vector3d& origin,

@@ -54,7 +54,7 @@ Eigen::Vector3d Kdop::support(const Eigen::Vector3d& direction) const {
 double Kdop::distance(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
-  if (empty()) return kInfinity;
+  if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   const Polytope polytope = intersect_slabs(*this);
   return volumes_internal::distance(polytope, point - polytope.origin);

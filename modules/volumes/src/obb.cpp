@@ -114,7 +114,7 @@ bool Obb::contains(const Eigen::Vector3d& point) const {
     const auto [s, error] = component(axes_.col(i), q);
     if (!(std::abs(s) <= half_extents_[i] + error)) return false;  // an empty one is nowhere: NaN
   }
-  return true;
+  return point.allFinite();
 }
 
 double Obb::volume() const {
@@ -140,7 +140,7 @@ Eigen::Vector3d Obb::support(const Eigen::Vector3d& direction) const {
 double Obb::distance(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
-  if (empty()) return kInfinity;
+  if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   const Eigen::Vector3d q = point - center_;
   Eigen::Vector3d excess;

@@ -85,7 +85,7 @@ Sphere::Sphere(const Eigen::Vector3d& center, double radius) : Sphere() {
 
 bool Sphere::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
-  return !empty() && within_rounding(point, center_, radius_);
+  return !empty() && within_rounding(point, center_, radius_) && point.allFinite();
 }
 
 double Sphere::contained_square() const {
@@ -110,7 +110,7 @@ Eigen::Vector3d Sphere::support(const Eigen::Vector3d& direction) const {
 double Sphere::distance(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
-  if (empty()) return kInfinity;
+  if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
   return std::max(0.0, (point - center_).stableNorm() - radius_);
 }

@@ -39,7 +39,7 @@ class Aabb {
 
   bool empty() const;
 
-  /// Exact comparison: min <= point <= max. False for an empty box and for a point with a NaN.
+  /// Exact comparison: min <= point <= max. False for an empty box and for a point that is not finite.
   bool contains(const Eigen::Vector3d& point) const;
 
   /// In cubed units; 0 for an empty or a flat box.

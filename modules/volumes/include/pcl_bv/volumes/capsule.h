@@ -35,7 +35,7 @@ class Capsule {
 
   /// The definition in double, give or take 2^-48 (|p - a|_1 + |b - a|_1 + radius) for its own rounding:
   /// every point inside by exact arithmetic is contained; it errs only towards true. False for an empty
-  /// capsule and a point with a NaN.
+  /// capsule and a point that is not finite.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;           ///< In cubed units; 0 if empty.

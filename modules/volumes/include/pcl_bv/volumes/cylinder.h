@@ -36,8 +36,8 @@ class Cylinder {
   bool empty() const { return radius_ < 0; }
 
   /// The definition in double, give or take 2^-48 |p - center|_1 for its own rounding: every point inside by
-  /// exact arithmetic is contained; it errs only towards true. False for an empty cylinder and a point with a
-  /// NaN.
+  /// exact arithmetic is contained; it errs only towards true. False for an empty cylinder and a point that
+  /// is not finite.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< In cubed units; 0 if empty.

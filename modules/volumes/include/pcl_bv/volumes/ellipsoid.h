@@ -36,7 +36,7 @@ class Ellipsoid {
 
   /// The definition in double, each axis i . (p - center) taken to be nearer 0 by 2^-49 |p - center|_1, and 1
   /// to be 1 + 2^-48: every point inside by exact arithmetic is contained; it errs only towards true. False
-  /// for an empty ellipsoid and a point with a NaN.
+  /// for an empty ellipsoid and a point that is not finite.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;  ///< In cubed units; 0 if empty or flat.

@@ -56,7 +56,7 @@ class Hull {
 
   /// For each plane: s = (x nx + y ny) + z nz is at most the offset, give or take the rounding bound
   /// 4 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022. So every point inside by exact arithmetic is contained; it
-  /// errs only towards true. False for an empty hull and for a point with a NaN. O(planes).
+  /// errs only towards true. False for an empty hull and for a point that is not finite. O(planes).
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< In cubed units; 0 if empty or flat. O(triangles).

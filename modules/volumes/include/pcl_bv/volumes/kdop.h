@@ -60,7 +60,7 @@ class Kdop {
 
   /// For each slab: s = (x nx + y ny) + z nz lies between min and max, give or take the rounding bound
   /// 4 2^-53 (|x nx| + |y ny| + |z nz|) + 2^-1022. So every point inside by exact arithmetic is contained; it
-  /// errs only towards true. False for an empty k-DOP and for a point with a NaN.
+  /// errs only towards true. False for an empty k-DOP and for a point that is not finite.
   bool contains(const Eigen::Vector3d& point) const;
 
   /// Of the polytope, in cubed units; 0 if empty or flat.

@@ -71,7 +71,7 @@ class Obb {
 
   /// With q = point - center and s = axis . q in double: |s| <= half extent + 8 2^-53 |q|_1 + 2^-1022, for
   /// each axis. So every point inside by exact arithmetic is contained; it errs only towards true. False for
-  /// an empty box and for a point with a NaN.
+  /// an empty box and for a point that is not finite.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< In cubed units; 0 if empty or flat.

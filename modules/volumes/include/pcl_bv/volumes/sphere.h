@@ -41,7 +41,7 @@ class Sphere {
 
   /// With q = point - center: (qx^2 + qy^2) + qz^2 <= radius^2 (1 + 16 2^-53) + 2^-1022, in double. So every
   /// point inside by exact arithmetic is contained; it errs only towards true. False for an empty sphere and
-  /// for a point with a NaN.
+  /// for a point that is not finite.
   bool contains(const Eigen::Vector3d& point) const;
 
   /// What contains() compares squared distances with; -1 if empty.
