@@ -82,7 +82,10 @@ class Planes {
   }
 
  private:
+  // Not a normal that is only nearly along the axis: n . p also has what a small component makes of a
+  // coordinate that is 10^16 times the others.
   static void bound(const Eigen::Vector3d& n, double offset, double& low, double& high, int axis) {
+    if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) return;
     if (n[axis] == 1) high = std::min(high, offset + margin(offset));
     if (n[axis] == -1) low = std::max(low, -offset - margin(offset));
   }
