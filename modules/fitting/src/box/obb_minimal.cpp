@@ -1,18 +1,20 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The smallest box: there are exact algorithms, cubic in the hull's vertices. What comes within a few
-// ten-thousandths of them is to start from many frames and to turn each about one of its axes after the other
-// as far as the volume sinks: then the box around the outline along that axis is a matter of calipers
-// (Barequet, Har-Peled 2001; Chang et al. 2011). Frames that fall behind are given up, half of them at a time
-// (Karnin, Koren, Somekh 2013).
+// The smallest box. Hulls of few vertices: all pairs of edges (flush_search.h). Others: a search that starts
+// from many frames and turns each about one of its axes after the other as far as the volume sinks; the box
+// around the outline along that axis is a matter of calipers (Barequet, Har-Peled 2001; Chang et al. 2011).
+// It ends within a few thousandths of the smallest, now and then within a few hundredths. Frames that fall
+// behind are given up, half of them at a time (Karnin, Koren, Somekh 2013).
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <random>
 #include <vector>
 
+#include "box/box_frame.h"
 #include "box/flat_box.h"
+#include "box/flush_search.h"
 #include "box/obb_axes.h"
 #include "box/silhouette.h"
 #include "hull/local_hull.h"
@@ -24,52 +26,6 @@
 
 namespace pcl_bv {
 namespace {
-
-using Vertices = std::vector<Eigen::Vector3d>;
-
-// A frame on its way to a smaller box.
-struct Frame {
-  Eigen::Matrix3d axes;
-  Eigen::Vector3d size;  // along them
-  int axis = 0;          // about which it is turned next
-  int in_vain = 0;       // turns since the last that made the box smaller
-
-  double volume() const { return size.prod(); }
-  bool done() const { return in_vain == 3; }
-};
-
-Eigen::Vector3d extents(const Vertices& vertices, const Eigen::Matrix3d& axes) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity), high = -low;
-  for (const Eigen::Vector3d& p : vertices) {
-    for (int i = 0; i < 3; ++i) {
-      const double along = dot3(axes.col(i), p);
-      low[i] = std::min(low[i], along);
-      high[i] = std::max(high[i], along);
-    }
-  }
-  return high - low;
-}
-
-// Turns the frame about its axes, so many times or until none of the three makes the box smaller.
-void turn(Frame& frame, int times, const Silhouette& shape, Silhouette::View& view) {
-  constexpr double kSmaller = 1 - 1e-9;  // less is not worth another round
-  for (; times > 0 && !frame.done(); --times) {
-    const int b = (frame.axis + 1) % 3, c = (frame.axis + 2) % 3;
-    frame.axis = b;
-    const Eigen::Vector3d u = frame.axes.col(b), v = frame.axes.col(c);
-    const std::vector<Eigen::Vector2d>& corners = shape.look(u, v, view);
-    const FlatBox box = least_rectangle(corners.data(), corners.size());
-    if (!(box.area() < frame.size[b] * frame.size[c] * kSmaller)) {
-      ++frame.in_vain;
-      continue;
-    }
-    frame.axes.col(b) = box.side.x() * u + box.side.y() * v;
-    frame.axes.col(c) = box.side.x() * v - box.side.y() * u;
-    frame.size[b] = box.width;
-    frame.size[c] = box.height;
-    frame.in_vain = 1;  // about this axis it cannot get better
-  }
-}
 
 // From the unit quaternions of seeded integers: the same on every machine.
 std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
@@ -102,18 +58,30 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
     if (normals[i].squaredNorm() > kNoNormal) frames.push_back(axes_from(normals[i].normalized()));
 }
 
+// Hulls of more vertices are only searched from many frames: pairs of edges would take over a millisecond.
+constexpr std::size_t kExhaustive = 128;
+
+// How many frames the search begins with, and goes on with. Before pairs of edges are tried, a box within
+// some percent of the smallest is enough.
+struct Effort {
+  std::size_t scattered, beginners, finalists;
+};
+constexpr Effort kSearch = {60, 40, 8}, kBeforePairs = {8, 6, 2};
+
 // The first of the starts: what the box must not be greater than.
 constexpr std::size_t kSureStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
-                                          const LocalFrame& frame, const LocalHull& hull) {
+                                          const LocalFrame& frame, const LocalHull& hull,
+                                          const Effort& effort) {
   Supports supports = summary.supports;
   supports.set = DirectionSet::dop14;  // whose directions come first
-  static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(60);
+  static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(kSearch.scattered);
   std::vector<Eigen::Matrix3d> frames{dito_axes(few_points(points, supports, frame), supports, frame),
                                       principal_axes(summary), Eigen::Matrix3d::Identity()};
   add_facets(hull, frames);
-  frames.insert(frames.end(), scattered.begin(), scattered.end());
+  frames.insert(frames.end(), scattered.begin(),
+                scattered.begin() + static_cast<std::ptrdiff_t>(effort.scattered));
   return frames;
 }
 
@@ -128,43 +96,52 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
   return orthonormal_axes(axes);
 }
 
-void turn_all(std::vector<Frame>& frames, int times, const Silhouette& shape, const Execution& execution) {
+void turn_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape, const Execution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
+  constexpr double kSmaller = 1e-9;  // less is not worth another round
   const std::size_t looks = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
   const ParallelPolicy policy = worthwhile(execution, Work::look, looks);
   for_each_run(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     Silhouette::View view;
     for (std::size_t i = begin; i < end; ++i)
-      turn(frames[i], times, shape, view);
+      turn(frames[i], times, kSmaller, shape, view);
   });
 }
 
-Eigen::Matrix3d solid_axes(const LocalHull& hull, const std::vector<Eigen::Matrix3d>& starts,
-                           const Execution& execution) {
-  constexpr std::size_t kBeginners = 40, kFinalists = 8;
+BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& starts, const Effort& effort,
+                   const Execution& execution) {
   constexpr int kTurns = 3, kLastTurns = 90;
-  const Silhouette shape(hull.local_vertices(), hull.triangles);
-  std::vector<Frame> frames;
+  std::vector<BoxFrame> frames;
   frames.reserve(starts.size());
   for (const Eigen::Matrix3d& axes : starts)
     frames.push_back({axes, extents(shape.vertices(), axes)});
-  const std::vector<Frame> sure(frames.begin(), frames.begin() + kSureStarts);
-  const auto smaller = [](const Frame& a, const Frame& b) { return a.volume() < b.volume(); };
+  const std::vector<BoxFrame> sure(frames.begin(), frames.begin() + kSureStarts);
+  const auto smaller = [](const BoxFrame& a, const BoxFrame& b) { return a.volume() < b.volume(); };
   const auto keep = [&](std::size_t count) {
     std::stable_sort(frames.begin(), frames.end(), smaller);
     frames.resize(std::min(count, frames.size()));
   };
-  keep(kBeginners);
-  while (frames.size() > kFinalists) {
+  keep(effort.beginners);
+  while (frames.size() > effort.finalists) {
     turn_all(frames, kTurns, shape, execution);
-    keep(std::max(kFinalists, frames.size() / 2));
+    keep(std::max(effort.finalists, frames.size() / 2));
   }
   turn_all(frames, kLastTurns, shape, execution);
-  Frame best = *std::min_element(frames.begin(), frames.end(), smaller);
+  BoxFrame best = *std::min_element(frames.begin(), frames.end(), smaller);
   best.size = extents(shape.vertices(), best.axes);  // without the rounding of rims
-  const Frame& surest = *std::min_element(sure.begin(), sure.end(), smaller);
-  return orthonormal_axes(smaller(surest, best) ? surest.axes : best.axes);
+  const BoxFrame& surest = *std::min_element(sure.begin(), sure.end(), smaller);
+  return smaller(surest, best) ? surest : best;
+}
+
+Eigen::Matrix3d solid_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,
+                           const LocalHull& hull, const Execution& execution) {
+  const Silhouette shape(hull.local_vertices(), hull.triangles);
+  const bool pairs = shape.vertices().size() <= kExhaustive;
+  const Effort& effort = pairs ? kBeforePairs : kSearch;
+  BoxFrame box = found_box(shape, start_frames(points, summary, frame, hull, effort), effort, execution);
+  if (pairs) box = smallest_box(box, shape);
+  return orthonormal_axes(box.axes);
 }
 
 }  // namespace
@@ -176,7 +153,7 @@ Eigen::Matrix3d minimal_axes(const PointView& points, const CloudSummary& summar
   const LocalHull& hull = *shared;
   if (hull.rank < 2) return orthonormal_axes(hull.axes);
   if (hull.rank == 2) return flat_axes(hull);
-  return solid_axes(hull, start_frames(points, summary, frame, hull), execution);
+  return solid_axes(points, summary, frame, hull, execution);
 }
 
 }  // namespace pcl_bv

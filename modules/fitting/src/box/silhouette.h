@@ -31,7 +31,19 @@ class Silhouette {
   /// As a LocalHull of rank 3 has them.
   Silhouette(std::vector<Eigen::Vector3d> vertices, const std::vector<Triangle>& triangles);
 
+  struct Edge {
+    std::int32_t from, to;
+    std::int32_t left, right;  ///< Facets, seen from outside.
+  };
+
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  std::size_t facets() const { return normals_[0].size(); }
+
+  /// Outward, twice as long as the facet's area.
+  Eigen::Vector3d normal(std::size_t facet) const {
+    return {normals_[0][facet], normals_[1][facet], normals_[2][facet]};
+  }
 
   /// Its corners seen along u x v as (u, v), counter-clockwise, in view.corners: a polygon that is convex up
   /// to rounding. The edges between a facet that is seen and one that is not make it, so that there is
@@ -40,11 +52,6 @@ class Silhouette {
                                            View& view) const;
 
  private:
-  struct Edge {
-    std::int32_t from, to;
-    std::int32_t left, right;  // facets, seen from outside
-  };
-
   void find_rim(const Eigen::Vector3d& towards, View& view) const;
   bool follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, View& view) const;
 

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "box/box_frame.h"
+
+#include <algorithm>
+
+#include "box/flat_box.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
+
+namespace pcl_bv {
+
+Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Matrix3d& axes) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity), high = -low;
+  for (const Eigen::Vector3d& p : vertices) {
+    for (int i = 0; i < 3; ++i) {
+      const double along = dot3(axes.col(i), p);
+      low[i] = std::min(low[i], along);
+      high[i] = std::max(high[i], along);
+    }
+  }
+  return high - low;
+}
+
+void turn(BoxFrame& frame, int times, double smaller, const Silhouette& shape, Silhouette::View& view) {
+  for (; times > 0 && !frame.done(); --times) {
+    const int b = (frame.axis + 1) % 3, c = (frame.axis + 2) % 3;
+    frame.axis = b;
+    const Eigen::Vector3d u = frame.axes.col(b), v = frame.axes.col(c);
+    const std::vector<Eigen::Vector2d>& corners = shape.look(u, v, view);
+    const FlatBox box = least_rectangle(corners.data(), corners.size());
+    if (!(box.area() < frame.size[b] * frame.size[c] * (1 - smaller))) {
+      ++frame.in_vain;
+      continue;
+    }
+    frame.axes.col(b) = box.side.x() * u + box.side.y() * v;
+    frame.axes.col(c) = box.side.x() * v - box.side.y() * u;
+    frame.size[b] = box.width;
+    frame.size[c] = box.height;
+    frame.in_vain = 1;  // about this axis it cannot get better
+  }
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A smallest box has two adjacent sides that each hold an edge of the hull (O'Rourke 1985). For two edges,
+// the normal of one side moves along the arc of its edge, n1 = (1 - t) a + t b, and the other is normal to it
+// and to its own edge: n2 is linear in t, too, and n3 = n1 x n2 quadratic. Over given far vertices, with d1,
+// d2, d3 from there to the vertices on the sides, the volume is (d1.n1)(d2.n2)(d3.n3) / (|n1|^2 |n2|^2), and
+// that of the box is the greatest over all vertices. So any six vertices whose quartic (d1.n1)(d2.n2)(d3.n3)
+// - v |n1|^2 |n2|^2 is not negative on a range of t prove that no box there is smaller than v. Ranges without
+// a proof are cut where the far vertices change.
+
+#include "box/flush_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "box/bernstein.h"
+#include "box/gauss_arcs.h"
+#include "box/support_graph.h"
+#include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/volumes/obb.h"
+
+namespace pcl_bv {
+namespace {
+
+using Eigen::Vector3d;
+
+// The normals of two adjacent sides, on a range of t, and the arcs that they are on.
+struct Swing {
+  std::array<Vector3d, 2> first, second;
+  const GaussArcs::Arc *one, *other;
+
+  Vector3d first_at(double t) const { return first[0] + t * (first[1] - first[0]); }
+  Vector3d second_at(double t) const { return second[0] + t * (second[1] - second[0]); }
+  Swing part(double from, double to) const {
+    return {{first_at(from), first_at(to)}, {second_at(from), second_at(to)}, one, other};
+  }
+};
+
+// The way from one vertex to another, for each direction of a box.
+struct Across {
+  Vector3d first, second, third;
+};
+
+// Numbers of the vertices at the low and the high side of each direction.
+using Ends = std::array<std::int32_t, 6>;
+
+// A box around all vertices, or over some.
+struct Measured {
+  Across across;
+  Ends ends;
+  double volume;
+};
+
+Linear along(const Vector3d& d, const std::array<Vector3d, 2>& n) {
+  return {dot3(d, n[0]), dot3(d, n[1])};
+}
+
+Quadratic square(const std::array<Vector3d, 2>& n) {
+  return {dot3(n[0], n[0]), dot3(n[0], n[1]), dot3(n[1], n[1])};
+}
+
+std::array<Vector3d, 3> third(const Swing& s) {
+  return {cross3(s.first[0], s.second[0]),
+          0.5 * (cross3(s.first[0], s.second[1]) + cross3(s.first[1], s.second[0])),
+          cross3(s.first[1], s.second[1])};
+}
+
+class FlushSearch {
+ public:
+  FlushSearch(const BoxFrame& known, const Silhouette& shape)
+      : shape_(shape), vertices_(shape.vertices()), graph_(shape), gauss_(shape, graph_), best_(known) {
+    set_limit();
+  }
+
+  const BoxFrame& run();
+
+ private:
+  void set_limit();
+  void search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& other, const double* from_row,
+                   const double* to_row);
+  bool may_carry_side(const GaussArcs::Arc& arc) const;
+  void search(const Swing& swing);
+  void refine(const Swing& swing, const Measured& begin, const Measured& end, int depth);
+  bool is_proven(const Swing& swing, const Across& across) const;
+  Vector3d across(const GaussArcs::Arc& arc) const { return vertices_[arc.vertex] - vertices_[arc.opposite]; }
+  Quartic numerator(const Swing& swing, const Across& across) const;
+  double change(const Swing& swing, const Measured& begin, const Measured& end) const;
+  Measured over(const Eigen::Matrix3d& axes, const Ends& ends) const;
+  Measured measure(const Swing& swing, double t);
+  void accept(const Eigen::Matrix3d& axes);
+
+  const Silhouette& shape_;
+  const std::vector<Vector3d>& vertices_;
+  SupportGraph graph_;
+  GaussArcs gauss_;
+  Silhouette::View view_;
+  BoxFrame best_;
+  double limit_ = 0;
+};
+
+// Rounding moves each width by some units of 2^-53 of the hull's size.
+void FlushSearch::set_limit() {
+  constexpr double kClose = 1e-10, kOfRounding = 1e-14;
+  limit_ =
+      best_.volume() * (1 - std::max(kClose, kOfRounding * best_.size.maxCoeff() / best_.size.minCoeff()));
+}
+
+const BoxFrame& FlushSearch::run() {
+  std::vector<GaussArcs::Arc> arcs;
+  for (const GaussArcs::Arc& arc : gauss_.arcs)
+    if (may_carry_side(arc)) arcs.push_back(arc);
+  const std::size_t count = gauss_.nodes.size();
+  std::vector<double> dots(count * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < count; ++k)
+      dots[i * count + k] = dot3(gauss_.nodes[i], gauss_.nodes[k]);
+  }
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const double* const from = dots.data() + static_cast<std::size_t>(arcs[i].from) * count;
+    const double* const to = dots.data() + static_cast<std::size_t>(arcs[i].to) * count;
+    for (std::size_t k = i + 1; k < arcs.size(); ++k) {
+      if (arcs[i].width * arcs[k].width * gauss_.width >= limit_) continue;
+      search_pair(arcs[i], arcs[k], from, to);
+    }
+  }
+  return best_;
+}
+
+// n2 is between f and g where n1.f and n1.g have different signs.
+void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& other, const double* from_row,
+                              const double* to_row) {
+  const Linear f = {from_row[other.from], to_row[other.from]}, g = {from_row[other.to], to_row[other.to]};
+  if (std::min({f[0], f[1], g[0], g[1]}) > 0 || std::max({f[0], f[1], g[0], g[1]}) < 0) return;
+  std::array<double, 4> at = {0, 1, 1, 1};
+  std::size_t cuts = 1;
+  for (const Linear& row : {f, g}) {
+    if ((row[0] < 0) != (row[1] < 0)) at[cuts++] = std::clamp(row[0] / (row[0] - row[1]), 0.0, 1.0);
+  }
+  if (cuts == 3 && at[1] > at[2]) std::swap(at[1], at[2]);
+  const std::array<Vector3d, 2> arc = {gauss_.nodes[one.from], gauss_.nodes[one.to]};
+  for (std::size_t i = 0; i < cuts; ++i) {
+    const double begin = at[i], end = at[i + 1], middle = 0.5 * (begin + end);
+    const auto on = [](const Linear& row, double t) { return row[0] + t * (row[1] - row[0]); };
+    if (!(begin < end) || on(f, middle) * on(g, middle) > 0) continue;
+    const double sign = on(g, middle) - on(f, middle) < 0 ? -1 : 1;
+    const auto second = [&](double t) -> Vector3d {
+      return sign * (on(g, t) * gauss_.nodes[other.from] - on(f, t) * gauss_.nodes[other.to]);
+    };
+    const auto first = [&](double t) -> Vector3d { return arc[0] + t * (arc[1] - arc[0]); };
+    Swing swing{{first(begin), first(end)}, {second(begin), second(end)}, &one, &other};
+    // Where n1 is along the other edge, n2 is any; what this leaves out is a turn about n1, smallest at its
+    // ends.
+    const double lengths[2] = {swing.second[0].squaredNorm(), swing.second[1].squaredNorm()};
+    if (std::max(lengths[0], lengths[1]) < 1e-24) continue;
+    for (std::size_t k = 0; k < 2; ++k)
+      if (lengths[k] < 1e-18 * lengths[1 - k]) swing.second[k] = swing.second[1 - k];
+    search(swing);
+  }
+}
+
+// A box with this side is no smaller than the side's width times the area of the hull's shadow along the
+// normal, which is no less than that with the facets' signs taken from anywhere, a linear function.
+bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
+  const std::array<Vector3d, 2> n = {gauss_.nodes[arc.from], gauss_.nodes[arc.to]};
+  const Vector3d middle = n[0] + n[1];
+  Vector3d shadow = Vector3d::Zero();
+  for (std::size_t i = 0; i < shape_.facets(); ++i) {
+    const Vector3d normal = shape_.normal(i);
+    shadow += dot3(normal, middle) > 0 ? normal : -normal;
+  }
+  const Linear width = along(across(arc), n), area = along(Vector3d(0.25 * shadow), n);
+  if (any_negative(width) || any_negative(area)) return true;
+  const Quadratic volume = product(width, area), lengths = square(n);
+  for (std::size_t i = 0; i < volume.size(); ++i)
+    if (!(volume[i] >= limit_ * lengths[i])) return true;
+  return false;
+}
+
+// First over vertices that cost no climb.
+void FlushSearch::search(const Swing& swing) {
+  const Vector3d n1 = swing.first[0] + swing.first[1], n2 = swing.second[0] + swing.second[1],
+                 n3 = cross3(n1, n2);
+  const SupportGraph::LowHigh ends = graph_.near_ends(n3);
+  if (is_proven(swing,
+                {across(*swing.one), across(*swing.other), vertices_[ends.high] - vertices_[ends.low]}))
+    return;
+  if (is_proven(swing, measure(swing, 0.5).across)) return;
+  const Measured begin = measure(swing, 0), end = measure(swing, 1);
+  refine(swing, begin, end, 0);
+}
+
+Quartic FlushSearch::numerator(const Swing& swing, const Across& across) const {
+  const auto n3 = third(swing);
+  return product(product(along(across.first, swing.first), along(across.second, swing.second)),
+                 Quadratic{dot3(across.third, n3[0]), dot3(across.third, n3[1]), dot3(across.third, n3[2])});
+}
+
+bool FlushSearch::is_proven(const Swing& swing, const Across& across) const {
+  const Linear w1 = along(across.first, swing.first), w2 = along(across.second, swing.second);
+  const auto n3 = third(swing);
+  const Quadratic w3 = {dot3(across.third, n3[0]), dot3(across.third, n3[1]), dot3(across.third, n3[2])};
+  if (any_negative(w1) || any_negative(w2) || any_negative(w3)) return false;
+  const Quartic volume = product(product(w1, w2), w3);
+  const Quartic lengths = product(square(swing.first), square(swing.second));
+  for (std::size_t i = 0; i < volume.size(); ++i)
+    if (!(volume[i] >= limit_ * lengths[i])) return false;
+  return true;
+}
+
+// Where the volume over the far vertices of the end overtakes that over those of the beginning.
+double FlushSearch::change(const Swing& swing, const Measured& begin, const Measured& end) const {
+  if (begin.ends == end.ends) return 0.5;
+  Quartic lead = numerator(swing, begin.across);
+  const Quartic other = numerator(swing, end.across);
+  for (std::size_t i = 0; i < lead.size(); ++i)
+    lead[i] -= other[i];
+  double low = 0, high = 1, below = lead.front(), above = lead.back();
+  if (!(below > 0 && above < 0)) return 0.5;
+  for (int step = 0; step < 12; ++step) {
+    const double t = std::clamp(low + (high - low) * (below / (below - above)), low, high);
+    const double value = value_at(lead, t);
+    if (value == 0) return t;
+    (value > 0 ? low : high) = t;
+    (value > 0 ? below : above) = value;
+    (value > 0 ? above : below) *= 0.5;  // Illinois
+  }
+  return 0.5 * (low + high);
+}
+
+void FlushSearch::refine(const Swing& swing, const Measured& begin, const Measured& end, int depth) {
+  constexpr int kDeepest = 40;
+  constexpr double kLeast = 1e-3;
+  if (is_proven(swing, begin.across) || is_proven(swing, end.across) || depth == kDeepest) return;
+  const double t = std::clamp(change(swing, begin, end), kLeast, 1 - kLeast);
+  const Measured middle = measure(swing, t);
+  refine(swing.part(0, t), begin, middle, depth + 1);
+  refine(swing.part(t, 1), middle, end, depth + 1);
+}
+
+Measured FlushSearch::over(const Eigen::Matrix3d& axes, const Ends& ends) const {
+  Measured found{{}, ends, 1};
+  const auto measure = [&](int i, Vector3d& across) {
+    const auto end = [&](int k) {
+      return vertices_[static_cast<std::size_t>(ends[static_cast<std::size_t>(k)])];
+    };
+    across = end(2 * i + 1) - end(2 * i);
+    found.volume *= dot3(axes.col(i), across);
+  };
+  measure(0, found.across.first);
+  measure(1, found.across.second);
+  measure(2, found.across.third);
+  return found;
+}
+
+// A climb may end early, among vertices that are in one line or plane but for rounding: what it says is too
+// small is looked at again, with all vertices.
+Measured FlushSearch::measure(const Swing& swing, double t) {
+  const Vector3d second = swing.second_at(t);
+  Eigen::Matrix3d axes;
+  axes.col(0) = unit3(swing.first_at(t));
+  axes.col(1) = unit3(Vector3d(second - dot3(second, axes.col(0)) * axes.col(0)));
+  axes.col(2) = cross3(Vector3d(axes.col(0)), Vector3d(axes.col(1)));
+  const auto [low, high] = graph_.ends(axes.col(2));
+  const Measured found =
+      over(axes, {graph_.climb(swing.one->opposite, -axes.col(0)), swing.one->vertex,
+                  graph_.climb(swing.other->opposite, -axes.col(1)), swing.other->vertex, low, high});
+  if (!(found.volume < limit_)) return found;
+  const Measured whole = over(axes, graph_.all_ends(axes));
+  if (whole.volume < limit_) accept(axes);
+  return whole;
+}
+
+// Turned on to where it is smallest nearby, so that the next proofs have a lower volume to beat.
+void FlushSearch::accept(const Eigen::Matrix3d& axes) {
+  constexpr int kTurns = 90;
+  BoxFrame better{orthonormal_axes(axes), {}};
+  better.size = extents(vertices_, better.axes);
+  BoxFrame turned = better;
+  turn(turned, kTurns, 1e-13, shape_, view_);
+  turned.axes = orthonormal_axes(turned.axes);
+  turned.size = extents(vertices_, turned.axes);
+  if (turned.volume() < better.volume()) better = turned;
+  if (!(better.volume() < best_.volume())) return;
+  best_ = better;
+  set_limit();
+}
+
+}  // namespace
+
+BoxFrame smallest_box(const BoxFrame& known, const Silhouette& shape) {
+  return FlushSearch(known, shape).run();
+}
+
+}  // namespace pcl_bv
