@@ -84,6 +84,7 @@ void pipeline(benchmark::State& state, const std::string& source, std::size_t th
   config.threads = threads;
   FramePipeline pipeline(config);
   FrameResult result;
+  pipeline.reserve(frames.front().points.count, result);
   LatencyHistogram first, total, filter, ground, cluster, fit, track;
   std::size_t n = 0, clusters = 0, points = 0;
   auto due = std::chrono::steady_clock::now();

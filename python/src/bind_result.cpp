@@ -272,7 +272,11 @@ void bind_result(py::module_& module) {
           },
           "A Ground; not found if none was asked for.")
       .def(
-          "json", [](const Shared& r) { return frame_json(report_of(r->frame(), r->result)); }, json_doc)
+          "json",
+          [](const Shared& r) {
+            return frame_json(report_without_clusters(r->frame(), r->result), cluster_source(r->result));
+          },
+          json_doc)
       .def(
           "picture",
           [](const Shared& r, py::handle view, py::handle width, py::handle height) {

@@ -4,8 +4,10 @@
 #include "pcl_bv/nodes/frame_pipeline.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
+#include <functional>
 #include <limits>
 #include <thread>
 
@@ -221,6 +223,52 @@ TEST(Pipeline, AllocatesNothingOnTheSecondPass) {
     pipeline.process(frame, result);
     EXPECT_EQ(allocations(), before) << "frame " << frame.header.seq;
   }
+}
+
+TEST(Pipeline, RoomMadeBeforeChangesNoBit) {
+  const auto frames = street(4);
+  FramePipeline reserved(all_shapes()), plain(all_shapes());
+  FrameResult a, b;
+  reserved.reserve(frames[0].size() / 3, a);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Frame frame = frame_of(frames[f], f);
+    reserved.process(frame, a);
+    plain.process(frame, b);
+    expect_equal(a, b);
+  }
+}
+
+std::size_t page_faults_of(const std::function<void()>& work) {
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  work();
+  getrusage(RUSAGE_SELF, &after);
+  return static_cast<std::size_t>(after.ru_minflt - before.ru_minflt);
+}
+
+TEST(Pipeline, TheFirstFrameAfterRoomWasMadeTouchesAThirdOfTheFreshMemory) {
+  const std::vector<float> xyz = street(1, 120'000)[0];
+  const Frame frame = frame_of(xyz, 0);
+  FramePipeline reserved(all_shapes()), plain(all_shapes());
+  FrameResult a, b;
+  reserved.reserve(xyz.size() / 3, a);
+  const std::size_t with_room = page_faults_of([&] { reserved.process(frame, a); });
+  const std::size_t without = page_faults_of([&] { plain.process(frame, b); });
+  EXPECT_LT(3 * with_room, without);
+}
+
+TEST(Pipeline, RoomIsMadeForEverySetting) {
+  PipelineConfig config;
+  config.ground.up = {-1, 2, 0.5};
+  config.ground.sensor_height = 2;
+  config.cluster.class_field = FieldName{"label"};
+  FramePipeline pipeline(config);
+  FrameResult result;
+  pipeline.reserve(20'000, result);
+  EXPECT_GT(result.clusters.size(), 50U);
+  EXPECT_GT(result.counts.ground, 8'000U);
+  pipeline.reserve(0, result);
+  EXPECT_EQ(result.clusters.size(), 0U);
 }
 
 TEST(Pipeline, DropsTheOwnVehicle) {

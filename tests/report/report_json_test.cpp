@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "pcl_bv/report/csv.h"
 #include "pcl_bv/report/report.h"
 
 namespace pcl_bv {
@@ -131,6 +132,42 @@ TEST(ReportJson, InvalidUtf8AndControlCharactersAreMadeValid) {
   report.file = "a\xff\n\"\\\x01.pcd";
   const auto parsed = nlohmann::json::parse(report_json(report));
   EXPECT_EQ(parsed["file"], "a\xEF\xBF\xBD\n\"\\\x01.pcd");
+}
+
+TEST(ReportJson, AnyBytesAreWrittenAsNlohmannsLibraryDoes) {
+  constexpr std::uint64_t seed = 47;
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random(seed);
+  const std::string likely = "a\"\\/\n\x1f\x7f\xc2\xa0\xe0\xed\x9f\xbf\xef\xf0\x90\x8f\xf4\x80\xc1\xff";
+  for (int round = 0; round < 20000; ++round) {
+    Report report;
+    for (auto n = random() % 8; n > 0; --n)
+      report.file += random() % 4 == 0 ? static_cast<char>(random()) : likely[random() % likely.size()];
+    report.error = "";
+    const std::string file = nlohmann::json(report.file).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    ASSERT_EQ(report_json(report), R"({"schema":1,"file":)" + file + R"(,"error":""})");
+  }
+}
+
+TEST(ReportJson, ComesInPiecesThatTogetherAreTheTextAsTheOtherFormatsDo) {
+  Report report;
+  report.file = "a.pcd";
+  for (std::size_t id = 0; id < 30000; ++id)
+    report.clusters.push_back({id, 1, {{"aabb", Aabb({0, 0, 0}, {1.0 / 3, 2, 1.0 + static_cast<double>(id)}), {}}}});
+  const auto expect_pieces = [&](const std::string& all, auto* write) {
+    std::string joined;
+    std::size_t pieces = 0;
+    write(report, source_of(report.clusters), [&](std::string& piece) {
+      EXPECT_LT(piece.size(), std::size_t{1} << 21);
+      ++pieces;
+      joined += std::exchange(piece, {});
+    });
+    EXPECT_GT(pieces, 1U);
+    EXPECT_EQ(joined, all);
+  };
+  expect_pieces(report_json(report), write_report_json);
+  expect_pieces(report_csv(report), write_report_csv);
+  expect_pieces(report_text(report), write_report_text);
 }
 
 TEST(ReportJson, AnyDoubleReadsBackExactlyInTheFewestDigits) {

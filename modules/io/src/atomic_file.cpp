@@ -22,7 +22,7 @@ namespace pcl_bv {
 namespace {
 
 namespace fs = std::filesystem;
-using Pieces = std::initializer_list<std::string_view>;
+using Pieces = std::vector<std::string_view>;
 
 const char cannot_write[] = "cannot write: ";
 
@@ -31,7 +31,7 @@ void require(bool success) {
   if (!success) throw IoError(cannot_write + system_reason(errno));
 }
 
-void write_all(const FileDescriptor& file, Pieces pieces) {
+void write_all(const FileDescriptor& file, const Pieces& pieces) {
   for (std::string_view rest : pieces) {
     while (!rest.empty()) {
       const ssize_t written = ::write(file.get(), rest.data(), rest.size());
@@ -110,10 +110,14 @@ class TemporaryName {
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view content) {
-  write_file_atomically(path, {content});
+  write_file_atomically(path, Pieces{content});
 }
 
-void write_file_atomically(const fs::path& link_or_file, Pieces pieces) {
+void write_file_atomically(const fs::path& path, std::initializer_list<std::string_view> pieces) {
+  write_file_atomically(path, Pieces(pieces));
+}
+
+void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
   // A link stays a link; what it leads to is replaced. /dev/stdout leads to something that rename must not
   // touch.
   struct stat old;

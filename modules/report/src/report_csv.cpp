@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "csv_shape.h"
+#include "text_sink.h"
 #include "written.h"
 
 namespace pcl_bv {
@@ -15,18 +16,19 @@ namespace {
 void append_columns(std::size_t count, const double* numbers, std::string& text) {
   for (std::size_t i = 0; i < count; ++i) {
     text += ',';
-    if (numbers) text += shortest(numbers[i]);
+    if (numbers) append_shortest(numbers[i], text);
   }
 }
 
 void append_volume(const AnyVolume& any, std::string& text) {
   if (empty(any)) return append_columns(12, nullptr, text);
+  const double size = volume(any);
   const CsvShape shape = std::visit([](const auto& s) { return csv_shape(s); }, any);
   append_columns(3, center(any).data(), text);
   append_columns(3, shape.size ? shape.size->data() : nullptr, text);
   append_columns(4, shape.rotation ? shape.rotation->coeffs().data() : nullptr, text);
   append_columns(1, shape.radius ? &*shape.radius : nullptr, text);
-  text += ',' + shortest(volume(any));
+  append_columns(1, &size, text);
 }
 
 void append_upright(const VolumeEntry& entry, std::string& text) {
@@ -69,13 +71,21 @@ void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std
   }
 }
 
-std::string report_csv(const Report& report) {
-  std::string text;
-  if (report.error) return text;
+void write_report_csv(const Report& report, const ClusterSource& clusters, const TextSink& take) {
+  if (report.error) return;
   const std::string file = csv_field(report.file);
-  for (const ClusterEntry& cluster : report.clusters)
-    append_csv(file, cluster, text);
-  return text;
+  std::string text;
+  for (std::size_t i = 0; i < clusters.count; ++i) {
+    append_csv(file, clusters.at(i), text);
+    take_if_long(text, take);
+  }
+  take(text);
+}
+
+std::string report_csv(const Report& report) {
+  std::string all;
+  write_report_csv(report, source_of(report.clusters), appended_to(all));
+  return all;
 }
 
 std::string report_csv_heading() {

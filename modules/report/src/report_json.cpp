@@ -1,153 +1,100 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reports as JSON. The tree and the escaping are nlohmann's; the numbers are not, because its Grisu2 does not
-// always give the shortest digits, and only std::to_chars promises digits that read back exactly.
+// Reports as JSON. Numbers are written by std::to_chars, which alone promises the fewest digits that read back
+// exactly.
 
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <utility>
 
+#include "json_text.h"
 #include "pcl_bv/report/frame_report.h"
 #include "pcl_bv/report/report.h"
-#include "written.h"
+#include "text_sink.h"
 
 namespace pcl_bv {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-void write(const Json& value, std::string& out);
-
-void write_object(const Json& object, std::string& out) {
-  char before = '{';
-  for (const auto& [key, value] : object.items()) {
-    out += before;
-    write(key, out);
-    out += ':';
-    write(value, out);
-    before = ',';
-  }
-  out += object.empty() ? "{}" : "}";
+void add_axes(const Eigen::Matrix3d& axes, JsonText& json) {
+  json.key("axes").begin('[');
+  for (int axis = 0; axis < 3; ++axis)
+    json.value(axes.col(axis));
+  json.end(']');
 }
 
-void write_array(const Json& array, std::string& out) {
-  char before = '[';
-  for (const Json& value : array) {
-    out += before;
-    write(value, out);
-    before = ',';
-  }
-  out += array.empty() ? "[]" : "]";
+void add_numbers(const Aabb& box, JsonText& json) {
+  json.add("min", box.min()).add("max", box.max());
 }
 
-void write(const Json& value, std::string& out) {
-  if (value.is_object()) {
-    write_object(value, out);
-  } else if (value.is_array()) {
-    write_array(value, out);
-  } else if (value.is_number_float()) {
-    out += shortest(value.get<double>());
-  } else {
-    out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  }
-}
-
-// On one line; the fewest digits that read back exactly, never -0.
-std::string to_text(const Json& json) {
-  std::string text;
-  write(json, text);
-  return text;
-}
-
-// Eigen's vectors are ranges, which become arrays.
-Json columns(const Eigen::Matrix3d& axes) {
-  return {Eigen::Vector3d(axes.col(0)), Eigen::Vector3d(axes.col(1)), Eigen::Vector3d(axes.col(2))};
-}
-
-void add_numbers(const Aabb& box, Json& entry) {
-  entry["min"] = box.min();
-  entry["max"] = box.max();
-}
-
-void add_numbers(const Kdop& kdop, Json& entry) {
-  entry["directions"] = Json::array();
+void add_numbers(const Kdop& kdop, JsonText& json) {
+  json.key("directions").begin('[');
   for (std::size_t i = 0; i < kdop.size(); ++i)
-    entry["directions"].push_back(kdop.set()->direction(i));
-  entry["min"] = kdop.min();
-  entry["max"] = kdop.max();
+    json.value(kdop.set()->direction(i));
+  json.end(']').add("min", kdop.min()).add("max", kdop.max());
 }
 
-void add_numbers(const Sphere& sphere, Json& entry) {
-  entry["center"] = sphere.center();
-  entry["radius"] = sphere.radius();
+void add_numbers(const Sphere& sphere, JsonText& json) {
+  json.add("center", sphere.center()).add("radius", sphere.radius());
 }
 
-void add_numbers(const Obb& box, Json& entry) {
-  entry["center"] = box.center();
-  entry["axes"] = columns(box.axes());
-  entry["half_extents"] = box.half_extents();
-  entry["quaternion"] = box.quaternion().coeffs();  // x, y, z, w
+void add_numbers(const Obb& box, JsonText& json) {
+  json.add("center", box.center());
+  add_axes(box.axes(), json);
+  json.add("half_extents", box.half_extents());
+  json.add("quaternion", box.quaternion().coeffs());  // x, y, z, w
 }
 
-void add_numbers(const Cylinder& cylinder, Json& entry) {
-  entry["center"] = cylinder.center();
-  entry["axis"] = cylinder.axis();
-  entry["radius"] = cylinder.radius();
-  entry["half_height"] = cylinder.half_height();
+void add_numbers(const Cylinder& cylinder, JsonText& json) {
+  json.add("center", cylinder.center()).add("axis", cylinder.axis());
+  json.add("radius", cylinder.radius()).add("half_height", cylinder.half_height());
 }
 
-void add_numbers(const Capsule& capsule, Json& entry) {
-  entry["a"] = capsule.a();
-  entry["b"] = capsule.b();
-  entry["radius"] = capsule.radius();
+void add_numbers(const Capsule& capsule, JsonText& json) {
+  json.add("a", capsule.a()).add("b", capsule.b()).add("radius", capsule.radius());
 }
 
-void add_numbers(const Ellipsoid& ellipsoid, Json& entry) {
-  entry["center"] = ellipsoid.center();
-  entry["axes"] = columns(ellipsoid.axes());
-  entry["radii"] = ellipsoid.radii();
+void add_numbers(const Ellipsoid& ellipsoid, JsonText& json) {
+  json.add("center", ellipsoid.center());
+  add_axes(ellipsoid.axes(), json);
+  json.add("radii", ellipsoid.radii());
 }
 
-void add_numbers(const Hull& hull, Json& entry) {
-  entry["vertices"] = hull.vertices();
-  entry["faces"] = hull.triangles();
-  entry["planes"] = Json::array();
+void add_numbers(const Hull& hull, JsonText& json) {
+  json.add("vertices", hull.vertices()).add("faces", hull.triangles()).key("planes").begin('[');
   for (const HullPlane& p : hull.planes())
-    entry["planes"].push_back({p.normal.x(), p.normal.y(), p.normal.z(), p.offset});
-  if (hull.rank() < 3) entry["rank"] = hull.rank();
+    json.value(std::array{p.normal.x(), p.normal.y(), p.normal.z(), p.offset});
+  json.end(']');
+  if (hull.rank() < 3) json.add("rank", hull.rank());
 }
 
-Json volume_json(const VolumeEntry& entry) {
-  Json json{{"shape", std::string(shape_name(entry.volume))}, {"method", entry.method}};
+void add_volume(const VolumeEntry& entry, JsonText& json) {
+  json.begin('{').add("shape", shape_name(entry.volume)).add("method", entry.method);
   if (!entry.failed.empty()) {
-    json["failed"] = entry.failed;
+    json.add("failed", entry.failed);
   } else if (empty(entry.volume)) {
-    json["empty"] = true;
+    json.add("empty", true);
   } else {
-    json["volume"] = volume(entry.volume);
+    json.add("volume", volume(entry.volume));
     std::visit([&](const auto& shape) { add_numbers(shape, json); }, entry.volume);
   }
-  if (entry.outside) json["outside"] = *entry.outside;
-  return json;
+  if (entry.outside) json.add("outside", *entry.outside);
+  json.end('}');
+}
+
+void add_field(const PointField& field, JsonText& json) {
+  json.begin('{').add("name", field.name).add("type", std::string(1, field.type));
+  json.add("size", field.size).add("count", field.count).end('}');
 }
 
 /// What there is none of is left out.
-Json info_json(const CloudInfo& info) {
-  Json json;
+void add_info(const CloudInfo& info, JsonText& json) {
+  json.key("info").begin('{');
   if (!info.box.empty()) add_numbers(info.box, json);
-  if (info.spacing) json["spacing"] = *info.spacing;
-  json["organized"] = info.height > 1;
-  json["nonfinite"] = info.nonfinite;
-  json["zero"] = info.zero;
-  json["fields"] = Json::array();
-  for (const PointField& field : info.fields) {
-    json["fields"].push_back({{"name", field.name},
-                              {"type", std::string(1, field.type)},
-                              {"size", field.size},
-                              {"count", field.count}});
-  }
-  return json;
+  if (info.spacing) json.add("spacing", *info.spacing);
+  json.add("organized", info.height > 1).add("nonfinite", info.nonfinite).add("zero", info.zero);
+  json.key("fields").begin('[');
+  for (const PointField& field : info.fields)
+    add_field(field, json);
+  json.end(']').end('}');
 }
 
 /// Microseconds are all that a clock reading is worth.
@@ -155,77 +102,97 @@ double microseconds_exact(double seconds) {
   return std::round(seconds * 1e6) / 1e6;
 }
 
-Json volumes_json(const ClusterEntry& cluster) {
-  Json volumes = Json::array();
+void add_volumes(const ClusterEntry& cluster, JsonText& json) {
+  json.add("points", cluster.points).key("volumes").begin('[');
   for (const VolumeEntry& entry : cluster.volumes)
-    volumes.push_back(volume_json(entry));
-  return volumes;
+    add_volume(entry, json);
+  json.end(']').end('}');
 }
 
-Json counts_json(const Counts& counts) {
-  return {{"nonfinite", counts.nonfinite}, {"range", counts.range},   {"ground", counts.ground},
-          {"small", counts.small},         {"large", counts.large},   {"noise", counts.noise},
-          {"inside", counts.inside},       {"class", counts.of_class}};
+void add_counts(const Counts& counts, JsonText& json) {
+  json.key("counts").begin('{').add("nonfinite", counts.nonfinite).add("range", counts.range);
+  json.add("ground", counts.ground).add("small", counts.small).add("large", counts.large);
+  json.add("noise", counts.noise).add("inside", counts.inside).add("class", counts.of_class).end('}');
+}
+
+void add_track(const TrackEntry& track, JsonText& json) {
+  json.add("age", track.age).add("velocity", track.velocity).add("moving", track.moving);
+  json.add("pose", track.pose).add("covariance", track.covariance);
 }
 
 }  // namespace
 
-std::string report_json(const Report& report) {
-  Json json{{"schema", 1}, {"file", report.file}};
+void write_report_json(const Report& report, const ClusterSource& clusters, const TextSink& take) {
+  std::string text;
+  JsonText json(text);
+  json.begin('{').add("schema", 1).add("file", report.file);
   if (report.error) {
-    json["error"] = *report.error;
-  } else {
-    if (report.parts) json["parts"] = *report.parts;
-    json["points"] = report.points;
-    if (report.origin) json["origin"] = {(*report.origin)[0], (*report.origin)[1], (*report.origin)[2]};
-    json["counts"] = counts_json(report.counts);
-    if (report.info) json["info"] = info_json(*report.info);
-    json["clusters"] = Json::array();
-    for (const ClusterEntry& cluster : report.clusters) {
-      Json entry{{"id", cluster.id}};
-      if (cluster.class_value) entry["class"] = *cluster.class_value;
-      entry["points"] = cluster.points;
-      entry["volumes"] = volumes_json(cluster);
-      json["clusters"].push_back(std::move(entry));
-    }
-    if (report.seconds) {
-      json["seconds"] = {{"read", microseconds_exact(report.seconds->read)},
-                         {"segment", microseconds_exact(report.seconds->segment)},
-                         {"fit", microseconds_exact(report.seconds->fit)}};
-    }
+    json.add("error", *report.error).end('}');
+    return take(text);
   }
-  return to_text(json);
+  if (report.parts) json.add("parts", *report.parts);
+  json.add("points", report.points);
+  if (report.origin) json.add("origin", *report.origin);
+  add_counts(report.counts, json);
+  if (report.info) add_info(*report.info, json);
+  json.key("clusters").begin('[');
+  for (std::size_t i = 0; i < clusters.count; ++i) {
+    const ClusterEntry& cluster = clusters.at(i);
+    json.begin('{').add("id", cluster.id);
+    if (cluster.class_value) json.add("class", *cluster.class_value);
+    add_volumes(cluster, json);
+    take_if_long(text, take);
+  }
+  json.end(']');
+  if (report.seconds) {
+    json.key("seconds").begin('{').add("read", microseconds_exact(report.seconds->read));
+    json.add("segment", microseconds_exact(report.seconds->segment));
+    json.add("fit", microseconds_exact(report.seconds->fit)).end('}');
+  }
+  json.end('}');
+  take(text);
+}
+
+std::string report_json(const Report& report) {
+  std::string all;
+  write_report_json(report, source_of(report.clusters), appended_to(all));
+  return all;
 }
 
 std::string frame_json(const FrameReport& report) {
-  Json json{{"schema", 1}, {"seq", report.seq}, {"stamp_ns", report.stamp_ns}, {"frame_id", report.frame_id}};
-  if (!report.file.empty()) json["file"] = report.file;
+  return frame_json(report, source_of(report.clusters));
+}
+
+std::string frame_json(const FrameReport& report, const ClusterSource& clusters) {
+  std::string text;
+  JsonText json(text);
+  json.begin('{').add("schema", 1).add("seq", report.seq).add("stamp_ns", report.stamp_ns);
+  json.add("frame_id", report.frame_id);
+  if (!report.file.empty()) json.add("file", report.file);
   if (report.error) {
-    json["error"] = *report.error;
-    return to_text(json);
+    json.add("error", *report.error).end('}');
+    return text;
   }
-  json["points"] = report.points;
-  json["counts"] = counts_json(report.counts);
-  json["clusters"] = Json::array();
-  for (const ClusterEntry& cluster : report.clusters) {
-    Json entry{{"id", cluster.id}, {"track", nullptr}};
-    if (cluster.class_value) entry["class"] = *cluster.class_value;
-    if (const TrackEntry* track = cluster.track ? &*cluster.track : nullptr; track != nullptr) {
-      entry["track"] = track->id;
-      entry["age"] = track->age;
-      entry["velocity"] = {track->velocity.x(), track->velocity.y(), track->velocity.z()};
-      entry["moving"] = track->moving;
-      entry["pose"] = track->pose;
-      entry["covariance"] = track->covariance;
+  json.add("points", report.points);
+  add_counts(report.counts, json);
+  json.key("clusters").begin('[');
+  for (std::size_t i = 0; i < clusters.count; ++i) {
+    const ClusterEntry& cluster = clusters.at(i);
+    json.begin('{').add("id", cluster.id).key("track");
+    if (cluster.track) {
+      json.value(cluster.track->id);
+    } else {
+      json.value(nullptr);
     }
-    entry["points"] = cluster.points;
-    entry["volumes"] = volumes_json(cluster);
-    json["clusters"].push_back(std::move(entry));
+    if (cluster.class_value) json.add("class", *cluster.class_value);
+    if (cluster.track) add_track(*cluster.track, json);
+    add_volumes(cluster, json);
   }
-  json["ms"] = Json::object();
+  json.end(']').key("ms").begin('{');
   for (const auto& [stage, milliseconds] : report.ms)
-    json["ms"][stage] = std::round(milliseconds * 1e3) / 1e3;
-  return to_text(json);
+    json.add(stage, std::round(milliseconds * 1e3) / 1e3);
+  json.end('}').end('}');
+  return text;
 }
 
 }  // namespace pcl_bv

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "pcl_bv/report/report.h"
+#include "text_sink.h"
 #include "written.h"
 
 namespace pcl_bv {
@@ -37,10 +38,10 @@ std::string four_digits(double value) {
 }
 
 /// Decimals that show the largest size to five digits and keep every centre within 11 characters.
-int choose_decimals(const Report& report) {
+int choose_decimals(const ClusterSource& clusters) {
   double size = 0, magnitude = 0;
-  for (const ClusterEntry& cluster : report.clusters) {
-    for (const VolumeEntry& entry : cluster.volumes) {
+  for (std::size_t i = 0; i < clusters.count; ++i) {
+    for (const VolumeEntry& entry : clusters.at(i).volumes) {
       if (empty(entry.volume)) continue;
       const Aabb box = aabb(entry.volume);
       size = std::max(size, (box.max() - box.min()).maxCoeff());
@@ -79,12 +80,73 @@ Row volume_row(const VolumeEntry& entry, int decimals) {
   return row;
 }
 
-std::vector<Row> table(const Report& report) {
-  std::vector<Row> rows{
-      {"id", "points", "method", "centre x", "y", "z", "size x", "y", "z", "", "volume", "outside"}};
-  const int decimals = choose_decimals(report);
+/// Rows one after another in one text: a million in a row of strings each take 400 MB.
+class Table {
+ public:
+  void add(const Row& row) {
+    for (std::size_t c = 0; c < n_columns; ++c) {
+      fields_ += row[c];
+      lengths_.push_back(static_cast<std::uint8_t>(row[c].size()));
+      width_[c] = std::max(width_[c], row[c].size());
+    }
+  }
+
+  /// With columns aligned under the heading.
+  void write(const Row& heading, const TextSink& take) {
+    for (std::size_t c = 0; c < n_columns; ++c)
+      width_[c] = std::max(width_[c], heading[c].size());
+    std::string text;
+    for (std::size_t c = 0; c < n_columns; ++c)
+      append(heading[c], c, text);
+    end_line(text);
+    std::string_view rest = fields_;
+    for (std::size_t i = 0; i < lengths_.size(); ++i) {
+      append(rest.substr(0, lengths_[i]), i % n_columns, text);
+      rest.remove_prefix(lengths_[i]);
+      if ((i + 1) % n_columns > 0) continue;
+      end_line(text);
+      take_if_long(text, take);
+    }
+    take(text);
+  }
+
+ private:
+  void append(std::string_view field, std::size_t c, std::string& text) const {
+    if (width_[c] == 0) return;
+    const std::size_t padding = width_[c] - field.size();
+    const bool beside = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width_[9] > 0);
+    text += beside ? " " : "  ";
+    if (c != method_column) text.append(padding, ' ');
+    text += field;
+    if (c == method_column) text.append(padding, ' ');
+  }
+
+  static void end_line(std::string& text) {
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+
+  std::string fields_;
+  std::vector<std::uint8_t> lengths_;  // none is longer: numbers of eleven digits, names of methods
+  std::array<std::size_t, n_columns> width_{};
+};
+
+Row heading_of(bool checked, bool upright, bool other) {
+  Row row{"id", "points", "method", "centre x", "y", "z", "size x", "y", "z", "", "volume", "outside"};
+  if (!checked) row.back().clear();
+  const std::array<std::string, 4> names =
+      other ? std::array<std::string, 4>{"length/x", "width/y", "height/z", "yaw"}
+            : std::array<std::string, 4>{"length", "width", "height", "yaw"};
+  if (upright) std::copy(names.begin(), names.end(), row.begin() + 6);
+  return row;
+}
+
+void write_table(const ClusterSource& clusters, const TextSink& take) {
+  Table table;
+  const int decimals = choose_decimals(clusters);
   bool checked = false, upright = false, other = false;
-  for (const ClusterEntry& cluster : report.clusters) {
+  for (std::size_t i = 0; i < clusters.count; ++i) {
+    const ClusterEntry& cluster = clusters.at(i);
     for (const VolumeEntry& entry : cluster.volumes) {
       Row row = volume_row(entry, decimals);
       if (&entry == &cluster.volumes.front()) {
@@ -93,37 +155,10 @@ std::vector<Row> table(const Report& report) {
       }
       checked = checked || entry.outside;
       (row[9].empty() ? other : upright) |= !row[8].empty();
-      rows.push_back(std::move(row));
+      table.add(row);
     }
   }
-  if (!checked) rows.front().back().clear();
-  const std::array<std::string, 4> names =
-      other ? std::array<std::string, 4>{"length/x", "width/y", "height/z", "yaw"}
-            : std::array<std::string, 4>{"length", "width", "height", "yaw"};
-  if (upright) std::copy(names.begin(), names.end(), rows.front().begin() + 6);
-  return rows;
-}
-
-std::string aligned(const std::vector<Row>& rows) {
-  std::array<std::size_t, n_columns> width{};
-  for (const Row& row : rows) {
-    for (std::size_t c = 0; c < n_columns; ++c)
-      width[c] = std::max(width[c], row[c].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t c = 0; c < n_columns; ++c) {
-      if (width[c] == 0) continue;
-      const std::string padding(width[c] - row[c].size(), ' ');
-      const bool beside = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width[9] > 0);
-      line += beside ? " " : "  ";
-      line += c == method_column ? row[c] + padding : padding + row[c];
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  }
-  return text;
+  table.write(heading_of(checked, upright, other), take);
 }
 
 /// Without control characters: a file's or field's name must neither break the line nor steer a terminal.
@@ -133,7 +168,7 @@ std::string printable(std::string name) {
   return name;
 }
 
-std::string header(const Report& report) {
+std::string header(const Report& report, std::size_t clusters) {
   std::string text = printable(report.file) + ": ";
   if (report.parts) text += std::to_string(*report.parts) + " inputs, ";
   text += std::to_string(report.points) + " points";
@@ -148,7 +183,7 @@ std::string header(const Report& report) {
   add(report.counts.large, " in large clusters");
   add(report.counts.noise, " in no cluster");
   add(report.counts.of_class, " of dropped classes");
-  if (report.clusters.empty()) text += ", no clusters";
+  if (clusters == 0) text += ", no clusters";
   if (report.seconds) {
     text += "; read " + format("%.*f", 1, report.seconds->read * 1e3);
     text += ", segment " + format("%.*f", 1, report.seconds->segment * 1e3);
@@ -182,10 +217,21 @@ std::string info_text(const CloudInfo& info) {
 
 }  // namespace
 
+ClusterSource source_of(const std::vector<ClusterEntry>& clusters) {
+  return {clusters.size(), [&clusters](std::size_t i) -> const ClusterEntry& { return clusters[i]; }};
+}
+
+void write_report_text(const Report& report, const ClusterSource& clusters, const TextSink& take) {
+  if (report.error) return;
+  std::string text = header(report, clusters.count) + (report.info ? info_text(*report.info) : std::string());
+  take(text);
+  if (clusters.count > 0) write_table(clusters, take);
+}
+
 std::string report_text(const Report& report) {
-  if (report.error) return {};
-  return header(report) + (report.info ? info_text(*report.info) : std::string()) +
-         (report.clusters.empty() ? std::string() : aligned(table(report)));
+  std::string all;
+  write_report_text(report, source_of(report.clusters), appended_to(all));
+  return all;
 }
 
 }  // namespace pcl_bv

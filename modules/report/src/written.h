@@ -14,13 +14,18 @@
 
 namespace pcl_bv {
 
-/// The fewest digits that read back as exactly this double; never -0. Throws std::domain_error if it is not
-/// finite.
-inline std::string shortest(double value) {
+/// Appends the fewest digits that read back as exactly this double; never -0. Throws std::domain_error if it is
+/// not finite.
+inline void append_shortest(double value, std::string& text) {
   if (!std::isfinite(value)) throw std::domain_error("a volume has a number that is not finite");
-  if (value == 0) return "0";
   char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value + 0.0).ptr);
+}
+
+inline std::string shortest(double value) {
+  std::string text;
+  append_shortest(value, text);
+  return text;
 }
 
 /// The method; of `best` also the shape that it has chosen: "best (obb)".

@@ -69,11 +69,11 @@ Status process_together(Ranks& ranks, const Job& job, const Options& options, Wh
   if (outcome.report.error) {
     complain(job.input + ": " + *outcome.report.error);
   } else {
-    outcome.status = worse(outcome.status, write_mesh(job, outcome.report));
+    outcome.status = worse(outcome.status, write_mesh(job, outcome.report.clusters));
   }
   InOrder order(options, 1, 1);
   interrupted.set([&] { order.interrupt(); });
-  order.take(0, result_of(std::move(outcome), options.format));
+  order.take(0, result_of(outcome, options.format));
   const Status status = order.finish();
   interrupted.set(nullptr);
   return status;

@@ -159,6 +159,9 @@ std::string named(const Frame& frame, const std::string& what) {
   return file + "frame " + std::to_string(frame.header.seq) + ": " + what;
 }
 
+// Of a sensor of 64 beams.
+constexpr std::size_t points_of_a_sweep = 131'072;
+
 StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, const std::string& range_from,
                                      Progress& progress) {
   StreamRunner::Callbacks callbacks;
@@ -200,7 +203,9 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   Progress progress;
   RunnerConfig config = options.config.runner;
   config.policy = resolved(config.policy, options.rate != Rate::max);
-  StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config);
+  FrameResult room;
+  if (options.rate != Rate::max) pipeline.reserve(points_of_a_sweep, room);  // else the first frame waits for it
+  StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config, std::move(room));
   Reader reader(options, runner, sinks, interrupted);
   reader.read(*source);
   runner.stop(StreamRunner::End::drain);

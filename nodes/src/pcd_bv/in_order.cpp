@@ -15,24 +15,41 @@
 
 namespace pcl_bv {
 
-Result result_of(Outcome outcome, OutputFormat format) {
-  const auto points = [&] { return outcome.report.error ? 0 : outcome.report.points; };
+Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write) {
+  constexpr std::size_t many = std::size_t{4} << 20;  // bytes that wait for their turn without harm
+  Result result;
+  result.status = outcome.status;
+  result.points = outcome.report.error ? 0 : outcome.report.points;
+  Report failed;
   try {
-    std::string text = render(outcome.report, format);
-    return {std::move(text), {}, points(), outcome.status};
+    render(outcome.report, outcome.clusters(), format, [&](std::string& piece) {
+      if (result.text.empty()) {
+        result.text.swap(piece);
+      } else {
+        result.text += piece;
+      }
+      if (write && result.text.size() > many) result.is_begun |= write(result.text);
+    });
+    return result;
   } catch (const std::bad_alloc&) {
-    outcome.report.error = "not enough memory for its report";
+    failed.error = "not enough memory for its report";
   } catch (const std::exception& error) {
-    outcome.report.error = error.what();
+    failed.error = error.what();
   }
-  complain(outcome.report.file + ": " + *outcome.report.error);
-  outcome.report.clusters.clear();
-  return {render(outcome.report, format), {}, 0, worse(outcome.status, Status::failed)};
+  failed.file = outcome.report.file;
+  complain(failed.file + ": " + *failed.error);
+  result.text.clear();
+  result.points = 0;
+  result.status = worse(outcome.status, Status::failed);
+  if (!result.is_begun) render(failed, {}, format, [&](std::string& piece) { result.text += piece; });
+  return result;
 }
 
-Result do_job(const Job& job, const Options& options, FramePipeline& pipeline) {
+Result do_job(const Job& job, const Options& options, FramePipeline& pipeline, const WriteJobEarly& write) {
   HeldComplaints complaints;
-  Result result = result_of(process(job, options, pipeline), options.format);
+  const WriteEarly early = [&](std::string& text) { return write(complaints.kept, text); };
+  Result result =
+      result_of(process(job, options, pipeline), options.format, write ? early : WriteEarly());
   result.complaints = std::move(complaints.kept);
   return result;
 }
@@ -79,7 +96,7 @@ std::optional<std::size_t> InOrder::next() {
 void InOrder::take(std::size_t job, Result result) {
   const std::lock_guard lock(mutex_);
   waiting_.emplace(job, std::move(result));
-  for (auto first = waiting_.begin(); first != waiting_.end() && first->first == written_ && !stopped_;
+  for (auto first = waiting_.begin(); first != waiting_.end() && first->first == written_ && (!stopped_ || is_begun_);
        first = waiting_.erase(first), ++written_) {
     write(first->second);
   }
@@ -102,19 +119,37 @@ Status InOrder::finish() {
 }
 
 void InOrder::interrupt() {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   stopped_ = true;
+  written_one_.wait(lock, [&] { return !is_begun_; });
   progress_.erase();
   if (reports_ == Reports::wanted && written_ > 0) attempt_to_write([&] { return writer_.finish(); });
   reports_ = Reports::unread;
   say("interrupted: " + std::to_string(written_) + " of " + std::to_string(jobs_) + " files done");
 }
 
-void InOrder::write(const Result& result) {
-  for (const std::string& complaint : result.complaints)
+bool InOrder::write_early(std::size_t job, std::vector<std::string>& complaints, std::string& text) {
+  const std::lock_guard lock(mutex_);
+  if (job != written_ || (stopped_ && !is_begun_)) return false;
+  say_all(std::exchange(complaints, {}));
+  write_text(std::exchange(text, {}), std::exchange(is_begun_, true));
+  return true;
+}
+
+void InOrder::say_all(const std::vector<std::string>& complaints) {
+  for (const std::string& complaint : complaints)
     say(complaint);
+}
+
+void InOrder::write_text(std::string&& text, bool goes_on) {
   if (erase_before_writing_) progress_.erase();
-  if (reports_ == Reports::wanted) attempt_to_write([&] { return writer_.add(result.text); });
+  if (reports_ != Reports::wanted || (goes_on && text.empty())) return;
+  attempt_to_write([&] { return writer_.add(std::move(text), goes_on); });
+}
+
+void InOrder::write(Result& result) {
+  say_all(result.complaints);
+  write_text(std::move(result.text), std::exchange(is_begun_, false));
   status_ = worse(status_, result.status);
   failed_ += result.status == Status::failed ? 1 : 0;
   points_ += result.points;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -21,18 +22,23 @@ namespace pcl_bv {
 
 /// What is left of a job once it is done.
 struct Result {
-  std::string text;
+  std::string text;         ///< What is not written yet.
+  bool is_begun = false;    ///< Whether some is.
   std::vector<std::string> complaints;
   std::size_t points = 0;
   Status status = Status::done;
 };
 
+/// Writes a long text before it is whole, and empties it; or leaves it as it is.
+using WriteEarly = std::function<bool(std::string& text)>;
+
 /// The outcome as text. A report that cannot be written (too great for the memory, most likely) becomes one
-/// that says so, and the other inputs are still done.
-Result result_of(Outcome outcome, OutputFormat format);
+/// that says so, unless its beginning is written; the other inputs are still done.
+Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write = {});
 
 /// The same of a job, with what it complains of.
-Result do_job(const Job& job, const Options& options, FramePipeline& pipeline);
+using WriteJobEarly = std::function<bool(std::vector<std::string>& complaints, std::string& text)>;
+Result do_job(const Job& job, const Options& options, FramePipeline& pipeline, const WriteJobEarly& write = {});
 
 /// A bar on standard error, if it was asked for and that is a terminal.
 class Progress {
@@ -62,19 +68,25 @@ class InOrder {
 
   void take(std::size_t job, Result result);
 
+  /// If it is the job's turn: says the complaints and writes the text, as far as there are some, and clears
+  /// both. So a report of a million clusters is never whole in memory.
+  bool write_early(std::size_t job, std::vector<std::string>& complaints, std::string& text);
+
   /// Ends the work of all workers.
   void stop();
 
   /// After the last result.
   Status finish();
 
-  /// Ends the writing where it is, and makes whole what is written: the file, the array.
+  /// Ends the writing after the report that is begun, and makes whole what is written: the file, the array.
   void interrupt();
 
  private:
   enum class Reports { wanted, unread, unwritable };
 
-  void write(const Result& result);
+  void say_all(const std::vector<std::string>& complaints);
+  void write_text(std::string&& text, bool goes_on);
+  void write(Result& result);
   template <typename Write>
   void attempt_to_write(Write&& what);
   std::string summary() const;
@@ -86,6 +98,7 @@ class InOrder {
   std::map<std::size_t, Result> waiting_;  ///< For the results before them.
   std::size_t next_ = 0, written_ = 0;
   bool stopped_ = false;
+  bool is_begun_ = false;  ///< Whether a part of report `written_` is written.
   Status status_ = Status::done;
   std::size_t failed_ = 0, points_ = 0;
   ReportWriter writer_;

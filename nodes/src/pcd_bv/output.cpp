@@ -13,50 +13,61 @@
 
 namespace pcl_bv {
 
-std::string render(const Report& report, OutputFormat format) {
+void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take) {
+  const TextSink not_empty = [&](std::string& piece) {
+    if (!piece.empty()) take(piece);
+  };
+  std::string line_end = "\n";
   switch (format) {
     case OutputFormat::json:
-      return report_json(report);
+      return write_report_json(report, clusters, not_empty);
     case OutputFormat::jsonl:
-      return report_json(report) + '\n';
+      write_report_json(report, clusters, not_empty);
+      return take(line_end);
     case OutputFormat::csv:
-      return report_csv(report);
+      return write_report_csv(report, clusters, not_empty);
     case OutputFormat::text:
       break;
   }
-  return report_text(report);
+  write_report_text(report, clusters, not_empty);
 }
 
 ReportWriter::ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file)
     : format_(format), file_(std::move(file)) {}
 
-bool ReportWriter::add(const std::string& rendered) {
-  if (format_ == OutputFormat::text && rendered.empty()) return true;
+bool ReportWriter::add(std::string&& piece, bool goes_on) {
+  if (goes_on) return write(std::move(piece));
+  if (format_ == OutputFormat::text && piece.empty()) return true;
   const bool first = std::exchange(first_, false);
   switch (format_) {
     case OutputFormat::json:
-      return write((first ? "[\n" : ",\n") + rendered);
+      return write(first ? "[\n" : ",\n") && write(std::move(piece));
     case OutputFormat::csv:
-      return write((first ? report_csv_heading() : "") + rendered);
+      return write(first ? report_csv_heading() : "") && write(std::move(piece));
     case OutputFormat::text:
-      return write((first ? "" : "\n") + rendered);
+      return write(first ? "" : "\n") && write(std::move(piece));
     case OutputFormat::jsonl:
       break;
   }
-  return write(rendered);
+  return write(std::move(piece));
 }
 
 bool ReportWriter::finish() {
   const bool read = format_ != OutputFormat::json || write("\n]\n");
   if (!file_) return read;
   make_folder_of(*file_);
-  write_file_atomically(*file_, pending_);
+  write_file_atomically(*file_, std::vector<std::string_view>(pending_.begin(), pending_.end()));
   return true;
 }
 
-bool ReportWriter::write(const std::string& text) {
+bool ReportWriter::write(std::string&& text) {
   if (!file_) return write_standard_output(text);
-  pending_ += text;
+  constexpr std::size_t worth_a_piece = 1 << 16;  // bytes; less is appended
+  if (!pending_.empty() && pending_.back().size() + text.size() < worth_a_piece) {
+    pending_.back() += text;
+  } else if (!text.empty()) {
+    pending_.push_back(std::move(text));
+  }
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "options.h"
 #include "pcl_bv/report/report.h"
@@ -14,25 +15,26 @@
 namespace pcl_bv {
 
 /// A report in a format, without what stands between reports: the part of the writing that can be done for
-/// several at a time. Empty if the format does not show failed inputs.
-std::string render(const Report& report, OutputFormat format);
+/// several at a time. In pieces, of which none is empty; no piece if the format does not show failed inputs.
+void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take);
 
-/// Writes rendered reports. Both verbs give false if nobody reads any more and throw IoError.
+/// Writes rendered reports. All verbs give false if nobody reads any more and throw IoError.
 class ReportWriter {
  public:
   ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file);
 
-  bool add(const std::string& rendered);
+  /// A piece of a report: the first one, or one that goes on.
+  bool add(std::string&& piece, bool goes_on);
 
   /// To be called after the last report; makes the file.
   bool finish();
 
  private:
-  bool write(const std::string& text);
+  bool write(std::string&& text);
 
   OutputFormat format_;
   std::optional<std::filesystem::path> file_;
-  std::string pending_;  ///< Content of the file so far.
+  std::vector<std::string> pending_;  ///< Content of the file so far.
   bool first_ = true;
 };
 

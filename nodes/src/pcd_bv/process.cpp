@@ -46,16 +46,17 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// If asked, verifies all volumes of all entries whose fits have not failed; then as say_what_is_wrong().
-Status check(const PointView& cloud, const FrameResult& result, const Options& options, Report& report) {
-  for (ClusterEntry& cluster : report.clusters) {
-    for (VolumeEntry& entry : cluster.volumes) {
-      if (options.check && entry.failed.empty())
-        entry.outside =
-            verify(entry.volume, result.points_of(cluster.id, cloud), execution_of(options)).outside;
-    }
+/// If asked, verifies all volumes of all clusters whose fits have not failed.
+void check(const PointView& cloud, const FrameResult& result, const Options& options,
+           std::vector<std::size_t>& outside) {
+  if (!options.check) return;
+  const std::size_t methods = result.methods.size();
+  outside.assign(result.volumes.size(), 0);
+  for (std::size_t i = 0; i < outside.size(); ++i) {
+    if (!result.has(i / methods, i % methods) || !result.results[i].reason.empty()) continue;
+    outside[i] =
+        verify(result.volumes[i], result.points_of(i / methods, cloud), execution_of(options)).outside;
   }
-  return say_what_is_wrong(report);
 }
 
 /// Runs `write`, which makes the file `path`, and its folder before.
@@ -74,9 +75,10 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
 }
 
 /// The files that were asked for beside the report. The labels are written into the cloud's own records.
-Status write_files(const Job& job, const Options& options, const Frame& frame, const FrameResult& result,
-                   const Report& report, LoadedCloud& loaded) {
-  Status status = write_mesh(job, report);
+Status write_files(const Job& job, const Options& options, const Frame& frame, const Outcome& outcome,
+                   LoadedCloud& loaded) {
+  const FrameResult& result = *outcome.result;
+  Status status = job.mesh ? write_mesh(job, outcome.entries()) : Status::done;
   if (!job.labels && !job.image && !job.view_html) return status;
   std::vector<std::uint32_t> label;
   const bool shows_ground = job.view_html && result.ground.found;
@@ -90,6 +92,8 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
   }
   if (job.view_html) {
     status = worse(status, write_file(*job.view_html, [&] {
+                     Report report = outcome.report;
+                     report.clusters = outcome.entries();
                      write_file_atomically(*job.view_html, view_html(frame, result, report, label));
                    }));
   }
@@ -118,7 +122,8 @@ std::vector<std::string> remarks(const Frame& frame, const FrameResult& result, 
   return said;
 }
 
-Status process(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
+Status process(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
+  Report& report = outcome.report;
   Stopwatch watch;
   const ParallelPolicy policy = options.pipeline.policy();
   const bool told_apart = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
@@ -137,12 +142,13 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
     frame.classes = std::make_shared<std::vector<std::int64_t>>(any ? integers_of(loaded.cloud(), field->name)
                                                                     : std::vector<std::int64_t>());
   }
-  FrameResult result;
+  const auto found = std::make_shared<FrameResult>();
+  FrameResult& result = *found;
   pipeline.process(frame, result);
+  outcome.result = found;
   if (job.tiles) report.parts = job.tiles->used();
   report.points = result.points;
   report.counts = result.counts;
-  report.clusters = entries_of(result);
   report.origin = loaded.origin();
   for (const std::string& remark : remarks(frame, result, options))
     complain(job.input + ": " + remark);
@@ -152,13 +158,14 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   }
   const StageTimes& ms = result.ms;
   if (options.timings) report.seconds = {read, (ms.filter + ms.ground + ms.cluster) / 1e3, ms.fit / 1e3};
-  const Status checked = check(loaded.xyz(), result, options, report);
+  check(loaded.xyz(), result, options, outcome.outside);
+  const Status checked = say_what_is_wrong(report.file, outcome.clusters());
   loaded.require_unchanged();
-  return worse(checked, write_files(job, options, frame, result, report, loaded));
+  return worse(checked, write_files(job, options, frame, outcome, loaded));
 }
 
 /// One cloud in many inputs. One that fails is left out, and the cloud is begun again without it.
-Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
+Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
   const Stopwatch watch;
   if (options.progress && errors_go_to_a_terminal()) {
     job.tiles->on_loaded = [watch, &tiles = *job.tiles](std::size_t points) {
@@ -172,7 +179,7 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
   for (;;) {
     if (job.tiles->used() == 0) throw IoError("none of the inputs could be read");
     try {
-      status = worse(status, process(job, options, pipeline, report));
+      status = worse(status, process(job, options, pipeline, outcome));
       say_notes(*job.tiles);
       return status;
     } catch (const TileError& error) {
@@ -202,21 +209,53 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
     set_volume(i, result, std::move(volume), report);
   }
   if (options.timings) report.seconds = {read, 0, watch.lap()};
-  return worse(say_what_is_wrong(report), write_mesh(job, report));
+  return worse(say_what_is_wrong(report), write_mesh(job, report.clusters));
 }
 
-Status process_any(const Job& job, const Options& options, FramePipeline& pipeline, Report& report) {
-  if (!job.partials.empty()) return process_partials(job, options, report);
-  return job.tiles ? process_tiles(job, options, pipeline, report) : process(job, options, pipeline, report);
+Status process_any(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
+  if (!job.partials.empty()) return process_partials(job, options, outcome.report);
+  return job.tiles ? process_tiles(job, options, pipeline, outcome) : process(job, options, pipeline, outcome);
 }
 
 }  // namespace
 
+ClusterSource Outcome::clusters() const {
+  if (result == nullptr) return source_of(report.clusters);
+  const std::size_t methods = result->methods.size();
+  return {result->clusters.size(),
+          [this, methods, made = cluster_source(*result), entry = ClusterEntry()](
+              std::size_t id) mutable -> const ClusterEntry& {
+            if (outside.empty()) return made.at(id);
+            entry = made.at(id);
+            std::size_t n = 0;
+            for (std::size_t m = 0; m < methods; ++m) {
+              if (!result->has(id, m)) continue;
+              VolumeEntry& volume = entry.volumes[n++];
+              if (volume.failed.empty()) volume.outside = outside[id * methods + m];
+            }
+            return entry;
+          }};
+}
+
+std::vector<ClusterEntry> Outcome::entries() const {
+  const ClusterSource source = clusters();
+  std::vector<ClusterEntry> all;
+  all.reserve(source.count);
+  for (std::size_t i = 0; i < source.count; ++i)
+    all.push_back(source.at(i));
+  return all;
+}
+
 Status say_what_is_wrong(const Report& report) {
+  return say_what_is_wrong(report.file, source_of(report.clusters));
+}
+
+Status say_what_is_wrong(const std::string& file, const ClusterSource& clusters) {
   Status status = Status::done;
-  for (const ClusterEntry& cluster : report.clusters) {
+  for (std::size_t i = 0; i < clusters.count; ++i) {
+    const ClusterEntry& cluster = clusters.at(i);
     const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
-      std::string said = report.file + ": cluster " + std::to_string(cluster.id) + ": ";
+      std::string said = file + ": cluster " + std::to_string(cluster.id) + ": ";
       said.append(entry.method).append(": ").append(problem);
       complain(said);
       status = worse(status, what);
@@ -230,11 +269,11 @@ Status say_what_is_wrong(const Report& report) {
   return status;
 }
 
-Status write_mesh(const Job& job, const Report& report) {
+Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters) {
   if (!job.mesh) return Status::done;
   return write_file(*job.mesh, [&] {
     const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
-    write_volumes(*job.mesh, report.clusters, format);
+    write_volumes(*job.mesh, clusters, format);
   });
 }
 
@@ -262,7 +301,7 @@ Outcome process(const Job& job, const Options& options, FramePipeline& pipeline)
   Outcome outcome;
   outcome.report.file = job.input;
   try {
-    outcome.status = process_any(job, options, pipeline, outcome.report);
+    outcome.status = process_any(job, options, pipeline, outcome);
     return outcome;
   } catch (const std::bad_alloc&) {
     outcome.report.error = "not enough memory";

@@ -4,6 +4,8 @@
 // Inputs from file to report: one, and all over the cores.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "inputs.h"
@@ -15,8 +17,14 @@
 namespace pcl_bv {
 
 struct Outcome {
-  Report report;
+  Report report;  ///< Its clusters are empty where there is a result: they are made one by one from that.
   Status status = Status::done;
+  std::shared_ptr<const FrameResult> result;
+  std::vector<std::size_t> outside;  ///< For each of the result's volumes, if it was asked.
+
+  /// What is reported. Views this.
+  ClusterSource clusters() const;
+  std::vector<ClusterEntry> entries() const;
 };
 
 /// Loads, segments, fits, verifies, and writes the labels, the mesh and the picture. Never throws for what
@@ -26,9 +34,10 @@ Outcome process(const Job& job, const Options& options, FramePipeline& pipeline)
 
 /// Complains of fits that failed and of points that were found outside: the status for that.
 Status say_what_is_wrong(const Report& report);
+Status say_what_is_wrong(const std::string& file, const ClusterSource& clusters);
 
 /// The job's mesh, if there is to be one.
-Status write_mesh(const Job& job, const Report& report);
+Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters);
 
 /// A warning if floats of such magnitude are too coarse for points in this box; else nothing.
 std::string coarse_remark(const Aabb& box, ScalarType scalar);

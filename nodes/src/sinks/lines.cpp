@@ -14,32 +14,35 @@ std::string first_columns(const FrameReport& report) {
   return std::to_string(report.seq) + ',' + std::to_string(report.stamp_ns) + ',';
 }
 
-std::string csv_lines(const FrameReport& report) {
+std::string csv_lines(const FrameReport& report, const ClusterSource& clusters) {
   // A line of a volume without numbers, whose method is the reason.
   if (report.error)
     return first_columns(report) + ",,," + csv_field("error: " + *report.error) + std::string(12 + 7, ',') +
            '\n';
   std::string lines;
-  for (const ClusterEntry& cluster : report.clusters) {
+  for (std::size_t i = 0; i < clusters.count; ++i) {
+    const ClusterEntry& cluster = clusters.at(i);
     const std::string track = cluster.track ? std::to_string(cluster.track->id) : "";
     append_csv(first_columns(report) + track, cluster, lines, true);
   }
   return lines;
 }
 
-std::string json_line(const FrameReport& report) {
-  return frame_json(report) + '\n';
+std::string json_line(const FrameReport& report, const ClusterSource& clusters) {
+  return frame_json(report, clusters) + '\n';
 }
+
+using Lines = std::string(const FrameReport&, const ClusterSource&);
 
 class LineSink : public FrameSink {
  public:
-  LineSink(const SinkDescription& description, std::string heading, std::string (*lines)(const FrameReport&))
+  LineSink(const SinkDescription& description, std::string heading, Lines* lines)
       : heading_(std::move(heading)), lines_(lines), file_(description.place) {}
   void write(const Frame& frame, const FrameResult& result) override {
-    write(lines_(report_of(frame, result)));
+    write(lines_(report_without_clusters(frame, result), cluster_source(result)));
   }
   void write_lost(const Frame& frame, const std::string& reason) override {
-    write(lines_(report_of_lost(frame, reason)));
+    write(lines_(report_of_lost(frame, reason), {}));
   }
   void close() override {
     write("");
@@ -53,7 +56,7 @@ class LineSink : public FrameSink {
   }
 
   std::string heading_;
-  std::string (*lines_)(const FrameReport&);
+  Lines* lines_;
   LineFile file_;
 };
 

@@ -15,6 +15,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/segmentation/sensor_place.h"
 #include "pcl_bv/segmentation/up.h"
+#include "made_sweep.h"
 #include "stages/class_rules.h"
 #include "stages/filter.h"
 #include "stages/ground.h"
@@ -262,6 +263,13 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   }
   result.ms.track = watch.lap();
   result.ms.total = whole.lap();
+}
+
+void FramePipeline::reserve(std::size_t points, FrameResult& result) {
+  const Frame frame = made_sweep(points, state_->current()->config);
+  for (int pass = 0; pass < 2; ++pass)  // tracks are born in one and met again in the other
+    process(frame, result);
+  state_->tracks = TrackedVolumes();
 }
 
 }  // namespace pcl_bv

@@ -90,22 +90,39 @@ std::string track_remark(const FrameResult& result) {
   }
 }
 
+namespace {
+
+void fill_entry(const FrameResult& result, std::size_t id, ClusterEntry& entry) {
+  entry.id = id;
+  entry.points = result.clusters.cluster_size(id);
+  if (!result.class_of.empty()) entry.class_value = result.class_of[id];
+  if (!result.tracks.empty()) entry.track = result.tracks[id];
+  entry.volumes.resize(result.methods.size());
+  std::size_t n = 0;
+  for (std::size_t m = 0; m < result.methods.size(); ++m) {
+    if (!result.has(id, m)) continue;
+    VolumeEntry& volume = entry.volumes[n++];
+    volume.method = result.methods[m]->name;
+    volume.volume = result.volume(id, m);
+    volume.failed = result.results[id * result.methods.size() + m].reason;
+  }
+  entry.volumes.resize(n);
+}
+
+}  // namespace
+
 std::vector<ClusterEntry> entries_of(const FrameResult& result) {
   std::vector<ClusterEntry> entries(result.clusters.size());
-  for (std::size_t id = 0; id < entries.size(); ++id) {
-    entries[id].id = id;
-    entries[id].points = result.clusters.cluster_size(id);
-    if (!result.class_of.empty()) entries[id].class_value = result.class_of[id];
-    if (!result.tracks.empty()) entries[id].track = result.tracks[id];
-    for (std::size_t m = 0; m < result.methods.size(); ++m) {
-      if (!result.has(id, m)) continue;
-      VolumeEntry& volume = entries[id].volumes.emplace_back();
-      volume.method = result.methods[m]->name;
-      volume.volume = result.volume(id, m);
-      volume.failed = result.results[id * result.methods.size() + m].reason;
-    }
-  }
+  for (std::size_t id = 0; id < entries.size(); ++id)
+    fill_entry(result, id, entries[id]);
   return entries;
+}
+
+ClusterSource cluster_source(const FrameResult& result) {
+  return {result.clusters.size(), [&result, entry = ClusterEntry()](std::size_t id) mutable -> const ClusterEntry& {
+            fill_entry(result, id, entry);
+            return entry;
+          }};
 }
 
 FrameReport report_of_lost(const Frame& frame, const std::string& reason) {
@@ -119,11 +136,16 @@ FrameReport report_of_lost(const Frame& frame, const std::string& reason) {
 }
 
 FrameReport report_of(const Frame& frame, const FrameResult& result) {
+  FrameReport report = report_without_clusters(frame, result);
+  report.clusters = entries_of(result);
+  return report;
+}
+
+FrameReport report_without_clusters(const Frame& frame, const FrameResult& result) {
   FrameReport report = report_of_lost(frame, "");
   report.error.reset();
   report.points = result.points;
   report.counts = result.counts;
-  report.clusters = entries_of(result);
   const StageTimes& ms = result.ms;
   report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},
                {"fit", ms.fit},       {"track", ms.track},   {"total", ms.total}};

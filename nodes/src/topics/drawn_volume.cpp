@@ -26,6 +26,14 @@ DrawnVolume solid(DrawnVolume::Kind kind, const Eigen::Vector3d& center, const E
   return {kind, array_of(center), {turn.x(), turn.y(), turn.z(), turn.w()}, array_of(size), {}};
 }
 
+// From z to a unit axis; downwards by way of the opposite one, which is better conditioned. Eigen's FromTwoVectors()
+// has a singular value decomposition for opposite vectors: half of what this unit of the library took to compile.
+Eigen::Quaterniond turn_to(const Eigen::Vector3d& axis) {
+  const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
+  const Eigen::Quaterniond turn = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();
+  return axis.z() < 0 ? turn * Eigen::Quaterniond(0, 1, 0, 0) : turn;
+}
+
 // The edges between faces, each once.
 DrawnVolume wires(const Mesh& mesh) {
   DrawnVolume volume;
@@ -62,8 +70,7 @@ struct Draw {
                  2 * ellipsoid.radii());
   }
   DrawnVolume operator()(const Cylinder& cylinder) const {
-    const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), cylinder.axis());
-    return solid(Kind::cylinder, cylinder.center(), turn,
+    return solid(Kind::cylinder, cylinder.center(), turn_to(cylinder.axis()),
                  {2 * cylinder.radius(), 2 * cylinder.radius(), 2 * cylinder.half_height()});
   }
   template <class Volume>

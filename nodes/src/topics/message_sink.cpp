@@ -45,7 +45,7 @@ class MessageSink final : public FrameSink {
       send(*objects_topic_, frame, objects_);
     }
     draw(frame, result, lifetime);
-    if (wanted(frames_topic_)) send_frame(report_of(frame, result));
+    if (wanted(frames_topic_)) send_frame(report_without_clusters(frame, result), cluster_source(result));
     if (frame.pose && sends_poses_) send_pose(frame);
     const bool due = health_.heeds(frame, result);
     if (due && wanted(diagnostics_topic_)) {
@@ -58,7 +58,7 @@ class MessageSink final : public FrameSink {
   void write_lost(const Frame& frame, const std::string& reason) override {
     health_.lost();
     carrier_->notice("frame " + std::to_string(frame.header.seq) + " is lost: " + reason);
-    if (wanted(frames_topic_)) send_frame(report_of_lost(frame, reason));
+    if (wanted(frames_topic_)) send_frame(report_of_lost(frame, reason), {});
   }
   void offer(const std::shared_ptr<RemoteSettings>& settings) override { carrier_->offer(settings); }
   std::vector<std::string> take_remarks() override { return carrier_->take_remarks(); }
@@ -76,8 +76,8 @@ class MessageSink final : public FrameSink {
     carrier_->send(topic, frame.header.stamp_ns, bytes_);
   }
 
-  void send_frame(const FrameReport& report) {
-    const std::string text = frame_json(report);
+  void send_frame(const FrameReport& report, const ClusterSource& clusters) {
+    const std::string text = frame_json(report, clusters);
     const auto* const first = reinterpret_cast<const std::byte*>(text.data());
     bytes_.assign(first, first + text.size());
     carrier_->send(*frames_topic_, report.stamp_ns, bytes_);

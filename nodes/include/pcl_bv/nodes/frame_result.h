@@ -100,8 +100,12 @@ std::string track_remark(const FrameResult& result);
 /// The clusters as they are reported.
 std::vector<ClusterEntry> entries_of(const FrameResult& result);
 
-/// The frame as it is reported, and one that was lost, with the reason.
+/// The same one by one, so that a million need no memory. Views the result.
+ClusterSource cluster_source(const FrameResult& result);
+
+/// The frame as it is reported, with and without its clusters, and one that was lost, with the reason.
 FrameReport report_of(const Frame& frame, const FrameResult& result);
+FrameReport report_without_clusters(const Frame& frame, const FrameResult& result);
 FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 
 /// The frame and what was found in it, up as the configuration says: with clusters the points that passed

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <string_view>
+#include <vector>
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -27,6 +28,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 
 /// The same for a content in pieces, such as a header and a body, without joining them in memory.
 void write_file_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces);
+void write_file_atomically(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 
 /// Makes the folders that lead to a file, where they are missing. Throws IoError with the reason.
 void make_folder_of(const std::filesystem::path& file);

@@ -44,6 +44,7 @@ void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std
 
 /// The lines of all clusters of the report, with its file as the first column. Nothing for a failed report.
 std::string report_csv(const Report& report);
+void write_report_csv(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
 /// The line that comes before those of report_csv(): "file", csv_columns and csv_upright_columns.
 std::string report_csv_heading();

@@ -32,4 +32,7 @@ struct FrameReport {
 /// The frame as one JSON object on one line, without the line's end. Numbers as in report_json().
 std::string frame_json(const FrameReport& report);
 
+/// The same with these clusters instead of the report's.
+std::string frame_json(const FrameReport& report, const ClusterSource& clusters);
+
 }  // namespace pcl_bv

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,6 +83,18 @@ struct Report {
   std::optional<std::string> error;
 };
 
+/// Clusters one after another, each made when it is asked for: in a vector a million take 500 MB.
+struct ClusterSource {
+  std::size_t count = 0;
+  std::function<const ClusterEntry&(std::size_t)> at;  ///< Valid until the next call.
+};
+
+/// Those of a vector, which must outlive it.
+ClusterSource source_of(const std::vector<ClusterEntry>& clusters);
+
+/// Takes a text piece by piece. It may leave the piece as it is; the next one is another text.
+using TextSink = std::function<void(std::string& piece)>;
+
 /// The report as one JSON object on one line, without the line's end.
 ///
 /// Every number has the fewest digits that read back as exactly the same double, so that the volume read back
@@ -90,10 +103,14 @@ struct Report {
 /// std::domain_error if a number is not finite, which no fitted volume has.
 std::string report_json(const Report& report);
 
+/// The same text in pieces of about a megabyte, with these clusters instead of the report's.
+void write_report_json(const Report& report, const ClusterSource& clusters, const TextSink& take);
+
 /// The report as a table of at most 120 columns: a line on the file, then one row for each volume with its
 /// centre, size and volume in the unit of the points. The sizes of upright boxes are length, width and
 /// height, and they have a yaw, radians (Obb::yaw()). Rounded for reading: use JSON to compute. A failed
 /// report gives no text.
 std::string report_text(const Report& report);
+void write_report_text(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
 }  // namespace pcl_bv

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <string>
+
+#include "pcl_bv/report/report.h"
+
+namespace pcl_bv {
+
+/// Hands over what there is once it is a megabyte.
+inline void take_if_long(std::string& text, const TextSink& take) {
+  if (text.size() < std::size_t{1} << 20) return;
+  take(text);
+  text.clear();
+}
+
+inline TextSink appended_to(std::string& all) {
+  return [&all](std::string& piece) {
+    if (all.empty()) {
+      all.swap(piece);
+    } else {
+      all += piece;
+    }
+  };
+}
+
+}  // namespace pcl_bv
