@@ -157,7 +157,8 @@ void bind_pipeline(py::module_& module) {
       .def(py::init(&make_pipeline), "config"_a = py::none(), py::kw_only(), "preset"_a = py::none(),
            init_doc(pipeline_doc()).c_str())
       .def("process", process_frame, "points"_a, py::kw_only(), "stamp_ns"_a = 0, "frame_id"_a = "",
-           "seq"_a = py::none(), "pose"_a = py::none(), "classes"_a = py::none(), "recorded_ns"_a = 0, process_doc)
+           "seq"_a = py::none(), "pose"_a = py::none(), "classes"_a = py::none(), "recorded_ns"_a = 0,
+           process_doc)
       .def_property(
           "config", [](const PipelineObject& p) { return dict_of(p.config()); }, set_config,
           "All settings as a dict, which Pipeline() takes back; setting it takes effect with the next frame.")

@@ -50,7 +50,8 @@ TEST_F(Recordings, ACaptureOfPacketsIsACloudForEachRevolution) {
 }
 
 TEST_F(Recordings, AnEmptyFileOfAnyKindIsCalledEmpty) {
-  for (const char* name : {"a.bag", "a.mcap", "a.db3", "a.pcap", "a.pcapng", "a.pcd", "a.ply", "a.las", "a.bin"}) {
+  for (const char* name :
+       {"a.bag", "a.mcap", "a.db3", "a.pcap", "a.pcapng", "a.pcd", "a.ply", "a.las", "a.bin"}) {
     const std::string empty = file(name, "");
     const Result once = run({empty});
     EXPECT_EQ(once.status, 1) << name;
@@ -70,7 +71,8 @@ TEST_F(Recordings, AnOptionWithoutItsValueIsNamed) {
   EXPECT_THAT(looped.err, HasSubstr("--loop needs a value (N), but the option --track comes next"));
   EXPECT_THAT(run({"--cluster", "--volume", "aabb", "synth:box"}).err,
               HasSubstr("--cluster needs a value (TOL), but the option --volume comes next"));
-  EXPECT_EQ(run({"--volume", "aabb", "--", "--volume"}).status, 1);  // a file of that name, which is not there
+  EXPECT_EQ(run({"--volume", "aabb", "--", "--volume"}).status,
+            1);  // a file of that name, which is not there
 }
 
 }  // namespace

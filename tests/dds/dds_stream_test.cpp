@@ -30,7 +30,8 @@ Bytes cloud_of(const std::vector<float>& xyz, bool big_endian = false) {
   cloud.header.stamp = {17, 5};
   cloud.is_bigendian = big_endian;
   for (const char* name : {"x", "y", "z"})
-    cloud.fields.push_back({name, static_cast<std::uint32_t>(4 * cloud.fields.size()), msg::PointField::FLOAT32, 1});
+    cloud.fields.push_back(
+        {name, static_cast<std::uint32_t>(4 * cloud.fields.size()), msg::PointField::FLOAT32, 1});
   cloud.point_step = 12;
   cloud.width = static_cast<std::uint32_t>(xyz.size() / 3);
   cloud.row_step = 12 * cloud.width;
@@ -75,10 +76,11 @@ class Dds : public DdsTest {
 };
 
 TEST_F(Dds, EveryCloudOfOneProcessReachesTheOther) {
-  BvStream to(at("to.err"), {"--source", "dds:/a/points", "--sink", "jsonl:" + at("to.jsonl"), "--stats", at("to.json")});
+  BvStream to(at("to.err"),
+              {"--source", "dds:/a/points", "--sink", "jsonl:" + at("to.jsonl"), "--stats", at("to.json")});
   std::this_thread::sleep_for(std::chrono::seconds(1));
-  BvStream from(at("from.err"), {"--source", small_cloud(), "--loop", "30", "--rate", "10", "--ground", "none", "--sink", "dds:/a", "--sink",
-                                   "jsonl:" + at("from.jsonl")});
+  BvStream from(at("from.err"), {"--source", small_cloud(), "--loop", "30", "--rate", "10", "--ground",
+                                 "none", "--sink", "dds:/a", "--sink", "jsonl:" + at("from.jsonl")});
   EXPECT_EQ(from.wait(), 0);
   EXPECT_TRUE(wait_for([&] { return lines_of(at("to.jsonl")) >= 29; }));
   EXPECT_EQ(to.end(SIGINT), 0);
@@ -90,7 +92,8 @@ TEST_F(Dds, EveryCloudOfOneProcessReachesTheOther) {
 
 // Volumes are those of the same clouds without a network.
 TEST_F(Dds, AnswersACloudWithItsObjects) {
-  BvStream node(at("err"), {"--source", "dds:/points", "--sink", "dds:/bv", "--volume", "aabb", "--ground", "none"});
+  BvStream node(at("err"),
+                {"--source", "dds:/points", "--sink", "dds:/bv", "--volume", "aabb", "--ground", "none"});
   Talk talk("");
   const auto markers = middleware("dds").receiver("/bv/markers", "visualization_msgs/msg/MarkerArray");
   ASSERT_TRUE(talk.heard());
@@ -114,8 +117,9 @@ TEST_F(Dds, AnswersACloudWithItsObjects) {
 
 TEST_F(Dds, AStoppedReaderHoldsNothingUp) {
   BvStream reader(at("reader.err"), {"--source", "dds:/a/points", "--sink", "jsonl:" + at("reader.jsonl")});
-  BvStream from(at("from.err"), {"--source", small_cloud(), "--loop", "40", "--rate", "10", "--ground", "none", "--sink", "dds:/a", "--sink",
-                                   "jsonl:" + at("from.jsonl"), "--stats", at("from.json")});
+  BvStream from(at("from.err"),
+                {"--source", small_cloud(), "--loop", "40", "--rate", "10", "--ground", "none", "--sink",
+                 "dds:/a", "--sink", "jsonl:" + at("from.jsonl"), "--stats", at("from.json")});
   ASSERT_TRUE(wait_for([&] { return lines_of(at("reader.jsonl")) > 0; }));
   reader.send(SIGSTOP);
   EXPECT_EQ(from.wait(), 0);
@@ -127,7 +131,8 @@ TEST_F(Dds, AStoppedReaderHoldsNothingUp) {
 
 TEST_F(Dds, EitherSideMayDieAndComeBack) {
   const std::vector<std::string> reading{"--source", "dds:/a/points", "--sink", "jsonl:" + at("b.jsonl")};
-  const std::vector<std::string> writing{"--source", small_cloud(), "--loop", "1000", "--rate", "10", "--ground", "none", "--sink", "dds:/a"};
+  const std::vector<std::string> writing{"--source", small_cloud(), "--loop", "1000",   "--rate",
+                                         "10",       "--ground",    "none",   "--sink", "dds:/a"};
   const auto comes_through = [&] {
     const std::size_t before = lines_of(at("b.jsonl"));
     return wait_for([&] { return lines_of(at("b.jsonl")) > before; });
@@ -147,7 +152,8 @@ TEST_F(Dds, EitherSideMayDieAndComeBack) {
 }
 
 TEST_F(Dds, WhatIsNoCloudIsACountedError) {
-  BvStream node(at("err"), {"--source", "dds:/points", "--sink", "jsonl:" + at("out"), "--stats", at("stats"), "--ground", "none"});
+  BvStream node(at("err"), {"--source", "dds:/points", "--sink", "jsonl:" + at("out"), "--stats", at("stats"),
+                            "--ground", "none"});
   Talk talk("");
   ASSERT_TRUE(talk.heard());
   const Bytes good = cube();
@@ -190,7 +196,8 @@ TEST_F(Dds, WhatIsNoCloudIsACountedError) {
   EXPECT_GE(stats["frames"]["dropped"]["error"], 4);
 }
 
-// A socket's buffer can be no larger than the kernel allows: clouds of megabytes that come at once would be cut.
+// A socket's buffer can be no larger than the kernel allows: clouds of megabytes that come at once would be
+// cut.
 TEST_F(Dds, SaysWhatToTypeWhereTheKernelsBuffersAreSmall) {
   std::size_t most = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> most;
@@ -207,7 +214,8 @@ TEST_F(Dds, SaysThatATopicHasAnotherType) {
   const auto carrier = middleware("dds").carrier("");
   carrier->add_topic({"/points", "sensor_msgs/msg/Image"});
   EXPECT_TRUE(wait_for([&] { return !node.errors().empty(); }));
-  EXPECT_THAT(node.errors(), HasSubstr("dds:/points: published as sensor_msgs/msg/Image, which is not read: only sensor_msgs/msg/PointCloud2 is"));
+  EXPECT_THAT(node.errors(), HasSubstr("dds:/points: published as sensor_msgs/msg/Image, which is not read: "
+                                       "only sensor_msgs/msg/PointCloud2 is"));
   EXPECT_EQ(node.end(SIGTERM), 0);
 }
 
@@ -234,7 +242,8 @@ TEST_F(Dds, RefusesWhatIsNoTopicAndNoDomain) {
 }
 
 TEST_F(Dds, WithoutANetworkIsOneLine) {
-  setenv("CYCLONEDDS_URI", "<General><Interfaces><NetworkInterface name=\"none0\"/></Interfaces></General>", 1);
+  setenv("CYCLONEDDS_URI", "<General><Interfaces><NetworkInterface name=\"none0\"/></Interfaces></General>",
+         1);
   EXPECT_EQ(status_of(at("err"), {"--source", "dds:/points"}), 1);
   unsetenv("CYCLONEDDS_URI");
   EXPECT_EQ(lines_of(at("err")), 1U) << text_of(at("err"));

@@ -231,8 +231,9 @@ TEST(Topics, FillTypesWithRos1Times) {
 }
 
 TEST(Topics, ACylinderIsTurnedToItsAxisAlsoStraightDown) {
-  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0),
-                                      Eigen::Vector3d(1e-9, 2e-9, -1), Eigen::Vector3d(3, -4, -12)}) {
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0),
+        Eigen::Vector3d(1e-9, 2e-9, -1), Eigen::Vector3d(3, -4, -12)}) {
     const Cylinder cylinder({1, 2, 3}, axis.normalized(), 0.5, 2);
     const auto [x, y, z, w] = drawn(AnyVolume(cylinder)).orientation;
     EXPECT_LT((Eigen::Quaterniond(w, x, y, z) * Eigen::Vector3d::UnitZ() - cylinder.axis()).norm(), 1e-15)

@@ -51,12 +51,13 @@ TEST(ReportJson, IsTheDocumentedText) {
   Report report = report_of({{"aabb", Aabb({0, -1, 0.5}, {1, 2, 3}), 0}});
   report.counts = {1, 2, 3, 4, 5, 7, 6, 8};
   report.seconds = Seconds{0.25, 0, 1e-6};
-  EXPECT_EQ(report_json(report),
-            R"({"schema":1,"file":"a.pcd","points":12,)"
-            R"("counts":{"nonfinite":1,"range":2,"ground":3,"small":4,"large":5,"noise":7,"inside":6,"class":8},)"
-            R"("clusters":[{"id":0,"points":12,"volumes":[)"
-            R"({"shape":"aabb","method":"aabb","volume":7.5,"min":[0,-1,0.5],"max":[1,2,3],"outside":0}]}],)"
-            R"("seconds":{"read":0.25,"segment":0,"fit":1e-06}})");
+  EXPECT_EQ(
+      report_json(report),
+      R"({"schema":1,"file":"a.pcd","points":12,)"
+      R"("counts":{"nonfinite":1,"range":2,"ground":3,"small":4,"large":5,"noise":7,"inside":6,"class":8},)"
+      R"("clusters":[{"id":0,"points":12,"volumes":[)"
+      R"({"shape":"aabb","method":"aabb","volume":7.5,"min":[0,-1,0.5],"max":[1,2,3],"outside":0}]}],)"
+      R"("seconds":{"read":0.25,"segment":0,"fit":1e-06}})");
 }
 
 TEST(ReportJson, ShapesHaveTheirOwnNumbers) {
@@ -144,7 +145,8 @@ TEST(ReportJson, AnyBytesAreWrittenAsNlohmannsLibraryDoes) {
     for (auto n = random() % 8; n > 0; --n)
       report.file += random() % 4 == 0 ? static_cast<char>(random()) : likely[random() % likely.size()];
     report.error = "";
-    const std::string file = nlohmann::json(report.file).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string file =
+        nlohmann::json(report.file).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     ASSERT_EQ(report_json(report), R"({"schema":1,"file":)" + file + R"(,"error":""})");
   }
 }
@@ -153,7 +155,8 @@ TEST(ReportJson, ComesInPiecesThatTogetherAreTheTextAsTheOtherFormatsDo) {
   Report report;
   report.file = "a.pcd";
   for (std::size_t id = 0; id < 30000; ++id)
-    report.clusters.push_back({id, 1, {{"aabb", Aabb({0, 0, 0}, {1.0 / 3, 2, 1.0 + static_cast<double>(id)}), {}}}});
+    report.clusters.push_back(
+        {id, 1, {{"aabb", Aabb({0, 0, 0}, {1.0 / 3, 2, 1.0 + static_cast<double>(id)}), {}}}});
   const auto expect_pieces = [&](const std::string& all, auto* write) {
     std::string joined;
     std::size_t pieces = 0;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// JSON written straight into a text. A tree of values, as libraries build it, took 1.5 kB a cluster and most of
-// the time of a report.
+// JSON written straight into a text. A tree of values, as libraries build it, took 1.5 kB a cluster and most
+// of the time of a report.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +21,7 @@ namespace pcl_bv {
 /// Bytes of the valid UTF-8 character that `text` begins with, or 0; then `tried` is how many of its bytes
 /// began one.
 inline std::size_t utf8_length(std::string_view text, std::size_t& tried) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const unsigned first = byte(0);
   tried = 1;
   if (first < 0x80) return 1;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reports as JSON. Numbers are written by std::to_chars, which alone promises the fewest digits that read back
-// exactly.
+// Reports as JSON. Numbers are written by std::to_chars, which alone promises the fewest digits that read
+// back exactly.
 
 #include <cmath>
 

@@ -14,8 +14,8 @@
 
 namespace pcl_bv {
 
-/// Appends the fewest digits that read back as exactly this double; never -0. Throws std::domain_error if it is
-/// not finite.
+/// Appends the fewest digits that read back as exactly this double; never -0. Throws std::domain_error if it
+/// is not finite.
 inline void append_shortest(double value, std::string& text) {
   if (!std::isfinite(value)) throw std::domain_error("a volume has a number that is not finite");
   char digits[32];

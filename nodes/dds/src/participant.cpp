@@ -15,10 +15,12 @@
 namespace pcl_bv::dds {
 namespace {
 
-// Clouds of megabytes are lost by the hundred in a socket's default 212 kB. A reader that is stuck must not slow its
-// writer down: what it has not acknowledged is kept, five messages of each topic, instead of waiting for it at 500 kB.
+// Clouds of megabytes are lost by the hundred in a socket's default 212 kB. A reader that is stuck must not
+// slow its writer down: what it has not acknowledged is kept, five messages of each topic, instead of waiting
+// for it at 500 kB.
 constexpr const char* kBuffers =
-    "<Internal><SocketReceiveBufferSize max=\"8MB\"/><Watermarks><WhcHigh>256MB</WhcHigh></Watermarks></Internal>";
+    "<Internal><SocketReceiveBufferSize "
+    "max=\"8MB\"/><Watermarks><WhcHigh>256MB</WhcHigh></Watermarks></Internal>";
 
 std::string environment(const char* name) {
   const char* const value = std::getenv(name);
@@ -48,8 +50,8 @@ std::string peers_of(const std::string& text) {
   return peers;
 }
 
-// As rmw_cyclonedds reads the environment. On the loopback, which mostly knows no multicast, others are looked for on the
-// ports of the first 32 participants.
+// As rmw_cyclonedds reads the environment. On the loopback, which mostly knows no multicast, others are
+// looked for on the ports of the first 32 participants.
 std::string profile() {
   const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
   for (const char* known : {"", "SUBNET", "SYSTEM_DEFAULT", "LOCALHOST", "OFF"}) {
@@ -66,8 +68,11 @@ std::string profile() {
   if (range == "OFF") general += "<AllowMulticast>false</AllowMulticast>";
   std::string discovery;
   if (!peers.empty() && range != "OFF") {
-    discovery = "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
-                "<Peers>" + peers + "</Peers></Discovery>";
+    discovery =
+        "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</"
+        "MaxAutoParticipantIndex>"
+        "<Peers>" +
+        peers + "</Peers></Discovery>";
   }
   return "<General>" + general + "</General>" + discovery + kBuffers;
 }
@@ -150,7 +155,8 @@ std::shared_ptr<Participant> Participant::shared() {
   };
   const std::lock_guard lock(mutex);
   std::shared_ptr<Participant> participant = existing.lock();
-  if (participant == nullptr) existing = participant = std::shared_ptr<Participant>(new Participant(), remove);
+  if (participant == nullptr)
+    existing = participant = std::shared_ptr<Participant>(new Participant(), remove);
   return participant;
 }
 

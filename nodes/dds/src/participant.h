@@ -31,8 +31,8 @@ class Entity {
 
 class Participant {
  public:
-  /// That of the process, made for the first who asks and gone with the last. Throws IoError where there is no network,
-  /// std::invalid_argument for bad values in the environment.
+  /// That of the process, made for the first who asks and gone with the last. Throws IoError where there is
+  /// no network, std::invalid_argument for bad values in the environment.
   static std::shared_ptr<Participant> shared();
 
   dds_entity_t get() const { return participant_.get(); }

@@ -36,7 +36,8 @@ std::string small_buffers() {
   std::ifstream("/proc/sys/net/core/rmem_max") >> most;
   if (most >= kWantedBuffer) return "";
   return "the kernel's receive buffers are small (" + std::to_string(most) +
-         " bytes), large clouds may be lost: sudo sysctl -w net.core.rmem_max=" + std::to_string(kWantedBuffer);
+         " bytes), large clouds may be lost: sudo sysctl -w net.core.rmem_max=" +
+         std::to_string(kWantedBuffer);
 }
 
 class Receiver final : public MessageReceiver {
@@ -48,8 +49,9 @@ class Receiver final : public MessageReceiver {
         topic_(create_cdr_topic(participant_->get(), name_, type_), topic),
         reader_(dds_create_reader(participant_->get(), topic_.get(), reader_qos().get(), nullptr), topic),
         ready_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), topic),
-        publications_(dds_create_reader(participant_->get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
-                      topic),
+        publications_(
+            dds_create_reader(participant_->get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
+            topic),
         waits_(dds_create_waitset(participant_->get()), topic) {
     dds_waitset_attach(waits_.get(), ready_.get(), 0);
     if (std::string remark = small_buffers(); !remark.empty()) remarks_.push_back(std::move(remark));
@@ -92,8 +94,8 @@ class Receiver final : public MessageReceiver {
   void note_losses(std::vector<std::string>& all) {
     dds_sample_lost_status_t lost{};
     if (dds_get_sample_lost_status(reader_.get(), &lost) < 0 || lost.total_count_change == 0) return;
-    all.push_back(std::to_string(lost.total_count_change) + " lost on the way, " + std::to_string(lost.total_count) +
-                  " so far");
+    all.push_back(std::to_string(lost.total_count_change) + " lost on the way, " +
+                  std::to_string(lost.total_count) + " so far");
   }
 
   // Those who publish another type on this topic, or with other QoS.
@@ -106,7 +108,8 @@ class Receiver final : public MessageReceiver {
       const auto& writer = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
       if (!infos[i].valid_data || name_ != writer.topic_name || type_ == writer.type_name) continue;
       if (others_.insert(writer.type_name).second)
-        all.push_back("published as " + ros_type(writer.type_name) + ", which is not read: only " + ros_type(type_) + " is");
+        all.push_back("published as " + ros_type(writer.type_name) + ", which is not read: only " +
+                      ros_type(type_) + " is");
     }
     if (count > 0) dds_return_loan(publications_.get(), samples, count);
     dds_requested_incompatible_qos_status_t refused{};

@@ -10,8 +10,8 @@ namespace {
 
 void write(const TileHeader& header, std::ostream& out) {
   out << header.points << ' ' << size_of(header.scalar) << ' ' << header.by_position << ' '
-      << header.error.has_value() << ' ' << header.error.value_or("").size() << ' '
-      << header.note.size() << ' ' << header.error.value_or("") << header.note << '\n';
+      << header.error.has_value() << ' ' << header.error.value_or("").size() << ' ' << header.note.size()
+      << ' ' << header.error.value_or("") << header.note << '\n';
 }
 
 TileHeader read_header(std::istream& in) {

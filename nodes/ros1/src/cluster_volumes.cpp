@@ -56,7 +56,8 @@ void ClusterVolumes::listen_while_wanted() {
   if (wanted == listens_) return;
   listens_ = wanted;
   if (wanted) {
-    points_ = topics_.subscribe("points", 2, &ClusterVolumes::receive, this, ros::TransportHints().tcpNoDelay());
+    points_ =
+        topics_.subscribe("points", 2, &ClusterVolumes::receive, this, ros::TransportHints().tcpNoDelay());
   } else {
     points_.shutdown();
   }

@@ -37,7 +37,8 @@ struct Texts {
 void declare_frames(CommandLine& line, Texts& t) {
   line.option("--source", t.source, "SOURCE", source_syntax());
   line.option("--bin-fields", t.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
-  line.option("--topic", t.topic, "NAME", "The topic of a recording, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
+  line.option("--topic", t.topic, "NAME",
+              "The topic of a recording, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
   line.option(
       "--rate", t.rate, "HZ",
       "Frames a second, recorded (by their stamps) or max\n(10; recorded where the source is a recording)");

@@ -204,7 +204,8 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   RunnerConfig config = options.config.runner;
   config.policy = resolved(config.policy, options.rate != Rate::max);
   FrameResult room;
-  if (options.rate != Rate::max) pipeline.reserve(points_of_a_sweep, room);  // else the first frame waits for it
+  if (options.rate != Rate::max)
+    pipeline.reserve(points_of_a_sweep, room);  // else the first frame waits for it
   StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config, std::move(room));
   Reader reader(options, runner, sinks, interrupted);
   reader.read(*source);

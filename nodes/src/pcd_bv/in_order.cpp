@@ -48,8 +48,7 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline, const WriteJobEarly& write) {
   HeldComplaints complaints;
   const WriteEarly early = [&](std::string& text) { return write(complaints.kept, text); };
-  Result result =
-      result_of(process(job, options, pipeline), options.format, write ? early : WriteEarly());
+  Result result = result_of(process(job, options, pipeline), options.format, write ? early : WriteEarly());
   result.complaints = std::move(complaints.kept);
   return result;
 }
@@ -96,7 +95,8 @@ std::optional<std::size_t> InOrder::next() {
 void InOrder::take(std::size_t job, Result result) {
   const std::lock_guard lock(mutex_);
   waiting_.emplace(job, std::move(result));
-  for (auto first = waiting_.begin(); first != waiting_.end() && first->first == written_ && (!stopped_ || is_begun_);
+  for (auto first = waiting_.begin();
+       first != waiting_.end() && first->first == written_ && (!stopped_ || is_begun_);
        first = waiting_.erase(first), ++written_) {
     write(first->second);
   }

@@ -22,8 +22,8 @@ namespace pcl_bv {
 
 /// What is left of a job once it is done.
 struct Result {
-  std::string text;         ///< What is not written yet.
-  bool is_begun = false;    ///< Whether some is.
+  std::string text;       ///< What is not written yet.
+  bool is_begun = false;  ///< Whether some is.
   std::vector<std::string> complaints;
   std::size_t points = 0;
   Status status = Status::done;
@@ -38,7 +38,8 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
 
 /// The same of a job, with what it complains of.
 using WriteJobEarly = std::function<bool(std::vector<std::string>& complaints, std::string& text)>;
-Result do_job(const Job& job, const Options& options, FramePipeline& pipeline, const WriteJobEarly& write = {});
+Result do_job(const Job& job, const Options& options, FramePipeline& pipeline,
+              const WriteJobEarly& write = {});
 
 /// A bar on standard error, if it was asked for and that is a terminal.
 class Progress {

@@ -57,7 +57,8 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
               ".pcd, .ply, .las, .bin files, folders of them, synth:NAME[:POINTS[:SEED]],\n"
               "recordings (.mcap, .bag, .db3 or its folder)");
   line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
-  line.option("--topic", texts.topic, "NAME", "The topic of recordings, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
+  line.option("--topic", texts.topic, "NAME",
+              "The topic of recordings, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
   line.option("--origin", texts.origin, "X,Y,Z",
               "Subtract this, or auto: whole numbers in the middle of each cloud");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");

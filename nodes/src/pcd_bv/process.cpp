@@ -214,7 +214,8 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
 
 Status process_any(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
   if (!job.partials.empty()) return process_partials(job, options, outcome.report);
-  return job.tiles ? process_tiles(job, options, pipeline, outcome) : process(job, options, pipeline, outcome);
+  return job.tiles ? process_tiles(job, options, pipeline, outcome)
+                   : process(job, options, pipeline, outcome);
 }
 
 }  // namespace
@@ -223,8 +224,8 @@ ClusterSource Outcome::clusters() const {
   if (result == nullptr) return source_of(report.clusters);
   const std::size_t methods = result->methods.size();
   return {result->clusters.size(),
-          [this, methods, made = cluster_source(*result), entry = ClusterEntry()](
-              std::size_t id) mutable -> const ClusterEntry& {
+          [this, methods, made = cluster_source(*result),
+           entry = ClusterEntry()](std::size_t id) mutable -> const ClusterEntry& {
             if (outside.empty()) return made.at(id);
             entry = made.at(id);
             std::size_t n = 0;

@@ -27,7 +27,9 @@ void work(const std::vector<Job>& jobs, const Options& options, InOrder& order) 
   try {
     FramePipeline pipeline(options.pipeline);
     while (const auto job = order.next()) {
-      const auto early = [&](auto& complaints, auto& text) { return order.write_early(*job, complaints, text); };
+      const auto early = [&](auto& complaints, auto& text) {
+        return order.write_early(*job, complaints, text);
+      };
       order.take(*job, do_job(jobs[*job], options, pipeline, early));
     }
   } catch (...) {

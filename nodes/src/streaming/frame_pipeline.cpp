@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "made_sweep.h"
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/segmentation/sensor_place.h"
 #include "pcl_bv/segmentation/up.h"
-#include "made_sweep.h"
 #include "stages/class_rules.h"
 #include "stages/filter.h"
 #include "stages/ground.h"

@@ -119,7 +119,8 @@ std::vector<ClusterEntry> entries_of(const FrameResult& result) {
 }
 
 ClusterSource cluster_source(const FrameResult& result) {
-  return {result.clusters.size(), [&result, entry = ClusterEntry()](std::size_t id) mutable -> const ClusterEntry& {
+  return {result.clusters.size(),
+          [&result, entry = ClusterEntry()](std::size_t id) mutable -> const ClusterEntry& {
             fill_entry(result, id, entry);
             return entry;
           }};

@@ -44,7 +44,8 @@ Frame made_sweep(std::size_t points, const PipelineConfig& config) {
   xyz->reserve(3 * points);
   for (std::size_t i = 0; i < points; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(points);
-    const Upright at = i % 2 == 0 ? place_on_ground(i, share, sensor_height) : place_on_object(i / 2, sensor_height);
+    const Upright at =
+        i % 2 == 0 ? place_on_ground(i, share, sensor_height) : place_on_object(i / 2, sensor_height);
     const Eigen::Vector3d p = at.x * side + at.y * ahead + at.height * up;
     xyz->insert(xyz->end(),
                 {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});

@@ -26,8 +26,9 @@ DrawnVolume solid(DrawnVolume::Kind kind, const Eigen::Vector3d& center, const E
   return {kind, array_of(center), {turn.x(), turn.y(), turn.z(), turn.w()}, array_of(size), {}};
 }
 
-// From z to a unit axis; downwards by way of the opposite one, which is better conditioned. Eigen's FromTwoVectors()
-// has a singular value decomposition for opposite vectors: half of what this unit of the library took to compile.
+// From z to a unit axis; downwards by way of the opposite one, which is better conditioned. Eigen's
+// FromTwoVectors() has a singular value decomposition for opposite vectors: half of what this unit of the
+// library took to compile.
 Eigen::Quaterniond turn_to(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
   const Eigen::Quaterniond turn = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();

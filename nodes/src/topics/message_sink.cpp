@@ -22,9 +22,11 @@ class MessageSink final : public FrameSink {
       : carrier_(std::move(carrier)), sends_poses_(topics.poses) {
     objects_topic_ = carrier_->add_topic({topics.prefix + "/objects", msg::Detection3DArray::ros_type});
     markers_topic_ = carrier_->add_topic({topics.prefix + "/markers", msg::MarkerArray::ros_type});
-    if (topics.scene) scene_topic_ = carrier_->add_topic({topics.prefix + "/scene", msg::SceneUpdate::ros_type});
+    if (topics.scene)
+      scene_topic_ = carrier_->add_topic({topics.prefix + "/scene", msg::SceneUpdate::ros_type});
     diagnostics_topic_ = carrier_->add_topic({"/diagnostics", msg::DiagnosticArray::ros_type});
-    if (topics.points) points_topic_ = carrier_->add_topic({topics.prefix + "/points", msg::PointCloud2::ros_type});
+    if (topics.points)
+      points_topic_ = carrier_->add_topic({topics.prefix + "/points", msg::PointCloud2::ros_type});
     if (topics.frames) frames_topic_ = carrier_->add_topic({topics.prefix + "/frames", kFrameType, "json"});
   }
 
@@ -120,7 +122,8 @@ class MessageSink final : public FrameSink {
 
   std::unique_ptr<MessageCarrier> carrier_;
   bool sends_poses_;
-  Topic objects_topic_, markers_topic_, scene_topic_, diagnostics_topic_, points_topic_, frames_topic_, pose_topic_;
+  Topic objects_topic_, markers_topic_, scene_topic_, diagnostics_topic_, points_topic_, frames_topic_,
+      pose_topic_;
   std::shared_ptr<const PipelineConfig> noted_;
   msg::Detection3DArray objects_;
   msg::MarkerArray markers_;
@@ -134,7 +137,8 @@ class MessageSink final : public FrameSink {
 
 }  // namespace
 
-std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageCarrier> carrier, const MessageTopics& topics) {
+std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageCarrier> carrier,
+                                             const MessageTopics& topics) {
   if (carrier == nullptr) throw std::invalid_argument("make_message_sink: no carrier");
   return std::make_unique<MessageSink>(std::move(carrier), topics);
 }

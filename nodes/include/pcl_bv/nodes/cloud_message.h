@@ -20,12 +20,14 @@ struct CloudMessage {
   bool ros1 = false;  ///< In ROS 1's encoding; else CDR with its encapsulation.
 };
 
-/// The message itself, whose data stay where they are. Throws MessageError for what is no sensor_msgs/msg/PointCloud2.
+/// The message itself, whose data stay where they are. Throws MessageError for what is no
+/// sensor_msgs/msg/PointCloud2.
 msg::PointCloud2 cloud_in(const CloudMessage& message);
 
-/// A sensor_msgs/msg/PointCloud2 as a frame: points, owner, frame_id, the stamp unless it is 0, and as `note` which fields
-/// cannot be read (unread_fields()). The points stay where they lie if they can be viewed there (points_in_place()), else
-/// they are copied. With `class_field` classes are that integer field. Throws MessageError for what is no such cloud.
+/// A sensor_msgs/msg/PointCloud2 as a frame: points, owner, frame_id, the stamp unless it is 0, and as `note`
+/// which fields cannot be read (unread_fields()). The points stay where they lie if they can be viewed there
+/// (points_in_place()), else they are copied. With `class_field` classes are that integer field. Throws
+/// MessageError for what is no such cloud.
 void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame);
 
 /// The same of a message that is read already; `owner` keeps its data.

@@ -47,7 +47,8 @@ struct Frame {
   /// none.
   std::optional<FieldView> intensity{};
   std::optional<Pose> pose;  ///< Of the sensor in a fixed frame, if it is known.
-  /// Where the source says that the sensor is in the frame of the points, metres, as VIEWPOINT of a .pcd does.
+  /// Where the source says that the sensor is in the frame of the points, metres, as VIEWPOINT of a .pcd
+  /// does.
   std::optional<Eigen::Vector3d> sensor{};
   /// When it was recorded or sent, nanoseconds of that machine's clock; 0: not known. For tracks whose stamps
   /// do not advance.
@@ -71,4 +72,4 @@ inline std::chrono::steady_clock::time_point steady_time(std::int64_t system_ns)
   return std::chrono::steady_clock::now() - (since_1970 - std::chrono::nanoseconds(system_ns));
 }
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -38,9 +38,10 @@ class FramePipeline {
   /// clusters are asked for. Not for several threads at once.
   void process(const Frame& frame, FrameResult& result);
 
-  /// Makes room for frames of `points` points, so that the first one takes about as long as the next ones: fresh
-  /// memory costs several times what the work does. Passes a made sweep twice through all stages; call it
-  /// before the sensor's first frame. Tracks are forgotten, and `result` means nothing afterwards but room.
+  /// Makes room for frames of `points` points, so that the first one takes about as long as the next ones:
+  /// fresh memory costs several times what the work does. Passes a made sweep twice through all stages; call
+  /// it before the sensor's first frame. Tracks are forgotten, and `result` means nothing afterwards but
+  /// room.
   void reserve(std::size_t points, FrameResult& result);
 
  private:

@@ -55,16 +55,17 @@ inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
 
 /// How recordings become frames.
 struct ReplayOptions {
-  double rate_hz = 10;         ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
-  /// Stamps that frames have themselves: of files by stamp_in_name(), but in one way for all of a folder, whose stamps
-  /// ascend if there is such a way, also with fractions that are milli-, micro- or nanoseconds without leading zeros; a
-  /// remark says that none does. A name without one is a FrameError. Of messages those of their headers, and where they
-  /// are 0 of when they were recorded.
+  double rate_hz = 10;  ///< Frames a second, 0.001 to 1000000: frame n is n / rate_hz after the first.
+  /// Stamps that frames have themselves: of files by stamp_in_name(), but in one way for all of a folder,
+  /// whose stamps ascend if there is such a way, also with fractions that are milli-, micro- or nanoseconds
+  /// without leading zeros; a remark says that none does. A name without one is a FrameError. Of messages
+  /// those of their headers, and where they are 0 of when they were recorded.
   bool from_name = false;
   std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
   std::size_t loops = 1;       ///< How often; at least once.
-  std::string class_field{};   ///< An integer field of the clouds for Frame::classes; if empty, there are none.
-  std::string frame_id{};      ///< Of all frames; if empty, what the recording says.
+  std::string
+      class_field{};       ///< An integer field of the clouds for Frame::classes; if empty, there are none.
+  std::string frame_id{};  ///< Of all frames; if empty, what the recording says.
 
   /// A file of the sensor's poses, if not empty. A line has 12 numbers, the upper rows of the frame's matrix
   /// (KITTI: of the left camera where `Tr:` in a calib.txt beside the file says how to convert), as many
@@ -77,7 +78,7 @@ struct ReplayOptions {
 /// Where the times of a source's frames can come from, beside the rate.
 enum class FrameTimes : std::uint8_t {
   none,
-  names,    ///< Of files, where they are asked for.
+  names,     ///< Of files, where they are asked for.
   messages,  ///< Of a recording, unless others are asked for.
   live       ///< Of messages as they come; no others.
 };
@@ -97,12 +98,12 @@ const SourceKind& source_kind(const std::string& name);
 /// All that can be opened, for help.
 std::string source_syntax();
 
-/// A folder of clouds in natural order, one file, a recording (open_recording(): sensor_msgs/msg/PointCloud2), a
-/// capture of a Velodyne's packets (VelodyneReader), `dds:TOPIC` (middleware()), which never ends, or
-/// `synth:street-sequence[:FRAMES[:SEED]]`, whose frames are made when they are asked for. Throws IoError if there
-/// is no cloud or no poses can be read, std::invalid_argument for a rate out of range, for names none of which has a
-/// stamp, for a topic that is not there or not said where there are several, and for an unknown sequence.
-/// Further ones as Middleware::receiver() does.
+/// A folder of clouds in natural order, one file, a recording (open_recording():
+/// sensor_msgs/msg/PointCloud2), a capture of a Velodyne's packets (VelodyneReader), `dds:TOPIC`
+/// (middleware()), which never ends, or `synth:street-sequence[:FRAMES[:SEED]]`, whose frames are made when
+/// they are asked for. Throws IoError if there is no cloud or no poses can be read, std::invalid_argument for
+/// a rate out of range, for names none of which has a stamp, for a topic that is not there or not said where
+/// there are several, and for an unknown sequence. Further ones as Middleware::receiver() does.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
 
 /// What the function gives, until it returns false. It may wait as long as it likes: each call is in a thread
@@ -110,10 +111,11 @@ std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOp
 /// there until it returns. Its exceptions are those of next().
 std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
-/// The stamp in a file's name without its extension, nanoseconds; -1 without one. The surest way of writing a time that
-/// is there counts, the last of its kind: a time since 1970 (seconds with a fraction, or a whole number of milli-, micro-
-/// or nanoseconds of 2001 and later), a date with hours, minutes and seconds (UTC, or with a zone such as +0800), a time
-/// of day, or other seconds with a decimal point. Other numbers count frames. For a folder see ReplayOptions::from_name.
+/// The stamp in a file's name without its extension, nanoseconds; -1 without one. The surest way of writing a
+/// time that is there counts, the last of its kind: a time since 1970 (seconds with a fraction, or a whole
+/// number of milli-, micro- or nanoseconds of 2001 and later), a date with hours, minutes and seconds (UTC,
+/// or with a zone such as +0800), a time of day, or other seconds with a decimal point. Other numbers count
+/// frames. For a folder see ReplayOptions::from_name.
 std::int64_t stamp_in_name(std::string_view stem);
 
 }  // namespace pcl_bv

@@ -66,8 +66,8 @@ struct FieldName {
 
 /// What is special about the objects of one class; what is not said is as for the others.
 struct ClassConfig {
-  std::int64_t value = 0;  ///< Of the class field.
-  bool drop = false;       ///< Its points are in no object.
+  std::int64_t value = 0;             ///< Of the class field.
+  bool drop = false;                  ///< Its points are in no object.
   std::optional<double> tolerance{};  ///< Metres, above 0.
   std::optional<std::size_t> min_size{}, max_size{};
   std::vector<std::string> volumes{};  ///< Methods.
@@ -115,8 +115,8 @@ struct PipelineConfig {
   /// One line for each value that is not allowed: the key as in the configuration file, the value, the range.
   std::vector<std::string> validate() const;
 
-  /// One line for each setting that changes nothing beside the others, as "track.smooth: has no effect without
-  /// track.enabled": for a warning, none is an error.
+  /// One line for each setting that changes nothing beside the others, as "track.smooth: has no effect
+  /// without track.enabled": for a warning, none is an error.
   std::vector<std::string> without_effect() const;
 
   /// What `volumes` stands for, then what only classes have; methods that are unknown are left out.

@@ -51,43 +51,123 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"filter.own_box_max", "m, [x, y, z]", "Upper corner of a box of points to drop", {}, "no box"},
         c.filter.own_box_max);
   visit(S{"filter.regions", "[{file: F.json, keep: false, padding: 0 m}]",
-          "Drop points inside volumes; keep: outside of all"}, c.filter.regions);
-  visit(S{"ground.method", "none, plane, zones", "Take the ground away first: none, plane or zones (outdoors)",
-          {}, {}, "--ground", "KIND"}, c.ground.method);
-  visit(S{"ground.up", "x, y, z, -x, -y, -z or a vector X,Y,Z",
-          "Against gravity: x, y, z, -x, -y, -z or X,Y,Z", {}, {}, "--up", "AXIS"}, c.ground.up);
-  visit(S{"ground.sensor", "m, [x, y, z]", "Where the sensor is: zones begin there", {},
-          "the origin, or where points are densest", "--sensor", "X,Y,Z"},
+          "Drop points inside volumes; keep: outside of all"},
+        c.filter.regions);
+  visit(S{"ground.method",
+          "none, plane, zones",
+          "Take the ground away first: none, plane or zones (outdoors)",
+          {},
+          {},
+          "--ground",
+          "KIND"},
+        c.ground.method);
+  visit(S{"ground.up",
+          "x, y, z, -x, -y, -z or a vector X,Y,Z",
+          "Against gravity: x, y, z, -x, -y, -z or X,Y,Z",
+          {},
+          {},
+          "--up",
+          "AXIS"},
+        c.ground.up);
+  visit(S{"ground.sensor",
+          "m, [x, y, z]",
+          "Where the sensor is: zones begin there",
+          {},
+          "the origin, or where points are densest",
+          "--sensor",
+          "X,Y,Z"},
         c.ground.sensor);
-  visit(S{"ground.sensor_height", "m", "Height of the origin above the ground", {}, "learnt",
-          "--sensor-height", "M"}, c.ground.sensor_height);
-  visit(S{"ground.distance", "m", "Height up to which points are ground", {0, kFinite, false},
-          "0.2 of a plane, 0.15 of zones", "--ground-distance", "M"}, c.ground.distance);
-  visit(S{"ground.max_slope_degrees", "degrees", "Greatest slope of the ground", {0, 89},
-          "15 of a plane, 20 of zones", "--ground-slope", "DEG"}, c.ground.max_slope_degrees);
-  visit(S{"cluster.tolerance", "m; 0: all points are one object",
-          "Points nearer are one object; 0: a whole cloud; TOL:PER_METRE grows", {0, 1e6, true, true}, {}, "--cluster", "TOL"},
+  visit(S{"ground.sensor_height",
+          "m",
+          "Height of the origin above the ground",
+          {},
+          "learnt",
+          "--sensor-height",
+          "M"},
+        c.ground.sensor_height);
+  visit(S{"ground.distance",
+          "m",
+          "Height up to which points are ground",
+          {0, kFinite, false},
+          "0.2 of a plane, 0.15 of zones",
+          "--ground-distance",
+          "M"},
+        c.ground.distance);
+  visit(S{"ground.max_slope_degrees",
+          "degrees",
+          "Greatest slope of the ground",
+          {0, 89},
+          "15 of a plane, 20 of zones",
+          "--ground-slope",
+          "DEG"},
+        c.ground.max_slope_degrees);
+  visit(S{"cluster.tolerance",
+          "m; 0: all points are one object",
+          "Points nearer are one object; 0: a whole cloud; TOL:PER_METRE grows",
+          {0, 1e6, true, true},
+          {},
+          "--cluster",
+          "TOL"},
         c.cluster.tolerance);
-  visit(S{"cluster.min_size", "points", "Drop objects of fewer points", {0, kNoLimit},
-          "10; without clusters 0", "--min-size", "N"}, c.cluster.min_size);
+  visit(S{"cluster.min_size",
+          "points",
+          "Drop objects of fewer points",
+          {0, kNoLimit},
+          "10; without clusters 0",
+          "--min-size",
+          "N"},
+        c.cluster.min_size);
   visit(S{"cluster.max_size", "points", "Drop objects of more points", {1, kNoLimit}, {}, "--max-size", "N"},
         c.cluster.max_size);
-  visit(S{"cluster.min_points", "points; 1: no noise", "DBSCAN: drop points with fewer about them and no such one near",
-          {1, kNoLimit}, {}, "--min-points", "N"}, c.cluster.min_points);
-  visit(S{"cluster.tolerance_per_metre", "m per m", "The tolerance grows by this with the distance from the origin",
-          {0, 1e6, true, true}}, c.cluster.tolerance_per_metre);
-  visit(S{"cluster.oversized", "drop, keep, split",
-          "Objects above --max-size: drop, keep, split (half the tolerance)", {}, {}, "--oversized", "RULE"},
+  visit(S{"cluster.min_points",
+          "points; 1: no noise",
+          "DBSCAN: drop points with fewer about them and no such one near",
+          {1, kNoLimit},
+          {},
+          "--min-points",
+          "N"},
+        c.cluster.min_points);
+  visit(S{"cluster.tolerance_per_metre",
+          "m per m",
+          "The tolerance grows by this with the distance from the origin",
+          {0, 1e6, true, true}},
+        c.cluster.tolerance_per_metre);
+  visit(S{"cluster.oversized",
+          "drop, keep, split",
+          "Objects above --max-size: drop, keep, split (half the tolerance)",
+          {},
+          {},
+          "--oversized",
+          "RULE"},
         c.cluster.oversized);
-  visit(S{"cluster.class_field", "name of a field",
-          "Integer field whose values are classes: an object has one", {}, "none", "--class", "FIELD"},
+  visit(S{"cluster.class_field",
+          "name of a field",
+          "Integer field whose values are classes: an object has one",
+          {},
+          "none",
+          "--class",
+          "FIELD"},
         c.cluster.class_field);
-  visit(S{"cluster.classes", "[{value: 4, drop: false, tolerance: 0.5 m, min_size: 10, max_size: 999, volumes: [obb]}]",
-          "Classes that differ from the others"}, c.cluster.classes);
-  visit(S{"volumes", "methods", "Methods with commas, or all", {},
-          "obb-lshape; without clusters aabb,sphere,obb", "--volume", "LIST"}, c.volumes);
-  visit(S{"growth", "sequential, stationary, deferred",
-          "Growth of EPOS spheres: sequential, stationary, deferred", {}, {}, "--growth", "POLICY"}, c.growth);
+  visit(S{"cluster.classes",
+          "[{value: 4, drop: false, tolerance: 0.5 m, min_size: 10, max_size: 999, volumes: [obb]}]",
+          "Classes that differ from the others"},
+        c.cluster.classes);
+  visit(S{"volumes",
+          "methods",
+          "Methods with commas, or all",
+          {},
+          "obb-lshape; without clusters aabb,sphere,obb",
+          "--volume",
+          "LIST"},
+        c.volumes);
+  visit(S{"growth",
+          "sequential, stationary, deferred",
+          "Growth of EPOS spheres: sequential, stationary, deferred",
+          {},
+          {},
+          "--growth",
+          "POLICY"},
+        c.growth);
   visit(S{"track.enabled", "", "Give objects ids that last from frame to frame", {}, {}, "--track"},
         c.track.enabled);
   visit(S{"track.gate", "m", "How far an object may be from where it was expected", {0, 100, false}},
@@ -95,9 +175,19 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"track.birth", "frames", "Sightings after which an object gets its id", {1, 1000}}, c.track.birth);
   visit(S{"track.death", "frames", "Frames without it after which an object is gone", {1, 1000}},
         c.track.death);
-  visit(S{"track.smooth", "", "Turn tracked upright boxes by the mean over time, around all points", {}, {}, "--smooth"},
+  visit(S{"track.smooth",
+          "",
+          "Turn tracked upright boxes by the mean over time, around all points",
+          {},
+          {},
+          "--smooth"},
         c.track.smooth);
-  visit(S{"track.grow", "", "Make tracked upright boxes as long and wide as objects have been seen", {}, {}, "--grow"},
+  visit(S{"track.grow",
+          "",
+          "Make tracked upright boxes as long and wide as objects have been seen",
+          {},
+          {},
+          "--grow"},
         c.track.grow);
   visit(S{"threads", "0: all processors", "Threads, 0 for all processors", {0, 1024}, {}, "--threads", "N"},
         c.threads);
@@ -108,9 +198,16 @@ template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
   using S = Setting;
   visit_pipeline(c.pipeline, visit);
-  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"}, c.runner.queue);
-  visit(S{"runner.policy", "auto, drop_oldest, drop_newest, block",
-          "When they do: drop_oldest, drop_newest, block, auto", {}, {}, "--policy", "NAME"}, c.runner.policy);
+  visit(S{"runner.queue", "frames", "Frames that may wait", {1, 100'000}, {}, "--queue", "N"},
+        c.runner.queue);
+  visit(S{"runner.policy",
+          "auto, drop_oldest, drop_newest, block",
+          "When they do: drop_oldest, drop_newest, block, auto",
+          {},
+          {},
+          "--policy",
+          "NAME"},
+        c.runner.policy);
   visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);
   visit(S{"runner.watchdog_s", "s; 0: none", "Say so if no frame comes for so long"}, c.runner.watchdog_s);
 }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds from messages, and results as messages. The templates read and fill any types with ROS's field names: those of
-// pcl_bv/messages, those of ROS 1 and those that ROS 2's rosidl makes. Poses are in the frame of the points.
+// Clouds from messages, and results as messages. The templates read and fill any types with ROS's field
+// names: those of pcl_bv/messages, those of ROS 1 and those that ROS 2's rosidl makes. Poses are in the frame
+// of the points.
 #pragma once
 
 #include <array>
@@ -120,8 +121,9 @@ void set_colour(const std::array<float, 4>& from, Colour& to) {
 
 }  // namespace topics
 
-/// A sensor_msgs/PointCloud2 as a frame, as read_cloud_message(). `pointer` owns it (std::shared_ptr, std::unique_ptr or
-/// boost::shared_ptr) and is kept with the frame: its points are not copied where they can be read in it.
+/// A sensor_msgs/PointCloud2 as a frame, as read_cloud_message(). `pointer` owns it (std::shared_ptr,
+/// std::unique_ptr or boost::shared_ptr) and is kept with the frame: its points are not copied where they can
+/// be read in it.
 template <class Pointer>
 void read_cloud(Pointer pointer, const std::string& class_field, Frame& frame) {
   const auto owner = std::make_shared<const Pointer>(std::move(pointer));
@@ -247,8 +249,8 @@ class MarkerLifetime {
   std::int64_t last_stamp_ns_ = 0, period_ns_ = 100'000'000;
 };
 
-/// 16 bytes a point: x, y and z as float32 and `label` as uint32, as labels_of() has it; then, where the frame has it,
-/// `intensity` as float32.
+/// 16 bytes a point: x, y and z as float32 and `label` as uint32, as labels_of() has it; then, where the
+/// frame has it, `intensity` as float32.
 void write_labelled_points(const Frame& frame, const FrameResult& result, std::byte* to);
 
 namespace topics {
@@ -292,8 +294,8 @@ class StreamHealth {
   /// Of each frame; whether it is time to say it.
   bool heeds(const Frame& frame, const FrameResult& result);
 
-  /// diagnostic_msgs/DiagnosticArray: frames, lost ones, objects of the last and the slowest since the last time;
-  /// as message the first warning of the configuration in force.
+  /// diagnostic_msgs/DiagnosticArray: frames, lost ones, objects of the last and the slowest since the last
+  /// time; as message the first warning of the configuration in force.
   template <class Array>
   void fill(const Frame& frame, Array& array) {
     using Status = typename std::decay<decltype(array.status.front())>::type;

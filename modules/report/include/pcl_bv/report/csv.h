@@ -36,9 +36,9 @@ inline constexpr std::string_view csv_tracked_upright_columns = "length,width,he
 std::string csv_field(std::string_view text);
 
 /// Appends a line for each volume of the cluster: `first_columns` (fields joined by commas), then
-/// csv_columns, if `tracked` csv_track_columns, and csv_upright_columns. Lines end in "\n". Numbers have the fewest digits that
-/// read back as exactly the same double. Throws std::domain_error if one is not finite, which no fitted
-/// volume has.
+/// csv_columns, if `tracked` csv_track_columns, and csv_upright_columns. Lines end in "\n". Numbers have the
+/// fewest digits that read back as exactly the same double. Throws std::domain_error if one is not finite,
+/// which no fitted volume has.
 void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text,
                 bool tracked = false);
 

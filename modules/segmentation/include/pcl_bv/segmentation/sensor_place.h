@@ -19,7 +19,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A LiDAR has most of its points near: of recorded sweeps 72 % or more lie within 12.5 m of the sensor, and
 /// within 12.5 m of a place 30 m beside it at most 3 %. So the points are around `said` if 5 % of them are
 /// within 12.5 m of it. They are, too, if 5 % are within 25 m, as of a sensor high up or one that looks far
-/// ahead, and no other place has half of the points within 12.5 m. Fewer than 100 points are around any place.
+/// ahead, and no other place has half of the points within 12.5 m. Fewer than 100 points are around any
+/// place.
 ///
 /// Returns `said` as `at` if they are around it, otherwise the mean of the points within 12.5 m of where they
 /// are densest, at the height of `said`. Same points, same bits. Throws std::invalid_argument if `up` is no
