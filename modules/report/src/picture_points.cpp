@@ -17,7 +17,7 @@ namespace pcl_bv {
 namespace {
 
 constexpr int samples = 2;  // along each side of a pixel
-constexpr float nothing = std::numeric_limits<float>::infinity();
+constexpr float no_depth = std::numeric_limits<float>::infinity();
 
 constexpr Colour background_top{0.035f, 0.047f, 0.078f};
 constexpr Colour background_bottom{0.078f, 0.098f, 0.149f};
@@ -42,7 +42,7 @@ Colour height_colour(float t) {
 
 struct Raster {
   Raster(int w, int h)
-      : width(w), height(h), depth(static_cast<std::size_t>(w) * h, nothing), colour(depth.size()) {}
+      : width(w), height(h), depth(static_cast<std::size_t>(w) * h, no_depth), colour(depth.size()) {}
 
   int width, height;
   std::vector<float> depth;
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> shade(const Raster& raster) {
       for (int s = 0; s < samples * samples; ++s) {
         const int sx = x * samples + s % samples, sy = y * samples + s / samples;
         const std::size_t i = static_cast<std::size_t>(sy) * raster.width + sx;
-        const bool hit = raster.depth[i] != nothing;
+        const bool hit = raster.depth[i] != no_depth;
         const Colour& colour = hit ? raster.colour[i] : background;
         const float light = hit ? eye_dome(raster, sx, sy) : 1;
         for (int c = 0; c < 3; ++c)
