@@ -203,10 +203,11 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   Progress progress;
   RunnerConfig config = options.config.runner;
   config.policy = resolved(config.policy, options.rate != Rate::max);
-  FrameResult room;
+  FrameResult reserved;
   if (options.rate != Rate::max)
-    pipeline.reserve(points_of_a_sweep, room);  // else the first frame waits for it
-  StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config, std::move(room));
+    pipeline.reserve(points_of_a_sweep, reserved);  // else the first frame waits for it
+  StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config,
+                      std::move(reserved));
   Reader reader(options, runner, sinks, interrupted);
   reader.read(*source);
   runner.stop(StreamRunner::End::drain);

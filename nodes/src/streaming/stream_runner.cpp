@@ -61,8 +61,8 @@ struct StreamRunner::State {
   bool full() const { return frames.size() >= config.queue; }
   bool in_worker() const { return std::this_thread::get_id() == worker_id; }
 
-  State(Callbacks c, const RunnerConfig& r, FrameResult first)
-      : callbacks(std::move(c)), config(r), result(std::move(first)) {}
+  State(Callbacks c, const RunnerConfig& r, FrameResult reserved)
+      : callbacks(std::move(c)), config(r), result(std::move(reserved)) {}
 
   void run();
   Task take();
@@ -225,12 +225,15 @@ void StreamRunner::State::lose(const Frame& frame, Loss loss, std::string reason
   arrived.notify_one();
 }
 
-StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult room) {
+StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config)
+    : StreamRunner(std::move(callbacks), config, FrameResult()) {}
+
+StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult reserved) {
   require(config.queue > 0, "runner.queue: 0 is not at least 1");
   require(config.max_age_ms >= 0, "runner.max_age_ms: is not at least 0");
   require(config.watchdog_s >= 0, "runner.watchdog_s: is not at least 0");
   require(callbacks.process && callbacks.on_result, "a StreamRunner needs process and on_result");
-  state_ = std::make_unique<State>(std::move(callbacks), config, std::move(room));
+  state_ = std::make_unique<State>(std::move(callbacks), config, std::move(reserved));
   state_->worker = std::thread([state = state_.get()] { state->run(); });
 }
 

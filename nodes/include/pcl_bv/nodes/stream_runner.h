@@ -72,9 +72,11 @@ class StreamRunner {
   };
 
   /// Starts the thread. QueuePolicy::automatic is drop_oldest here. Throws std::invalid_argument for a queue
-  /// of 0, a negative or NaN duration, or without a `process` and an `on_result`. `room`: what
-  /// FramePipeline::reserve() filled, whose memory results take.
-  StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult room = {});
+  /// of 0, a negative or NaN duration, or without a `process` and an `on_result`.
+  StreamRunner(Callbacks callbacks, const RunnerConfig& config);
+
+  /// The same; results use the memory of `reserved`, which FramePipeline::reserve() has filled.
+  StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult reserved);
 
   /// stop(End::discard).
   ~StreamRunner();
