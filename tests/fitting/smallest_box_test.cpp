@@ -27,9 +27,14 @@ using Long = Eigen::Matrix<long double, 3, 1>;
 
 constexpr double kAbove = 1 + 1e-9;
 
+EstimationResult fit_smallest(const Points& points, Obb& box) {
+  return fit_obb(PointView::of(points.front().data(), sizeof(Vector3d), points.size()), ObbMethod::minimal,
+                 box);
+}
+
 double least_volume(const Points& points) {
   Obb box;
-  fit_obb(PointView::of(points.front().data(), sizeof(Vector3d), points.size()), ObbMethod::minimal, box);
+  fit_smallest(points, box);
   return box.volume();
 }
 
@@ -176,6 +181,15 @@ Points random_points(std::size_t count, int kind, std::mt19937_64& random) {
   return points;
 }
 
+// Volumes of flat ones, of the lattice, are rounding alone.
+Points random_solid(std::size_t count, int kind, std::mt19937_64& random) {
+  for (;;) {
+    Points points = random_points(count, kind, random);
+    Obb box;
+    if (fit_smallest(points, box).rank == 3) return points;
+  }
+}
+
 TEST(SmallestBox, OfSixPointsIsFoundWhereASearchFromManyFramesEndsSevenPercentAboveIt) {
   const Points points = {{-0.67746565, -1.64365277, -0.64916032}, {-2.14217331, -2.48597609, -0.24273648},
                          {1.22471828, -1.08172166, -0.09338548},  {-1.54952214, -1.1875085, 0.05844015},
@@ -187,7 +201,7 @@ TEST(SmallestBox, OfSixPointsIsFoundWhereASearchFromManyFramesEndsSevenPercentAb
 TEST(SmallestBox, IsNotAboveThatOnAnyTwoPairsOfPoints) {
   std::mt19937_64 random(21);
   for (int i = 0; i < 140; ++i) {
-    const Points points = random_points(4 + static_cast<std::size_t>(i) % 5, i % 7, random);
+    const Points points = random_solid(4 + static_cast<std::size_t>(i) % 5, i % 7, random);
     EXPECT_LE(least_volume(points), AllPairs(points).least_volume() * kAbove) << "seed 21, " << i;
   }
 }
@@ -196,7 +210,7 @@ TEST(SmallestBox, IsNotAboveThatOfAnyDescentAroundTenThousandSetsOfFourToHundred
   std::mt19937_64 random(22);
   int missed = 0;
   for (int i = 0; i < 10'000; ++i) {
-    const Points points = random_points(4 + random() % 97, i % 7, random);
+    const Points points = random_solid(4 + random() % 97, i % 7, random);
     const double fitted = least_volume(points), found = least_of_descents(points, 3, random);
     EXPECT_LE(fitted, found * kAbove) << "seed 22, " << i;
     missed += found > fitted * kAbove;

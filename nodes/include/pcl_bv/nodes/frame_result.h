@@ -113,4 +113,4 @@ FrameReport report_of_lost(const Frame& frame, const std::string& reason);
 /// are no ground. Views the frame, the result and the labels.
 Picture picture_of(const Frame& frame, const FrameResult& result, const std::vector<std::uint32_t>& labels);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -27,4 +27,4 @@ class FrameWarnings {
   std::uint32_t said_ = 0;  // bits of kinds
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -53,4 +53,4 @@ class RecordedClouds {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -55,4 +55,4 @@ struct ObbOptions {
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,
                          const Execution& execution = {});
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

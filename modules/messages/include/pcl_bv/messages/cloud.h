@@ -35,4 +35,4 @@ std::string unread_fields(const msg::PointCloud2& cloud);
 /// points_in_place(). O(points).
 RawCloud raw_cloud_of(const msg::PointCloud2& cloud);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv
