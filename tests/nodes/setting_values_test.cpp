@@ -99,8 +99,9 @@ TEST(SettingValues, OfCountsAreRefusedWithTheirRange) {
         if (std::string(value) == "0" && setting.range.least == 0) continue;
         const std::string range = " is not a whole number of at least " + least;
         EXPECT_THAT(file_problem(key, value), HasSubstr(range));
-        if (key.rfind("runner.", 0) != 0)
+        if (key.rfind("runner.", 0) != 0) {
           EXPECT_THAT(remote->change(nlohmann::json{{key, value}}.dump()), HasSubstr(range));
+        }
       }
     }
   });
