@@ -275,7 +275,7 @@ TEST_F(LiveServer, HostileClientsAreCutOffAndOthersGoOn) {
   Client chatty(port_);
   chatty.open();
   try {
-    for (int i = 0; i <= 10 * Viewer::kMostRequestsASecond; ++i)
+    for (std::size_t i = 0; i <= 10 * Viewer::kMostRequestsASecond; ++i)
       chatty.send("{}", true);
   } catch (const boost::system::system_error&) {
   }
