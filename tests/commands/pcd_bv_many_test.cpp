@@ -96,7 +96,7 @@ TEST_F(PcdBvMany, CheckingAndFilesGoOnThoughTheReportCannotBeWritten) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const Result result = with({"--threads", "2", "--labels", at("labels")}, {.output = "/dev/full"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.problems(), HasSubstr("pcd_bv: standard output: No space left on device\n"));
+  EXPECT_THAT(result.problems(), HasSubstr("pcd_bv: standard output: no space left on device\n"));
   EXPECT_EQ(result.error_lines(), 8U) << result.err;
   EXPECT_TRUE(fs::exists(at("labels/cloud39.pcd")));
 }

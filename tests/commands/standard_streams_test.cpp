@@ -43,14 +43,14 @@ TEST_P(StandardStreams, AFullDiskUnderATextIsStatusOne) {
   for (const std::string text : {"--help", "--version"}) {
     const Result result = ask(text, {.output = "/dev/full"});
     EXPECT_EQ(result.status, 1) << text;
-    EXPECT_EQ(result.err, GetParam() + ": standard output: No space left on device\n");
+    EXPECT_EQ(result.err, GetParam() + ": standard output: no space left on device\n");
   }
 }
 
 TEST_P(StandardStreams, ResultsForAClosedStandardOutputAreLostWithStatusOne) {
   const Result result = work(ascii("a.pcd", {"1 2 3"}), {.closed = {STDOUT_FILENO}});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.err, GetParam() + ": standard output: Bad file descriptor\n");
+  EXPECT_EQ(result.err, GetParam() + ": standard output: bad file descriptor\n");
 }
 
 TEST_P(StandardStreams, AClosedStandardErrorReceivesNothingAndHarmsNoFile) {

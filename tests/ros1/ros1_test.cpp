@@ -177,8 +177,8 @@ TEST_F(Ros1, CountsHostileCloudsAndLives) {
   hostile[5].fields[1].datatype = 99;
   hostile[6].height = hostile[6].width = hostile[6].row_step = 0x80000000;
   const float nan = std::nanf("");
-  hostile.emplace_back();  // without fields
   const auto bad = static_cast<int>(hostile.size());
+  hostile.emplace_back();  // good: filters publish clouds without fields when no point is left
   hostile.push_back(cloud_of({}, 18));  // good, and without objects
   hostile.push_back(cloud_of({nan, nan, nan}, 18));
   for (const PointCloud2& cloud : hostile) {

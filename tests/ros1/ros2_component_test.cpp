@@ -36,7 +36,9 @@ TEST(Ros2Component, AnswersACloudWithItsMarkers) {
   EXPECT_EQ(marker.header.stamp, ros::Time(17, 5));
   EXPECT_NEAR(marker.scale.x, 0.9, 1e-6);
   EXPECT_NEAR(marker.pose.position.x, 10.45, 1e-6);
-  points.receive(std::make_unique<PointCloud2>());
+  auto cut_off = cube();
+  cut_off->data.resize(5);
+  points.receive(std::move(cut_off));
   EXPECT_EQ(node.warnings.size(), 1U);
   EXPECT_EQ(markers.published.size(), 1U);
 }

@@ -65,13 +65,13 @@ class Reader {
       : options_(options), runner_(runner), sinks_(sinks), interrupted_(interrupted) {}
 
   void read(FrameSource& source) {
+    say_remarks(source);  // also when a signal has come already
     for (bool more = true; more && wanted();) {
       Frame frame;
       try {
         const Next next = source.next(frame, kPatience);
         more = next != Next::end;
-        for (const std::string& remark : source.take_remarks())
-          complain(options_.source + ": " + remark);
+        say_remarks(source);
         if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
         if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it takes its time, too
@@ -88,6 +88,11 @@ class Reader {
   bool failed = false;
 
  private:
+  void say_remarks(FrameSource& source) const {
+    for (const std::string& remark : source.take_remarks())
+      complain(options_.source + ": " + remark);
+  }
+
   // Asked again and again while nothing comes, so it is also when to report.
   bool wanted() {
     if (options_.report_seconds > 0 && Seconds(Clock::now() - reported_).count() >= options_.report_seconds) {

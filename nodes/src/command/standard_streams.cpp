@@ -12,9 +12,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <system_error>
 
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 
@@ -39,7 +39,7 @@ bool write_standard_output(std::string_view text) {
       pollfd writable{STDOUT_FILENO, POLLOUT, 0};
       ::poll(&writable, 1, -1);
     } else if (errno != EINTR) {
-      throw IoError(std::generic_category().message(errno));
+      throw IoError(system_reason(errno));
     }
   }
   return true;

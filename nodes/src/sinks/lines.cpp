@@ -17,8 +17,8 @@ std::string first_columns(const FrameReport& report) {
 std::string csv_lines(const FrameReport& report, const ClusterSource& clusters) {
   // A line of a volume without numbers, whose method is the reason.
   if (report.error)
-    return first_columns(report) + ",,," + csv_field("error: " + *report.error) + std::string(12 + 7, ',') +
-           '\n';
+    return first_columns(report) + ",,," + csv_field("error: " + *report.error) +
+           std::string(12 + 7 + 4, ',') + '\n';
   std::string lines;
   for (std::size_t i = 0; i < clusters.count; ++i) {
     const ClusterEntry& cluster = clusters.at(i);

@@ -71,9 +71,9 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.ground.up);
   visit(S{"ground.sensor",
           "m, [x, y, z]",
-          "Where the sensor is: zones begin there",
+          "Where the sensor is",
           {},
-          "the origin, or where points are densest",
+          "origin or the densest place",
           "--sensor",
           "X,Y,Z"},
         c.ground.sensor);
