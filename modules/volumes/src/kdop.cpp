@@ -32,24 +32,29 @@ void require_equal_sets(const Kdop& a, const Kdop& b, const char* verb) {
 
 Kdop::Kdop(std::shared_ptr<const KdopSet> set) : set_(std::move(set)) {
   if (!set_) throw std::invalid_argument("Kdop: the set must not be null");
-  const auto n = static_cast<Eigen::Index>(set_->size());
-  min_.setConstant(n, kInfinity);
-  max_.setConstant(n, -kInfinity);
+  if (size() > few_slabs) many_.resize(2 * size());
+  std::fill_n(numbers(), size(), kInfinity);
+  std::fill_n(numbers() + size(), size(), -kInfinity);
 }
 
 Kdop::Kdop(std::shared_ptr<const KdopSet> set, const SlabVector& min, const SlabVector& max)
     : Kdop(std::move(set)) {
   const FloatEnvironment environment;
-  if (min.size() != min_.size() || max.size() != min_.size()) {
-    throw std::invalid_argument("Kdop: min and max must have " + std::to_string(min_.size()) + " slabs");
+  const auto n = static_cast<Eigen::Index>(size());
+  if (min.size() != n || max.size() != n) {
+    throw std::invalid_argument("Kdop: min and max must have " + std::to_string(n) + " slabs");
   }
   if ((min.array() > max.array()).any()) return;
   if (!min.allFinite() || !max.allFinite()) {
     throw std::invalid_argument(
         "Kdop: min and max must be finite (or any min above its max, for an empty k-DOP)");
   }
-  min_ = min.array() + 0.0;
-  max_ = max.array() + 0.0;
+  store(min.array() + 0.0, max.array() + 0.0);
+}
+
+void Kdop::store(const SlabVector& min, const SlabVector& max) {
+  std::copy_n(min.data(), size(), numbers());
+  std::copy_n(max.data(), size(), numbers() + size());
 }
 
 double Kdop::width(std::size_t i) const {
@@ -58,7 +63,7 @@ double Kdop::width(std::size_t i) const {
 }
 
 bool Kdop::empty() const {
-  return min_[0] > max_[0];
+  return min(0) > max(0);
 }
 
 bool Kdop::contains(const Eigen::Vector3d& point) const {
@@ -85,7 +90,7 @@ std::optional<RayInterval> Kdop::intersect(const Eigen::Vector3d& origin,
 bool Kdop::overlaps(const Kdop& other) const {
   const FloatEnvironment environment;
   require_equal_sets(*this, other, "Kdop::overlaps");
-  return (min_.array() <= other.max_.array()).all() && (other.min_.array() <= max_.array()).all();
+  return (min().array() <= other.max().array()).all() && (other.min().array() <= max().array()).all();
 }
 
 Kdop& Kdop::extend(const Eigen::Vector3d& point) {
@@ -97,8 +102,8 @@ Kdop& Kdop::extend(const Eigen::Vector3d& point) {
     if (s - error >= min(i) && s + error <= max(i)) continue;
     Expansion exact;
     exact.add_dot(n, point);
-    min_[i] = std::min(min(i), exact.down() + 0.0);
-    max_[i] = std::max(max(i), exact.up() + 0.0);
+    numbers()[i] = std::min(min(i), exact.down() + 0.0);
+    numbers()[size() + i] = std::max(max(i), exact.up() + 0.0);
   }
   return *this;
 }
@@ -106,15 +111,14 @@ Kdop& Kdop::extend(const Eigen::Vector3d& point) {
 Kdop& Kdop::merge(const Kdop& other) {
   const FloatEnvironment environment;
   require_equal_sets(*this, other, "Kdop::merge");
-  min_ = min_.cwiseMin(other.min_);
-  max_ = max_.cwiseMax(other.max_);
+  store(min().cwiseMin(other.min()), max().cwiseMax(other.max()));
   return *this;
 }
 
 FloatKdop Kdop::cast_float() const {
   const FloatEnvironment environment;
-  return {set_, min_.unaryExpr([](double x) { return float_down(x); }),
-          max_.unaryExpr([](double x) { return float_up(x); })};
+  return {set_, min().unaryExpr([](double x) { return float_down(x); }),
+          max().unaryExpr([](double x) { return float_up(x); })};
 }
 
 bool operator==(const Kdop& a, const Kdop& b) {

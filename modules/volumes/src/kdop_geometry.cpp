@@ -96,7 +96,7 @@ Kdop Kdop::tightened() const {
   if (empty()) return *this;
   const LocalSlabs slabs = local_slabs(*this);
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  SlabVector lower(min_.size()), upper(min_.size());
+  SlabVector lower(min().size()), upper(lower.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
     lower[i] = std::max(min(i), -support_up(*this, slabs, identity, -n));
@@ -111,7 +111,7 @@ Kdop Kdop::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return Kdop(set_);
   const LocalSlabs slabs = local_slabs(*this);
-  SlabVector lower(min_.size()), upper(min_.size());
+  SlabVector lower(min().size()), upper(lower.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
     const auto reach = [&](const Eigen::Vector3d& direction) {

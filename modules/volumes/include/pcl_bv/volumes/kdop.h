@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -19,6 +20,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// One number per slab, stored inline (no allocation).
 using SlabVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(KdopSet::max_size), 1>;
+
+/// The numbers that a Kdop stores, seen in place: valid as long as it lives and is not assigned to.
+using SlabView = Eigen::Map<const SlabVector>;
 
 /// A copy of a Kdop for float consumers, slabs rounded outward. Beyond the range of float: infinite.
 struct FloatKdop {
@@ -48,10 +52,10 @@ class Kdop {
   const std::shared_ptr<const KdopSet>& set() const { return set_; }
   std::size_t size() const { return set_->size(); }  ///< Slabs: half of k.
 
-  double min(std::size_t i) const { return min_[static_cast<Eigen::Index>(i)]; }
-  double max(std::size_t i) const { return max_[static_cast<Eigen::Index>(i)]; }
-  const SlabVector& min() const { return min_; }
-  const SlabVector& max() const { return max_; }
+  double min(std::size_t i) const { return numbers()[i]; }
+  double max(std::size_t i) const { return numbers()[size() + i]; }
+  SlabView min() const { return {numbers(), static_cast<Eigen::Index>(size())}; }
+  SlabView max() const { return {numbers() + size(), static_cast<Eigen::Index>(size())}; }
 
   /// Thickness of slab i in the unit of the points, as for a unit direction (Figure 2, line 13). 0 if empty.
   double width(std::size_t i) const;
@@ -124,9 +128,18 @@ class Kdop {
   FloatKdop cast_float() const;
 
  private:
+  /// All min, then all max.
+  const double* numbers() const { return many_.empty() ? few_.data() : many_.data(); }
+  double* numbers() { return many_.empty() ? few_.data() : many_.data(); }
+  void store(const SlabVector& min, const SlabVector& max);
+
+  // Up to a 26-DOP without an allocation. Room for 49 slabs in each would make every AnyVolume 824 bytes
+  // instead of 256, which a million clusters have to pay.
+  static constexpr std::size_t few_slabs = 13;
+
   std::shared_ptr<const KdopSet> set_;
-  SlabVector min_;
-  SlabVector max_;
+  std::array<double, 2 * few_slabs> few_{};
+  std::vector<double> many_;  // of more slabs
 };
 
 /// Equal sets and the same numbers.
