@@ -32,11 +32,11 @@ function(pcl_bv_precompile target header kind)
                                                                          -Wno-array-bounds>)
 endfunction()
 
-# pcl_bv_unity(target): with PCL_BV_UNITY, eight of its sources at a time are one: most of what each would cost is the
+# pcl_bv_unity(target): with PCL_BV_UNITY, twelve of its sources at a time are one: most of what each would cost is the
 # parsing of Eigen. All at once would leave the other processors idle.
 function(pcl_bv_unity target)
   if(PCL_BV_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
     # g++ takes an included source for a header, where members of types in an anonymous namespace would be a mistake.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
