@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lines that others may read while they grow.
+// LinesOfFrame that others may read while they grow.
 
 #include "line_file.h"
 #include "pcl_bv/report/csv.h"
@@ -32,11 +32,11 @@ std::string json_line(const FrameReport& report, const ClusterSource& clusters) 
   return frame_json(report, clusters) + '\n';
 }
 
-using Lines = std::string(const FrameReport&, const ClusterSource&);
+using LinesOfFrame = std::string(const FrameReport&, const ClusterSource&);
 
 class LineSink : public FrameSink {
  public:
-  LineSink(const SinkDescription& description, std::string heading, Lines* lines)
+  LineSink(const SinkDescription& description, std::string heading, LinesOfFrame* lines)
       : heading_(std::move(heading)), lines_(lines), file_(description.place) {}
   void write(const Frame& frame, const FrameResult& result) override {
     write(lines_(report_without_clusters(frame, result), cluster_source(result)));
@@ -56,7 +56,7 @@ class LineSink : public FrameSink {
   }
 
   std::string heading_;
-  Lines* lines_;
+  LinesOfFrame* lines_;
   LineFile file_;
 };
 
