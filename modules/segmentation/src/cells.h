@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "any_link.h"
@@ -66,6 +68,9 @@ struct CellPart {
   std::vector<std::uint32_t> next;  ///< By cell, where the next one goes.
 };
 
+/// So many blocks and more: what they took to be found is given back at once. A street has 10 000.
+constexpr std::size_t many_blocks = 1 << 18;
+
 /// Keys of one width, and the room to sort them.
 template <typename Key>
 struct BlockKeys {
@@ -76,6 +81,13 @@ struct BlockKeys {
   std::vector<std::uint32_t> rank;  ///< By number in `index`, as is the next one.
   std::vector<std::uint64_t> occupied;
   std::vector<std::uint8_t> bit_of_point;
+
+  /// Keeps `keys` alone.
+  void give_back_room() {
+    BlockKeys kept;
+    kept.keys.swap(keys);
+    *this = std::move(kept);
+  }
 };
 
 /// Sorts the points into the cells of `grid`; within a cell they keep their order. Reads cells.by_point.

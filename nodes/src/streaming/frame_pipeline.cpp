@@ -176,6 +176,12 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     class_clusterer.extract(points, *frame.classes, now.rules.others(), now.rules.own(), result.clusters,
                             result.class_of, now.execution.parallel);
   }
+  // A million clusters of four points took 550 MB to be found, 300 MB are for their volumes.
+  constexpr std::size_t many = 250'000;
+  if (result.clusters.size() >= many) {
+    clusterer = EuclideanClusterer();
+    class_clusterer = ClassClusterer();
+  }
   result.counts.small = result.clusters.small_points;
   result.counts.large = result.clusters.large_points;
   result.counts.noise = result.clusters.noise_points;
