@@ -37,6 +37,10 @@ std::optional<int> process_of_rank(int launcher, int rank) {
   return std::nullopt;
 }
 
+// What is left of a run says so before it ends; on a busy machine that takes longer than the second that mpiexec
+// gives it before it kills.
+constexpr const char* kSecondsToEnd = "60";
+
 class Mpi : public Tiled {
  protected:
   Mpi() {
@@ -45,8 +49,9 @@ class Mpi : public Tiled {
   }
 
   Result ranks(int count, std::vector<std::string> arguments, Surroundings surroundings = {}) const {
-    arguments.insert(arguments.begin(), {"-k", "5", "120", PCL_BV_MPIEXEC, "--oversubscribe", "-n",
-                                         std::to_string(count), PCL_BV_BIN_DIR "/pcd_bv_mpi"});
+    arguments.insert(arguments.begin(), {"-k", "5", "120", PCL_BV_MPIEXEC, "--oversubscribe", "--mca", "odls_base_sigkill_timeout",
+                                         kSecondsToEnd, "-n", std::to_string(count),
+                                         PCL_BV_BIN_DIR "/pcd_bv_mpi"});
     surroundings.program = "/usr/bin/timeout";
     return run(arguments, surroundings);
   }

@@ -75,5 +75,22 @@ TEST(VolumeTree, FindsTheNearestFromBeyondTheRangeOfItsBoxes) {
   EXPECT_EQ(tree.nearest({1e200, 0, 0})->index, 1);
 }
 
+// Their ends of a ray are known less well than a box is.
+TEST(VolumeTree, HitsEllipsoidsThatAreMillionsOfTimesLongerThanWide) {
+  Random random(27);
+  for (int round = 0; round < 2000; ++round) {
+    const Vector3d radii(1, std::pow(10, random.uniform(-12, 0)), std::pow(10, random.uniform(-12, 0)));
+    const Ellipsoid ellipsoid(random.vector(1), random.isometry(0).linear(), radii);
+    const VolumeTree tree({ellipsoid});
+    // Along the surface, near its ends.
+    const Vector3d tip = support(AnyVolume(ellipsoid), random.vector(1));
+    const Vector3d to = random.vector(1), from = tip - to;
+    const auto expected = intersect(ellipsoid, from, to);
+    const auto found = tree.first_hit(from, to);
+    ASSERT_EQ(found.has_value(), expected.has_value()) << round;
+    if (expected) EXPECT_EQ(found->interval.enter, expected->enter) << round;
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv

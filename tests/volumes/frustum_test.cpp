@@ -116,6 +116,14 @@ TEST(Frustum, RefusesWhatIsNone) {
     EXPECT_NE(refused(pose, 1, 2, 1, 1), "");
   }
   EXPECT_NE(refused(id, 2, 2, 1, 1), "");
+  EXPECT_EQ(refused(id, 1, 2, 1e6, 1e6) + refused(id, 1, 2, 1e-6, 1e-6), "");
+  EXPECT_NE(refused(id, 1, 2, 1.01e6, 1), "");
+  EXPECT_NE(refused(id, 1, 2, 1, 1.01e6), "");
+  Eigen::Isometry3d skewed = id;
+  skewed.linear()(0, 1) = 0.9e-6;
+  EXPECT_EQ(refused(skewed, 1, 2, 1, 1), "");
+  skewed.linear()(0, 1) = 1.1e-6;
+  EXPECT_NE(refused(skewed, 1, 2, 1, 1), "");
   Eigen::Isometry3d mirrored = id;
   mirrored.linear()(0, 0) = -1;
   EXPECT_NE(refused(mirrored, 1, 2, 1, 1), "");

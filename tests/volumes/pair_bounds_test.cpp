@@ -160,5 +160,36 @@ TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
   }
 }
 
+// Octahedra |x| / a + |y| / b + |z| / c <= 1, whose box no half-space of theirs shows.
+TEST(PairBounds, TheBoxAroundHalfSpacesIsTightWhateverIsGuessed) {
+  for (const Vector3d& half : {Vector3d(1, 1, 1), Vector3d(1, 0.25, 4), Vector3d(1e-6, 1, 1e-3)}) {
+    for (const double guess : {1.001, 8.0, 1e6}) {
+      volumes_internal::HalfSpaces half_spaces;
+      for (int signs = 0; signs < 8; ++signs) {
+        const Vector3d n(signs & 1 ? 1 : -1, signs & 2 ? 1 : -1, signs & 4 ? 1 : -1);
+        half_spaces.add(n.cwiseQuotient(half), 1, Vector3d::Zero());
+      }
+      ASSERT_TRUE(half_spaces.enclose(guess * half.maxCoeff()));
+      EXPECT_GE(half_spaces.radius_up(), half.norm() * (1 - 1e-15));
+      EXPECT_LE(half_spaces.radius_up(), half.norm() * (1 + 1e-11)) << half.transpose() << ", " << guess;
+      for (int k = 0; k < 3; ++k) {
+        const double reach = half_spaces.reach_up(Vector3d::Unit(k), Vector3d::Zero());
+        EXPECT_GE(reach, half[k]);
+        EXPECT_LE(reach, half[k] + 1e-11 * half.maxCoeff()) << half.transpose() << ", " << guess;
+      }
+    }
+  }
+}
+
+TEST(PairBounds, NoBoxIsFoundAroundHalfSpacesThatLeaveOneSideOpen) {
+  for (int open = 0; open < 6; ++open) {
+    volumes_internal::HalfSpaces half_spaces;
+    for (int side = 0; side < 6; ++side) {
+      if (side != open) half_spaces.add((side < 3 ? 1 : -1) * Vector3d::Unit(side % 3), 1, Vector3d::Zero());
+    }
+    EXPECT_FALSE(half_spaces.enclose(4)) << open;
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv

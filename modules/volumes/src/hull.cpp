@@ -4,7 +4,9 @@
 #include "pcl_bv/volumes/hull.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include "polytope.h"
 #include "projection.h"
 #include "ray_clip.h"
+#include "shape.h"
 
 namespace pcl_bv {
 
@@ -80,6 +83,26 @@ double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const
     sum.add_product(normal[k], transform(k, 3));
   }
   return sum.add(spread).up();
+}
+
+// Where planes say that the hull ends along x, y, z and then along -x, -y, -z; infinity where none is along it.
+std::array<double, 6> ends_along_axes(const std::vector<HullPlane>& planes) {
+  std::array<double, 6> ends;
+  ends.fill(kInfinity);
+  for (const HullPlane& plane : planes) {
+    for (int k = 0; k < 3; ++k) {
+      if (plane.normal.cwiseAbs() != Eigen::Vector3d(Eigen::Vector3d::Unit(k))) continue;
+      double& end = ends[static_cast<std::size_t>(plane.normal[k] > 0 ? k : k + 3)];
+      end = std::min(end, plane.offset);
+    }
+  }
+  return ends;
+}
+
+double reach_along_axis(const Shape& shape, std::size_t side) {
+  const auto k = static_cast<int>(side % 3);
+  const double sign = side < 3 ? 1 : -1;
+  return add_up(shape.reach_up(sign * Eigen::Vector3d::Unit(k)), sign * shape.origin[k]);
 }
 
 }  // namespace
@@ -175,10 +198,21 @@ std::optional<RayInterval> Hull::intersect(const Eigen::Vector3d& origin,
 }
 
 Aabb Hull::aabb() const {
+  const FloatEnvironment environment;
   Aabb box;
   for (const Eigen::Vector3d& v : vertices_)
     box.extend(v);
-  return box;
+  if (empty()) return box;
+  std::array<double, 6> ends = ends_along_axes(planes_);
+  if (std::count(ends.begin(), ends.end(), kInfinity) > 0) {
+    const std::shared_ptr<const Shape> shape = make_polytope(*this);
+    if (!std::isfinite(shape->size)) return box;
+    for (std::size_t side = 0; side < ends.size(); ++side) {
+      if (ends[side] == kInfinity) ends[side] = reach_along_axis(*shape, side);
+    }
+  }
+  box.extend(-Eigen::Vector3d(ends[3], ends[4], ends[5]));
+  return box.extend(Eigen::Vector3d(ends[0], ends[1], ends[2]));
 }
 
 Mesh Hull::mesh() const {
@@ -193,10 +227,10 @@ Hull Hull::transformed(const Eigen::Isometry3d& transform) const {
   for (Eigen::Vector3d& v : moved.vertices_)
     v = (transform * v).array() + 0.0;
   const Aabb box = aabb();
-  // Also along axes on which the vertices agree: there the planes leave room of a rounding.
-  const double room = 2 * (box.max() - box.min()).maxCoeff() +
-                      0x1p-40 * box.max().cwiseAbs().cwiseMax(box.min().cwiseAbs()).maxCoeff();
-  const Eigen::Vector3d middle = box.center(), reach = Eigen::Vector3d::Constant(room);
+  const Eigen::Vector3d middle = box.center();
+  Eigen::Vector3d reach;
+  for (int k = 0; k < 3; ++k)
+    reach[k] = std::max(add_up(box.max()[k], -middle[k]), add_up(middle[k], -box.min()[k]));
   for (HullPlane& plane : moved.planes_) {
     const Eigen::Vector3d normal = (transform.linear() * plane.normal).array() + 0.0;
     plane = {normal, moved_offset(plane, normal, transform, middle, reach) + 0.0};

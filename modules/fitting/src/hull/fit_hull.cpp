@@ -30,7 +30,8 @@ void add_both(const Eigen::Vector3d& v, Normals& normals) {
   add_unit(-v, normals);
 }
 
-// Of the faces; of a flat hull of both sides along each flat direction, then of the edges.
+// Of the faces; of a flat hull of both sides along each flat direction, then of the edges; last of the box, without
+// which faces that meet at a small angle would, by their rounding, let the body reach far beyond its points.
 Normals normals_of(const LocalHull& hull) {
   Normals normals;
   const auto at = [&](std::int32_t i) { return hull.vertices[static_cast<std::size_t>(i)].local; };
@@ -44,6 +45,8 @@ Normals normals_of(const LocalHull& hull) {
     for (std::int32_t i = 0; i < corners; ++i)
       add_unit((at((i + 1) % corners) - at(i)).cross(hull.axes.col(2)), normals);
   }
+  for (int k = 0; k < 3; ++k)
+    add_both(Eigen::Vector3d::Unit(k), normals);
   return normals;
 }
 
