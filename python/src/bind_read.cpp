@@ -41,7 +41,7 @@ auto reading(const std::string& name, const Read& read) {
 }
 
 /// What was noticed about an input and not refused, as a UserWarning.
-void warn(const std::string& name, const std::string& note) {
+void warn_of(const std::string& name, const std::string& note) {
   if (!note.empty() && PyErr_WarnEx(PyExc_UserWarning, (name + ": " + note).c_str(), 1) != 0)
     throw py::error_already_set();
 }
@@ -65,7 +65,7 @@ py::array read_points(py::handle file, py::handle topic, py::handle number, py::
     const py::gil_scoped_release unlocked;
     cloud = load_cloud(name, of, which, fields, policy);
   });
-  warn(name, cloud->note);
+  warn_of(name, cloud->note);
   return array_of_cloud(std::move(*cloud));
 }
 
@@ -116,7 +116,7 @@ class FramesObject {
         if (what == Next::end) source_.reset();
       }
       for (const std::string& remark : remarks)
-        warn(name_, remark);
+        warn_of(name_, remark);
       if (what == Next::frame) return frame;
       if (what == Next::end) return {};
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -196,7 +196,7 @@ void bind_read(py::module_& module) {
       .def("__next__", [](FramesObject& self) {
         std::optional<Frame> frame = self.next();
         if (!frame) throw py::stop_iteration();
-        warn(frame->file, frame->note);
+        warn_of(frame->file, frame->note);
         return FrameObject{std::move(*frame)};
       });
   module.def("read", read_points, "path"_a, py::kw_only(), "topic"_a = py::none(), "number"_a = 0,
