@@ -88,7 +88,9 @@ TEST(VolumeTree, HitsEllipsoidsThatAreMillionsOfTimesLongerThanWide) {
     const auto expected = intersect(ellipsoid, from, to);
     const auto found = tree.first_hit(from, to);
     ASSERT_EQ(found.has_value(), expected.has_value()) << round;
-    if (expected) EXPECT_EQ(found->interval.enter, expected->enter) << round;
+    if (expected) {
+      EXPECT_EQ(found->interval.enter, expected->enter) << round;
+    }
   }
 }
 

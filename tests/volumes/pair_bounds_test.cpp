@@ -171,11 +171,11 @@ TEST(PairBounds, TheBoxAroundHalfSpacesIsTightWhateverIsGuessed) {
       }
       ASSERT_TRUE(half_spaces.enclose(guess * half.maxCoeff()));
       EXPECT_GE(half_spaces.radius_up(), half.norm() * (1 - 1e-15));
-      EXPECT_LE(half_spaces.radius_up(), half.norm() * (1 + 1e-11)) << half.transpose() << ", " << guess;
+      EXPECT_LE(half_spaces.radius_up(), half.norm() * (1 + 1e-9)) << half.transpose() << ", " << guess;
       for (int k = 0; k < 3; ++k) {
         const double reach = half_spaces.reach_up(Vector3d::Unit(k), Vector3d::Zero());
         EXPECT_GE(reach, half[k]);
-        EXPECT_LE(reach, half[k] + 1e-11 * half.maxCoeff()) << half.transpose() << ", " << guess;
+        EXPECT_LE(reach, half[k] + 1e-9 * half.maxCoeff()) << half.transpose() << ", " << guess;
       }
     }
   }
