@@ -26,7 +26,7 @@ class Stream:
     def run(self, options, source=None):
         command = [self.bin / "bv_stream", "--source", source or self.folder, "--rate", "max", *options]
         done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-        if done.returncode not in (0, 2):
+        if done.returncode != 0:
             raise SystemExit(done.stderr)
         said = [line.removeprefix("bv_stream: ") for line in done.stderr.splitlines()]
         return Run([json.loads(line) for line in done.stdout.splitlines()], said)

@@ -96,11 +96,12 @@ inline constexpr const char* hull_doc = R"(Hull(vertices, faces, planes, rank=3)
 --
 
 A convex hull: n . p <= d for each plane nx, ny, nz, d. Vertices and faces are what is measured and drawn.
+A fitted hull has the planes of its faces and of its box.
 
 >>> import pcl_bv
 >>> hull = pcl_bv.fit([[0., 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], 'hull')
 >>> hull.vertices.shape, hull.faces.shape, hull.planes.shape, hull.rank
-((4, 3), (4, 3), (4, 4), 3)
+((4, 3), (4, 3), (7, 4), 3)
 )";
 
 inline constexpr const char* overlaps_doc = R"(overlaps(self, other, /)

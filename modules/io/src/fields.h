@@ -79,11 +79,12 @@ void require_coordinates(RawCloud& cloud);
 /// Adds a line to what is said of the cloud.
 void add_note(RawCloud& cloud, const std::string& note);
 
-/// Whether a viewpoint is a translation or a rotation. One of zeros only is none.
+/// Whether a viewpoint is a translation or a rotation. All zeros is treated as the identity.
 bool moves_points(const std::array<double, 7>& viewpoint);
 
 /// Copies the coordinates of these records to where packed_points() finds them; integers become floating
-/// point. Throws IoError for an integer beyond 2^53, which is none.
+/// point. Throws IoError for an integer above 2^53, which a double
+/// cannot hold exactly.
 void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                       std::size_t point_step, std::byte* xyz);
 

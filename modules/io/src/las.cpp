@@ -128,7 +128,7 @@ bool is_extended_record(const InputFile& file, std::size_t at) {
 }
 
 // Where the points end at the latest: where records behind them begin, which hold waveforms or anything else.
-std::size_t end_of_room(const InputFile& file, const HeaderBytes& bytes, int minor, std::size_t begin) {
+std::size_t end_of_point_data(const InputFile& file, const HeaderBytes& bytes, int minor, std::size_t begin) {
   std::size_t end = file.size();
   const auto stop_at = [&](std::size_t at) {
     if (at > begin && at < end && is_extended_record(file, at)) end = at;
@@ -194,7 +194,7 @@ LasHeader read_las_header(const InputFile& file) {
     throw IoError("header: records of " + std::to_string(header.record) + " bytes from byte " +
                   std::to_string(header.data_offset) + " on are too short or in the header");
   header.cloud.width = point_count(bytes, minor, format, header.cloud);
-  require_points(file, end_of_room(file, bytes, minor, header.data_offset), header);
+  require_points(file, end_of_point_data(file, bytes, minor, header.data_offset), header);
   read_scale(bytes, header);
   add_fields(format, header);
   return header;

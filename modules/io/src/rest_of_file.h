@@ -16,8 +16,8 @@ struct ByteRange {
 };
 
 /// Notes that the bytes behind the last point, `rest`, hold more points of `record` bytes: a recorder that
-/// stops early leaves their number as it was when it began. Less than a record and less than 4 KiB of zeros,
-/// to which PCL fills its files up, are none. Throws IoError if the header says 0 points.
+/// stops early leaves their number as it was when it began. A partial record, and less than 4 KiB of zeros as
+/// PCL writes them, are ignored. Throws IoError if the header says 0 points.
 void note_rest(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud);
 
 }  // namespace pcl_bv

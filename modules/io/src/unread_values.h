@@ -18,7 +18,7 @@
 namespace pcl_bv {
 
 /// Values that are no numbers of their field's type are read as NaN, or as 0 by integer fields, and counted;
-/// but -1 of an unsigned field, and what is negative like it, as C++ converts it. Several threads at a time;
+/// negative integers of unsigned fields wrap around as in C++ (-1 becomes the greatest). Several threads at a time;
 /// what is said of them depends only on the file.
 class UnreadValues {
  public:

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Kernels that read points as they lie in memory, compiled together: each unit that includes Highway takes 2.4 s for its templates alone.
+// Kernels that read points as they lie in memory, compiled together: to read the templates of Highway takes
+// g++ 12 2.4 s (AMD EPYC of family 26) in each source.
 
 #include "targets.h"
 

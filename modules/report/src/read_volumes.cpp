@@ -143,8 +143,8 @@ void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
   refuse(place.text() + ": is no volume: " + (entry.is_object() ? "it has no \"shape\"" : shown(entry)));
 }
 
-// A list or a group that is called "volumes", or has a volume, has nothing else: what is skipped unsaid would
-// be missed by those who rely on it. Numbers and texts beside named volumes may say what they like.
+// Each entry of a list or group that is called "volumes", or has a volume, must be a volume: one that was skipped
+// without a word would be a fault of safety. Numbers and texts beside named volumes may say what they like.
 Found collect(const Json& json, const Place* place, std::vector<AnyVolume>& volumes) {
   if (json.is_object() && json.contains("shape")) {
     try {

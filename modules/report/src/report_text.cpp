@@ -86,7 +86,7 @@ class Table {
   void add(const Row& row) {
     for (std::size_t c = 0; c < n_columns; ++c) {
       fields_ += row[c];
-      lengths_.push_back(static_cast<std::uint8_t>(row[c].size()));
+      lengths_.push_back(static_cast<std::uint16_t>(row[c].size()));
       width_[c] = std::max(width_[c], row[c].size());
     }
   }
@@ -127,7 +127,7 @@ class Table {
   }
 
   std::string fields_;
-  std::vector<std::uint8_t> lengths_;  // none is longer: numbers of eleven digits, names of methods
+  std::vector<std::uint16_t> lengths_;  // of numbers of eleven digits, and of methods' names
   std::array<std::size_t, n_columns> width_{};
 };
 
@@ -154,7 +154,9 @@ void write_table(const ClusterSource& clusters, const TextSink& take) {
         row[1] = std::to_string(cluster.points);
       }
       checked = checked || entry.outside;
-      (row[9].empty() ? other : upright) |= !row[8].empty();
+      const bool has_size = !row[8].empty(), has_yaw = !row[9].empty();
+      upright = upright || has_yaw;
+      other = other || (has_size && !has_yaw);
       table.add(row);
     }
   }

@@ -19,7 +19,7 @@ namespace pcl_bv {
 inline void append_shortest(double value, std::string& text) {
   if (!std::isfinite(value)) throw std::domain_error("a volume has a number that is not finite");
   char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value + 0.0).ptr);
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value == 0 ? 0.0 : value).ptr);
 }
 
 inline std::string shortest(double value) {

@@ -68,7 +68,7 @@ struct CellPart {
   std::vector<std::uint32_t> next;  ///< By cell, where the next one goes.
 };
 
-/// So many blocks and more: what they took to be found is given back at once. A street has 10 000.
+/// From this many blocks on, the memory that found them is freed at once. A street has 10 000.
 constexpr std::size_t many_blocks = 1 << 18;
 
 /// Keys of one width, and the room to sort them.
@@ -82,8 +82,8 @@ struct BlockKeys {
   std::vector<std::uint64_t> occupied;
   std::vector<std::uint8_t> bit_of_point;
 
-  /// Keeps `keys` alone.
-  void give_back_room() {
+  /// Frees all but `keys`.
+  void release_memory() {
     BlockKeys kept;
     kept.keys.swap(keys);
     *this = std::move(kept);

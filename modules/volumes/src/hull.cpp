@@ -99,7 +99,7 @@ std::array<double, 6> ends_along_axes(const std::vector<HullPlane>& planes) {
   return ends;
 }
 
-double reach_along_axis(const Shape& shape, std::size_t side) {
+double support_along_axis(const Shape& shape, std::size_t side) {
   const auto k = static_cast<int>(side % 3);
   const double sign = side < 3 ? 1 : -1;
   return add_up(shape.reach_up(sign * Eigen::Vector3d::Unit(k)), sign * shape.origin[k]);
@@ -208,7 +208,7 @@ Aabb Hull::aabb() const {
     const std::shared_ptr<const Shape> shape = make_polytope(*this);
     if (!std::isfinite(shape->size)) return box;
     for (std::size_t side = 0; side < ends.size(); ++side) {
-      if (ends[side] == kInfinity) ends[side] = reach_along_axis(*shape, side);
+      if (ends[side] == kInfinity) ends[side] = support_along_axis(*shape, side);
     }
   }
   box.extend(-Eigen::Vector3d(ends[3], ends[4], ends[5]));

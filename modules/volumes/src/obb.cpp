@@ -119,14 +119,16 @@ bool Obb::contains(const Eigen::Vector3d& point) const {
 
 double Obb::volume() const {
   const FloatEnvironment environment;
+  if (empty()) return 0;
   const Eigen::Vector3d h = descending(half_extents_);
-  return empty() ? 0 : (2 * h.x()) * (2 * h.y()) * (2 * h.z());
+  return (2 * h.x()) * (2 * h.y()) * (2 * h.z());
 }
 
 double Obb::surface_area() const {
   const FloatEnvironment environment;
+  if (empty()) return 0;
   const Eigen::Vector3d h = descending(half_extents_);
-  return empty() ? 0 : 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
+  return 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
 }
 
 Eigen::Vector3d Obb::support(const Eigen::Vector3d& direction) const {

@@ -39,7 +39,7 @@ struct Swing {
   }
 };
 
-// The way from one vertex to another, for each direction of a box.
+// From the vertex at the low side to the one at the high side, for each direction of a box.
 struct Across {
   Vector3d first, second, third;
 };
@@ -162,7 +162,7 @@ void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& o
 }
 
 // A box with this side is no smaller than the side's width times the area of the hull's shadow along the
-// normal, which is no less than that with the facets' signs taken from anywhere, a linear function.
+// normal, which is no less than the sum of the facets with any fixed signs, a linear function.
 bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   const std::array<Vector3d, 2> n = {gauss_.nodes[arc.from], gauss_.nodes[arc.to]};
   const Vector3d middle = n[0] + n[1];

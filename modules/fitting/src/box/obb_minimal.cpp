@@ -58,7 +58,7 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
     if (normals[i].squaredNorm() > kNoNormal) frames.push_back(axes_from(normals[i].normalized()));
 }
 
-// Hulls of more vertices are only searched from many frames: pairs of edges would take over a millisecond.
+// Hulls of more vertices are only searched from many frames: the time of pairs of edges grows with their square.
 constexpr std::size_t kExhaustive = 128;
 
 // How many frames the search begins with, and goes on with. Before pairs of edges are tried, a box within

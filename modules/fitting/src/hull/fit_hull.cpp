@@ -30,8 +30,9 @@ void add_both(const Eigen::Vector3d& v, Normals& normals) {
   add_unit(-v, normals);
 }
 
-// Of the faces; of a flat hull of both sides along each flat direction, then of the edges; last of the box, without
-// which faces that meet at a small angle would, by their rounding, let the body reach far beyond its points.
+// Of the faces; of a flat hull of both sides along each flat direction, then of the edges; last of the box.
+// Without the box, faces that meet at a small angle would, by their rounding, let the body reach far beyond its
+// points.
 Normals normals_of(const LocalHull& hull) {
   Normals normals;
   const auto at = [&](std::int32_t i) { return hull.vertices[static_cast<std::size_t>(i)].local; };

@@ -18,7 +18,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// and gps_time, red, green and blue where the format has them. Extra bytes, waveforms and variable length
 /// records are left out.
 ///
-/// How many points there are says, from 1.4 on, the count of 64 bits; another legacy count is noted, and
+/// From 1.4 on the count of 64 bits says how many points there are; another legacy count is noted, and
 /// taken only if the former is 0 and the format one of 0 to 5. Bytes of more points behind the last one are
 /// noted, and an error if the header says 0 points. The box in the header is not read.
 ///

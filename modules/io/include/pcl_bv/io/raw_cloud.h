@@ -38,11 +38,11 @@ struct RawCloud {
   std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< tx ty tz qw qx qy qz; kept, never applied.
   std::size_t point_step = 0;
   ByteBuffer data;  ///< width * height * point_step bytes, little-endian.
-  /// x y z of all points, all float32 or all float64, only where the record does not hold them so side by
-  /// side.
+  /// x y z of all points, all float32 or all float64. Filled only if the record does not hold them side by
+  /// side as one floating-point type.
   ByteBuffer packed_xyz;
 
-  /// What a reader noticed about the file and did not refuse, a line for who reads it; mostly empty.
+  /// What a reader noticed about the file and did not refuse, one line for the user; usually empty.
   std::string note;
 
   /// Fields with values that are no numbers of their type, which are 0 or NaN here; `note` says which.

@@ -5,6 +5,7 @@
 // of the text each new key would be compared with all before it.
 #pragma once
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -47,8 +48,14 @@ inline const JsonFromOutside& member(const JsonFromOutside& object, const char* 
   return *found;
 }
 
-/// A value in a message: its first 40 characters.
+/// A value in a message: its first 40 characters, of a long list or group only its length.
 inline std::string shown(const JsonFromOutside& value) {
+  constexpr std::size_t few = 8;
+  const auto is_long = [](const JsonFromOutside& part) { return part.is_structured() || part.is_string(); };
+  if (value.is_structured() && (value.size() > few || std::any_of(value.begin(), value.end(), is_long)))
+    return (value.is_array() ? "a list of " : "a group of ") + std::to_string(value.size());
+  if (value.is_string() && value.get_ref<const std::string&>().size() > 40)
+    return shown(JsonFromOutside(value.get_ref<const std::string&>().substr(0, 40)));
   std::string text = value.dump(-1, ' ', true, JsonFromOutside::error_handler_t::replace);
   if (text.size() > 40) text.replace(37, std::string::npos, "...");
   return text;

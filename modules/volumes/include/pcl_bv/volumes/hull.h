@@ -25,8 +25,8 @@ struct HullPlane {
 /// A convex hull in the frame and unit of its points: all p with normal . p <= offset for each plane, a
 /// closed set.
 ///
-/// Two descriptions of one body. The planes are what encloses: contains(), intersect(), aabb() and the proof of a fit
-/// go by them; those of a fitted hull are of its faces and of its box. The vertices and the triangles between them are what is measured: volume(), center(),
+/// Two descriptions of one body. The planes are what encloses: contains(), intersect(), aabb() and the proof
+/// of a fit go by them; those of a fitted hull are of its faces and of its box. The vertices and the triangles between them are what is measured: volume(), center(),
 /// support(), distance(). They agree to the rounding of doubles.
 ///
 /// A flat hull has a rank below 3 and no triangles: its vertices are the corners of a polygon (2, in order
@@ -76,17 +76,17 @@ class Hull {
   /// direction, is taken to be off by twice the bound of contains().
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// A box around the hull, by exact arithmetic: where a plane is along an axis, as in each fitted hull, the box ends
-  /// there; elsewhere where the planes are proven to end. For a fitted hull it is that of the points, exactly. Planes
-  /// that bound no body, which no fit and no transformed() makes, give the box of the vertices. O(planes).
+  /// A box around the hull, by exact arithmetic. A side that a plane of the hull lies in ends there, as all six do
+  /// of a fitted hull, whose box is that of its points; other sides end at a proven upper bound. Planes that
+  /// bound no body, which no fit and no transformed() makes, give the box of the vertices. O(planes).
   Aabb aabb() const;
 
   /// Vertices and triangles; a flat hull gives its polygon twice, once for each side.
   Mesh mesh() const;
 
   /// The moved hull. Each plane moves outward by the rounding of its normal, so that the image of every point
-  /// inside, by exact arithmetic on the stored matrix, is inside. (Where planes bound no body: of every point in
-  /// aabb().) O(planes).
+  /// inside, by exact arithmetic on the stored matrix, is inside. (Where planes bound no body: of every point
+  /// in aabb().) O(planes).
   Hull transformed(const Eigen::Isometry3d& transform) const;
 
  private:

@@ -54,8 +54,10 @@ class Kdop {
 
   double min(std::size_t i) const { return numbers()[i]; }
   double max(std::size_t i) const { return numbers()[size() + i]; }
-  SlabView min() const { return {numbers(), static_cast<Eigen::Index>(size())}; }
-  SlabView max() const { return {numbers() + size(), static_cast<Eigen::Index>(size())}; }
+  SlabView min() const& { return {numbers(), static_cast<Eigen::Index>(size())}; }
+  SlabView max() const& { return {numbers() + size(), static_cast<Eigen::Index>(size())}; }
+  SlabVector min() && { return static_cast<const Kdop&>(*this).min(); }
+  SlabVector max() && { return static_cast<const Kdop&>(*this).max(); }
 
   /// Thickness of slab i in the unit of the points, as for a unit direction (Figure 2, line 13). 0 if empty.
   double width(std::size_t i) const;
