@@ -83,6 +83,22 @@ TEST_F(DamagedCapture, ALengthThatIsALittleTooLargeCostsItsPacket) {
   }
 }
 
+TEST_F(DamagedCapture, AByteOfAHeaderCostsAtMostItsPacket) {
+  const std::string whole = recent_pcap(packets_of(0x22, 60));
+  for (const std::size_t number : {0U, 30U, 58U, 59U}) {
+    for (std::size_t byte = 0; byte < kPacketHeader; ++byte) {
+      for (const char value : {'\0', '\1', '\x20', '\x7F', '\xFF'}) {
+        std::string file = whole;
+        file[header(file, 60, number) + byte] = value;
+        std::size_t points = 0;
+        for (const auto& [sensor, some] : points_of(file))
+          points += some;
+        EXPECT_GE(points, 59 * kPoints) << number << ' ' << byte << ' ' << static_cast<int>(value);
+      }
+    }
+  }
+}
+
 TEST_F(DamagedCapture, ATimeOutOfOrderCostsItsPacket) {
   std::string file = recent_pcap(packets_of(0x22, 60));
   add(file, header(file, 60, 20), 1'000'000);
