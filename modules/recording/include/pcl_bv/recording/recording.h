@@ -83,4 +83,4 @@ std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& fil
 /// Whether it is one, by its first bytes; a folder by its metadata.yaml. False for what cannot be read.
 bool is_recording(const std::filesystem::path& file);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

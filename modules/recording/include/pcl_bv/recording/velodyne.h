@@ -67,4 +67,4 @@ class VelodyneReader {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv
