@@ -67,4 +67,33 @@ inline std::string pcap(const std::vector<std::string>& payloads, unsigned link 
   return file;
 }
 
+inline std::string block(unsigned type, const std::string& body, bool big) {
+  const std::string padded = body + std::string((4 - body.size() % 4) % 4, '\0');
+  const std::string length = bytes_of(12 + padded.size(), 4, big);
+  return bytes_of(type, 4, big) + length + padded + length;
+}
+
+// Times count `time` on, in units of the power of ten `resolution`.
+inline std::string pcapng(const std::vector<std::string>& payloads, bool big, unsigned resolution = 9,
+                          std::uint64_t time = 100'000'000'000) {
+  std::string file =
+      block(0x0A0D0D0A,
+            bytes_of(0x1A2B3C4D, 4, big) + bytes_of(1, 2, big) + bytes_of(0, 2) + std::string(8, '\xFF'),
+            big) +
+      block(1,
+            bytes_of(1, 2, big) + bytes_of(0, 6) + bytes_of(9, 2, big) + bytes_of(1, 2, big) +
+                bytes_of(resolution, 1) + std::string(3, '\0') + bytes_of(0, 4),
+            big) +
+      block(5, "statistics", big);
+  for (const std::string& payload : payloads) {
+    const std::string frame = linked(1, udp(payload));
+    file += block(6,
+                  bytes_of(0, 4) + bytes_of(time >> 32U, 4, big) + bytes_of(time & 0xFFFFFFFFU, 4, big) +
+                      bytes_of(frame.size(), 4, big) + bytes_of(frame.size(), 4, big) + frame,
+                  big);
+    time += 1'327'000;
+  }
+  return file;
+}
+
 }  // namespace pcl_bv

@@ -39,6 +39,15 @@ inline std::vector<Sent> all_of(RecordingReader& reader) {
   return found;
 }
 
+/// Bytes that this process has read so far, by the system's count.
+inline std::uint64_t bytes_read() {
+  std::ifstream stream("/proc/self/io");
+  std::string name;
+  std::uint64_t bytes = 0;
+  stream >> name >> bytes;
+  return bytes;
+}
+
 /// A test with a folder that is removed after it.
 class RecordingFiles : public testing::Test {
  protected:

@@ -13,6 +13,7 @@
 #include "chunked_reader.h"
 #include "formats.h"
 #include "pcl_bv/io/posix_file.h"
+#include "search.h"
 
 namespace pcl_bv {
 namespace {
@@ -36,6 +37,9 @@ struct BagPlace {
   std::uint64_t data = 0, size = 0;  // of its data
 };
 
+// Bytes of a header: names of topics and few numbers; of a chunk's, its compression and size.
+constexpr std::uint64_t kMaxHeader = 1U << 20U, kMaxChunkHeader = 256;
+
 class BagReader final : public ChunkedReader {
  public:
   explicit BagReader(const std::filesystem::path& path) : file_(path) {
@@ -44,13 +48,13 @@ class BagReader final : public ChunkedReader {
   }
 
  private:
-  // Nothing if it reaches beyond the file.
-  std::optional<BagPlace> place_at(std::uint64_t at) const {
+  // Nothing if it reaches beyond the file, or its header has more bytes than `max_header`.
+  std::optional<BagPlace> place_at(std::uint64_t at, std::uint64_t max_header = kMaxHeader) const {
     const std::uint64_t size = file_.size();
     if (at + 4 > size) return std::nullopt;
     std::uint32_t length = 0;
     file_.read(at, &length, 4);
-    if (length > size - at - 4 || size - at - 4 - length < 4) return std::nullopt;
+    if (length > max_header || length > size - at - 4 || size - at - 4 - length < 4) return std::nullopt;
     BagPlace place;
     place.header.resize(length);
     file_.read(at + 4, place.header.data(), length);
@@ -130,10 +134,10 @@ class BagReader final : public ChunkedReader {
       const std::optional<BagPlace> place = place_at(at);
       const std::optional<BagOp> op = place ? op_of(*place) : std::nullopt;
       if (!op) {
-        const std::uint64_t found = find_chunk(std::max(previous, std::uint64_t{kMagicBytes}) + 1);
-        const char* const what =
-            found == file_.size() ? "the file ends within a record" : "passed over what is no record";
-        remark(std::string(what) + ", at byte " + std::to_string(at));
+        const std::uint64_t from = std::max(previous, std::uint64_t{kMagicBytes}) + 1;
+        const std::uint64_t found = find_chunk(from);
+        remark(found == file_.size() ? "the file ends within a record, at byte " + std::to_string(at)
+                                     : skipped_bytes(found > at ? at : from - 1, found));
         previous = at = found;
         continue;
       }
@@ -164,20 +168,24 @@ class BagReader final : public ChunkedReader {
   // Where the next chunk begins whose header says so; the file's end if there is none.
   std::uint64_t find_chunk(std::uint64_t from) const {
     constexpr std::string_view mark("\x04\0\0\0op=\x05", 8);
-    constexpr std::uint64_t window = 1U << 20U, longest = 256;  // of a header
-    std::string bytes;
-    for (std::uint64_t at = from; at < file_.size(); at += window) {
-      bytes.resize(std::min<std::uint64_t>(window + mark.size(), file_.size() - at));
-      file_.read(at, bytes.data(), bytes.size());
-      for (std::size_t hit = bytes.find(mark); hit != std::string::npos; hit = bytes.find(mark, hit + 1)) {
-        const std::uint64_t least = std::max(from, at + hit - std::min(at + hit, longest));
-        for (std::uint64_t begin = at + hit; begin-- > least;) {
-          const std::optional<BagPlace> place = place_at(begin);
-          if (place && place->header.size() <= longest && place->data > at + hit + mark.size() &&
-              op_of(*place) == BagOp::chunk)
-            return begin;
-        }
-      }
+    std::uint64_t chunk = file_.size();
+    find_in_file(file_, from, file_.size(), mark.size(),
+                 [&](const std::byte* bytes, std::size_t size, std::uint64_t at) {
+                   if (*bytes != std::byte{4} || size < mark.size() ||
+                       std::memcmp(bytes, mark.data(), mark.size()) != 0)
+                     return false;
+                   chunk = chunk_around(at, at + mark.size(), from);
+                   return chunk < file_.size();
+                 });
+    return chunk;
+  }
+
+  // Where the chunk begins whose header holds these bytes, but not before `from`; else the file's end.
+  std::uint64_t chunk_around(std::uint64_t begin, std::uint64_t end, std::uint64_t from) const {
+    const std::uint64_t least = std::max(from, begin - std::min(begin, kMaxChunkHeader));
+    for (std::uint64_t at = begin; at-- > least;) {
+      const std::optional<BagPlace> place = place_at(at, kMaxChunkHeader);
+      if (place && place->data > end && op_of(*place) == BagOp::chunk) return at;
     }
     return file_.size();
   }

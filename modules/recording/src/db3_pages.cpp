@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kFileHeader = 100;  // in the first page
 constexpr int kTableLeaf = 0x0D;
+constexpr std::size_t kMostColumns = 16;  // more than topics have; bounds what a damaged row costs
 
 std::uint64_t big(const std::byte* at, std::size_t bytes) {
   std::uint64_t value = 0;
@@ -107,9 +108,13 @@ void Db3Pages::read_leaf(std::uint64_t page) {
   const std::uint64_t cells = big(start + 3, 2);
   if (header + 8 + 2 * cells > page_size_) return;
   file_.read(page * page_size_, bytes_.data(), bytes_.size());
+  std::vector<bool> read(page_size_);  // a damaged page may name a cell many times
   for (std::uint64_t i = 0; i < cells; ++i) {
+    const std::uint64_t cell = big(bytes_.data() + header + 8 + 2 * i, 2);
+    if (cell >= page_size_ || read[cell]) continue;
+    read[cell] = true;
     try {
-      read_row(page, big(bytes_.data() + header + 8 + 2 * i, 2));
+      read_row(page, cell);
     } catch (const IoError&) {  // the next one may be whole
     }
   }
@@ -128,8 +133,10 @@ void Db3Pages::read_row(std::uint64_t page, std::uint64_t cell) {
   PageBytes values(bytes_, begin, begin + local);
   const std::uint64_t types_end = begin + values.varint();
   std::vector<std::uint64_t> types;
-  while (values.ends_before(types_end))
+  while (values.ends_before(types_end)) {
+    if (types.size() == kMostColumns) return;
     types.push_back(values.varint());
+  }
   if (types.size() == 4 && types[0] == 0 && is_integer(types[1]) && is_integer(types[2]) &&
       is_blob(types[3])) {
     Message message;

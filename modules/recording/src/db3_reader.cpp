@@ -20,6 +20,17 @@
 namespace pcl_bv {
 namespace {
 
+// What SQLite says, and whether it is that the file is damaged.
+class DatabaseError : public IoError {
+ public:
+  explicit DatabaseError(sqlite3* database)
+      : IoError(sqlite_problem(database)), code_(sqlite3_errcode(database) & 0xFF) {}
+  bool is_damage() const { return code_ == SQLITE_CORRUPT || code_ == SQLITE_NOTADB; }
+
+ private:
+  int code_;
+};
+
 class Database {
  public:
   // Beside a file that is still written to its journal must be read, too; where that cannot be made, as on a
@@ -29,7 +40,7 @@ class Database {
     if (!open(file, "mode=ro&immutable=1") || !works()) fail();
   }
 
-  [[noreturn]] void fail() const { throw IoError(sqlite_problem(get())); }
+  [[noreturn]] void fail() const { throw DatabaseError(get()); }
   sqlite3* get() const { return database_.get(); }
 
  private:
@@ -110,7 +121,8 @@ class Db3Reader final : public RecordingReader {
   explicit Db3Reader(const std::filesystem::path& file) {
     try {
       read_tables(file);
-    } catch (const IoError& error) {
+    } catch (const DatabaseError& error) {
+      if (!error.is_damage()) throw;
       read_pages(file, error.what());
     }
     if (of_no_topic_ > 0)

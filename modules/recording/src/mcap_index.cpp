@@ -39,11 +39,21 @@ void note_chunk(const Record& record, std::uint64_t end, Summary& summary) {
   take(record.fields(), chunk);
   if (chunk.offset > end || chunk.bytes > end - chunk.offset)
     throw IoError("a chunk lies outside of the file");
+  if (chunk.bytes < kRecordStart) throw IoError("a chunk is shorter than a record");
   Part& part = summary.chunks[chunk.offset];
   part = {chunk.offset, chunk.bytes, chunk.first_time, chunk.last_time};
   for (const auto& [channel, offset] : chunk.indexes)
     part.channels.insert(channel);
   summary.index_bytes[chunk.offset] = chunk.index_bytes;
+}
+
+// Overlapping chunks would let a short summary make the whole file be read for each of its entries.
+void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
+  std::uint64_t end = 0;
+  for (const auto& [offset, chunk] : chunks) {
+    if (offset < end) throw IoError("two chunks overlap");
+    end = offset + chunk.bytes;
+  }
 }
 
 // Whether each channel that the summary names, or whose messages it counts or indexes, is described there.
@@ -73,6 +83,7 @@ std::optional<Summary> by_summary(const InputFile& file, Index& index) {
     if (record.op == Op::chunk_index) note_chunk(record, file.size(), summary);
     if (record.op == Op::statistics) take(record.fields(), summary.statistics.emplace());
   }
+  require_disjoint(summary.chunks);
   if (index.channels.empty() || summary.chunks.empty() || !describes_channels(summary, index))
     return std::nullopt;
   return summary;
@@ -122,9 +133,8 @@ Index index_of(const InputFile& file) {
   }
   if (!summary) {
     index = Index();
+    index.warnings.add("without an index (" + problem + "): all of it was looked through");
     mcap::scan(file, Summary(), index);
-    index.remarks.insert(index.remarks.begin(),
-                         "without an index (" + problem + "): all of it was looked through");
     return index;
   }
   const Unknown unknown = mcap::scan(file, *summary, index);

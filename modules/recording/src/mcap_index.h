@@ -12,6 +12,7 @@
 #include "codecs.h"
 #include "mcap_records.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/recording/recording.h"
 
 namespace pcl_bv {
 namespace mcap {
@@ -29,7 +30,7 @@ struct Index {
   std::map<std::uint16_t, Channel> channels;
   std::map<std::uint16_t, std::uint64_t> messages;  ///< By channel, if the file says.
   std::vector<Part> parts;                          ///< As they lie in the file.
-  std::vector<std::string> remarks;
+  WarningList warnings;
 };
 
 /// What is in a file, by a walk over its records, which passes over the chunks that the summary describes.

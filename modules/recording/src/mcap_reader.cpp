@@ -19,8 +19,8 @@ std::int64_t signed_time(std::uint64_t time) {
 class McapReader final : public ChunkedReader {
  public:
   explicit McapReader(const std::filesystem::path& path) : file_(path), index_(mcap::index_of(file_)) {
-    for (const std::string& line : index_.remarks)
-      remark(line);
+    std::uint64_t added = 0;
+    remark(index_.warnings, added);
     std::vector<RecordedTopic> topics;
     for (const auto& [id, channel] : index_.channels)
       topic_of_[id] = add_topic(topics, topic_of(channel));

@@ -8,12 +8,16 @@
 #include <string>
 #include <string_view>
 
+#include "search.h"
+
 namespace pcl_bv {
 namespace mcap {
 namespace {
 
 // Messages outside of chunks are taken together up to this.
 constexpr std::uint64_t kLooseBytes = 1U << 20U;
+// Bytes that hold the fields of a chunk before its records, where its compression has a name of up to 47.
+constexpr std::size_t kChunkStart = 96;
 
 // Walks over the records of a file, but not into the chunks that the summary describes.
 class Scan {
@@ -31,16 +35,16 @@ class Scan {
         loose_ = false;
         index_.parts.push_back(known->second);
         unseen_.erase(at);
-        at = behind(*known);
+        at = std::max(behind(*known), at + kRecordStart);  // progress, whatever the summary says
         previous = at - 1;
         continue;
       }
       const std::vector<std::byte> start = bytes_at(file_, at, kRecordStart);
       Fields fields(start.data(), start.size());
+      // All but 0 are records: those that the specification reserves or leaves to others are skipped.
       const auto op = static_cast<Op>(fields.number<std::uint8_t>());
       const auto size = fields.number<std::uint64_t>();
-      if (!is_record(op) || size > file_.size() - at - kRecordStart ||
-          (op == Op::chunk && !is_chunk_at(at))) {
+      if (op == Op{0} || size > file_.size() - at - kRecordStart || (op == Op::chunk && !is_chunk_at(at))) {
         at = find_chunk(previous + 1, at);
         previous = at;
         continue;
@@ -55,13 +59,7 @@ class Scan {
   }
 
  private:
-  // Of the specification, and the private ones from 0x80 on.
-  static bool is_record(Op op) {
-    const auto code = static_cast<std::uint8_t>(op);
-    return code >= 0x80 || (code >= 0x01 && code <= 0x0F);
-  }
-
-  // The index of a chunk's messages is passed over if it is as long as the summary says.
+  // The message index behind a chunk is skipped if it is as long as the summary says.
   std::uint64_t behind(const std::pair<const std::uint64_t, Part>& chunk) const {
     const std::uint64_t end = chunk.first + chunk.second.bytes;
     const std::uint64_t index = summary_.index_bytes.at(chunk.first);
@@ -73,31 +71,28 @@ class Scan {
   // Where the next chunk begins, known or by its own fields, which must agree with one another: the file's
   // end if there is none. What lies before cannot be read.
   std::uint64_t find_chunk(std::uint64_t from, std::uint64_t damage) {
-    constexpr std::size_t window = 1U << 20U, overlap = 64;
     const auto next = summary_.chunks.lower_bound(from);
     const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
-    std::uint64_t found = most;
-    for (std::uint64_t at = from; at < most && found == most; at += window) {
-      const std::vector<std::byte> bytes =
-          bytes_at(file_, at, std::min<std::uint64_t>(window + overlap, file_.size() - at));
-      for (std::size_t i = 0; i < std::min<std::uint64_t>(window, most - at) && found == most; ++i) {
-        if (bytes[i] == std::byte{static_cast<std::uint8_t>(Op::chunk)} &&
-            is_chunk(bytes.data() + i, bytes.size() - i, file_.size() - at - i))
-          found = at + i;
-      }
-    }
-    const std::string where = ", at byte " + std::to_string(damage);
-    index_.remarks.push_back(found == file_.size() ? "the file ends within a record" + where
-                                                   : "passed over what is no record" + where);
+    const std::uint64_t found =
+        find_in_file(file_, from, most, kChunkStart, [&](const std::byte* bytes, std::size_t size, auto at) {
+          return *bytes == std::byte{static_cast<std::uint8_t>(Op::chunk)} &&
+                 is_chunk(bytes, size, file_.size() - at);
+        });
+    // Where the damage is the length of a record, the next chunk may lie before its end.
+    index_.warnings.add(found == file_.size()
+                            ? "the file ends within a record, at byte " + std::to_string(damage)
+                            : skipped_bytes(found > damage ? damage : from - 1, found));
     loose_ = false;
     return found;
   }
 
   bool is_chunk_at(std::uint64_t at) const {
-    const std::vector<std::byte> bytes = bytes_at(file_, at, std::min<std::uint64_t>(64, file_.size() - at));
+    const std::vector<std::byte> bytes =
+        bytes_at(file_, at, std::min<std::uint64_t>(kChunkStart, file_.size() - at));
     return is_chunk(bytes.data(), bytes.size(), file_.size() - at);
   }
 
+  // Also one of a compression that we do not know, so that a warning can name it.
   static bool is_chunk(const std::byte* bytes, std::size_t size, std::uint64_t left) {
     try {
       Fields fields(bytes, size);
@@ -106,9 +101,7 @@ class Scan {
       if (length > left - std::min<std::uint64_t>(left, kRecordStart)) return false;
       fields.take(28);  // times, size, CRC
       const std::string_view name = fields.text();
-      const bool known = std::any_of(std::begin(kCompressions), std::end(kCompressions),
-                                     [&](Compression c) { return name_of(c) == name; });
-      return known && length == 40 + name.size() + fields.number<std::uint64_t>();
+      return length == 40 + name.size() + fields.number<std::uint64_t>();
     } catch (const IoError&) {
       return false;
     }
@@ -133,7 +126,7 @@ class Scan {
 
   void add_loose(std::uint64_t at, std::uint64_t size) {
     if (size < kMessageStart) {
-      index_.remarks.push_back("a message without a time, at byte " + std::to_string(at));
+      index_.warnings.add("a message without a time, at byte " + std::to_string(at));
       return;
     }
     const std::vector<std::byte> start = bytes_at(file_, at + kRecordStart + 6, 8);
@@ -178,7 +171,7 @@ class Scan {
     try {
       what();
     } catch (const IoError& error) {
-      index_.remarks.push_back("passed over what is at byte " + std::to_string(at) + ": " + error.what());
+      index_.warnings.add("passed over what is at byte " + std::to_string(at) + ": " + error.what());
     }
   }
 

@@ -13,8 +13,7 @@
 namespace pcl_bv {
 namespace mcap {
 
-/// What a summary says: chunks by where they begin. Nothing of it is needed to find the messages, all of it
-/// saves reading them.
+/// Chunks by where they begin. Optional: without it every chunk must be read.
 struct Summary {
   std::map<std::uint64_t, Part> chunks;
   std::map<std::uint64_t, std::uint64_t> index_bytes;  ///< Behind a chunk.

@@ -7,19 +7,19 @@
 #include <cmath>
 #include <cstring>
 
+#include "search.h"
+
 namespace pcl_bv {
 namespace {
 
 constexpr std::uint64_t kWindow = 1U << 20U;
+constexpr std::uint64_t kBack = 1U << 16U;  // bytes that the window keeps before its position
 constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::uint32_t kLongest = 1U << 20U;  // bytes of a packet, where lengths are doubted
-constexpr std::int64_t kNear = 24 * 3600;      // seconds from the last packet, where times are doubted
+constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // since 1970; more may overflow in nanoseconds
+// Longest packet that is accepted while searching for the next valid header.
+constexpr std::uint32_t kLongest = 1U << 20U;
+constexpr std::int64_t kNear = 24 * 3600;  // seconds between two packets, unless the next ones confirm more
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
-
-// Of networks, whatever the file has.
-std::size_t big16(const std::byte* at) {
-  return std::to_integer<std::size_t>(at[0]) << 8U | std::to_integer<std::size_t>(at[1]);
-}
 
 std::uint32_t reversed(std::uint32_t value) {
   return value << 24U | (value & 0xFF00U) << 8U | (value >> 8U & 0xFF00U) | value >> 24U;
@@ -76,58 +76,86 @@ std::uint32_t PacketFile::u32(const std::byte* at) const {
   return swapped_ ? reversed(value) : value;
 }
 
+// So many bytes from here on, or null if there are not as many.
 const std::byte* PacketFile::need(std::size_t bytes) {
-  return need_at(at_, bytes);
-}
-
-// So many bytes of the file, or null if there are not as many.
-const std::byte* PacketFile::need_at(std::uint64_t at, std::size_t bytes) {
+  const std::uint64_t at = at_;
   if (at > file_.size() || bytes > file_.size() - at) return nullptr;
   if (at < window_at_ || at + bytes > window_at_ + window_.size()) {
-    window_.resize(std::max<std::uint64_t>(bytes, std::min<std::uint64_t>(kWindow, file_.size() - at)));
-    window_at_ = at;
-    file_.read(at, window_.data(), window_.size());
+    window_at_ = at - std::min(at, kBack);
+    window_.resize(std::max<std::uint64_t>(at + bytes - window_at_,
+                                           std::min<std::uint64_t>(kWindow, file_.size() - window_at_)));
+    file_.read(window_at_, window_.data(), window_.size());
   }
   return window_.data() + (at - window_at_);
 }
 
-// Goes on at the next place where two packets in a row can be; where there is none the file is cut.
+// The same without moving the window, which a search would else read again for each candidate.
+bool PacketFile::peek(std::uint64_t at, std::size_t bytes, std::byte* to) const {
+  if (at > file_.size() || bytes > file_.size() - at) return false;
+  if (at >= window_at_ && at + bytes <= window_at_ + window_.size()) {
+    std::memcpy(to, window_.data() + (at - window_at_), bytes);
+  } else {
+    file_.read(at, to, bytes);
+  }
+  return true;
+}
+
+// Goes on at the next position where packets in a row can be; where there is none the file is cut. The length
+// of the packet before may be what is damaged, so the search begins within it.
 bool PacketFile::go_on() {
   const std::uint64_t damage = at_;
-  const std::string where = ", at byte " + std::to_string(damage);
-  for (++at_; at_ < file_.size(); ++at_) {
-    if (begins_packet()) {
-      remarks_.push_back("passed over " + std::to_string(at_ - damage) + " bytes that are no packet" + where);
-      return true;
-    }
+  const bool back = previous_ && damage - *previous_ <= kBack;
+  const std::uint64_t from = (back ? *previous_ : damage) + 1;
+  for (at_ = from; at_ < file_.size(); ++at_) {
+    if (!begins_packet()) continue;
+    warnings_.add(skipped_bytes(at_ > damage ? damage : from - 1, at_));
+    previous_.reset();
+    return true;
   }
-  remarks_.push_back("the file ends within a packet" + where);
+  warnings_.add("the file ends within a packet, at byte " + std::to_string(damage));
   return false;
 }
 
-// Headers have no mark: lengths that agree with one another and with what follows, and a time near the last
-// one.
+// Headers have no mark: lengths that agree with one another and with what follows, and times near the last
+// one or, of three packets, near one another.
 bool PacketFile::begins_packet() {
+  if (need(blocks_ ? 12 : 16) == nullptr) return false;
+  if (blocks_) return is_run(2, std::nullopt);
+  return (last_seconds_ && is_run(2, last_seconds_)) || is_run(3, std::nullopt);
+}
+
+// Whether so many packets, or those up to the file's end, follow one another here.
+bool PacketFile::is_run(int packets, std::optional<std::int64_t> seconds) const {
   std::uint64_t at = at_;
-  for (int packet = 0; packet < 2 && at < file_.size(); ++packet) {
-    const std::byte* const head = need_at(at, blocks_ ? 12 : 16);
-    if (head == nullptr) return false;
-    const std::uint32_t length = blocks_ ? u32(head + 4) : u32(head + 8);
-    if (blocks_) {
-      const bool known = u32(head) >= 1 && u32(head) <= 6;
-      if (!known || length < 12 || length % 4 != 0 || length > kLongest) return false;
-      const std::byte* const end = need_at(at + length - 4, 4);
-      if (end == nullptr || u32(end) != length) return false;
-      at += length;
-    } else {
-      const std::int64_t seconds = u32(head);
-      if (length > u32(head + 12) || u32(head + 12) > kLongest || length == 0 ||
-          std::abs(seconds - last_seconds_) > kNear || u32(head + 4) >= interfaces_[0].ticks)
-        return false;
-      at += 16 + std::uint64_t{length};
-    }
+  for (int i = 0; i < packets && at < file_.size(); ++i) {
+    at = blocks_ ? end_of_block(at) : end_of_packet(at, seconds);
+    if (at == 0) return false;
   }
-  return at <= file_.size();
+  return true;
+}
+
+// 0 if there can be no packet of pcap; `seconds` becomes its time, which must be near the one before.
+std::uint64_t PacketFile::end_of_packet(std::uint64_t at, std::optional<std::int64_t>& seconds) const {
+  std::byte head[16];
+  if (!peek(at, sizeof head, head)) return 0;
+  const std::int64_t time = u32(head);
+  const std::uint32_t size = u32(head + 8), original = u32(head + 12);
+  if (size > original || original > kLongest || size > file_.size() - at - sizeof head ||
+      u32(head + 4) >= interfaces_[0].ticks || (seconds && std::abs(time - *seconds) > kNear))
+    return 0;
+  seconds = time;
+  return at + sizeof head + size;
+}
+
+// 0 if there can be no block of pcapng.
+std::uint64_t PacketFile::end_of_block(std::uint64_t at) const {
+  std::byte head[8], end[4];
+  if (!peek(at, sizeof head, head)) return 0;
+  const std::uint32_t type = u32(head), length = u32(head + 4);
+  if (type < 1 || type > 6 || length < 12 || length % 4 != 0 || length > kLongest ||
+      !peek(at + length - 4, sizeof end, end) || u32(end) != length)
+    return 0;
+  return at + length;
 }
 
 bool PacketFile::next(Payload& payload) {
@@ -136,41 +164,48 @@ bool PacketFile::next(Payload& payload) {
 
 bool PacketFile::next_pcap(Payload& payload) {
   while (at_ < file_.size()) {
-    const std::byte* const head = need(16);
-    const std::uint32_t size = head == nullptr ? 0 : u32(head + 8);
-    const std::byte* const packet =
-        head == nullptr || size > kLongest ? nullptr : need(std::size_t{16} + size);
-    if (packet == nullptr) {
+    // Times may jump, as in captures that were joined, if the next packet confirms it.
+    if (need(16) == nullptr || !(is_run(1, last_seconds_) || is_run(2, std::nullopt))) {
       if (!go_on()) return false;
       continue;
     }
+    const std::uint32_t size = u32(need(16) + 8);
+    const std::byte* const packet = need(std::size_t{16} + size);
     last_seconds_ = u32(packet);
-    payload.time_ns = last_seconds_ * kSecond + u32(packet + 4) * (kSecond / interfaces_[0].ticks);
+    payload.time_ns = *last_seconds_ * kSecond + u32(packet + 4) * (kSecond / interfaces_[0].ticks);
+    previous_ = at_;
     at_ += 16 + size;
-    if (unwrap(interfaces_[0].link, packet + 16, size, payload)) return true;
+    if (unwrap_udp(interfaces_[0].link, packet + 16, size, payload)) return true;
   }
   return false;
 }
 
 bool PacketFile::next_block(Payload& payload) {
   while (at_ < file_.size()) {
-    const std::byte* const head = need(12);
-    const bool section = head != nullptr && u32(head) == kSection;
-    if (section && !begin_section(head)) {
+    const std::uint32_t length = block_length();
+    if (length == 0) {
       if (!go_on()) return false;
       continue;
     }
-    const std::uint32_t type = head == nullptr ? 0 : u32(head), length = head == nullptr ? 0 : u32(head + 4);
-    const std::byte* const block = length < 12 || length % 4 != 0 ? nullptr : need(length);
-    if (block == nullptr || u32(block + length - 4) != length) {
-      if (!go_on()) return false;
-      continue;
-    }
+    const std::byte* const block = need(length);
+    previous_ = at_;
     at_ += length;
+    const std::uint32_t type = u32(block);
     if (type == 1) add_interface(block + 8, length - 12);
     if (packet_of_block(block, length, type, payload)) return true;
   }
   return false;
+}
+
+// 0 if it is not the one at the block's end, too: checked before so much is read.
+std::uint32_t PacketFile::block_length() {
+  const std::byte* const head = need(12);
+  if (head == nullptr || (u32(head) == kSection && !begin_section(head))) return 0;
+  const std::uint32_t length = u32(head + 4);
+  std::byte end[4];
+  if (length < 12 || length % 4 != 0 || !peek(at_ + length - 4, sizeof end, end) || u32(end) != length)
+    return 0;
+  return length;
 }
 
 // Says the byte order of itself and what follows.
@@ -187,16 +222,17 @@ bool PacketFile::begin_section(const std::byte* head) {
 bool PacketFile::packet_of_block(const std::byte* block, std::uint32_t length, std::uint32_t type,
                                  Payload& payload) {
   if (type == 3 && length >= 16 && !interfaces_.empty())
-    return unwrap(interfaces_[0].link, block + 12, std::min(u32(block + 8), length - 16), payload);
+    return unwrap_udp(interfaces_[0].link, block + 12, std::min(u32(block + 8), length - 16), payload);
   if (type != 6 || length < 32) return false;
   const std::uint32_t number = u32(block + 8), size = u32(block + 20);
   if (number >= interfaces_.size() || size > length - 32) return false;
   const auto& [link, ticks] = interfaces_[number];
   const auto time = static_cast<std::int64_t>((std::uint64_t{u32(block + 12)} << 32U | u32(block + 16)) &
                                               0x7FFFFFFFFFFFFFFFU);
-  payload.time_ns = time / ticks * kSecond + static_cast<std::int64_t>(static_cast<double>(time % ticks) *
-                                                                       (1e9 / static_cast<double>(ticks)));
-  return unwrap(link, block + 28, size, payload);
+  payload.time_ns =
+      std::min(time / ticks, kMaxSeconds) * kSecond +
+      static_cast<std::int64_t>(static_cast<double>(time % ticks) * (1e9 / static_cast<double>(ticks)));
+  return unwrap_udp(link, block + 28, size, payload);
 }
 
 void PacketFile::add_interface(const std::byte* body, std::size_t size) {
@@ -214,52 +250,6 @@ void PacketFile::add_interface(const std::byte* body, std::size_t size) {
     at += 4 + (length + 3U) / 4 * 4;
   }
   interfaces_.push_back(made);
-}
-
-// The payload of UDP in IPv4, whole, in what a link carries.
-bool PacketFile::unwrap(unsigned link, const std::byte* data, std::size_t size, Payload& payload) {
-  constexpr std::size_t ipv4 = 0x0800;
-  std::size_t skip = 0, protocol = ipv4;
-  if (link == 1) {
-    skip = 14;
-    for (; size >= skip; skip += 4) {
-      protocol = big16(data + skip - 2);
-      if (protocol != 0x8100 && protocol != 0x88A8) break;
-    }
-  } else if (link == 113) {
-    skip = 16;
-    if (size >= skip) protocol = big16(data + 14);
-  } else if (link == 276) {
-    skip = 20;
-    if (size >= skip) protocol = big16(data);
-  } else if (link == 0) {
-    skip = 4;
-  } else if (link != 12 && link != 101 && link != 228) {
-    return false;
-  }
-  if (size < skip + 20 || protocol != ipv4) return false;
-  const std::byte* const ip = data + skip;
-  const std::size_t header = 4 * (std::to_integer<std::size_t>(ip[0]) & 15U);
-  const bool whole = (big16(ip + 6) & 0x3FFFU) == 0;  // neither more fragments nor an offset
-  if ((std::to_integer<unsigned>(ip[0]) >> 4U) != 4 || header < 20 || !whole ||
-      std::to_integer<int>(ip[9]) != 17 || size < skip + header + 8)
-    return false;
-  const std::size_t most = size - skip - header;
-  std::size_t udp = big16(ip + header + 4);
-  if (udp < 8 || udp > most) udp = most;  // what is there counts
-  payload.data = ip + header + 8;
-  payload.size = udp - 8;
-  payload.address = static_cast<std::uint32_t>(big16(ip + 12) << 16U | big16(ip + 14));
-  payload.from_port = static_cast<std::uint16_t>(big16(ip + header));
-  payload.to_port = static_cast<std::uint16_t>(big16(ip + header + 2));
-  return true;
-}
-
-std::string Payload::source() const {
-  std::string text;
-  for (unsigned shift = 32; shift > 0; shift -= 8)
-    text += (text.empty() ? "" : ".") + std::to_string(address >> (shift - 8) & 0xFFU);
-  return text + ':' + std::to_string(to_port);
 }
 
 }  // namespace pcl_bv

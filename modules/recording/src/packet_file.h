@@ -5,28 +5,15 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/recording/recording.h"
+#include "udp_payload.h"
 
 namespace pcl_bv {
-
-/// What a UDP packet carries.
-struct Payload {
-  std::int64_t time_ns = 0;  ///< When it was captured, nanoseconds since 1970.
-  const std::byte* data = nullptr;
-  std::size_t size = 0;
-  std::uint32_t address = 0;  ///< Of its sender.
-  std::uint16_t from_port = 0, to_port = 0;
-
-  /// What tells senders apart.
-  std::uint64_t key() const {
-    return std::uint64_t{address} << 32U | std::uint64_t{from_port} << 16U | to_port;
-  }
-  std::string source() const;  ///< "192.168.1.201:2368": the port is the one that it is sent to.
-};
 
 /// Whether a file begins as pcap or pcapng.
 bool is_packet_file(std::string_view start);
@@ -43,7 +30,7 @@ class PacketFile {
   bool next(Payload& payload);
 
   /// What was not whole, a line each.
-  const std::vector<std::string>& remarks() const { return remarks_; }
+  const WarningList& warnings() const { return warnings_; }
 
  private:
   struct Interface {
@@ -52,7 +39,7 @@ class PacketFile {
   };
 
   const std::byte* need(std::size_t bytes);
-  const std::byte* need_at(std::uint64_t at, std::size_t bytes);
+  bool peek(std::uint64_t at, std::size_t bytes, std::byte* to) const;
   std::uint16_t u16(const std::byte* at) const;
   std::uint32_t u32(const std::byte* at) const;
   bool next_pcap(Payload& payload);
@@ -62,15 +49,19 @@ class PacketFile {
   bool begin_section(const std::byte* head);
   bool go_on();
   bool begins_packet();
-  static bool unwrap(unsigned link, const std::byte* data, std::size_t size, Payload& payload);
+  bool is_run(int packets, std::optional<std::int64_t> seconds) const;
+  std::uint64_t end_of_packet(std::uint64_t at, std::optional<std::int64_t>& seconds) const;
+  std::uint64_t end_of_block(std::uint64_t at) const;
+  std::uint32_t block_length();
 
   InputFile file_;
   std::vector<std::byte> window_;
   std::uint64_t window_at_ = 0, at_ = 0;
-  std::int64_t last_seconds_ = 0;
+  std::optional<std::uint64_t> previous_;     // where the last packet or block begins, if it ends at at_
+  std::optional<std::int64_t> last_seconds_;  // of the last packet that was accepted
   bool swapped_ = false, blocks_ = false;
   std::vector<Interface> interfaces_;
-  std::vector<std::string> remarks_;
+  WarningList warnings_;
 };
 
 }  // namespace pcl_bv

@@ -22,6 +22,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_member(const fs::path& file) {
+  const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
+  return name.extension() == ".db3" || name.extension() == ".mcap";
+}
+
+// A folder that names itself or one that holds it would be opened in itself without end.
+void require_member(const fs::path& file) {
+  std::error_code unknown;
+  if (!is_member(file) || (fs::exists(file, unknown) && !fs::is_regular_file(file, unknown)))
+    throw IoError("no .db3 or .mcap file");
+}
+
 // As one, each from its beginning to its end: a recorder begins a file where it ends the last one.
 class JoinedReader final : public RecordingReader {
  public:
@@ -33,6 +45,7 @@ class JoinedReader final : public RecordingReader {
     for (fs::path& file : files) {
       try {
         Member member;
+        require_member(file);
         member.reader = open_recording(file);
         for (const RecordedTopic& topic : member.reader->topics())
           member.topics.push_back(add_topic(topics_, topic));
@@ -64,7 +77,8 @@ class JoinedReader final : public RecordingReader {
   bool next(RecordedMessage& message) override {
     for (; at_ < members_.size(); ++at_) {
       const bool more = members_[at_].reader->next(message);
-      pass_on_remarks();
+      remark(members_[at_].reader->warnings(), members_[at_].warnings,
+             files_[at_].filename().string() + ": ");
       if (!more) continue;
       message.topic = members_[at_].topics[message.topic];
       return true;
@@ -76,14 +90,8 @@ class JoinedReader final : public RecordingReader {
   struct Member {
     std::unique_ptr<RecordingReader> reader;
     std::vector<std::size_t> topics;  // of the reader's, their places in ours
-    std::size_t remarks = 0;
+    std::uint64_t warnings = 0;       // that were passed on
   };
-
-  void pass_on_remarks() {
-    Member& member = members_[at_];
-    for (const std::vector<std::string>& all = member.reader->remarks(); member.remarks < all.size();)
-      remark(files_[at_].filename().string() + ": " + all[member.remarks++]);
-  }
 
   std::vector<fs::path> files_;
   std::vector<Member> members_;
@@ -115,11 +123,6 @@ bool has_metadata(const fs::path& folder) {
   std::string start(1000, ' ');
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));
   return start.find("rosbag2_bagfile_information") != std::string::npos;
-}
-
-bool is_member(const fs::path& file) {
-  const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
-  return name.extension() == ".db3" || name.extension() == ".mcap";
 }
 
 // The files of rosbag2 in a folder: NAME_0.db3, NAME_1.db3, ... or .mcap, in natural order.

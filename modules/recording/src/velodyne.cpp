@@ -14,9 +14,9 @@
 namespace pcl_bv {
 namespace {
 
-// Packets of one address and port, mostly of one sensor; of a relay or a played back file perhaps of several.
+// Packets of one model from one address to one port, mostly of one sensor; of a relay or a played back file
+// perhaps of several.
 struct Origin {
-  std::string name;
   std::vector<VelodyneSensor> sensors{};
   std::vector<std::byte> waiting{};  // a packet that none of them expects, until the next one says why
   std::int64_t waiting_time_ns = 0;
@@ -25,6 +25,7 @@ struct Origin {
 };
 
 constexpr std::size_t kMostSensors = 8;  // of one origin
+constexpr std::size_t kMostNames = 5;    // in a line
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
@@ -74,7 +75,7 @@ struct VelodyneReader::State {
     std::vector<std::string> sensors, others;
 
     static void add(std::vector<std::string>& names, std::string name) {
-      if (names.size() < 5 && std::find(names.begin(), names.end(), name) == names.end())
+      if (names.size() < kMostNames && std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(std::move(name));
     }
     void note(const Payload& packet, const VelodyneModel* found) {
@@ -104,86 +105,98 @@ struct VelodyneReader::State {
     Payload packet;
     if (done || !packets->next(packet)) return false;
     const VelodyneModel* const found = velodyne_model(packet);
-    if (found == nullptr) return true;
-    Origin& origin = origin_of(packet);
-    if (only.empty() || origin.name == only) take(*found, packet, origin);
+    if (found == nullptr || (!only.empty() && packet.source() != only)) return true;
+    auto& models = origins[packet.key()];
+    if (models.name.empty()) models.name = packet.source();
+    take(*found, packet, models.origins[found]);
     return true;
   }
 
-  Origin& origin_of(const Payload& packet) {
-    const auto [found, fresh] = origins.try_emplace(packet.key());
-    if (fresh) found->second.name = packet.source();
-    return found->second;
-  }
-
   void take(const VelodyneModel& found, const Payload& packet, Origin& origin) {
-    VelodyneSensor* sensor = expecting(found, packet, origin);
+    VelodyneSensor* sensor = expecting(packet, origin);
     if (!origin.waiting.empty()) {
       const Payload earlier = origin.waiting_packet();
-      const VelodyneModel& its = *velodyne_model(earlier);
       // The sensor goes on where it was: the packet between was another's. Else it has jumped.
       if (sensor != nullptr && origin.sensors.size() < kMostSensors) {
         const auto place = static_cast<std::size_t>(sensor - origin.sensors.data());
-        add_sensor(its, origin).add(earlier, whole);
+        add_sensor(found, origin).add(earlier, whole);
         sensor = &origin.sensors[place];
       } else {
         origin.sensors.front().finish(whole);
         origin.sensors.front().add(earlier, whole);
-        sensor = expecting(found, packet, origin);
+        sensor = expecting(packet, origin);
       }
       origin.waiting.clear();
     }
-    const bool known = std::any_of(origin.sensors.begin(), origin.sensors.end(),
-                                   [&](const VelodyneSensor& one) { return &one.model() == &found; });
-    if (sensor == nullptr && !known) sensor = &add_sensor(found, origin);
+    if (origin.sensors.empty()) sensor = &add_sensor(found, origin);
     if (sensor != nullptr) return sensor->add(packet, whole);
     origin.waiting.assign(packet.data, packet.data + packet.size);
     origin.waiting_time_ns = packet.time_ns;
   }
 
-  static VelodyneSensor* expecting(const VelodyneModel& found, const Payload& packet, Origin& origin) {
+  static VelodyneSensor* expecting(const Payload& packet, Origin& origin) {
     for (VelodyneSensor& sensor : origin.sensors) {
-      if (&sensor.model() == &found && sensor.expects(packet)) return &sensor;
+      if (sensor.expects(packet)) return &sensor;
     }
     return nullptr;
   }
 
   VelodyneSensor& add_sensor(const VelodyneModel& found, Origin& origin) {
-    if (++sensors > 1 && sensors > said_sensors) {
-      std::vector<std::string> names;
-      for (const auto& [key, one] : origins)
-        names.push_back(one.name);
-      remarks.push_back("packets of " + std::to_string(sensors) + " sensors (" + listed(names) +
-                        "): each frame is a revolution of one of them" +
-                        (names.size() > 1 ? ", --topic chooses one" : ""));
-      said_sensors = sensors;
-    }
+    if (++sensors == 2 && !several) several = warnings.lines().size();
     return origin.sensors.emplace_back(found, sensors - 1);
+  }
+
+  // Made when it is read, with the sensors up to then: one line, however many they are.
+  void note_several() {
+    if (sensors <= said_sensors || sensors < 2) return;
+    said_sensors = sensors;
+    std::vector<std::string> names;
+    for (auto it = origins.begin(); it != origins.end() && names.size() < kMostNames; ++it)
+      names.push_back(it->second.name);
+    const std::size_t others = origins.size() - names.size();
+    several_line = "packets of " + std::to_string(sensors) + " sensors (" + listed(names) +
+                   (others > 0 ? " and " + std::to_string(others) + " others" : "") +
+                   "): each frame is a revolution of one of them" +
+                   (origins.size() > 1 ? ", --topic chooses one" : "");
   }
 
   void finish() {
     done = true;
     const std::size_t before = whole.size();
-    for (auto& [key, origin] : origins) {
-      if (!origin.waiting.empty()) {
-        origin.sensors.front().finish(whole);
-        origin.sensors.front().add(origin.waiting_packet(), whole);
-      }
-      for (VelodyneSensor& sensor : origin.sensors)
-        sensor.finish(whole);
+    for (auto& [key, address] : origins) {
+      for (auto& [found, origin] : address.origins)
+        finish(origin);
     }
     std::stable_sort(whole.begin() + static_cast<std::ptrdiff_t>(before), whole.end(),
                      [](const VelodyneSweep& a, const VelodyneSweep& b) { return a.stamp_ns < b.stamp_ns; });
   }
 
+  void finish(Origin& origin) {
+    if (!origin.waiting.empty()) {
+      origin.sensors.front().finish(whole);
+      origin.sensors.front().add(origin.waiting_packet(), whole);
+    }
+    for (VelodyneSensor& sensor : origin.sensors)
+      sensor.finish(whole);
+  }
+
+  // An address and the port it sends to.
+  struct Address {
+    std::string name;
+    std::map<const VelodyneModel*, Origin> origins{};
+  };
+
   std::filesystem::path file;
   std::string only;
   std::optional<PacketFile> packets;
   const VelodyneModel* model = nullptr;
-  std::map<std::uint64_t, Origin> origins;
+  std::map<std::uint64_t, Address> origins;
   std::size_t sensors = 0, said_sensors = 0;
   std::deque<VelodyneSweep> whole;
-  std::vector<std::string> remarks;
+  WarningList warnings;                // of the packets; those of a second reading are the same
+  std::uint64_t warnings_added = 0;    // how many of the packets' are in it
+  std::optional<std::size_t> several;  // the number of warnings before several_line
+  std::string several_line;
   bool done = false;
 };
 
@@ -204,6 +217,8 @@ bool VelodyneReader::next(VelodyneSweep& sweep) {
   while (state.whole.empty() && state.read_packet()) {
   }
   if (state.whole.empty() && !state.done) state.finish();
+  state.warnings.add_new_of(state.packets->warnings(), state.warnings_added);
+  state.note_several();
   if (state.whole.empty()) return false;
   sweep = std::move(state.whole.front());
   state.whole.pop_front();
@@ -211,8 +226,9 @@ bool VelodyneReader::next(VelodyneSweep& sweep) {
 }
 
 std::vector<std::string> VelodyneReader::remarks() const {
-  std::vector<std::string> all = state_->packets->remarks();
-  all.insert(all.end(), state_->remarks.begin(), state_->remarks.end());
+  std::vector<std::string> all = state_->warnings.lines();
+  if (!state_->several_line.empty())
+    all.insert(all.begin() + static_cast<std::ptrdiff_t>(*state_->several), state_->several_line);
   return all;
 }
 

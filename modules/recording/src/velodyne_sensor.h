@@ -26,8 +26,8 @@ std::string_view name_of(const VelodyneModel& model);
 int velodyne_product(const Payload& packet);
 
 /// Packets come in nearly the order in which they were sent: some twice, some too late, some not at all.
-/// Where the sensor should be by now decides, from its speed and the times of capture: a turn ends where
-/// azimuths pass 0 in the direction of rotation, and a packet from before that goes to its own turn.
+/// Packets are assigned by the azimuth predicted from the rotation speed and the capture times. A turn ends
+/// where azimuths pass 0 in the direction of rotation; a packet from before that goes to its own turn.
 class VelodyneSensor {
  public:
   explicit VelodyneSensor(const VelodyneModel& model, std::size_t number);
@@ -43,8 +43,6 @@ class VelodyneSensor {
 
   /// What there is of the last sweeps.
   void finish(std::deque<VelodyneSweep>& whole);
-
-  std::int64_t last_time_ns() const { return last_time_ns_; }
 
  private:
   double ahead(const Payload& packet) const;

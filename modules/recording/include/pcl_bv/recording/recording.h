@@ -29,6 +29,23 @@ struct RecordedMessage {
   std::size_t size = 0;
 };
 
+/// Lines about what was damaged: the first ten, and in a last one the number of the others.
+class WarningList {
+ public:
+  void add(std::string line);
+
+  /// Adds those of `other` beyond its first `added`, and sets `added` to their number.
+  void add_new_of(const WarningList& other, std::uint64_t& added, const std::string& prefix = {});
+
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  void add_unlisted(std::uint64_t number);
+
+  std::vector<std::string> lines_;
+  std::uint64_t unlisted_ = 0;
+};
+
 /// A recording that is read once, from its beginning to its end. Called by one thread.
 class RecordingReader {
  public:
@@ -45,14 +62,18 @@ class RecordingReader {
   /// over, with a line in remarks(). Throws IoError where the file cannot be read any more.
   virtual bool next(RecordedMessage& message) = 0;
 
-  /// What was damaged so far, a line each, without the file's name.
-  const std::vector<std::string>& remarks() const { return remarks_; }
+  /// What was damaged so far, a line each, without the file's name; at most eleven lines.
+  const std::vector<std::string>& remarks() const { return warnings_.lines(); }
+  const WarningList& warnings() const { return warnings_; }
 
  protected:
-  void remark(std::string line) { remarks_.push_back(std::move(line)); }
+  void remark(std::string line) { warnings_.add(std::move(line)); }
+  void remark(const WarningList& other, std::uint64_t& added, const std::string& prefix = {}) {
+    warnings_.add_new_of(other, added, prefix);
+  }
 
  private:
-  std::vector<std::string> remarks_;
+  WarningList warnings_;
 };
 
 /// Opens it by what is in it, not by its name. Throws IoError (io_error.h), without the file's name, if it

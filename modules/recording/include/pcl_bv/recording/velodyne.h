@@ -37,10 +37,10 @@ bool is_capture(const std::filesystem::path& file);
 
 /// Sweeps in the packets of a VLP-16, HDL-32E or VLP-32C, of single and dual returns (of two that are the
 /// same one), by revolution; the first and the last are what there is of them. Packets may come twice or
-/// late, or be lost. Those of several sensors, which differ by address or port, or by azimuths that go on
-/// apart from each other, become sweeps of each, in the order in which they end. Azimuths as PCL's grabbers
-/// have them: one for each block, between two for the second firing of a VLP-16. Sources: the sensors'
-/// manuals (63-9243, 63-9113, 63-9325).
+/// late, or be lost. Several sensors differ by address, port or model, or by azimuths that go on apart from
+/// each other. Each sensor gets its own sweeps, ordered by when they end. Azimuths as PCL's grabbers have
+/// them: one for each block, between two for the second firing of a VLP-16. Sources: the sensors' manuals
+/// (63-9243, 63-9113, 63-9325).
 class VelodyneReader {
  public:
   /// With `sensor`, "192.168.1.201:2368", an address and the port that it sends to, the packets of that one
