@@ -4,14 +4,12 @@ import csv
 import json
 import os
 import pathlib
-import signal
-import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 
+import children
 import pcl_bv
 from clouds import normal, street
 
@@ -89,8 +87,8 @@ class Files(unittest.TestCase):
         frames = list(pcl_bv.frames(made))
         for kind, name in (("mcap", "a.mcap"), ("rosbag2", "b")):
             path = self.folder / name
-            subprocess.run([os.path.join(BIN, "bv_stream"), "--source", made, "--rate", "max",
-                            "--sink", f"{kind}:{path},points"], check=True, capture_output=True)
+            children.run([os.path.join(BIN, "bv_stream"), "--source", made, "--rate", "max",
+                          "--sink", f"{kind}:{path},points"], capture_output=True)
             recorded = list(pcl_bv.frames(path))
             self.assertEqual([f.stamp_ns for f in recorded], [f.stamp_ns for f in frames])
             for number, (one, other) in enumerate(zip(recorded, frames)):
@@ -108,12 +106,8 @@ class Files(unittest.TestCase):
             self.assertIn("pcl_bv_dds.so is not installed", str(error))
             return
         program = "import pcl_bv\nframes = pcl_bv.frames('dds:/pcl_bv_python_test_of_silence')\n"
-        program += "print('on', flush=True)\n"
-        with subprocess.Popen([sys.executable, "-c", program + "next(frames)"], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as waiting:
-            self.assertEqual(waiting.stdout.readline(), "on\n")
-            waiting.send_signal(signal.SIGINT)
-            self.assertIn("KeyboardInterrupt", waiting.communicate(timeout=60)[1])
+        program += "print('on', flush=True)\nnext(frames)"
+        self.assertIn("KeyboardInterrupt", children.interrupted(program, "on"))
 
     def test_frames_of_a_folder_come_in_their_order_with_rates_and_poses(self):
         for i in range(3):

@@ -3,13 +3,13 @@
 import json
 import os
 import pickle
-import subprocess
 import tempfile
 import unittest
 import warnings
 
 import numpy as np
 
+import children
 import pcl_bv
 from clouds import normal, street
 
@@ -19,8 +19,7 @@ SETTINGS = dict(filter={"range_min": 1, "range_max": 60}, cluster={"tolerance": 
 
 
 def run(*arguments):
-    return subprocess.run([os.path.join(BIN, arguments[0]), *arguments[1:]], check=True,
-                          capture_output=True).stdout
+    return children.run([os.path.join(BIN, arguments[0]), *arguments[1:]], capture_output=True).stdout
 
 
 class Warnings(unittest.TestCase):
