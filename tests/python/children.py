@@ -22,8 +22,8 @@ def run(arguments, **options):
 def interrupted(program, announced, seconds=60):
     """The standard error of a Python program that gets SIGINT once it has printed the line `announced`.
 
-    SIGINT is sent again each second: Python loses one that arrives in a destructor. The child does not ignore it,
-    even where this process does: a shell without job control starts what runs in the background so.
+    SIGINT is sent again each second: Python loses one that arrives in a destructor. The child does not ignore
+    it, even where this process does: a shell without job control starts what runs in the background so.
     """
     begin = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
     child = subprocess.Popen([sys.executable, "-X", "faulthandler", "-c", begin + program],

@@ -76,9 +76,9 @@ struct SinkDescription {
 SinkDescription parse_sink(const std::string& description);
 
 /// Opens it: a file or recording is made if it is not there, and emptied by the first frame or by close(); a
-/// folder is made if it is not there. Throws IoError, std::invalid_argument without a kind. After each frame files hold
-/// whole lines (jsonl, csv; where the disk is full, the last one may be cut) and frames.pvd (vtp) lists it;
-/// files of a frame (vtp, image, labels) are named by FrameHeader::number.
+/// folder is made if it is not there. Throws IoError, std::invalid_argument without a kind. After each frame
+/// files hold whole lines (jsonl, csv; where the disk is full, the last one may be cut) and frames.pvd (vtp)
+/// lists it; files of a frame (vtp, image, labels) are named by FrameHeader::number.
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
 /// Calls the function with each result. Throws std::invalid_argument without one.
