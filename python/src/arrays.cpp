@@ -59,7 +59,7 @@ void check_layout(const char* name, const py::array& array) {
   if (first >= 3 && first <= 8) warn(std::string(name) + ": " + said);
 }
 
-/// numpy.asarray(), without a word of Python's for what is none.
+/// numpy.asarray(). A TypeError with the argument's name if it is no array.
 py::array from_any(py::handle object, const char* name) {
   py::array array = py::reinterpret_steal<py::array>(
       py::detail::npy_api::get().PyArray_FromAny_(object.ptr(), nullptr, 0, 0, 0, nullptr));
@@ -254,10 +254,7 @@ std::vector<std::int64_t> integers(py::handle object, const char* name, std::siz
   if (static_cast<std::size_t>(given.size()) != count)
     refuse_value(name, std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
   const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(given);
-  std::vector<std::int64_t> numbers(wide.data(), wide.data() + wide.size());
-  if (kind == 'u' && std::any_of(numbers.begin(), numbers.end(), [](std::int64_t n) { return n < 0; }))
-    refuse_value(name, "a number is above 9223372036854775807");
-  return numbers;
+  return {wide.data(), wide.data() + wide.size()};
 }
 
 std::vector<std::uint32_t> point_labels(py::handle labels, std::size_t count) {

@@ -45,7 +45,7 @@ class PipelineObject {
 
 void warn_of(const PipelineConfig& config) {
   for (const std::string& line : config.without_effect())
-    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw py::error_already_set();
+    warn(line);
 }
 
 std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle preset,

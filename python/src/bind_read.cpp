@@ -42,14 +42,30 @@ auto reading(const std::string& name, const Read& read) {
 
 /// What was noticed about an input and not refused, as a UserWarning.
 void warn_of(const std::string& name, const std::string& note) {
-  if (!note.empty() && PyErr_WarnEx(PyExc_UserWarning, (name + ": " + note).c_str(), 1) != 0)
-    throw py::error_already_set();
+  if (!note.empty()) warn(name + ": " + note);
 }
 
+RawCloud load_recorded(const std::string& name, const std::string& topic, std::size_t number,
+                       std::vector<std::string>& remarks) {
+  RecordedClouds clouds(name, topic);
+  try {
+    RawCloud cloud = clouds.load(number);
+    remarks = clouds.remarks();
+    return cloud;
+  } catch (const IoError& error) {  // damage is why the cloud is not there
+    std::string text = error.what();
+    for (const std::string& remark : clouds.remarks())
+      text.append("; ").append(remark);
+    throw IoError(text);
+  }
+}
+
+/// `remarks`: what was noticed of a recording.
 RawCloud load_cloud(const std::string& name, const std::string& topic, std::size_t number,
-                    std::size_t bin_fields, const ParallelPolicy& policy) {
+                    std::size_t bin_fields, const ParallelPolicy& policy, std::vector<std::string>& remarks) {
   if (name.rfind("synth:", 0) == 0) return to_raw_cloud(make_synth(parse_synth(name.substr(6))));
-  if (has_recorded_clouds(name)) return RecordedClouds(name, topic).load(number);
+  if (has_recorded_clouds(name)) return load_recorded(name, topic, number, remarks);
+  refuse_false_recording(name);
   return read_cloud(name, policy, bin_fields);
 }
 
@@ -61,10 +77,13 @@ py::array read_points(py::handle file, py::handle topic, py::handle number, py::
   const std::size_t fields = whole_number(bin_fields, "bin_fields", {0, 32});
   const ParallelPolicy policy = policy_of(threads);
   std::optional<RawCloud> cloud;
+  std::vector<std::string> remarks;
   reading(name, [&] {
     const py::gil_scoped_release unlocked;
-    cloud = load_cloud(name, of, which, fields, policy);
+    cloud = load_cloud(name, of, which, fields, policy, remarks);
   });
+  for (const std::string& remark : remarks)
+    warn_of(name, remark);
   warn_of(name, cloud->note);
   return array_of_cloud(std::move(*cloud));
 }

@@ -15,8 +15,8 @@ path: .pcd, .ply, .las, .bin (KITTI, nuScenes), or 'synth:NAME[:POINTS[:SEED]]';
 topic: of a recording; None: the only one with clouds.
 bin_fields: float32 of each point of a .bin, 3 to 32; 0: what the name says, 5 of .pcd.bin, else 4.
 
-What was noticed and not refused, such as points after the last one or a VIEWPOINT, which is not applied, is a
-UserWarning.
+What was noticed and not refused, such as points after the last one, a VIEWPOINT, which is not applied, or
+damage in a recording, is a UserWarning.
 Raises FileNotFoundError, OSError for what cannot be read, ValueError for a topic that is not there.
 
 >>> import pcl_bv

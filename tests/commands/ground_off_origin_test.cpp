@@ -95,6 +95,9 @@ TEST_F(GroundOffOrigin, TakesThePlaceThatIsGiven) {
   EXPECT_THAT(wrong.err, HasSubstr("few points lie around --sensor (300.0, 0.0, 0.0)"));
   EXPECT_EQ(objects(cloud, {"--sensor", "300,0"}).status, 2);
   EXPECT_THAT(run({"--sensor", "1,2,3", cloud}).err, HasSubstr("--sensor: only useful with --ground zones"));
+  const Result plane = run({"--ground", "plane", "--sensor", "1,2,3", cloud});
+  EXPECT_EQ(plane.status, 2);
+  EXPECT_THAT(plane.err, HasSubstr("--sensor: only useful with --ground zones"));
 }
 
 TEST_F(GroundOffOrigin, UpsideDownHasALineThatSaysWhichWayIsUp) {
@@ -118,9 +121,10 @@ TEST_F(GroundOffOrigin, ACamerasCloudHasALineThatSaysWhichWayIsUp) {
 TEST_F(GroundOffOrigin, RangesAndGrowingTolerancesAreSaidToCountFromTheOrigin) {
   const std::string cloud = aside("aside.pcd", 100, 0, 0);
   EXPECT_THAT(run({"--cluster", "0.5", "--range", "0.5:60", "--volume", "aabb", cloud}).err,
-              HasSubstr("do not lie around the origin, from which --range counts"));
-  EXPECT_THAT(run({"--cluster", "0.3:0.01", "--volume", "aabb", cloud}).err,
-              HasSubstr("do not lie around the origin, from which the growth of --cluster counts"));
+              HasSubstr("--range is measured from the origin, but the points do not lie around it"));
+  EXPECT_THAT(
+      run({"--cluster", "0.3:0.01", "--volume", "aabb", cloud}).err,
+      HasSubstr("the growth of --cluster is measured from the origin, but the points do not lie around it"));
   EXPECT_EQ(run({"--cluster", "0.5", "--volume", "aabb", cloud}).err, "");
 }
 

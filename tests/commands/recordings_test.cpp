@@ -49,6 +49,19 @@ TEST_F(Recordings, ACaptureOfPacketsIsACloudForEachRevolution) {
   EXPECT_THAT(none.err, HasSubstr("no packets of a sensor at 1.2.3.4:2368; there are 0.0.0.0:2368"));
 }
 
+TEST_F(Recordings, DamageThatIsFoundWhileReadingIsSaid) {
+  ASSERT_EQ(stream({"--source", "synth:street-sequence:6", "--rate", "max", "--sink",
+                    "mcap:" + at("damaged.mcap") + ",points"})
+                .status,
+            0);
+  std::string bytes = read_file(at("damaged.mcap"));
+  bytes.replace(bytes.size() / 2, 40, 40, '\x55');
+  const Result result = run({"--volume", "aabb", file("damaged.mcap", bytes)});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("damaged.mcap: passed over "));
+  EXPECT_THAT(result.err, HasSubstr("the recording ends before this cloud"));
+}
+
 TEST_F(Recordings, AnEmptyFileOfAnyKindIsCalledEmpty) {
   for (const char* name :
        {"a.bag", "a.mcap", "a.db3", "a.pcap", "a.pcapng", "a.pcd", "a.ply", "a.las", "a.bin"}) {

@@ -5,6 +5,8 @@
 
 #include <pcl/point_types.h>
 
+#include <limits>
+
 #include "frames.h"
 
 namespace pcl_bv {
@@ -31,6 +33,16 @@ TEST(ClusterPipeline, TakesPclCloudsAsTheyAre) {
   EXPECT_THROW(pipeline.process(nullptr, result), std::invalid_argument);
   EXPECT_THROW(pipeline.process(pcl::PointCloud<pcl::PointXYZI>::Ptr(), result), std::invalid_argument);
   expect_equal(result, expected);
+}
+
+TEST(ClusterPipeline, TakesTheSensorFromTheViewpoint) {
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  cloud->push_back({1, 2, 3});
+  EXPECT_FALSE(make_frame<pcl::PointXYZ>(cloud).sensor.has_value());
+  cloud->sensor_origin_ = {100, -2, 0.5F, 0};
+  EXPECT_EQ(make_frame<pcl::PointXYZ>(cloud).sensor, Eigen::Vector3d(100, -2, 0.5));
+  cloud->sensor_origin_.x() = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(make_frame<pcl::PointXYZ>(cloud).sensor.has_value());
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(StreamConfig, AClassThatIsNotAllowedIsNamedWithItsLine) {
       {"- {value: 1}\n  - {value: 1}", "cluster.classes: class 1 is there twice"},
       {"- {value: 1, tolerance: 0}", "cluster.classes: class 1: tolerance: 0 is not above 0"},
       {"- {value: 1, tolerance: 1e-50}",
-       "class 1: tolerance: 1e-50 is not above 0 and at most 1e+06: it is 0 as a float"},
+       "class 1: tolerance: 1e-50 is too small: it is 0 as float32, which points are; use at least 1.4e-45"},
       {"- {value: 1, max_size: 0}", "class 1: max_size: 0 is not a whole number of at least 1"},
       {"- {value: 1, max_size: 5}", "class 1: max_size, 5, is below min_size, 10"},
       {"- {value: 1, volumes: [box]}", "class 1: volumes: 'box' is no method; known are aabb"},
@@ -236,7 +236,8 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"threads: 1\n---\nbogus: 1", "line 3: a second document"},
       {"volumes: [obb, obb-min]", "volumes: 'obb-min' is named twice"},
       {"cluster: {tolerance: 1e-50}",
-       "cluster.tolerance: 1e-50 is not at least 0 and at most 1e+06: it is 0 as a float"},
+       "cluster.tolerance: 1e-50 is too small: it is 0 as float32, which points are; use 0, or at least "
+       "1.4e-45"},
       {"track: {gate: 101}", "track.gate: 101 is not above 0 and at most 100"},
   };
   for (const auto& [yaml, expected] : cases) {

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <thread>
 
 #include "folder.h"
@@ -240,6 +241,54 @@ TEST(SinkGroup, MeasuresEachSink) {
   EXPECT_EQ(times[0].first, "slow");
   EXPECT_EQ(times[1].second.count(), 3U);
   EXPECT_GE(times[0].second.percentile(0.01), 20);
+}
+
+// Opens all and one more that cannot be; gives that one's error.
+std::string open_in_vain(const std::vector<std::string>& sinks, const std::function<void()>& meanwhile = {}) {
+  SinkGroup group([](const std::string&) {});
+  try {
+    for (const std::string& sink : sinks)
+      group.add(parse_sink(sink));
+    if (meanwhile) meanwhile();
+    group.add(parse_sink("jsonl:/proc/none/a.jsonl"));
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(FrameSinks, OpenedInVainLeaveWhatWasThere) {
+  const std::vector<std::string> sinks = {"mcap:" + (path_ / "a.mcap").string(),
+                                          "rosbag2:" + (path_ / "drive").string(),
+                                          "jsonl:" + (path_ / "a.jsonl").string()};
+  const std::vector<std::string> files = {"a.mcap", "drive/drive_0.db3", "drive/metadata.yaml", "a.jsonl"};
+  {
+    SinkGroup group([](const std::string&) {});
+    for (const std::string& sink : sinks)
+      group.add(parse_sink(sink));
+    const Found found;
+    group.write(found.frame, found.result);
+    group.close();
+  }
+  std::vector<std::string> before, after;
+  for (const std::string& file : files)
+    before.push_back(read(file));
+  EXPECT_THAT(open_in_vain(sinks), HasSubstr("/proc/none/a.jsonl"));
+  for (const std::string& file : files)
+    after.push_back(read(file));
+  EXPECT_TRUE(before == after);
+  EXPECT_THAT(before, testing::Each(testing::Not(testing::IsEmpty())));
+}
+
+TEST_F(FrameSinks, OpenedInVainRemoveWhatTheyMadeAndNothingElse) {
+  const auto at = [&](const char* name) { return (path_ / name).string(); };
+  EXPECT_NE(open_in_vain({"mcap:" + at("new/a.mcap"), "rosbag2:" + at("drive/one"), "labels:" + at("labels"),
+                          "vtp:" + at("vtp/deep"), "csv:" + at("csv/a.csv"), "image:" + at("shared")},
+                         [&] { write("shared/another.png", "of another process"); }),
+            "");
+  for (const char* name : {"new", "drive", "labels", "vtp", "csv"})
+    EXPECT_FALSE(std::filesystem::exists(path_ / name)) << name;
+  EXPECT_EQ(read("shared/another.png"), "of another process");
 }
 
 }  // namespace

@@ -39,6 +39,10 @@ TEST(StampInName, ReadsTimesAndNoFrameNumbers) {
   EXPECT_EQ(stamp_in_name(""), -1);
   EXPECT_EQ(stamp_in_name("99999999999999999999"), -1);
   EXPECT_EQ(stamp_in_name("99999999999.5"), -1);
+  EXPECT_EQ(stamp_in_name("9223372036853"), 9'223'372'036'853'000'000);  // milliseconds: the year 2262
+  EXPECT_EQ(stamp_in_name("9223372036854774"), 9'223'372'036'854'774'000);
+  for (const char* later : {"9223372036855", "9999999999999", "9223372036854776", "9999999999999999"})
+    EXPECT_EQ(stamp_in_name(later), -1) << later;
 }
 
 // 2012-12-14T14:22:59 and 2024-03-21T12:59:59, UTC.

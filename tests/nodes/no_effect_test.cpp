@@ -57,7 +57,9 @@ TEST(WithoutEffect, AreSettingsOfTheGroundWhereNoneIsRemoved) {
                           "ground.distance: has no effect without ground.method",
                           "ground.max_slope_degrees: has no effect without ground.method"));
   EXPECT_THAT(without_effect("ground: {method: none, sensor: [1, 2, 3]}"),
-              ElementsAre("ground.sensor: has no effect without ground.method"));
+              ElementsAre("ground.sensor: has no effect without ground.method zones"));
+  EXPECT_THAT(without_effect("ground: {method: plane, sensor: [1, 2, 3], sensor_height: 1}"),
+              ElementsAre("ground.sensor: has no effect without ground.method zones"));
   EXPECT_THAT(without_effect("ground: {method: zones, sensor: [1, 2, 3], sensor_height: 1}"), IsEmpty());
 }
 

@@ -396,11 +396,10 @@ TEST(Pipeline, TracksUseTheTimesOfRecordingWhereStampsDoNotAdvance) {
   }
   EXPECT_EQ(track_remark(ball_with_stamps(stamps(good), true).back()), "");
   EXPECT_EQ(track_remark(ball_with_stamps(stamps(equal), true).back()),
-            "its stamp is not later than the one before: tracks use the times of recording");
+            "frame stamps do not advance: tracking uses the recording times");
   const FrameResult lost = ball_with_stamps(stamps(equal), false).back();
   EXPECT_EQ(speed_of(lost), 0);
-  EXPECT_EQ(track_remark(lost),
-            "its stamp is not later than the one before: tracks learn no velocity from it");
+  EXPECT_EQ(track_remark(lost), "frame stamps do not advance: tracking gets no velocity from this frame");
   // A clock that was set back costs one step, as before.
   EXPECT_EQ(ball_with_stamps(stamps(set_back), false).back().track_time, TrackTime::stamps);
 }

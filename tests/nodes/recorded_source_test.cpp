@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
 #include <functional>
 
 #include "folder.h"
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
@@ -230,6 +232,81 @@ TEST_F(RecordedSource, SaysWhatIsDamaged) {
   EXPECT_THAT(source->take_remarks(),
               testing::ElementsAre("without an index (it is cut): all of it was looked through"));
   EXPECT_TRUE(source->take_remarks().empty());
+}
+
+TEST_F(RecordedSource, CloudsThatWerePassedOverAreNotReadAgain) {
+  record({"/points"}, 40);
+  RecordedClouds clouds(file(), "");
+  ASSERT_EQ(clouds.count(), 40U);
+  clouds.load(9);
+  std::filesystem::resize_file(file(), 0);  // what is read again fails
+  for (const std::size_t number : {8U, 2U, 7U, 0U})
+    EXPECT_EQ(clouds.load(number).width, number + 1);
+  EXPECT_THROW(clouds.load(8), IoError);  // given out once
+}
+
+TEST_F(RecordedSource, ANoteIsThatOfTheFirstCloudThatHasItInWhateverOrderTheyAreLoaded) {
+  record({"/points"}, 6, [](std::size_t i, msg::PointCloud2& cloud) {
+    if (i > 0) cloud.fields[3].datatype = i < 4 ? 9 : 10;
+  });
+  for (const std::vector<std::size_t>& order :
+       {std::vector<std::size_t>{0, 1, 2, 3, 4, 5}, {5, 4, 3, 2, 1, 0}, {1, 0, 2, 4, 3, 5}}) {
+    RecordedClouds clouds(file(), "");
+    std::vector<std::size_t> with_note;
+    for (const std::size_t number : order) {
+      EXPECT_EQ(clouds.load(number).note.empty(), number == 0);
+      if (!clouds.unsaid(number).empty()) with_note.push_back(number);
+    }
+    EXPECT_THAT(with_note, testing::UnorderedElementsAre(1, 4));
+  }
+}
+
+TEST_F(RecordedSource, RemarksAreTakenOnce) {
+  record({"/points"}, 20);
+  const auto size = std::filesystem::file_size(file());
+  std::fstream damaged(file(), std::ios::in | std::ios::out | std::ios::binary);
+  damaged.seekp(static_cast<std::streamoff>(size / 3));
+  damaged << std::string(40, '\x55');
+  damaged.close();
+  RecordedClouds clouds(file(), "");
+  std::vector<std::string> remarks;
+  std::size_t read = 0;
+  try {
+    for (; read < 20; ++read) {
+      clouds.load(read);
+      for (const std::string& remark : clouds.take_remarks())
+        remarks.push_back(remark);
+    }
+  } catch (const IoError&) {
+    for (const std::string& remark : clouds.take_remarks())
+      remarks.push_back(remark);
+  }
+  EXPECT_LT(read, 20U);
+  EXPECT_FALSE(remarks.empty());
+  EXPECT_EQ(clouds.remarks(), remarks);
+  EXPECT_THAT(clouds.take_remarks(), testing::IsEmpty());
+}
+
+std::string error_of(const std::function<void()>& what) {
+  try {
+    what();
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(RecordedSource, AReaderOfCloudsSaysWhatReadsRecordings) {
+  record({"/points"}, 1);
+  EXPECT_EQ(error_of([&] { read_cloud(file()); }),
+            "is a recording, not a cloud: read it with open_recording() or RecordedClouds");
+  EXPECT_EQ(error_of([&] { refuse_false_recording(file()); }), "");
+  write("false.mcap", "no recording");
+  EXPECT_THAT(error_of([&] { refuse_false_recording(path_ / "false.mcap"); }),
+              testing::StartsWith("is no recording that can be read: it does not begin as MCAP"));
+  write("empty.bag", "");
+  EXPECT_THAT(error_of([&] { refuse_false_recording(path_ / "empty.bag"); }), testing::HasSubstr("empty"));
+  EXPECT_EQ(error_of([&] { refuse_false_recording(path_ / "gone.pcd"); }), "");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <random>
 
+#include "streaming/tracked_volumes.h"
 #include "streaming/tracking/assignment.h"
 #include "streaming/tracking/ego_motion.h"
 #include "streaming/tracking/motion_filter.h"
@@ -20,6 +21,32 @@ namespace {
 
 double uniform(std::mt19937& random, double low, double high) {
   return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+}
+
+TEST(TrackClock, GoesOnWhereStampsJump) {
+  constexpr std::int64_t late = 5'000'000'000'000'000'000;
+  for (const bool recorded : {false, true}) {
+    TrackClock clock;
+    std::int64_t before = clock.at(late, recorded ? late : 0);
+    for (int i = 0; i < 20; ++i) {
+      const std::int64_t stamp = i % 2 == 0 ? 1 : late;  // a driver that writes none now and then
+      const std::int64_t now = clock.at(recorded ? 0 : stamp, recorded ? stamp : 0);
+      EXPECT_GE(now, before) << i;
+      before = now;
+    }
+    const std::int64_t next = clock.at(late + 100'000'000, late + 100'000'000);
+    EXPECT_EQ(next, before + 100'000'000);
+  }
+}
+
+TEST(TrackClock, StartsAtAnyStamp) {
+  TrackClock clock;
+  const std::int64_t begin = clock.at(INT64_MAX - 1'000'000'000, 0);
+  EXPECT_EQ(clock.at(INT64_MAX - 500'000'000, 0), begin + 500'000'000);
+  for (int i = 0; i < 10; ++i) {
+    clock.at(0, 0);
+    EXPECT_GE(clock.at(INT64_MAX, 0), begin);
+  }
 }
 
 TEST(MotionFilter, ManySmallStepsAreOneLarge) {

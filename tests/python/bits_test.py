@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import json
 import os
-import subprocess
 import tempfile
 import unittest
 
 import numpy as np
 
+import children
 import pcl_bv
 from clouds import clouds, numbers_of
 
@@ -16,8 +16,8 @@ PCD_BV = os.path.join(os.environ["PCL_BV_BIN_DIR"], "pcd_bv")
 
 def command(path, methods):
     """What pcd_bv says of a cloud, method by method."""
-    out = subprocess.run([PCD_BV, "--volume", ",".join(methods), "--format", "json", path], check=True,
-                         capture_output=True)
+    out = children.run([PCD_BV, "--volume", ",".join(methods), "--format", "json", path],
+                       capture_output=True)
     return json.loads(out.stdout)[0]["clusters"][0]["volumes"]
 
 

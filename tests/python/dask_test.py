@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Partial results travel between the processes of Dask's distributed scheduler, and merge to the bits of the whole."""
+import faulthandler
 import operator
 import pickle
 import sys
@@ -16,6 +17,8 @@ except ImportError:
     sys.exit(77)
 
 import pcl_bv
+
+faulthandler.dump_traceback_later(540, exit=True)  # where it hangs; its workers end with this process
 
 METHODS = ["aabb", "dop26", "sphere", "obb-pca", "obb-dito14", "obb", "obb-yaw", "cylinder", "capsule", "ellipsoid", "hull"]
 # Some parts are empty, some of one point.

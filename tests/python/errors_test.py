@@ -129,14 +129,18 @@ class Errors(unittest.TestCase):
 
     def test_a_number_that_is_zero_as_a_float_is_refused_like_zero(self):
         for value in (0, -1, np.nan, np.inf, 1e-300, 1e300):
-            self.refused(ValueError, ["tolerance: ", "is not above 0 and at most 1e+06"], pcl_bv.cluster, POINTS, value)
-            self.refused(ValueError, ["class_settings: tolerance: ", "is not above 0 and at most 1e+06"], pcl_bv.cluster,
+            small = value == 1e-300
+            above = "use at least 1.4e-45" if small else "is not above 0 and at most 1e+06"
+            closed = "use 0, or at least 1.4e-45" if small else "is not at least 0 and at most 1e+06"
+            self.refused(ValueError, ["tolerance: ", above], pcl_bv.cluster, POINTS, value)
+            self.refused(ValueError, ["class_settings: tolerance: ", above], pcl_bv.cluster,
                          POINTS, 1, classes=[0] * 50, class_settings={1: {"tolerance": value}})
             if value != 0:
-                self.refused(ValueError, ["tolerance_per_metre: ", "is not at least 0 and at most 1e+06"], pcl_bv.cluster,
+                self.refused(ValueError, ["tolerance_per_metre: ", closed], pcl_bv.cluster,
                              POINTS, 1, tolerance_per_metre=value)
-                self.refused(ValueError, ["cluster.tolerance: ", "is not at least 0 and at most 1e+06"], pcl_bv.Pipeline,
+                self.refused(ValueError, ["cluster.tolerance: ", closed], pcl_bv.Pipeline,
                              cluster={"tolerance": value})
+        pcl_bv.cluster(POINTS, 1.4e-45)
 
     def test_settings_without_end_are_no_crash(self):
         deep = {}

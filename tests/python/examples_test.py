@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
+
+import children
 
 EXAMPLES = sorted(pathlib.Path(os.environ["PCL_BV_EXAMPLES"]).glob("*.py"))
 
@@ -16,17 +17,16 @@ class Examples(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for example in EXAMPLES:
                 with self.subTest(example.name):
-                    done = subprocess.run([sys.executable, "-W", "error", example], cwd=folder,
-                                          capture_output=True, text=True)
+                    done = children.run([sys.executable, "-W", "error", example], cwd=folder, check=False,
+                                        capture_output=True, text=True)
                     self.assertEqual((done.returncode, done.stderr), (0, ""))
                     self.assertTrue(done.stdout)
                     self.assertEqual(os.listdir(folder), [])
 
     def test_a_picture_is_written_where_one_is_asked_for(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([sys.executable, EXAMPLES[1], "synth:street:20000:1", "street.png"], cwd=folder,
-                           check=True,
-                           capture_output=True)
+            children.run([sys.executable, EXAMPLES[1], "synth:street:20000:1", "street.png"], cwd=folder,
+                         capture_output=True)
             self.assertEqual(pathlib.Path(folder, "street.png").read_bytes()[:4], b"\x89PNG")
 
     def test_they_are_short(self):

@@ -4,14 +4,13 @@ import csv
 import json
 import os
 import pathlib
-import signal
-import subprocess
-import sys
+import struct
 import tempfile
 import unittest
 
 import numpy as np
 
+import children
 import pcl_bv
 from clouds import normal, street
 
@@ -89,8 +88,8 @@ class Files(unittest.TestCase):
         frames = list(pcl_bv.frames(made))
         for kind, name in (("mcap", "a.mcap"), ("rosbag2", "b")):
             path = self.folder / name
-            subprocess.run([os.path.join(BIN, "bv_stream"), "--source", made, "--rate", "max",
-                            "--sink", f"{kind}:{path},points"], check=True, capture_output=True)
+            children.run([os.path.join(BIN, "bv_stream"), "--source", made, "--rate", "max",
+                          "--sink", f"{kind}:{path},points"], capture_output=True)
             recorded = list(pcl_bv.frames(path))
             self.assertEqual([f.stamp_ns for f in recorded], [f.stamp_ns for f in frames])
             for number, (one, other) in enumerate(zip(recorded, frames)):
@@ -101,6 +100,41 @@ class Files(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "/nothing"):
                 pcl_bv.frames(path, topic="/nothing")
 
+    @unittest.skipUnless(os.path.exists(os.path.join(BIN, "bv_stream")), "the commands are not built")
+    def test_what_is_noticed_of_a_recording_is_a_warning(self):
+        path = self.folder / "damaged.mcap"
+        children.run([os.path.join(BIN, "bv_stream"), "--source", "synth:street-sequence:6", "--rate", "max",
+                      "--sink", f"mcap:{path},points"], capture_output=True)
+        content = bytearray(path.read_bytes())
+        middle = len(content) // 2
+        content[middle:middle + 40] = b"\x55" * 40
+        path.write_bytes(content)
+        with self.assertWarnsRegex(UserWarning, "damaged.mcap: passed over "):
+            pcl_bv.read(path, number=4)
+        with self.assertRaisesRegex(OSError, "ends before this cloud; passed over "):
+            pcl_bv.read(path, number=5)
+
+    def test_a_capture_of_two_sensors_is_a_warning(self):
+        def packet(azimuth, port):
+            blocks = b"".join(struct.pack("<HH", 0xEEFF, (azimuth + 40 * block) % 36000) +
+                              b"".join(struct.pack("<HB", 1000 + laser, laser) for laser in range(32))
+                              for block in range(12))
+            payload = blocks + struct.pack("<IBB", 0, 0x37, 0x22)
+            datagram = struct.pack(">HHHH", port, 2368, 8 + len(payload), 0) + payload
+            ip = struct.pack(">BBHHHBBH4s4s", 0x45, 0, 20 + len(datagram), 0, 0, 64, 17, 0,
+                             b"\x01\x02\x03\x04", b"\0" * 4)
+            return b"m" * 12 + b"\x08\0" + ip + datagram
+
+        capture = struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 1)
+        for number, azimuth in enumerate(range(0, 2 * 36000, 480)):
+            for port in (2368, 2369):
+                frame = packet(azimuth % 36000, port)
+                capture += struct.pack("<IIII", 100, 1327 * number, len(frame), len(frame)) + frame
+        path = self.folder / "two_sensors.pcap"
+        path.write_bytes(capture)
+        with self.assertWarnsRegex(UserWarning, r"two_sensors.pcap: packets of 2 sensors \(1.2.3.4:2368"):
+            pcl_bv.read(path)
+
     def test_a_live_source_that_is_silent_can_be_interrupted(self):
         try:
             pcl_bv.frames("dds:/pcl_bv_python_test_of_silence")
@@ -108,12 +142,8 @@ class Files(unittest.TestCase):
             self.assertIn("pcl_bv_dds.so is not installed", str(error))
             return
         program = "import pcl_bv\nframes = pcl_bv.frames('dds:/pcl_bv_python_test_of_silence')\n"
-        program += "print('on', flush=True)\n"
-        with subprocess.Popen([sys.executable, "-c", program + "next(frames)"], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as waiting:
-            self.assertEqual(waiting.stdout.readline(), "on\n")
-            waiting.send_signal(signal.SIGINT)
-            self.assertIn("KeyboardInterrupt", waiting.communicate(timeout=60)[1])
+        program += "print('on', flush=True)\nnext(frames)"
+        self.assertIn("KeyboardInterrupt", children.interrupted(program, "on"))
 
     def test_frames_of_a_folder_come_in_their_order_with_rates_and_poses(self):
         for i in range(3):

@@ -33,12 +33,12 @@ def main(source, work):
     pip = [sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index",
            "--prefix", prefix,
            "--ignore-installed", "--break-system-packages", copy]
-    subprocess.run(pip, check=True, env=environment, cwd=empty)
+    subprocess.run(pip, check=True, env=environment, cwd=empty, timeout=1500)
     installed = [path.parent for path in prefix.rglob("pcl_bv/__init__.py")]
     assert len(installed) == 1, installed
     environment["PYTHONPATH"] = str(installed[0].parent)
     subprocess.run([sys.executable, "-W", "error", "-c", PROGRAM, prefix], check=True, env=environment,
-                   cwd=empty)
+                   cwd=empty, timeout=120)
     shutil.rmtree(work)
 
 

@@ -3,13 +3,13 @@
 import json
 import os
 import pickle
-import subprocess
 import tempfile
 import unittest
 import warnings
 
 import numpy as np
 
+import children
 import pcl_bv
 from clouds import normal, street
 
@@ -19,8 +19,7 @@ SETTINGS = dict(filter={"range_min": 1, "range_max": 60}, cluster={"tolerance": 
 
 
 def run(*arguments):
-    return subprocess.run([os.path.join(BIN, arguments[0]), *arguments[1:]], check=True,
-                          capture_output=True).stdout
+    return children.run([os.path.join(BIN, arguments[0]), *arguments[1:]], capture_output=True).stdout
 
 
 class Warnings(unittest.TestCase):
@@ -127,11 +126,12 @@ class Pipelines(unittest.TestCase):
 
     def test_the_configuration_goes_both_ways(self):
         config = pcl_bv.Pipeline(SETTINGS, preset="indoor", cluster={"max_size": 999}, threads=2,
-                                 ground={"up": [0, -1, -1], "sensor": (1, 2, 3)},
+                                 ground={"method": "zones", "up": [0, -1, -1], "sensor": (1, 2, 3)},
                                  filter={"range_max": float("inf")}).config
         self.assertEqual(config["cluster"]["max_size"], 999)
         self.assertEqual(config["cluster"]["min_size"], 20)
-        self.assertEqual(config["ground"]["method"], "plane")
+        self.assertEqual(config["ground"]["method"], "zones")
+        self.assertEqual(pcl_bv.Pipeline(preset="indoor").config["ground"]["method"], "plane")
         self.assertEqual(config["ground"]["sensor"], [1, 2, 3])
         self.assertEqual(config["volumes"], SETTINGS["volumes"])
         self.assertEqual(pcl_bv.Pipeline(config).config, config)

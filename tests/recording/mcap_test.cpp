@@ -258,7 +258,8 @@ TEST_F(Mcap, RefusesTopicsThatAreNotThere) {
 }
 
 TEST_F(Mcap, ThatCannotBeWrittenSaysSo) {
-  EXPECT_THROW(McapWriter("/dev/full"), IoError);
+  McapWriter full("/dev/full");
+  EXPECT_THROW(full.close(), IoError);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ void refuse_other_formats(const std::filesystem::path& path) {
        "is a mesh, no cloud: sample points of it, as with pcl_mesh_sampling"},
       {" .e57 .rcp .rcs .fls .zfs ", "is a scanner's own format: convert it to .las, .ply or .pcd"},
       {" .bag .mcap .db3 .pcap .pcapng ",
-       "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does"},
+       "is a recording, not a cloud: read it with open_recording() or RecordedClouds"},
       {" .xyz .txt .csv .asc .pts ", "is plain text: a .pcd header before the lines makes it a cloud"}};
   const std::string extension = " " + lower_case_extension(path) + " ";
   for (const auto& [extensions, what] : kinds) {

@@ -40,16 +40,22 @@ std::uint64_t time_of(std::int64_t nanoseconds) {
 class McapWriter::State {
  public:
   State(const std::filesystem::path& file, const Options& options)
-      : file_(file, O_WRONLY | O_CREAT | O_TRUNC, 0666, ""), options_(options) {
-    Buffer start;
-    Writer writer(start);
+      : file_(opened(file, made_)), options_(options) {
+    Writer writer(start_);
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
     writer.begin(Op::header);
     writer.text("ros2");
     writer.text("pcl_bv");
     writer.end();
-    append(start);
   }
+  // Without a message what was there before stays.
+  ~State() {
+    if (!start_.empty() && !made_.empty()) ::unlink(made_.c_str());
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  bool has_begun() const { return start_.empty(); }
 
   std::size_t add_topic(const WrittenTopic& topic) {
     if (channels_.size() == std::numeric_limits<std::uint16_t>::max())
@@ -64,13 +70,18 @@ class McapWriter::State {
     Writer writer(records);
     put(writer, open.schema);
     put(writer, open.channel);
-    append(records);
+    if (has_begun()) {
+      append(records);
+    } else {
+      start_.insert(start_.end(), records.begin(), records.end());
+    }
     return id;
   }
 
   void write(std::size_t topic, std::uint64_t log_time, std::uint64_t publish_time, const std::byte* data,
              std::size_t size) {
     OpenChannel& channel = channels_.at(topic);
+    begin();
     const bool first = chunk_.empty();
     first_time_ = first ? log_time : std::min(first_time_, log_time);
     last_time_ = first ? log_time : std::max(last_time_, log_time);
@@ -88,6 +99,7 @@ class McapWriter::State {
 
   void attach(const std::string& name, const std::string& media_type, const std::string& content,
               std::uint64_t log_time) {
+    begin();
     Buffer record;
     Writer writer(record);
     writer.begin(Op::attachment);
@@ -106,6 +118,7 @@ class McapWriter::State {
 
   void close() {
     if (closed_) return;
+    begin();
     end_chunk();
     closed_ = true;
     Buffer end;
@@ -119,6 +132,25 @@ class McapWriter::State {
   }
 
  private:
+  static FileDescriptor opened(const std::filesystem::path& file, std::filesystem::path& made) {
+    constexpr int flags = O_WRONLY | O_CREAT;
+    try {
+      FileDescriptor fresh(file, flags | O_EXCL, 0666, "");
+      made = file;
+      return fresh;
+    } catch (const IoError&) {  // there already
+      return FileDescriptor(file, flags, 0666, "");
+    }
+  }
+
+  // Empties the file and writes what comes before the first message. A pipe cannot be emptied.
+  void begin() {
+    if (has_begun()) return;
+    if (::ftruncate(file_.get(), 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));
+    append(start_);
+    start_.clear();
+  }
+
   // Whole or not at all, so that what follows, if only the summary, can still be read.
   void append(const Buffer& bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
@@ -226,8 +258,10 @@ class McapWriter::State {
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
   }
 
+  std::filesystem::path made_;  // the file, if it was not there
   FileDescriptor file_;
   Options options_;
+  Buffer start_;  // the header and the first topics, until they are written
   std::uint64_t at_ = 0;
   std::vector<OpenChannel> channels_;
   std::vector<mcap::ChunkIndex> chunks_;
@@ -245,7 +279,7 @@ McapWriter::McapWriter(const std::filesystem::path& file, const Options& options
 
 McapWriter::~McapWriter() {
   try {
-    state_->close();
+    if (state_->has_begun()) state_->close();
   } catch (const std::exception&) {  // a destructor has nobody to tell
   }
 }

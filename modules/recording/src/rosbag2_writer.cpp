@@ -4,9 +4,11 @@
 #include "pcl_bv/recording/rosbag2_writer.h"
 
 #include <sqlite3.h>
+#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
@@ -15,6 +17,7 @@
 
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/posix_file.h"
 #include "sqlite_problem.h"
 
 namespace pcl_bv {
@@ -63,39 +66,44 @@ YAML::Node nanoseconds(const char* name, std::int64_t value) {
 class Rosbag2Writer::State {
  public:
   explicit State(const fs::path& folder) : folder_(made_folder(folder)), file_(name_of(folder) + "_0.db3") {
+    if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw IoError(system_reason(errno));
+  }
+  ~State() { release(); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  // Replaces what is there. Not before the first message: a recording that is opened in vain costs no other.
+  void open() {
+    if (database_ != nullptr) return;
+    if (closed_) throw IoError("the recording is closed");
     std::error_code unknown;
     for (const char* more : {"", "-wal", "-shm"})
       fs::remove(folder_ / (file_ + more), unknown);
     fs::remove(folder_ / "metadata.yaml", unknown);
     if (sqlite3_open((folder_ / file_).c_str(), &database_) != SQLITE_OK) {
       const std::string why = sqlite_problem(database_);
-      sqlite3_close(database_);
+      sqlite3_close(std::exchange(database_, nullptr));
       throw IoError(why);
     }
     try {
       run(kBegin);
       prepare("INSERT INTO topics VALUES(?, ?, ?, 'cdr', ?)", &topic_);
       prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", &message_);
+      for (std::size_t number = 0; number < topics_.size(); ++number)
+        insert(number);
     } catch (const IoError&) {
       release();
       throw;
     }
   }
-  ~State() { release(); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
+  bool has_begun() const { return database_ != nullptr; }
 
   std::size_t add_topic(const WrittenTopic& topic) {
     if (topics_.size() == std::numeric_limits<std::uint16_t>::max())
       throw std::length_error("a recording of more than 65535 topics");
     const auto qos = topic.metadata.find("offered_qos_profiles");
     topics_.push_back({topic.name, topic.type, qos == topic.metadata.end() ? "" : qos->second, 0});
-    const Topic& added = topics_.back();
-    sqlite3_bind_int64(topic_, 1, static_cast<sqlite3_int64>(topics_.size()));
-    bind(topic_, 2, added.name);
-    bind(topic_, 3, added.type);
-    bind(topic_, 4, added.qos);
-    step(topic_);
+    if (has_begun()) insert(topics_.size() - 1);
     return topics_.size() - 1;
   }
 
@@ -103,6 +111,7 @@ class Rosbag2Writer::State {
     Topic& topic = topics_.at(number);
     if (size > static_cast<std::size_t>(std::numeric_limits<int>::max()))
       throw IoError("a message of 2 GiB or more");
+    open();
     begin();
     const std::size_t id = number + 1;
     sqlite3_bind_int64(message_, 1, static_cast<sqlite3_int64>(id));
@@ -117,11 +126,14 @@ class Rosbag2Writer::State {
   }
 
   void attach(const std::string& name, const std::string& content) {
+    open();
     write_file_atomically(folder_ / fs::path(name).filename(), content);
   }
 
   void close() {
-    if (database_ == nullptr) return;
+    if (closed_) return;
+    open();
+    closed_ = true;
     commit();
     run("PRAGMA journal_mode = DELETE");  // all into the one file
     release();
@@ -150,6 +162,14 @@ class Rosbag2Writer::State {
     const std::string why = done ? "" : sqlite_problem(database_);
     sqlite3_reset(statement);
     if (!done) throw IoError(why);
+  }
+  void insert(std::size_t number) {
+    const Topic& topic = topics_[number];
+    sqlite3_bind_int64(topic_, 1, static_cast<sqlite3_int64>(number + 1));
+    bind(topic_, 2, topic.name);
+    bind(topic_, 3, topic.type);
+    bind(topic_, 4, topic.qos);
+    step(topic_);
   }
   void begin() {
     if (sqlite3_get_autocommit(database_) == 0) return;
@@ -207,7 +227,8 @@ class Rosbag2Writer::State {
 
   fs::path folder_;
   std::string file_;
-  sqlite3* database_ = nullptr;
+  bool closed_ = false;
+  sqlite3* database_ = nullptr;  // null before the first message
   sqlite3_stmt *topic_ = nullptr, *message_ = nullptr;
   std::vector<Topic> topics_;
   Clock::time_point begun_{};
@@ -219,7 +240,7 @@ Rosbag2Writer::Rosbag2Writer(const fs::path& folder) : state_(std::make_unique<S
 
 Rosbag2Writer::~Rosbag2Writer() {
   try {
-    state_->close();
+    if (state_->has_begun()) state_->close();
   } catch (const std::exception&) {  // a destructor has nobody to tell
   }
 }

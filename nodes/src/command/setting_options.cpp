@@ -138,8 +138,7 @@ void SettingOptions::refuse_useless(const PipelineConfig& config) const {
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
   for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized", "--class"})
     refuse(option, clusters, "--cluster");
-  const bool zones = config.ground.method == GroundMethod::zones || line_.given("--ground");
-  refuse("--sensor", zones, "--ground zones");
+  refuse("--sensor", config.ground.method == GroundMethod::zones, "--ground zones");
   for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
     refuse(option, ground, "--ground");
 }

@@ -92,11 +92,13 @@ auto checker(std::vector<ConfigProblem>& problems) {
 std::string problem_of(const Setting& setting, double value) {
   const auto& [least, most, closed, as_float] = setting.range;
   const bool vanishes = as_float && value > 0 && static_cast<float>(value) == 0;
-  if ((closed ? value >= least : value > least) && value <= most && !vanishes) return {};  // false for NaN
+  if (vanishes)
+    return to_text(value) + " is too small: it is 0 as float32, which points are; use " +
+           (closed ? "0, or " : "") + "at least 1.4e-45";
+  if ((closed ? value >= least : value > least) && value <= most) return {};  // false for NaN
   std::string allowed = (closed ? " is not at least " : " is not above ") + to_text(least);
   if (most < kFinite) allowed += " and at most " + to_text(most);
   if (most == kFinite) allowed += " and finite";
-  if (vanishes) allowed += ": it is 0 as a float, which points are";
   return to_text(value) + allowed;
 }
 

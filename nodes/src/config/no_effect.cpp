@@ -40,7 +40,8 @@ std::vector<std::string> PipelineConfig::without_effect() const {
                                    [](const ClassConfig& own) { return own.max_size.has_value(); });
   check("cluster.oversized", cluster.oversized != Oversized::drop, limited, "cluster.max_size");
   const bool grounded = ground.method != GroundMethod::none;
-  check("ground.sensor", ground.sensor.has_value(), grounded, "ground.method");
+  check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones,
+        "ground.method zones");
   check("ground.sensor_height", ground.sensor_height.has_value(), grounded, "ground.method");
   check("ground.distance", ground.distance.has_value(), grounded, "ground.method");
   check("ground.max_slope_degrees", ground.max_slope_degrees.has_value(), grounded, "ground.method");

@@ -28,7 +28,7 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
       } else {
         result.text += piece;
       }
-      if (write && result.text.size() > many) result.is_begun |= write(result.text);
+      if (write && result.text.size() > many) result.partly_written |= write(result.text);
     });
     return result;
   } catch (const std::bad_alloc&) {
@@ -41,7 +41,7 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
   result.text.clear();
   result.points = 0;
   result.status = worse(outcome.status, Status::failed);
-  if (!result.is_begun) render(failed, {}, format, [&](std::string& piece) { result.text += piece; });
+  if (!result.partly_written) render(failed, {}, format, [&](std::string& piece) { result.text += piece; });
   return result;
 }
 
@@ -96,7 +96,7 @@ void InOrder::take(std::size_t job, Result result) {
   const std::lock_guard lock(mutex_);
   waiting_.emplace(job, std::move(result));
   for (auto first = waiting_.begin();
-       first != waiting_.end() && first->first == written_ && (!stopped_ || is_begun_);
+       first != waiting_.end() && first->first == written_ && (!stopped_ || partly_written_);
        first = waiting_.erase(first), ++written_) {
     write(first->second);
   }
@@ -121,7 +121,7 @@ Status InOrder::finish() {
 void InOrder::interrupt() {
   std::unique_lock lock(mutex_);
   stopped_ = true;
-  written_one_.wait(lock, [&] { return !is_begun_; });
+  written_one_.wait(lock, [&] { return !partly_written_; });
   progress_.erase();
   if (reports_ == Reports::wanted && written_ > 0) attempt_to_write([&] { return writer_.finish(); });
   reports_ = Reports::unread;
@@ -130,9 +130,9 @@ void InOrder::interrupt() {
 
 bool InOrder::write_early(std::size_t job, std::vector<std::string>& complaints, std::string& text) {
   const std::lock_guard lock(mutex_);
-  if (job != written_ || (stopped_ && !is_begun_)) return false;
+  if (job != written_ || (stopped_ && !partly_written_)) return false;
   say_all(std::exchange(complaints, {}));
-  write_text(std::exchange(text, {}), std::exchange(is_begun_, true));
+  write_text(std::exchange(text, {}), std::exchange(partly_written_, true));
   return true;
 }
 
@@ -149,7 +149,7 @@ void InOrder::write_text(std::string&& text, bool goes_on) {
 
 void InOrder::write(Result& result) {
   say_all(result.complaints);
-  write_text(std::move(result.text), std::exchange(is_begun_, false));
+  write_text(std::move(result.text), std::exchange(partly_written_, false));
   status_ = worse(status_, result.status);
   failed_ += result.status == Status::failed ? 1 : 0;
   points_ += result.points;

@@ -22,8 +22,8 @@ namespace pcl_bv {
 
 /// What is left of a job once it is done.
 struct Result {
-  std::string text;       ///< What is not written yet.
-  bool is_begun = false;  ///< Whether some is.
+  std::string text;             ///< What is not written yet.
+  bool partly_written = false;  ///< A first part has been written.
   std::vector<std::string> complaints;
   std::size_t points = 0;
   Status status = Status::done;
@@ -99,7 +99,7 @@ class InOrder {
   std::map<std::size_t, Result> waiting_;  ///< For the results before them.
   std::size_t next_ = 0, written_ = 0;
   bool stopped_ = false;
-  bool is_begun_ = false;  ///< Whether a part of report `written_` is written.
+  bool partly_written_ = false;  ///< A first part of report `written_` has been written.
   Status status_ = Status::done;
   std::size_t failed_ = 0, points_ = 0;
   ReportWriter writer_;

@@ -29,6 +29,24 @@ bool is_folder(const std::string& path) {
   return !is_synth(path) && fs::is_directory(path, unknown);
 }
 
+void complain_of(RecordedClouds& clouds, const std::string& file) {
+  for (const std::string& remark : clouds.take_remarks())
+    complain(std::string(file).append(": ").append(remark));
+}
+
+// Much of what is damaged is only found while clouds are read.
+RawCloud load_recorded(const Job& job) {
+  const std::string file = job.input.substr(0, job.input.rfind('#'));
+  try {
+    RawCloud cloud = job.recording->load(job.number);
+    complain_of(*job.recording, file);
+    return cloud;
+  } catch (const std::exception&) {
+    complain_of(*job.recording, file);
+    throw;
+  }
+}
+
 std::vector<Job> expand_recording(const std::string& argument, const std::string& topic) {
   const auto clouds = std::make_shared<RecordedClouds>(argument, topic);
   const std::size_t count = clouds->count();
@@ -40,8 +58,7 @@ std::vector<Job> expand_recording(const std::string& argument, const std::string
     job.recording = clouds;
     job.number = i;
   }
-  for (const std::string& remark : clouds->remarks())
-    complain(std::string(argument).append(": ").append(remark));
+  complain_of(*clouds, argument);
   if (jobs.empty()) return {{argument, "no cloud in this recording"}};
   return jobs;
 }
@@ -49,6 +66,7 @@ std::vector<Job> expand_recording(const std::string& argument, const std::string
 std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   try {
     if (!is_synth(argument) && has_recorded_clouds(argument)) return expand_recording(argument, topic);
+    if (!is_synth(argument)) refuse_false_recording(argument);
   } catch (const IoError& error) {
     return {{argument, error.what()}};
   } catch (const std::invalid_argument& error) {
@@ -175,7 +193,7 @@ RawCloud load_cloud(const Job& job, const ParallelPolicy& policy) {
     const std::string_view scene = std::string_view(job.input).substr(synth_prefix.size());
     return to_raw_cloud(make_synth(parse_synth(scene)));
   }
-  if (job.recording) return job.recording->load(job.number);
+  if (job.recording) return load_recorded(job);
   return read_cloud(job.input, policy, job.bin_fields);
 }
 

@@ -14,11 +14,12 @@
 
 namespace pcl_bv {
 
-/// A report in a format, without what stands between reports: the part of the writing that can be done for
-/// several at a time. In pieces, of which none is empty; no piece if the format does not show failed inputs.
+/// Renders one report without the separators between reports, so that several can be rendered at a time.
+/// `take` gets the text in pieces that are not empty. It gets none for a failed input if the format does not
+/// show those.
 void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take);
 
-/// Writes rendered reports. All verbs give false if nobody reads any more and throw IoError.
+/// Writes rendered reports. All member functions return false if nobody reads any more and throw IoError.
 class ReportWriter {
  public:
   ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// LinesOfFrame that others may read while they grow.
+// Lines that others may read while they grow.
 
 #include "line_file.h"
 #include "pcl_bv/report/csv.h"

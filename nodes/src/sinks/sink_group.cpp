@@ -26,15 +26,12 @@ fs::path first_missing(const fs::path& place) {
   return missing;
 }
 
-// The file, or the folder with the files in it, and the folders above that were made for it and are empty.
-void remove_what_was_made(const fs::path& place, const fs::path& outermost) {
+// Folders from `place` up to `outermost` that are empty. Files are removed by the sink that made them: others
+// may write into the same folder.
+void remove_empty_folders(const fs::path& place, const fs::path& outermost) {
   std::error_code unknown;
-  if (fs::is_directory(place, unknown)) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(place, unknown))
-      if (!entry.is_directory(unknown)) fs::remove(entry.path(), unknown);
-  }
   for (fs::path at = place;; at = at.parent_path()) {
-    fs::remove(at, unknown);
+    if (fs::is_directory(fs::symlink_status(at, unknown))) fs::remove(at, unknown);
     if (at == outermost || at == at.parent_path()) return;
   }
 }
@@ -59,7 +56,7 @@ SinkGroup::~SinkGroup() {
   members_.clear();
   if (used_) return;
   for (const auto& [place, outermost] : made_)
-    remove_what_was_made(place, outermost);
+    remove_empty_folders(place, outermost);
 }
 
 void SinkGroup::add(std::string name, std::unique_ptr<FrameSink> sink) {

@@ -14,7 +14,7 @@ namespace pcl_bv {
 
 /// How a name writes a time, the surest way first.
 enum class TimeKind : std::uint8_t {
-  epoch,   ///< Since 1970: 1317384506.25, 1317384506_250000000, or a whole number of ms, us or ns.
+  epoch,   ///< Since 1970: 1317384506.25, 1317384506_250000000, or a whole number of s, ms, us or ns.
   date,    ///< 20121214T142259.814212, 2024-03-21T12-59-59.900Z, 2024_03_21_12_59_59
   day,     ///< 12-59-59.900: hours, minutes, seconds
   decimal  ///< 899.011149430: seconds since some beginning

@@ -4,11 +4,17 @@
 #include "pcl_bv/nodes/recorded_clouds.h"
 
 #include <algorithm>
+#include <array>
+#include <exception>
+#include <functional>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
 
 #include "pcl_bv/io/io_error.h"
+#include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/nodes/cloud_message.h"
 #include "pcl_bv/recording/recording.h"
@@ -73,12 +79,29 @@ bool has_recorded_clouds(const std::filesystem::path& file) {
   return is_recording(file) || is_capture(file);
 }
 
+void refuse_false_recording(const std::filesystem::path& file) {
+  constexpr std::array names{".bag", ".mcap", ".db3", ".pcap", ".pcapng"};
+  std::error_code unknown;
+  if (std::find(names.begin(), names.end(), lower_case_extension(file)) == names.end() ||
+      std::filesystem::is_directory(file, unknown) || has_recorded_clouds(file))
+    return;
+  static_cast<void>(InputFile(file));  // no such file, or an empty one, is the better reason
+  throw IoError(
+      "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does");
+}
+
+// Of the threads that take numbers in order, each but one may be late by some.
+constexpr std::size_t kMostPassedOver = 16;
+
 struct RecordedClouds::State {
   std::unique_ptr<RecordingReader> reader;
   std::unique_ptr<VelodyneReader> packets;  // instead of it
   std::size_t topic = 0;
   std::size_t next = 0;  // number of the cloud that comes next
-  std::string said;
+  std::map<std::size_t, std::function<RawCloud()>> passed_over;  // by number: the cloud, or its error
+  std::string note;                                              // of the cloud before the next
+  std::map<std::size_t, std::string> notes;  // by number: those that differ from the one before
+  std::vector<std::string> taken;            // remarks
   mutable std::mutex mutex;
 
   void rewind() {
@@ -88,6 +111,7 @@ struct RecordedClouds::State {
       reader->select({topic});
     }
     next = 0;
+    note.clear();
   }
 
   // Of the next cloud the bytes; false at the end.
@@ -98,6 +122,30 @@ struct RecordedClouds::State {
     const bool ros1 = reader->topics()[topic].encoding != "cdr";
     return raw_cloud_of(cloud_in({message.data, message.size, nullptr, ros1}));
   }
+
+  // The cloud that was taken, also counted if it throws. Which clouds get a note does not depend on the order
+  // in which they are loaded.
+  RawCloud noted_cloud() {
+    const std::size_t number = next++;
+    RawCloud made = cloud();
+    if (made.note != note) notes[number] = made.note;
+    note = made.note;
+    return made;
+  }
+
+  // Stores the cloud that was taken.
+  void pass_over() {
+    std::function<RawCloud()>& stored = passed_over[next];
+    try {
+      const auto made = std::make_shared<RawCloud>(noted_cloud());
+      stored = [made] { return std::move(*made); };
+    } catch (const std::exception&) {
+      stored = [error = std::current_exception()]() -> RawCloud { std::rethrow_exception(error); };
+    }
+    if (passed_over.size() > kMostPassedOver) passed_over.erase(passed_over.begin());
+  }
+
+  std::vector<std::string> remarks() const { return packets ? packets->remarks() : reader->remarks(); }
 
   RecordedMessage message;
   VelodyneSweep sweep;
@@ -128,21 +176,41 @@ std::size_t RecordedClouds::count() {
 
 RawCloud RecordedClouds::load(std::size_t number) {
   const std::lock_guard lock(state_->mutex);
-  if (number < state_->next) state_->rewind();
-  for (; state_->next <= number; ++state_->next) {
-    if (!state_->take()) throw IoError("the recording ends before this cloud");
+  State& state = *state_;
+  if (const auto stored = state.passed_over.extract(number)) return stored.mapped()();
+  if (number < state.next) state.rewind();
+  for (;;) {
+    if (!state.take()) throw IoError("the recording ends before this cloud");
+    if (state.next == number) return state.noted_cloud();
+    if (number - state.next > kMostPassedOver) {
+      ++state.next;
+    } else {
+      state.pass_over();
+    }
   }
-  return state_->cloud();
 }
 
-std::string RecordedClouds::unsaid(const std::string& note) {
+std::string RecordedClouds::unsaid(std::size_t number) const {
   const std::lock_guard lock(state_->mutex);
-  return note == std::exchange(state_->said, note) ? std::string() : note;
+  const auto found = state_->notes.find(number);
+  return found == state_->notes.end() ? std::string() : found->second;
 }
 
 std::vector<std::string> RecordedClouds::remarks() const {
   const std::lock_guard lock(state_->mutex);
-  return state_->packets ? state_->packets->remarks() : state_->reader->remarks();
+  return state_->remarks();
+}
+
+// By their texts: what is read again is found damaged again.
+std::vector<std::string> RecordedClouds::take_remarks() {
+  const std::lock_guard lock(state_->mutex);
+  std::vector<std::string> fresh;
+  for (std::string& remark : state_->remarks()) {
+    if (std::find(state_->taken.begin(), state_->taken.end(), remark) != state_->taken.end()) continue;
+    state_->taken.push_back(remark);
+    fresh.push_back(std::move(remark));
+  }
+  return fresh;
 }
 
 }  // namespace pcl_bv

@@ -13,6 +13,7 @@
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/nodes/message_source.h"
+#include "pcl_bv/nodes/recorded_clouds.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/recording/velodyne.h"
 #include "pcl_bv/synth/street.h"
@@ -33,7 +34,9 @@ NameTimes times_of(std::vector<std::filesystem::path>& files) {
   NameTimes times = times_of_names(stems);
   if (std::all_of(times.stamps.begin(), times.stamps.end(), [](std::int64_t stamp) { return stamp < 0; }))
     throw std::invalid_argument(files.front().string() +
-                                ": no time in its name, nor in others: whole numbers below 1e9 count frames");
+                                ": no time in its name, nor in others: whole numbers count frames, except "
+                                "seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262, and "
+                                "nanoseconds from 1e16 on");
   if (!times.sort) return times;
   std::vector<std::pair<std::int64_t, std::filesystem::path>> sorted;
   for (std::size_t i = 0; i < files.size(); ++i)
@@ -58,6 +61,7 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
   return make_replay(
       length, std::move(files), options,
       [fields = options.bin_fields, classes = options.class_field](std::size_t, Frame& frame) {
+        refuse_false_recording(frame.file);
         const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, Serial{}, fields));
         frame.points = cloud->xyz();
         frame.intensity = intensity_of(cloud->fields, cloud->data.data(), cloud->point_step);

@@ -139,13 +139,13 @@ WrittenTime of_nanoseconds(std::int64_t stamp) {
   return {TimeKind::epoch, stamp / kSecond, std::string(9 - rest.size(), '0') + rest};
 }
 
-// Whole numbers: seconds of 2001 to 2033, milliseconds of 2001 to 2286, microseconds of the same time, and
-// nanoseconds from 1e16 on. Others count frames.
+// Whole numbers: seconds of 2001 to 2033, milliseconds and microseconds of 2001 to 2262, where nanoseconds of
+// 64 bits end, and nanoseconds from 1e16 on. Others count frames.
 std::optional<WrittenTime> epoch_of(std::int64_t value) {
   constexpr std::int64_t e9 = 1'000'000'000, e12 = 1000 * e9, e15 = 1000 * e12;
   if (value >= 10 * e15) return of_nanoseconds(value);
-  if (value >= e15) return of_nanoseconds(1000 * value);
-  if (value >= e12 && value < 10 * e12) return of_nanoseconds(1'000'000 * value);
+  if (value >= e15 && value <= INT64_MAX / 1000) return of_nanoseconds(1000 * value);
+  if (value >= e12 && value <= INT64_MAX / 1'000'000) return of_nanoseconds(1'000'000 * value);
   if (value >= e9 && value < 2 * e9) return WrittenTime{TimeKind::epoch, value};
   return std::nullopt;
 }

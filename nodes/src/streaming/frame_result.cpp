@@ -82,9 +82,9 @@ std::string range_remark(const FrameResult& result, const std::string& from) {
 std::string track_remark(const FrameResult& result) {
   switch (result.track_time) {
     case TrackTime::recorded:
-      return "its stamp is not later than the one before: tracks use the times of recording";
+      return "frame stamps do not advance: tracking uses the recording times";
     case TrackTime::none:
-      return "its stamp is not later than the one before: tracks learn no velocity from it";
+      return "frame stamps do not advance: tracking gets no velocity from this frame";
     default:
       return {};
   }

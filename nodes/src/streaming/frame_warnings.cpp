@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "pcl_bv/nodes/settings.h"
 #include "pcl_bv/segmentation/sensor_place.h"
@@ -24,6 +25,7 @@ constexpr double kLittleGround = 0.15;
 struct Found {
   const Frame& frame;
   const FrameResult& result;
+  bool& searched;  // whether little ground was once a reason to search another up direction
 
   const PipelineConfig& config() const { return *result.config; }
   bool zones() const { return config().ground.method == GroundMethod::zones; }
@@ -62,6 +64,8 @@ std::string ground_found(const Found& f) {
 std::string little_ground(const Found& f) {
   const double share = f.ground_share();
   if (f.config().ground.method == GroundMethod::none || share == 0 || share >= kLittleGround) return {};
+  // A cluttered stream has little ground in every frame, and a search costs milliseconds.
+  if (std::exchange(f.searched, true)) return {};
   const auto other = f.other_up();
   if (!other) return {};
   return "only " + percent(share) + " of the points are ground (up is " + up_text(f.config().ground.up) +
@@ -84,9 +88,9 @@ std::string origin_elsewhere(const Found& f) {
   const bool range = f.config().filter.range_max < std::numeric_limits<double>::infinity();
   const bool growth = f.config().cluster.tolerance_per_metre > 0;
   if (!range && !growth) return {};
-  return std::string("the points do not lie around the origin, from which ") +
-         (range ? "filter.range_max" : "") + (range && growth ? " and " : "") +
-         (growth ? "cluster.tolerance_per_metre" : "") + " counts";
+  return std::string(range ? "filter.range_max" : "") + (range && growth ? " and " : "") +
+         (growth ? "cluster.tolerance_per_metre" : "") + (range && growth ? " are" : " is") +
+         " measured from the origin, but the points do not lie around it";
 }
 
 std::string far_points(const Found& f) {
@@ -111,12 +115,15 @@ constexpr std::string (*kKinds[])(const Found&) = {
 }  // namespace
 
 std::vector<std::string> FrameWarnings::take(const Frame& frame, const FrameResult& result) {
-  if (config_ != result.config) said_ = 0;
+  if (config_ != result.config) {
+    said_ = 0;
+    searched_ = false;
+  }
   config_ = result.config;
   std::vector<std::string> texts;
   std::uint32_t bit = 1;
   for (const auto& kind : kKinds) {
-    std::string text = (said_ & bit) != 0 ? "" : kind({frame, result});
+    std::string text = (said_ & bit) != 0 ? "" : kind({frame, result, searched_});
     if (!text.empty()) {
       said_ |= bit;
       texts.push_back(std::move(text));

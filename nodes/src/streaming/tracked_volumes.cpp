@@ -12,6 +12,8 @@
 namespace pcl_bv {
 namespace {
 
+constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
+
 // Tracks do not depend on what volumes are asked for.
 Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
@@ -43,17 +45,21 @@ void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, const Trac
   }
 }
 
-// Behind a stamp that did not advance the next one says nothing of the time between them either.
+// A difference of stamps after one that did not advance is not trusted either. Steps are cut to two seconds,
+// and the start is at most half of the largest number: the sum of all steps must not overflow where a driver
+// writes 0 now and then. The tracker treats all steps above one second alike.
 std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
   const auto passed = [](std::int64_t from, std::int64_t to) {
     std::int64_t nanoseconds = 0;
-    return __builtin_sub_overflow(to, from, &nanoseconds) ? 0 : std::max<std::int64_t>(nanoseconds, 0);
+    if (to <= from) return nanoseconds;
+    return __builtin_sub_overflow(to, from, &nanoseconds) ? kLongestStep
+                                                          : std::min(nanoseconds, kLongestStep);
   };
   const std::int64_t by_stamps = started_ ? passed(stamp_ns_, stamp_ns) : 0;
   const std::int64_t by_records = started_ && recorded_ns_ != 0 ? passed(recorded_ns_, recorded_ns) : 0;
   const bool doubted = source_ == TrackTime::recorded && by_records > 0;
   if (!started_) {
-    now_ns_ = stamp_ns;
+    now_ns_ = std::min(stamp_ns, INT64_MAX / 2);
   } else if (by_stamps > 0 && !doubted) {
     source_ = TrackTime::stamps;
     now_ns_ += by_stamps;

@@ -17,7 +17,7 @@ namespace pcl_bv {
 /// message, or set their clock back.
 class TrackClock {
  public:
-  /// Nanoseconds from the first stamp on, never less than before.
+  /// Nanoseconds from the first stamp on, never less than before; a step is two seconds at most.
   std::int64_t at(std::int64_t stamp_ns, std::int64_t recorded_ns);
   TrackTime source() const { return source_; }
 

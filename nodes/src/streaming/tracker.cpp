@@ -154,7 +154,7 @@ void Tracker::State::miss(const std::vector<Aabb>& boxes, std::vector<Assignment
       hides = true;
       if (track.id) assignments[b].merged = true;
     });
-    if (hides) track.apart = 0;
+    if (hides) track.seen_since_split = 0;
     if (hides && ++track.hidden % kHiddenShare != 0) continue;
     ++track.missed;
   }
@@ -168,19 +168,19 @@ void Tracker::State::start(const std::vector<Aabb>& boxes, std::size_t box,
   assignments[box].fresh = true;
   const Eigen::Vector3d centre = boxes[box].center();
   grid.visit_near(centre, [&](std::size_t b) {
-    if (box_taken[b] != 0 && holds(predicted[b], centre)) tracks[slot].out_of = assignments[b].slot;
+    if (box_taken[b] != 0 && holds(predicted[b], centre)) tracks[slot].split_from = assignments[b].slot;
   });
 }
 
 void Tracker::State::separate(std::vector<Assignment>& assignments) {
   for (const Assignment& own : assignments) {
     Track& track = tracks[own.slot];
-    if (!track.out_of || ++track.apart < kSeparate) continue;
-    const Track& other = tracks[*track.out_of];
+    if (!track.split_from || ++track.seen_since_split < kSeparate) continue;
+    const Track& other = tracks[*track.split_from];
     const bool lives = other.alive && other.age > track.age;  // a slot that is used again holds a younger one
-    const std::size_t box = lives ? assignment.columns()[*track.out_of] : SparseAssignment::none;
+    const std::size_t box = lives ? assignment.columns()[*track.split_from] : SparseAssignment::none;
     if (box != SparseAssignment::none) assignments[box].separated = true;
-    if (!lives || box != SparseAssignment::none) track.out_of.reset();
+    if (!lives || box != SparseAssignment::none) track.split_from.reset();
   }
 }
 

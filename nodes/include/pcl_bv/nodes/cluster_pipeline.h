@@ -15,8 +15,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The cloud as a frame that shares it: nothing is copied. PCL's stamps are microseconds. Throws
-/// std::invalid_argument for a null pointer.
+/// The cloud as a frame that shares it: nothing is copied. PCL's stamps are microseconds. The sensor is at
+/// sensor_origin_, PCL's reading of VIEWPOINT, unless that is 0. Throws std::invalid_argument for a null
+/// pointer.
 template <typename PointT>
 Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {
   if (cloud == nullptr) throw std::invalid_argument("make_frame: the cloud is a null pointer");
@@ -25,6 +26,8 @@ Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {
   const std::uint64_t microseconds = cloud->header.stamp < most ? cloud->header.stamp : most;
   frame.header = {cloud->header.seq, static_cast<std::int64_t>(microseconds) * 1000, cloud->header.frame_id};
   frame.points = point_view(*cloud);
+  const auto& sensor = cloud->sensor_origin_;
+  frame.sensor = place_of_sensor({sensor.x(), sensor.y(), sensor.z()});
   frame.owner = std::move(cloud);
   return frame;
 }

@@ -59,11 +59,16 @@ struct Frame {
   std::chrono::steady_clock::time_point taken{};
 };
 
-/// The place that VIEWPOINT of a .pcd says, in the frame of the points, if it is not the origin.
+/// A sensor's position as clouds note it; nothing if it is the origin, which clouds without one have, or if a
+/// coordinate is not finite or above kMaxCoordinate.
+inline std::optional<Eigen::Vector3d> place_of_sensor(const Eigen::Vector3d& noted) {
+  const bool is_place = (noted.array().abs() <= kMaxCoordinate).all() && !noted.isZero(0);  // false for NaN
+  return is_place ? std::optional(noted) : std::nullopt;
+}
+
+/// The position that VIEWPOINT of a .pcd says, in the frame of the points, as place_of_sensor().
 inline std::optional<Eigen::Vector3d> sensor_of(const RawCloud& cloud) {
-  const Eigen::Vector3d place(cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]);
-  const bool is_place = place.cwiseAbs().maxCoeff() > 0 && place.cwiseAbs().maxCoeff() <= kMaxCoordinate;
-  return is_place ? std::optional(place) : std::nullopt;
+  return place_of_sensor({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
 }
 
 /// A time of the system's clock, nanoseconds since 1970, on the clock that is never set.

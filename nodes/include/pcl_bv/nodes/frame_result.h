@@ -31,8 +31,8 @@ struct StageTimes {
 /// Where the time between a tracked frame and the one before comes from.
 enum class TrackTime : std::uint8_t {
   stamps,    ///< They advance.
-  recorded,  ///< The stamp is not later than the last one, or that was not; Frame::recorded_ns is.
-  none       ///< Neither is: tracks stay where they were.
+  recorded,  ///< This stamp or the previous one did not advance; recorded_ns did.
+  none       ///< Neither advanced: tracks stay where they were.
 };
 
 /// Reuse keeps the capacity. Indices are those of the frame's cloud.

@@ -75,10 +75,10 @@ struct SinkDescription {
 /// Reads what sink_syntax() says; opens nothing. Throws std::invalid_argument for anything else.
 SinkDescription parse_sink(const std::string& description);
 
-/// Opens it: a file is made if it is not there, and emptied by the first frame or by close(); a folder is
-/// made if it is not there. Throws IoError, std::invalid_argument without a kind. After each frame files hold
-/// whole lines (jsonl, csv; where the disk is full, the last one may be cut) and frames.pvd (vtp) lists it;
-/// files of a frame (vtp, image, labels) are named by FrameHeader::number.
+/// Opens it: a file or recording is made if it is not there, and emptied by the first frame or by close(); a
+/// folder is made if it is not there. Throws IoError, std::invalid_argument without a kind. After each frame
+/// files hold whole lines (jsonl, csv; where the disk is full, the last one may be cut) and frames.pvd (vtp)
+/// lists it; files of a frame (vtp, image, labels) are named by FrameHeader::number.
 std::unique_ptr<FrameSink> make_sink(const SinkDescription& description);
 
 /// Calls the function with each result. Throws std::invalid_argument without one.
@@ -91,8 +91,8 @@ class SinkGroup {
   /// `say` is told of each failure in words, once in a row. Throws std::invalid_argument without it.
   explicit SinkGroup(std::function<void(const std::string&)> say);
 
-  /// Without a frame and without close(), as when one of them could not be opened, nothing stays of what they
-  /// made.
+  /// Without a frame and without close(), as when one of them could not be opened, each sink removes the
+  /// files that it made, and folders that were made for them are removed if they are empty.
   ~SinkGroup();
 
   void add(std::string name, std::unique_ptr<FrameSink> sink);

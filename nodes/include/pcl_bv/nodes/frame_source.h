@@ -112,10 +112,11 @@ std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOp
 std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 
 /// The stamp in a file's name without its extension, nanoseconds; -1 without one. The surest way of writing a
-/// time that is there counts, the last of its kind: a time since 1970 (seconds with a fraction, or a whole
-/// number of milli-, micro- or nanoseconds of 2001 and later), a date with hours, minutes and seconds (UTC,
-/// or with a zone such as +0800), a time of day, or other seconds with a decimal point. Other numbers count
-/// frames. For a folder see ReplayOptions::from_name.
+/// time that is there counts, the last of its kind: a time since 1970 (seconds of 2001 to 2033,
+/// also with a fraction, a whole number of milli- or microseconds of 2001 to 2262, or nanoseconds from 1e16
+/// on), a date with hours, minutes and seconds (UTC, or with a zone east of it such as +0800; one such as
+/// -0500 is ignored), a time of day, or other seconds with a decimal point. Other numbers count frames. For a
+/// folder see ReplayOptions::from_name.
 std::int64_t stamp_in_name(std::string_view stem);
 
 }  // namespace pcl_bv

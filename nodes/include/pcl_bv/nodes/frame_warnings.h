@@ -19,12 +19,14 @@ class FrameWarnings {
  public:
   /// Returns those that were not yet returned under the result's configuration: of a stream each kind comes
   /// once. They name settings by their keys. `frame` is that of the result, whose points are in memory if
-  /// ground was removed. O(1), but for milliseconds where another up direction is searched, once a kind.
+  /// ground was removed. O(1), except where another up direction is searched: that takes milliseconds, and
+  /// happens once for the first frame without ground and once for the first with little.
   std::vector<std::string> take(const Frame& frame, const FrameResult& result);
 
  private:
   std::shared_ptr<const PipelineConfig> config_;
   std::uint32_t said_ = 0;  // bits of kinds
+  bool searched_ = false;   // another up direction, in a frame with little ground
 };
 
 }  // namespace pcl_bv

@@ -24,6 +24,10 @@ std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::str
 /// the first bytes.
 bool has_recorded_clouds(const std::filesystem::path& file);
 
+/// Throws IoError for a file that is called a recording or a capture (.bag, .mcap, .db3, .pcap, .pcapng) and
+/// does not begin as one, and if it is not there or empty. Other names pass.
+void refuse_false_recording(const std::filesystem::path& file);
+
 /// The clouds of a recording or of a capture of packets, by their numbers. May be asked by several threads at
 /// a time, one of which waits.
 class RecordedClouds {
@@ -38,15 +42,20 @@ class RecordedClouds {
   /// Without an index all of the file is read.
   std::size_t count();
 
-  /// With all fields. In the order of the numbers each is read once; one before the last one asked for means
-  /// reading from the beginning. Throws IoError if it is not there, MessageError if it is no cloud.
+  /// With all fields. In the order of the numbers, or nearly, each is read once: the last 16 clouds that were
+  /// passed over are stored until they are loaded. Any other one before the last one requested means reading
+  /// from the beginning. Throws IoError if it is not there, MessageError if it is no cloud.
   RawCloud load(std::size_t number);
 
-  /// The note of a cloud unless it is that of the cloud before, which all clouds of a driver have.
-  std::string unsaid(const std::string& note);
+  /// The note of a cloud that was loaded. Empty if the cloud before it has the same note, as all clouds of a
+  /// driver do.
+  std::string unsaid(std::size_t number) const;
 
   /// What was damaged so far, a line each.
   std::vector<std::string> remarks() const;
+
+  /// Those of remarks() that were not taken before.
+  std::vector<std::string> take_remarks();
 
  private:
   struct State;

@@ -121,7 +121,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.cluster.max_size);
   visit(S{"cluster.min_points",
           "points; 1: no noise",
-          "DBSCAN: drop points with fewer about them and no such one near",
+          "Drop noise: neither core points nor within the tolerance of one",
           {1, kNoLimit},
           {},
           "--min-points",

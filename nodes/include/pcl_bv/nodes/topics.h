@@ -295,7 +295,7 @@ class StreamHealth {
   bool heeds(const Frame& frame, const FrameResult& result);
 
   /// diagnostic_msgs/DiagnosticArray: frames, lost ones, objects of the last and the slowest since the last
-  /// time; as message the first warning of the configuration in force.
+  /// time; as message that frames were lost, and the first warning of the configuration in force.
   template <class Array>
   void fill(const Frame& frame, Array& array) {
     using Status = typename std::decay<decltype(array.status.front())>::type;
@@ -304,7 +304,8 @@ class StreamHealth {
     Status& status = array.status.front();
     status.level = lost_ > 0 || !warning_.empty() ? Status::WARN : Status::OK;
     status.name = "pcl_bv";
-    status.message = !warning_.empty() ? warning_ : lost_ > 0 ? "frames were lost" : "running";
+    status.message = lost_ > 0 ? "frames were lost" : warning_.empty() ? "running" : "";
+    if (!warning_.empty()) status.message += (lost_ > 0 ? "; " : "") + warning_;
     const std::array<std::pair<const char*, std::string>, 4> values = take_values();
     status.values.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {

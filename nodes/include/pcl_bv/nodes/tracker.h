@@ -38,8 +38,7 @@ class Tracker {
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Over the ground, in the sensor's axes; m/s.
     /// The box likely holds several objects: a born track without a box of its own is expected inside it.
     bool merged = false;
-    /// The boxes of this track so far were likely those of several objects: a track that began inside the
-    /// place where this one was expected has been seen on its own five times in a row. Said once.
+    /// A track split from this box and was seen alone five times: earlier boxes held two objects. Set once.
     bool separated = false;
   };
 

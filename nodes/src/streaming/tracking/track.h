@@ -36,8 +36,8 @@ struct Track {
   double yaw = 0, yaw_variance = 1;
   bool alive = false, moving = false;
   std::optional<std::uint32_t> id;
-  std::optional<std::size_t> out_of;  // slot of the track inside whose expected box this one began
-  std::size_t apart = 0;              // sightings since then, or since it was last hidden
+  std::optional<std::size_t> split_from;  // slot of the track inside whose expected box this one began
+  std::size_t seen_since_split = 0;       // sightings since then, or since it was last occluded
 
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);

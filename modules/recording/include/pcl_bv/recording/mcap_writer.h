@@ -25,11 +25,13 @@ class McapWriter final : public RecordingWriter {
         1U << 20U;  ///< A chunk ends with the message that makes it so long, uncompressed.
   };
 
-  /// Empties the file. Throws IoError if it cannot be opened.
+  /// Opens or makes the file. The first message or attachment, or close(), empties it. Throws IoError if it
+  /// cannot be opened.
   explicit McapWriter(const std::filesystem::path& file);
   McapWriter(const std::filesystem::path& file, const Options& options);
 
-  /// Closes what is open, without a word if that fails.
+  /// Closes what is open and reports no failure. Without a message, an attachment and close() the file is as
+  /// it was before, or is removed if the writer made it.
   ~McapWriter() override;
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;

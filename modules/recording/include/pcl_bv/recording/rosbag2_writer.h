@@ -15,8 +15,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// files beside them.
 class Rosbag2Writer final : public RecordingWriter {
  public:
-  /// Makes the folder if it is not there; a database and metadata.yaml of those names are replaced. Throws
-  /// IoError.
+  /// Makes the folder if it is not there; the first message or attachment, or close(), replaces a database
+  /// and metadata.yaml of those names. Throws IoError.
   explicit Rosbag2Writer(const std::filesystem::path& folder);
 
   /// Closes what is open, without a word if that fails.
