@@ -6,12 +6,24 @@
 #include "arrays.h"
 
 namespace pcl_bv::python {
+namespace {
+
+// Not a Ctrl-C, which any code of Python may be interrupted by.
+void clear_error() {
+  if (PyErr_ExceptionMatches(PyExc_Exception) == 0) throw py::error_already_set();
+  PyErr_Clear();
+}
+
+}  // namespace
 
 void refuse_value(const char* name, const std::string& what) {
   throw py::value_error(std::string(name) + ": " + what);
 }
 
+// Without the module the interpreter prints the warning itself, and a Ctrl-C meanwhile is lost: of 60 that came just
+// before a first warning, 24 on a busy machine.
 void warn(const std::string& text) {
+  py::module_::import("warnings");
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
@@ -25,7 +37,7 @@ std::string shown(py::handle value) {
   Py_ssize_t size = 0;
   const char* const characters = repr ? PyUnicode_AsUTF8AndSize(repr.ptr(), &size) : nullptr;
   if (characters == nullptr) {  // nested too deep, or half of a surrogate pair
-    PyErr_Clear();
+    clear_error();
     return std::string("one of ") + Py_TYPE(value.ptr())->tp_name;
   }
   std::string said(characters, static_cast<std::size_t>(size));
@@ -38,7 +50,7 @@ double number(py::handle value, const char* name, const NumberRange& range) {
   if (PyBool_Check(value.ptr())) refuse_type(name, "a number", value);
   const double read = PyFloat_AsDouble(value.ptr());
   if (read == -1 && PyErr_Occurred() != nullptr) {
-    PyErr_Clear();
+    clear_error();
     refuse_type(name, "a number", value);
   }
   Setting setting{name, "", ""};
@@ -74,7 +86,7 @@ std::size_t whole_number(py::handle value, const char* name, const NumberRange& 
   const py::object whole = whole_object(value, name);
   const std::size_t read = PyLong_AsSize_t(whole.ptr());
   if (read == static_cast<std::size_t>(-1) && PyErr_Occurred() != nullptr) {
-    PyErr_Clear();
+    clear_error();
     refuse_value(name, shown(value) + " is not a whole number of at least 0 that fits 64 bits");
   }
   Setting setting{name, "", ""};
@@ -92,7 +104,7 @@ std::string text(py::handle value, const char* name) {
 std::filesystem::path path(py::handle value, const char* name) {
   const py::object path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
   if (!path) {
-    PyErr_Clear();
+    clear_error();
     refuse_type(name, "a path", value);
   }
   PyObject* bytes = nullptr;
@@ -121,7 +133,7 @@ const Method* method_of(py::handle name) {
   const char* const characters =
       PyUnicode_Check(name.ptr()) ? PyUnicode_AsUTF8AndSize(name.ptr(), &size) : nullptr;
   if (characters == nullptr) {
-    PyErr_Clear();
+    clear_error();
     refuse_type("method", "a name or a list of names", name);
   }
   const Method* const method = find_method({characters, static_cast<std::size_t>(size)});

@@ -143,7 +143,9 @@ class Files(unittest.TestCase):
             return
         program = "import pcl_bv\nframes = pcl_bv.frames('dds:/pcl_bv_python_test_of_silence')\n"
         program += "print('on', flush=True)\nnext(frames)"
-        self.assertIn("KeyboardInterrupt", children.interrupted(program, "on"))
+        # More than once: a signal that came while a warning was printed was lost.
+        for _ in range(5):
+            self.assertIn("KeyboardInterrupt", children.interrupted(program))
 
     def test_frames_of_a_folder_come_in_their_order_with_rates_and_poses(self):
         for i in range(3):
