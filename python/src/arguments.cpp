@@ -10,7 +10,7 @@ namespace {
 
 // Not a Ctrl-C, which any code of Python may be interrupted by.
 void clear_error() {
-  if (PyErr_ExceptionMatches(PyExc_Exception) == 0) throw py::error_already_set();
+  if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_Exception) == 0) throw py::error_already_set();
   PyErr_Clear();
 }
 

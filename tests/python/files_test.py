@@ -120,7 +120,7 @@ class Files(unittest.TestCase):
                               b"".join(struct.pack("<HB", 1000 + laser, laser) for laser in range(32))
                               for block in range(12))
             payload = blocks + struct.pack("<IBB", 0, 0x37, 0x22)
-            datagram = struct.pack(">HHHH", port, 2368, 8 + len(payload), 0) + payload
+            datagram = struct.pack(">HHHH", 2368, port, 8 + len(payload), 0) + payload
             ip = struct.pack(">BBHHHBBH4s4s", 0x45, 0, 20 + len(datagram), 0, 0, 64, 17, 0,
                              b"\x01\x02\x03\x04", b"\0" * 4)
             return b"m" * 12 + b"\x08\0" + ip + datagram
