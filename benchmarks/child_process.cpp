@@ -49,7 +49,7 @@ ProcessCost run_process(const std::vector<std::string>& command) {
 RunningProcess::RunningProcess(const std::vector<std::string>& command) : process_(spawn(command)) {}
 
 RunningProcess::~RunningProcess() {
-  ::kill(process_, SIGINT);
+  ::kill(process_, SIGTERM);
   ::waitpid(process_, nullptr, 0);
 }
 

@@ -19,7 +19,7 @@ struct ProcessCost {
 /// The system counts to a child what its parent had resident, so the parent has to stay small.
 ProcessCost run_process(const std::vector<std::string>& command);
 
-/// A program beside this one, found in PATH or given by its path; ended by SIGINT with the object. Throws
+/// A program beside this one, found in PATH or given by its path; ended by SIGTERM with the object. Throws
 /// std::runtime_error if it cannot be started.
 class RunningProcess {
  public:

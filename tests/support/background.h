@@ -56,10 +56,20 @@ class Background {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 2, errors_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    EXPECT_EQ(posix_spawnp(&process_, list.front(), &actions, nullptr, list.data(), environ), 0) << list.front();
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // a group of its own, with its children
+    EXPECT_EQ(posix_spawnp(&process_, list.front(), &actions, &attributes, list.data(), environ), 0)
+        << list.front();
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
+    group_ = process_;
   }
-  ~Background() { end(SIGKILL); }
+  /// Its children end with it: `rosbag play` is a script that starts the player.
+  ~Background() {
+    if (group_ > 0) kill(-group_, SIGKILL);
+    wait();
+  }
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
@@ -85,7 +95,7 @@ class Background {
 
  private:
   std::filesystem::path errors_;
-  pid_t process_ = 0;
+  pid_t process_ = 0, group_ = 0;
 };
 
 }  // namespace pcl_bv::test
