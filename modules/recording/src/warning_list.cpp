@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+#include <utility>
+
+#include "pcl_bv/recording/recording.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::size_t kListed = 10;  // warnings, so that damaged input cannot fill memory or a log
+
+}  // namespace
+
+void WarningList::add(std::string line) {
+  if (lines_.size() < kListed) {
+    lines_.push_back(std::move(line));
+  } else {
+    add_unlisted(1);
+  }
+}
+
+void WarningList::add_new_of(const WarningList& other, std::uint64_t& added, const std::string& prefix) {
+  const std::uint64_t listed = std::min<std::uint64_t>(kListed, other.lines_.size());
+  for (; added < listed; ++added)
+    add(prefix + other.lines_[added]);
+  const std::uint64_t all = listed + other.unlisted_;
+  if (all > added) add_unlisted(all - added);
+  added = std::max(added, all);
+}
+
+void WarningList::add_unlisted(std::uint64_t number) {
+  if (unlisted_ == 0) lines_.emplace_back();
+  unlisted_ += number;
+  lines_.back() = "further warnings are not listed: " + std::to_string(unlisted_) + " so far";
+}
+
+}  // namespace pcl_bv
