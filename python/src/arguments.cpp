@@ -8,9 +8,10 @@
 namespace pcl_bv::python {
 namespace {
 
-// Not a Ctrl-C, which any code of Python may be interrupted by.
+// Throws a Ctrl-C instead, which may interrupt any code of Python.
 void clear_error() {
-  if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_Exception) == 0) throw py::error_already_set();
+  if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_Exception) == 0)
+    throw py::error_already_set();
   PyErr_Clear();
 }
 
@@ -20,8 +21,8 @@ void refuse_value(const char* name, const std::string& what) {
   throw py::value_error(std::string(name) + ": " + what);
 }
 
-// Without the module the interpreter prints the warning itself, and a Ctrl-C meanwhile is lost: of 60 that came just
-// before a first warning, 24 on a busy machine.
+// If the module is not loaded, CPython prints the warning in C and clears a KeyboardInterrupt raised meanwhile: of
+// 60 that came just before the first warning, 24 were lost on a busy machine.
 void warn(const std::string& text) {
   py::module_::import("warnings");
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();

@@ -64,7 +64,9 @@ py::array from_any(py::handle object, const char* name) {
   py::array array = py::reinterpret_steal<py::array>(
       py::detail::npy_api::get().PyArray_FromAny_(object.ptr(), nullptr, 0, 0, 0, nullptr));
   if (array) return array;
-  const py::error_already_set error;  // why a tensor on a graphics card is none, or rows of unequal length
+  py::error_already_set error;
+  if (!error.matches(PyExc_Exception)) throw error;  // a Ctrl-C
+  // Why a tensor on a graphics card is no array, or rows of unequal length are none.
   const std::string reason = py::str(error.value()).cast<std::string>();
   throw py::type_error(std::string(name) + ": an array is wanted, not " + shown(object) +
                        (reason.empty() ? "" : ": " + reason));
