@@ -4,14 +4,17 @@
 // Claims of the k-DOP slab by slab; those of its shape are in kdop_geometry_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "exact.h"
 #include "kdop_sets.h"
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/volumes/kdop.h"
 
 namespace pcl_bv {
@@ -245,6 +248,48 @@ TEST(Kdop, FloatCopyEncloses) {
       EXPECT_LE(f.min[i], kdop.min()[i]);
       EXPECT_GE(f.max[i], kdop.max()[i]);
     }
+  }
+}
+
+// Slabs of the definition, one by one.
+void expect_slabs_of(const Kdop& kdop, const std::vector<Eigen::Vector3d>& points) {
+  for (std::size_t i = 0; i < kdop.size(); ++i) {
+    double low = kInfinity, high = -kInfinity;
+    for (const Eigen::Vector3d& p : points) {
+      low = std::min(low, p.dot(kdop.set()->direction(i)));
+      high = std::max(high, p.dot(kdop.set()->direction(i)));
+    }
+    ASSERT_EQ(kdop.min(i), low) << i;
+    ASSERT_EQ(kdop.max(i), high) << i;
+    ASSERT_EQ(kdop.min()[static_cast<Eigen::Index>(i)], low) << i;
+    ASSERT_EQ(kdop.max()[static_cast<Eigen::Index>(i)], high) << i;
+  }
+}
+
+// Up to 13 slabs are stored inline, more are not. Small whole numbers: dot products are exact.
+TEST(Kdop, OfAnyNumberOfSlabsIsAValue) {
+  for (const int slabs : {3, 13, 14, 49}) {
+    std::vector<Eigen::Vector3d> directions{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 3; i < slabs; ++i)
+      directions.emplace_back(1 + i % 5, i % 7 - 3, i / 7 - 2);
+    const std::vector<Eigen::Vector3d> points{{1, 2, 3}, {-4, 5, 1}, {2, -6, 7}, {0, 9, -8}};
+    Kdop first(std::make_shared<const KdopSet>(directions)), second = first;
+    EXPECT_TRUE(first.empty());
+    first.extend(points[0]).extend(points[1]);
+    second.extend(points[2]).extend(points[3]);
+    expect_slabs_of(first, {points[0], points[1]});
+    Kdop all = first;
+    EXPECT_EQ(all, first);
+    all.merge(second);
+    expect_slabs_of(all, points);
+    expect_slabs_of(first, {points[0], points[1]});  // the copy is one
+    EXPECT_NE(all, first);
+    EXPECT_EQ(Kdop(all.set(), all.min(), all.max()), all);
+    EXPECT_FALSE(first.overlaps(Kdop(first.set())));
+    const Kdop moved = std::move(all);
+    expect_slabs_of(moved, points);
+    first = second;
+    expect_slabs_of(first, {points[2], points[3]});
   }
 }
 

@@ -26,8 +26,9 @@ struct HullPlane {
 /// closed set.
 ///
 /// Two descriptions of one body. The planes are what encloses: contains(), intersect(), aabb() and the proof
-/// of a fit go by them; those of a fitted hull are of its faces and of its box. The vertices and the triangles between them are what is measured: volume(), center(),
-/// support(), distance(). They agree to the rounding of doubles.
+/// of a fit go by them; those of a fitted hull are of its faces and of its box. The vertices and the triangles
+/// between them are what is measured: volume(), center(), support(), distance(). They agree to the rounding
+/// of doubles.
 ///
 /// A flat hull has a rank below 3 and no triangles: its vertices are the corners of a polygon (2, in order
 /// around it), the ends of a line (1) or a point (0), its planes come in opposite pairs along each flat
