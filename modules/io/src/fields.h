@@ -83,8 +83,7 @@ void add_note(RawCloud& cloud, const std::string& note);
 bool moves_points(const std::array<double, 7>& viewpoint);
 
 /// Copies the coordinates of these records to where packed_points() finds them; integers become floating
-/// point. Throws IoError for an integer above 2^53, which a double
-/// cannot hold exactly.
+/// point. Throws IoError for an integer above 2^53, which a double cannot hold exactly.
 void pack_coordinates(const CoordinateFields& fields, const std::byte* records, std::size_t count,
                       std::size_t point_step, std::byte* xyz);
 

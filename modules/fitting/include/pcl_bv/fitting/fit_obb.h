@@ -50,8 +50,8 @@ struct ObbOptions {
 ///
 /// O(n) in two passes for `pca` and `dito14`, three for the others, and for those O(m log m) besides for the
 /// m points that are near the hull, or near its outline from above. `minimal` takes some
-/// milliseconds for a round hull of 128 vertices, and for one of hundreds, which it searches less thoroughly. Throws std::invalid_argument
-/// for an `up` outside its range, and otherwise as fit_sphere().
+/// milliseconds for a round hull of 128 vertices, and for one of hundreds, which it searches less thoroughly.
+/// Throws std::invalid_argument for an `up` outside its range, and otherwise as fit_sphere().
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,
                          const Execution& execution = {});
 

@@ -20,9 +20,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// or zero where they are beyond it; "nan" and "inf" are read, in any case, for floating-point fields only.
 /// Whole numbers are integers however they are written (1.0, 1e3), and -1 in an unsigned field is its
 /// greatest value. What is no such number is an error in a coordinate; in other fields it becomes 0 or NaN,
-/// which RawCloud::note says. So it says of a VIEWPOINT that is not the
-/// identity, which is never applied. Points
-/// after the last one of a binary file are left out, which RawCloud::note says, but an error if the header
+/// which RawCloud::note says. The note also names a VIEWPOINT that is not the identity, which is never applied.
+/// Points after the last one of a binary file are left out, which the note says, but an error if the header
 /// says 0 points: a recorder did not get to write how many. Rows after the last point of an ascii file are an
 /// error.
 ///

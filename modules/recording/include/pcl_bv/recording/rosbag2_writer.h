@@ -19,7 +19,8 @@ class Rosbag2Writer final : public RecordingWriter {
   /// and metadata.yaml of those names. Throws IoError.
   explicit Rosbag2Writer(const std::filesystem::path& folder);
 
-  /// Closes what is open, without a word if that fails.
+  /// Closes what is open and reports no failure. Without a message, an attachment and close() what was in the
+  /// folder stays.
   ~Rosbag2Writer() override;
   Rosbag2Writer(const Rosbag2Writer&) = delete;
   Rosbag2Writer& operator=(const Rosbag2Writer&) = delete;
