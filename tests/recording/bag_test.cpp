@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -154,6 +155,56 @@ TEST_F(Bag, GoesOnBehindDamageBetweenChunks) {
   for (const auto& message : found)
     EXPECT_NE(std::find(expected.begin(), expected.end(), message), expected.end());
   EXPECT_THAT(reader->remarks(), testing::Contains(testing::StartsWith("skipped damaged bytes ")));
+}
+
+// Where the records of this kind have this field, whose bytes come after its name.
+std::vector<std::size_t> fields_of(const std::string& bytes, char op, const std::string& field) {
+  std::vector<std::size_t> found;
+  const std::string mark = std::string("op=") + op;
+  for (std::size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) {
+    const std::size_t begin = bytes.rfind(field, at), end = bytes.find(field, at);
+    const bool before = begin != std::string::npos && (end == std::string::npos || at - begin < end - at);
+    found.push_back((before ? begin : end) + field.size());
+  }
+  return found;
+}
+
+TEST_F(Bag, OneChunkIsReadOnceHoweverOftenTheIndexNamesIt) {
+  const nlohmann::json expected = make("none");
+  std::string bytes = bytes_of("a.bag");
+  const std::vector<std::size_t> places = fields_of(bytes, '\x06', "chunk_pos=");
+  ASSERT_GE(places.size(), 3U);
+  bytes.replace(places[1], 8, bytes.substr(places[0], 8));
+  put("b.bag", bytes);
+  const auto reader = open_recording(at("b.bag"));
+  EXPECT_EQ(found_in(*reader), expected);
+  EXPECT_THAT(reader->remarks(), testing::Contains(testing::HasSubstr("it is not whole")));
+}
+
+// The first chunk says that it holds the second one, too.
+TEST_F(Bag, AChunkWithinAnotherIsReadOnce) {
+  const nlohmann::json expected = make("none");
+  std::string bytes = bytes_of("a.bag");
+  const auto number = [&](std::size_t at, std::size_t size) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.data() + at, size);
+    return static_cast<std::size_t>(value);
+  };
+  const std::vector<std::size_t> places = fields_of(bytes, '\x06', "chunk_pos=");
+  ASSERT_GE(places.size(), 3U);
+  const std::size_t first = number(places[0], 8), third = number(places[2], 8);
+  const std::size_t data = first + 4 + number(first, 4);
+  const auto longer = static_cast<std::uint32_t>(third - data - 4);
+  std::memcpy(bytes.data() + data, &longer, 4);
+  std::memcpy(bytes.data() + bytes.find("size=", first) + 5, &longer, 4);
+  put("b.bag", bytes);
+  const auto reader = open_recording(at("b.bag"));
+  const nlohmann::json found = found_in(*reader);
+  EXPECT_LT(found.size(), expected.size());
+  EXPECT_GT(found.size(), expected.size() / 2);
+  EXPECT_THAT(reader->remarks(),
+              testing::ElementsAre("passed over the chunk at byte " + std::to_string(first) +
+                                   ": it reaches into the next one"));
 }
 
 TEST_F(Bag, DamagedAnywhereIsReadOrRefused) {

@@ -179,6 +179,12 @@ TEST_F(Rosbag2, ReadsTheFilesThatAreThereWhateverItsMetadataSays) {
     EXPECT_THAT(again->remarks(),
                 testing::ElementsAre(testing::EndsWith(": all files of the folder are read")));
   }
+  put("bag/metadata.yaml",
+      "rosbag2_bagfile_information: {relative_file_paths: [bag_1.db3, bag_1.db3, old/bag_1.db3]}\n");
+  const auto repeated = open_recording(at("bag"));
+  EXPECT_EQ(all_of(*repeated), sent);
+  EXPECT_THAT(repeated->remarks(),
+              testing::ElementsAre("metadata.yaml names bag_1.db3 3 times: it is read once"));
   put("bag/metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [bag_1.db3]}\n");
   make("bag/bag_7.db3", 3, 5000);
   const auto named = open_recording(at("bag"));

@@ -43,7 +43,10 @@ constexpr std::uint64_t kMaxHeader = 1U << 20U, kMaxChunkHeader = 256;
 class BagReader final : public ChunkedReader {
  public:
   explicit BagReader(const std::filesystem::path& path) : file_(path) {
-    if (!by_index()) scan();
+    if (!by_index()) {
+      scan();
+      note_offsets();
+    }
     start(std::move(found_topics_), std::move(found_parts_));
   }
 
@@ -89,7 +92,8 @@ class BagReader final : public ChunkedReader {
           head ? BagHeader(head->header.data(), head->header.size()) : BagHeader(nullptr, 0);
       const auto index = header.number<std::uint64_t>("index_pos");
       const auto chunks = header.number<std::uint32_t>("chunk_count");
-      if (index >= kMagicBytes && index < file_.size() && read_index(index) && found_parts_.size() == chunks)
+      if (index >= kMagicBytes && index < file_.size() && read_index(index) &&
+          found_parts_.size() == chunks && note_offsets())
         return true;
       if (index != 0) problem = "it is not whole";
     } catch (const IoError& error) {
@@ -124,6 +128,15 @@ class BagReader final : public ChunkedReader {
       at = place->data + place->size;
     }
     return true;
+  }
+
+  // False if two chunks begin at one byte.
+  bool note_offsets() {
+    offsets_.clear();
+    for (const Part& part : found_parts_)
+      offsets_.push_back(part.offset);
+    std::sort(offsets_.begin(), offsets_.end());
+    return std::adjacent_find(offsets_.begin(), offsets_.end()) == offsets_.end();
   }
 
   void scan() {
@@ -228,6 +241,10 @@ class BagReader final : public ChunkedReader {
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
     const std::optional<BagPlace> place = place_at(part_offset(part));
     if (!place) throw IoError("it is cut");
+    // Chunks within chunks would let a small file be read for each of its entries.
+    const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), part_offset(part));
+    if (next != offsets_.end() && place->data + place->size > *next)
+      throw IoError("it reaches into the next one");
     BagBytes records = unpack(*place, buffers.decompressor, buffers.raw, buffers.unpacked);
     while (records.left() > 0) {
       const BagRecord record = take_bag_record(records);
@@ -242,6 +259,7 @@ class BagReader final : public ChunkedReader {
   InputFile file_;
   std::vector<RecordedTopic> found_topics_;        // until start()
   std::vector<Part> found_parts_;                  // until start()
+  std::vector<std::uint64_t> offsets_;             // of the chunks, ascending
   std::map<std::uint32_t, std::size_t> topic_of_;  // by connection
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 #include "chunked_reader.h"
@@ -117,6 +118,22 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
+// A file that is named again would be read again, and a small metadata.yaml can name one a million times.
+std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
+                                          std::vector<std::string>& remarks) {
+  std::vector<fs::path> once;
+  std::map<fs::path, std::size_t> times;
+  for (const fs::path& file : files) {
+    if (++times[file] == 1) once.push_back(file);
+  }
+  for (const fs::path& file : once) {
+    if (times[file] > 1)
+      remarks.push_back("metadata.yaml names " + file.filename().string() + " " +
+                        std::to_string(times[file]) + " times: it is read once");
+  }
+  return once;
+}
+
 // Others have files of this name, too.
 bool has_metadata(const fs::path& folder) {
   std::ifstream stream(folder / "metadata.yaml", std::ios::binary);
@@ -195,7 +212,7 @@ std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   std::vector<fs::path> files;
   const std::vector<fs::path> there = members_in(folder);
   try {
-    files = files_of(folder);
+    files = without_repetitions(files_of(folder), remarks);
   } catch (const IoError& error) {
     if (there.empty()) throw;
     remarks.push_back(std::string(error.what()) + ": all files of the folder are read");
