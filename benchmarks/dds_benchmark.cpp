@@ -19,7 +19,7 @@
 #include "child_process.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 #include "pcl_bv/synth/street.h"
 #include "program.h"
 

@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "fits.h"
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "rivals.h"
 #include "timing.h"

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "pcl_bv/io/posix_file.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"

@@ -6,7 +6,7 @@
 #include <pcl_bv/estimation/fit_cloud.h>
 #include <pcl_bv/fitting/methods.h>
 #include <pcl_bv/fitting/partial.h>
-#include <pcl_bv/kernels/point_groups.h>
+#include <pcl_bv/points/point_groups.h>
 
 #include <cmath>
 #include <iostream>

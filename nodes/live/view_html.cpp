@@ -8,9 +8,9 @@
 #include <cstring>
 
 #include "page.h"
-#include "pcl_bv/kernels/chunks.h"
-#include "pcl_bv/kernels/point_source.h"
-#include "pcl_bv/nodes/settings.h"
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
+#include "pipeline/config/settings.h"
 #include "pcl_bv/volumes/aabb.h"
 
 namespace pcl_bv {

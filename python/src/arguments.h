@@ -6,7 +6,7 @@
 #pragma once
 
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 #include "precompiled.h"
 
 namespace pcl_bv::python {

@@ -4,7 +4,7 @@
 // Arrays of numpy as views of points, without a copy where there is a view, and results as arrays.
 #pragma once
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "precompiled.h"
 
 namespace pcl_bv::python {

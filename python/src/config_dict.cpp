@@ -6,7 +6,7 @@
 #include "config_dict.h"
 
 #include "arguments.h"
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {

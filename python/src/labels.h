@@ -5,7 +5,7 @@
 #pragma once
 
 #include "arguments.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv::python {
 

@@ -3,14 +3,14 @@
 
 // Many inputs as one source of points.
 
-#include "pcd_bv/tiles.h"
+#include "commands/pcd_bv/tiles.h"
 
 #include <gmock/gmock.h>
 
 #include <cstring>
 #include <fstream>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "tiles.h"
 

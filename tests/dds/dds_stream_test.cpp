@@ -14,7 +14,7 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::test {
 namespace {

@@ -13,7 +13,7 @@
 #include "dds_test.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::test {
 namespace {

@@ -3,7 +3,7 @@
 
 // Points that come part by part give what points in memory give.
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "clouds.h"
 #include "pcl_bv/fitting/summary.h"
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 namespace {

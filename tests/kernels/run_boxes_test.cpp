@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "clouds.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/point_groups.h"
 #include "pcl_bv/numeric/directed.h"
 
 namespace pcl_bv {

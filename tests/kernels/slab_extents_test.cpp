@@ -13,7 +13,7 @@
 
 #include "clouds.h"
 #include "directions.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/point_groups.h"
 #include "pcl_bv/numeric/float_environment.h"
 
 namespace pcl_bv {

@@ -3,7 +3,7 @@
 
 // Boxes of a track over time.
 
-#include "streaming/tracking/box_filter.h"
+#include "pipeline/track/box_filter.h"
 
 #include <gtest/gtest.h>
 

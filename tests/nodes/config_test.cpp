@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {

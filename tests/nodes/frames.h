@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/synth/street.h"

@@ -11,7 +11,7 @@
 
 #include "frames.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/nodes/tracker.h"
+#include "pipeline/track/tracker.h"
 
 namespace pcl_bv {
 namespace {

@@ -3,7 +3,7 @@
 
 // Frames from the messages of a middleware, which here is a list.
 
-#include "pcl_bv/nodes/message_source.h"
+#include "stream/sources/message_source.h"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@
 #include "folder.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/messages/serialize.h"
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv {
 namespace {

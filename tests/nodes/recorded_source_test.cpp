@@ -14,7 +14,7 @@
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "pcl_bv/nodes/recorded_clouds.h"
+#include "stream/sources/recorded_clouds.h"
 #include "pcl_bv/recording/mcap_writer.h"
 
 namespace pcl_bv {

@@ -13,7 +13,7 @@
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/remote_settings.h"
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "frames.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "topics/scene.h"
+#include "stream/topics/scene.h"
 
 namespace pcl_bv {
 namespace {

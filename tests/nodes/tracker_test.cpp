@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/nodes/tracker.h"
+#include "pipeline/track/tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/synth/street.h"
-#include "streaming/box_grid.h"
+#include "pipeline/track/box_grid.h"
 
 namespace pcl_bv {
 namespace {

@@ -10,11 +10,11 @@
 #include <numeric>
 #include <random>
 
-#include "streaming/tracked_volumes.h"
-#include "streaming/tracking/assignment.h"
-#include "streaming/tracking/ego_motion.h"
-#include "streaming/tracking/motion_filter.h"
-#include "streaming/tracking/track.h"
+#include "pipeline/tracked_volumes.h"
+#include "pipeline/track/assignment.h"
+#include "pipeline/track/ego_motion.h"
+#include "pipeline/track/motion_filter.h"
+#include "pipeline/track/track.h"
 
 namespace pcl_bv {
 namespace {

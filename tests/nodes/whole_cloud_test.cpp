@@ -11,7 +11,7 @@
 #include "frames.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/messages/types.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/topics.h"

@@ -18,7 +18,7 @@
 #include "executions.h"
 #include "flush_to_zero.h"
 #include "grown.h"
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/point_groups.h"
 #include "sources.h"
 
 namespace pcl_bv {

@@ -11,7 +11,7 @@
 
 #include "clouds.h"
 #include "executions.h"
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/pairs.h"
 #include "scattered_volumes.h"

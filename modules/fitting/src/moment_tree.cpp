@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 namespace {

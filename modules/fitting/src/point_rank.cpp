@@ -12,7 +12,7 @@
 #include "across.h"
 #include "local_frame.h"
 #include "map_chunks.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "schedule.h"
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 

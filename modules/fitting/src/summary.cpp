@@ -10,7 +10,7 @@
 #include "map_chunks.h"
 #include "moment_tree.h"
 #include "pcl_bv/kernels/moments.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "point_rank.h"

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"

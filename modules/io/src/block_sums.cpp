@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstring>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {

@@ -15,7 +15,7 @@
 
 #include <limits>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {

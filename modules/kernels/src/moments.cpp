@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "preconditions.h"
 #include "references.h"
 #include "targets.h"

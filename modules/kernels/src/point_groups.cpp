@@ -3,7 +3,7 @@
 
 // Records to groups. Two loads and a transpose per packet: the copy is bound by memory, not by shuffles.
 
-#include "pcl_bv/kernels/point_groups.h"
+#include "pcl_bv/points/point_groups.h"
 
 #include "preconditions.h"
 #include "references.h"

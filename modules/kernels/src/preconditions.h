@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "pcl_bv/kernels/distances.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
 

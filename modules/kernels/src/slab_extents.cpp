@@ -6,7 +6,7 @@
 
 #include "pcl_bv/kernels/slab_extents.h"
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "preconditions.h"
 #include "references.h"
 #include "targets.h"

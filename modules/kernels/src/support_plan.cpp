@@ -11,7 +11,7 @@
 #include <cstring>
 #include <limits>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"

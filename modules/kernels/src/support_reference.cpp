@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "references.h"
 
 namespace pcl_bv {

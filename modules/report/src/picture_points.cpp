@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {

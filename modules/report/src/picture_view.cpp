@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {

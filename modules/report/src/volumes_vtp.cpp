@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/meshes.h"
 #include "volume_cells.h"
 #include "written.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "distance.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/parallel/policy.h"
 

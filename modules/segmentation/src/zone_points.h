@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/parallel/policy.h"
 #include "plane_search.h"

@@ -8,7 +8,7 @@
 
 #include "convex_region.h"
 #include "grown.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "refusal.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/kernels/run_boxes.h"
 #include "spatial_order.h"
 

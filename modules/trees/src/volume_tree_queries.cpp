@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::dds {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "endpoints.h"
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::dds {
 namespace {

@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "pcl_bv/nodes/middleware.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::live {
 

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "pcd_bv/in_order.h"
+#include "commands/pcd_bv/in_order.h"
 
 namespace pcl_bv {
 namespace {

@@ -8,9 +8,9 @@
 #include <mutex>
 #include <vector>
 
-#include "pcd_bv/inputs.h"
-#include "pcd_bv/options.h"
-#include "pcd_bv/status.h"
+#include "commands/pcd_bv/inputs.h"
+#include "commands/pcd_bv/options.h"
+#include "commands/pcd_bv/status.h"
 #include "ranks.h"
 
 namespace pcl_bv {

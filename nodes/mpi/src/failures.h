@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "pcd_bv/tiles.h"
+#include "commands/pcd_bv/tiles.h"
 #include "ranks.h"
 
 namespace pcl_bv {

@@ -6,9 +6,9 @@
 
 #include <cstddef>
 
-#include "pcd_bv/options.h"
-#include "pcd_bv/status.h"
-#include "pcd_bv/tiles.h"
+#include "commands/pcd_bv/options.h"
+#include "commands/pcd_bv/status.h"
+#include "commands/pcd_bv/tiles.h"
 #include "pcl_bv/report/report.h"
 #include "ranks.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "pcl_bv/nodes/settings.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
 

@@ -9,7 +9,7 @@
 #include "moment_tree.h"
 #include "partial/numbered_points.h"
 #include "pcl_bv/fitting/partial.h"
-#include "pcl_bv/kernels/chunks.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/numeric/directions.h"
 

@@ -13,7 +13,7 @@
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/kernels/distances.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "small_vector.h"
 
 namespace pcl_bv {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/pipeline_config.h"
 #include "pcl_bv/report/frame_report.h"

@@ -7,7 +7,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/types.h>
 
-#include "pcl_bv/kernels/point_records.h"
+#include "pcl_bv/points/point_records.h"
 
 namespace pcl_bv {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

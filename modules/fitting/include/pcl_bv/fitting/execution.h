@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "pcl_bv/kernels/isa.h"
+#include "pcl_bv/points/isa.h"
 #include "pcl_bv/parallel/policy.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

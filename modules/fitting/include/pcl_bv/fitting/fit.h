@@ -13,7 +13,7 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/capsule.h"
 #include "pcl_bv/volumes/cylinder.h"

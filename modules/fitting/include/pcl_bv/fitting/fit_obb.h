@@ -9,7 +9,7 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/obb.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

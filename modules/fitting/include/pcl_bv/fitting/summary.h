@@ -10,7 +10,7 @@
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
 #include "pcl_bv/fitting/supports.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 

@@ -9,7 +9,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/kernels/point_source.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

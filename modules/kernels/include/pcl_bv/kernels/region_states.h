@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "pcl_bv/kernels/half_spaces.h"
-#include "pcl_bv/kernels/isa.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/numeric/exact_dot.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/report/report.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/volumes/aabb.h"
 

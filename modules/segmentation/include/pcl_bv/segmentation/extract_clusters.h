@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pcl_bv/kernels/point_records.h"
+#include "pcl_bv/points/point_records.h"
 #include "pcl_bv/segmentation/euclidean_clusters.h"
 
 namespace pcl::search {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 #include "pcl_bv/segmentation/sensor_place.h"

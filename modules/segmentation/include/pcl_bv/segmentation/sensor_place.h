@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

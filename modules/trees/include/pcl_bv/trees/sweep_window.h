@@ -11,7 +11,7 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/partial.h"
-#include "pcl_bv/kernels/point_view.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

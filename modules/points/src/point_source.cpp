@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Each thread keeps its buffers between parts: a fresh one of 512 KiB would cost 128 page faults, as long as
+// reading it.
+
+#include "pcl_bv/points/point_source.h"
+
+#include <string>
+#include <utility>
+
+namespace pcl_bv {
+namespace {
+
+// A source that reads from another one holds two at a time.
+constexpr std::size_t kSpares = 2;
+
+thread_local std::vector<std::vector<std::byte>> spares;
+
+}  // namespace
+
+void LoadedPoints::load(const PointView& points, std::size_t begin, std::size_t count) {
+  if (points.indices != nullptr) throw std::invalid_argument("LoadedPoints: a view has a source or indices");
+  if (count > kChunkPoints)
+    throw std::invalid_argument("at most " + std::to_string(kChunkPoints) +
+                                " points of a source at a time, not " + std::to_string(count));
+  if (!spares.empty()) {
+    buffer_ = std::move(spares.back());
+    spares.pop_back();
+  }
+  view_ = points.source->load(points.first + begin, count, buffer_);
+  const bool asked_for = view_.source == nullptr && view_.count == count && view_.scalar == points.scalar;
+  if (!asked_for || (count > 0 && view_.index(0) != points.first + begin))
+    throw std::invalid_argument("PointSource::load() gives other points than it was asked for");
+}
+
+void LoadedPoints::give_back() {
+  if (spares.size() < kSpares) spares.push_back(std::move(buffer_));
+}
+
+}  // namespace pcl_bv

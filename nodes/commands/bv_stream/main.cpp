@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The command bv_stream: objects in a stream of clouds.
+
+#include "commands/shared/interruption.h"
+#include "commands/shared/run_command.h"
+#include "options.h"
+#include "stream.h"
+
+int main(int argc, char** argv) {
+  using namespace pcl_bv;
+  return run_command("bv_stream", [&] {
+    const auto asked = parse_stream_options(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&asked)) return print(*text);
+    std::atomic<bool> interrupted{false};  // what waits is done all the same
+    const Interruption interruption(interrupted);
+    return stream(std::get<StreamOptions>(asked), interrupted);
+  });
+}

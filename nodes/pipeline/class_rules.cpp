@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "class_rules.h"
+
+namespace pcl_bv {
+namespace {
+
+ClusterSettings settings_of(const ClusterConfig& config) {
+  return {
+      static_cast<float>(config.tolerance),           config.least_size(), config.max_size, config.min_points,
+      static_cast<float>(config.tolerance_per_metre), config.oversized};
+}
+
+ClassSettings settings_of(const ClassConfig& config, const ClusterSettings& others) {
+  ClassSettings own{config.value, others, config.drop};
+  if (config.tolerance) own.clusters.tolerance = static_cast<float>(*config.tolerance);
+  own.clusters.min_size = config.min_size.value_or(others.min_size);
+  own.clusters.max_size = config.max_size.value_or(others.max_size);
+  return own;
+}
+
+}  // namespace
+
+ClassRules::ClassRules(const PipelineConfig& config)
+    : others_(settings_of(config.cluster)), other_methods_(config.methods_of(nullptr)) {
+  for (const ClassConfig& own : config.cluster.classes) {
+    own_.push_back(settings_of(own, others_));
+    own_methods_.push_back(config.methods_of(&own));
+  }
+}
+
+const std::vector<const Method*>& ClassRules::methods_of(std::optional<std::int64_t> value) const {
+  for (std::size_t i = 0; i < own_.size(); ++i) {
+    if (own_[i].value == value) return own_methods_[i];
+  }
+  return other_methods_;
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <yaml-cpp/yaml.h>
+
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+
+#include "check.h"
+#include "rows.h"
+#include "words.h"
+#include "pcl_bv/io/text_from_outside.h"
+#include "pcl_bv/io/yaml_problem.h"
+#include "settings.h"
+
+namespace pcl_bv {
+namespace {
+
+// Where a key stands in the file, from 1; 0: nowhere.
+using Lines = std::map<std::string, int>;
+
+[[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
+  throw ConfigError(name + (line > 0 ? ": line " + std::to_string(line) : "") + ": " + what);
+}
+
+// Names are listed by the error itself.
+template <typename T>
+std::string in_unit(const Setting& setting) {
+  constexpr bool number = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>> ||
+                          std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>;
+  return number && !setting.unit.empty() ? " (" + std::string(setting.unit) + ")" : "";
+}
+
+class Reader {
+ public:
+  Reader(const YAML::Node& root, std::string name) : name_(std::move(name)) { collect(root, ""); }
+
+  template <typename T>
+  void operator()(const Setting& setting, T& value) {
+    const YAML::Node* const node = take(std::string(setting.key));
+    if (node == nullptr) return;
+    try {
+      read(setting, *node, value);
+    } catch (const std::invalid_argument& error) {
+      fail(name_, line(*node), std::string(setting.key) + ": " + error.what() + in_unit<T>(setting));
+    }
+  }
+
+  template <ConfigRow Row>
+  void operator()(const Setting& setting, std::vector<Row>& rows) {
+    const YAML::Node* const list = take(std::string(setting.key));
+    if (list == nullptr) return;
+    rows.clear();
+    const std::string key = std::string(setting.key) + ": ";
+    constexpr RowWords words = row_words<Row>();
+    if (!list->IsSequence()) fail_at(*list, key + shown(*list) + " is not a list of " + words.many);
+    for (const YAML::Node& element : *list) {
+      if (!element.IsMap())
+        fail_at(element, key + shown(element) + " is not " + words.one + ", " + words.example);
+      read_row(element, key, rows.emplace_back());
+    }
+  }
+
+  // After all fields: what is left is unknown.
+  void finish() const {
+    for (const auto& [key, line_number] : maps_) {
+      if (sections_.count(key) == 0)
+        fail(name_, line_number, "unknown key '" + key + "', or one that holds no others");
+    }
+    for (const auto& [key, node] : nodes_) {
+      if (node.IsNull() && sections_.count(key) > 0) continue;  // a stage of which nothing is said
+      if (lines_.count(key) == 0) fail(name_, line(node), "unknown key '" + key + "'");
+    }
+  }
+
+  void refuse(const std::vector<ConfigProblem>& problems) const {
+    if (problems.empty()) return;
+    const auto found = lines_.find(problems.front().key);
+    fail(name_, found == lines_.end() ? 0 : found->second,
+         problems.front().key + ": " + problems.front().what);
+  }
+
+ private:
+  static int line(const YAML::Node& node) { return node.Mark().line + 1; }
+
+  void collect(const YAML::Node& node, const std::string& prefix) {
+    if (node.IsNull()) return;
+    if (!node.IsMap()) fail(name_, line(node), "'" + prefix + "' holds no keys");
+    for (const auto& item : node) {
+      const std::string name = item.first.as<std::string>();
+      std::string key = prefix;
+      if (!prefix.empty()) key += '.';
+      key += name;
+      if (name.find('.') != std::string::npos) fail(name_, line(item.first), "unknown key '" + key + "'");
+      if (prefix.empty() && item.second.IsMap()) {
+        if (!maps_.emplace(key, line(item.first)).second)
+          fail(name_, line(item.first), key + ": is there twice");
+        collect(item.second, key);
+      } else if (!nodes_.emplace(key, item.second).second) {
+        fail(name_, line(item.first), key + ": is there twice");
+      }
+    }
+  }
+
+  template <ConfigRow Row>
+  void read_row(const YAML::Node& node, const std::string& where, Row& row) const {
+    std::map<std::string, YAML::Node> fields;
+    for (const auto& item : node) {
+      const auto key = item.first.as<std::string>();
+      if (!fields.emplace(key, item.second).second) fail_at(item.first, where + key + ": is there twice");
+    }
+    if (std::is_same_v<Row, ClassConfig> && fields.count("value") == 0)
+      fail_at(node, where + "a class without its value");
+    visit_row(row, [&](const Setting& field, auto& value) {
+      const auto found = fields.find(std::string(field.key));
+      if (found == fields.end()) return;
+      try {
+        read(field, found->second, value);
+      } catch (const std::invalid_argument& error) {
+        fail_at(found->second, where + found->first + ": " + error.what());
+      }
+      fields.erase(found);
+    });
+    if (fields.empty()) return;
+    const auto& [key, value] = *fields.begin();
+    fail_at(value, where + "unknown key '" + key + "' of " + row_words<Row>().one);
+  }
+
+  [[noreturn]] void fail_at(const YAML::Node& node, const std::string& what) const {
+    fail(name_, line(node), what);
+  }
+
+  // The key's node, marked as known.
+  const YAML::Node* take(const std::string& key) {
+    if (key.find('.') != std::string::npos) sections_.insert(key.substr(0, key.find('.')));
+    const auto found = nodes_.find(key);
+    if (found == nodes_.end()) return nullptr;
+    lines_[key] = line(found->second);
+    return &found->second;
+  }
+
+  template <typename T>
+  static void read(const Setting& setting, const YAML::Node& node, T& value) {
+    read_setting(setting, node.IsNull() ? "null" : scalar(node), value);
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, double& value) {
+    if (!YAML::convert<double>::decode(node, value)) refuse(node, "a number");  // .inf, too
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, bool& value) {
+    if (!YAML::convert<bool>::decode(node, value)) refuse(node, "true or false");  // yes and no, too
+  }
+  static void read(const Setting& setting, const YAML::Node& node, std::optional<double>& value) {
+    value.reset();
+    if (!node.IsNull()) read(setting, node, value.emplace());
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::optional<Eigen::Vector3d>& value) {
+    read_text(node.IsNull() ? "null" : elements(node, "a list of three numbers or null"), value);
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, Eigen::Vector3d& value) {
+    read_text(node.IsSequence() ? elements(node, "") : scalar(node), value);
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::filesystem::path& file) {
+    file = scalar(node);
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::int64_t& value) {
+    if (!node.IsScalar() || !read_whole_text(node.Scalar(), value)) refuse(node, "a whole number");
+  }
+  static void read(const Setting& /*any*/, const YAML::Node& node, std::vector<std::string>& names) {
+    const std::string list = elements(node, "a list of methods");
+    names.clear();
+    if (!list.empty()) read_text(list, names);
+  }
+
+  [[noreturn]] static void refuse(const YAML::Node& node, const std::string& wanted) {
+    throw std::invalid_argument(shown(node) + " is not " + wanted);
+  }
+
+  static std::string shown(const YAML::Node& node) {
+    return node.IsScalar() ? "'" + node.Scalar() + "'" : "what is there";
+  }
+
+  static std::string scalar(const YAML::Node& node) {
+    if (!node.IsScalar()) refuse(node, "a single value");
+    return node.Scalar();
+  }
+
+  static std::string elements(const YAML::Node& node, const std::string& wanted) {
+    if (!node.IsSequence()) refuse(node, wanted);
+    std::string list;
+    for (const YAML::Node& element : node)
+      list += (list.empty() ? "" : ",") + scalar(element);
+    return list;
+  }
+
+  std::string name_;
+  std::map<std::string, YAML::Node> nodes_;
+  Lines lines_;
+  std::set<std::string> sections_;
+  Lines maps_;
+};
+
+class Writer {
+ public:
+  template <typename T>
+  void operator()(const Setting& setting, const T& value) {
+    constexpr bool list =
+        std::is_same_v<T, std::vector<std::string>> || std::is_same_v<T, std::optional<Eigen::Vector3d>> ||
+        std::is_same_v<T, std::vector<RegionConfig>> || std::is_same_v<T, std::vector<ClassConfig>>;
+    std::string text = to_text(value);
+    if (text == "inf") text = ".inf";
+    std::string comment(setting.unit);
+    if (!setting.unset.empty()) comment.append(text.empty() ? "; []: " : "; null: ").append(setting.unset);
+    put(std::string(setting.key), list && text != "null" ? '[' + text + ']' : text, comment);
+  }
+
+  const std::string& yaml() const { return yaml_; }
+
+ private:
+  void put(const std::string& key, const std::string& value, const std::string& comment) {
+    const std::size_t dot = key.find('.');
+    const std::string section = dot == std::string::npos ? "" : key.substr(0, dot);
+    if (section != section_ && !section.empty()) yaml_ += section + ":\n";
+    section_ = section;
+    yaml_ += (section.empty() ? "" : "  ") + key.substr(dot == std::string::npos ? 0 : dot + 1) + ": " +
+             value + (comment.empty() ? "" : "  # " + comment) + '\n';
+  }
+
+  std::string section_, yaml_;
+};
+
+}  // namespace
+
+StreamConfig parse_stream_config(const std::string& text, const std::string& name,
+                                 const StreamConfig& defaults) {
+  StreamConfig config = defaults;
+  if (text.size() > kMaxConfigBytes)
+    fail(name, 0, "has more than " + std::to_string(kMaxConfigBytes) + " bytes");
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) fail(name, documents[1].Mark().line + 1, "a second document");
+    Reader reader(documents.empty() ? YAML::Node() : documents.front(), name);
+    visit_stream(config, reader);
+    reader.finish();
+    reader.refuse(problems_of(config));
+  } catch (const YAML::Exception& error) {
+    fail(name, 0, yaml_problem(error));
+  }
+  return config;
+}
+
+StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults) {
+  std::string text;
+  try {
+    text = read_text_from_outside(file, kMaxConfigBytes);
+  } catch (const IoError& error) {
+    fail(file.string(), 0, error.what());
+  }
+  return parse_stream_config(text, file.string(), defaults);
+}
+
+std::string to_yaml(const StreamConfig& config) {
+  Writer writer;
+  visit_stream(config, writer);
+  return writer.yaml();
+}
+
+}  // namespace pcl_bv

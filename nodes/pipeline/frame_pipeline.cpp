@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/frame_pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "made_sweep.h"
+#include "pcl_bv/fitting/batch.h"
+#include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/segmentation/sensor_place.h"
+#include "pcl_bv/segmentation/up.h"
+#include "class_rules.h"
+#include "filter.h"
+#include "ground.h"
+#include "tracked_volumes.h"
+
+namespace pcl_bv {
+namespace {
+
+class Watch {
+ public:
+  double lap() {  // milliseconds since the last call, or since construction
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// A configuration, checked and looked up.
+struct Prepared {
+  PipelineConfig config;
+  std::vector<const Method*> methods;
+  ClassRules rules;
+  MethodOptions options;
+  std::shared_ptr<const PointFilter> filter;
+  Execution execution{Serial{}, Isa::scalar};  // until the configuration's set is known
+  bool tells_apart = false;                    // ground or clusters
+  bool looks = false;                          // at points before volumes are fitted
+};
+
+std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
+  std::string problems;
+  for (const std::string& line : config.validate())
+    problems += (problems.empty() ? "" : "; ") + line;
+  if (!problems.empty()) throw std::invalid_argument(problems);
+  auto prepared = std::make_shared<Prepared>();
+  prepared->methods = config.methods();
+  prepared->rules = ClassRules(config);
+  prepared->options = {config.growth, up_direction(config.ground.up)};
+  prepared->tells_apart = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
+  prepared->execution.isa = parse_isa(config.isa);
+  prepared->execution.parallel = config.policy();
+  prepared->filter = std::make_shared<PointFilter>(config.filter, prepared->execution.isa);
+  prepared->looks = prepared->tells_apart || !prepared->filter->keeps_all() ||
+                    config.cluster.least_size() > 0 ||
+                    config.cluster.max_size < std::numeric_limits<std::size_t>::max();
+  prepared->config = std::move(config);
+  return prepared;
+}
+
+}  // namespace
+
+struct FramePipeline::State {
+  std::shared_ptr<const Prepared> current() const {
+    const std::lock_guard lock(mutex);
+    return prepared;
+  }
+
+  PointView filter(const Prepared& now, const Frame& frame, FrameResult& result);
+  void find_sensor(const Prepared& now, const Frame& frame, FrameResult& result);
+  PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
+  void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
+  void fit(const Prepared& now, const PointView& cloud, FrameResult& result);
+
+  mutable std::mutex mutex;
+  std::shared_ptr<const Prepared> prepared;
+
+  Parts<FilterPart> parts;
+  GroundZones zones;
+  EuclideanClusterer clusterer;
+  ClassClusterer class_clusterer;
+  std::vector<PointView> views;
+  TrackedVolumes tracks;
+};
+
+// A big cloud that is only filtered goes the same way, to the same bits, whether it is in memory or in a
+// file: it is filtered as it comes past.
+PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, FrameResult& result) {
+  const PointView& cloud = frame.points;
+  result.kept.clear();
+  result.filtered.reset();
+  if (!now.looks) return cloud;
+  const bool listed = now.tells_apart || cloud.indices != nullptr;
+  if (!listed && (cloud.source != nullptr || cloud.count > kChunkPoints)) {
+    auto filtered = std::make_shared<FilteredPoints>(cloud, frame.owner, now.filter);
+    result.counts = filtered->count(now.execution.parallel);
+    result.filtered = std::move(filtered);
+  } else {
+    now.filter->select(cloud, now.execution.parallel, result.kept, parts, result.counts);
+  }
+  return result.kept_points(cloud);
+}
+
+// The settings' place is believed, the source's if the points lie around it.
+void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
+  const PipelineConfig& config = now.config;
+  result.sensor = {};
+  result.around_origin = true;
+  const bool counts_from_origin = config.filter.range_max < std::numeric_limits<double>::infinity() ||
+                                  config.cluster.tolerance_per_metre > 0;
+  if (frame.points.source != nullptr) return;
+  if (config.ground.method != GroundMethod::zones && !counts_from_origin) return;
+  const auto look = [&](const Eigen::Vector3d& place) {
+    return pcl_bv::find_sensor(frame.points, config.ground.up, place, result.ground.scratch);
+  };
+  result.sensor = look(Eigen::Vector3d::Zero());
+  result.around_origin = result.sensor.around;
+  if (config.ground.sensor) {
+    result.sensor = look(*config.ground.sensor);
+    result.sensor.at = *config.ground.sensor;
+  } else if (frame.sensor) {
+    const SensorPlace said = look(*frame.sensor);
+    if (said.around) result.sensor = said;
+  }
+}
+
+PointView FramePipeline::State::remove_ground(const Prepared& now, const PointView& points,
+                                              FrameResult& result) {
+  const GroundConfig& config = now.config.ground;
+  split_ground(points, config, result.sensor, now.execution.parallel, zones, result.ground);
+  result.ground.sensor = result.sensor;
+  if (config.method == GroundMethod::none) return points;
+  result.counts.ground = result.ground.ground.size();
+  return subset(points, result.ground.rest);
+}
+
+// All points as one object, if their number is allowed.
+void take_all(const ClusterConfig& config, const PointView& points, FrameResult& result) {
+  const Counts& counts = result.counts;
+  const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;
+  Clusters& all = result.clusters;
+  all.indices.clear();
+  all.offsets.assign(1, 0);
+  const bool small = valid < config.least_size();
+  const bool large = valid > config.max_size && config.oversized != Oversized::keep;
+  all.small_points = small ? valid : 0;
+  all.large_points = large ? valid : 0;
+  all.noise_points = all.class_points = 0;
+  if (small || large) return;
+  all.offsets.push_back(valid);
+  if (points.indices != nullptr && points.count == valid)
+    all.indices.assign(points.indices, points.indices + points.count);
+}
+
+void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame, const PointView& points,
+                                         FrameResult& result) {
+  const ClusterConfig& config = now.config.cluster;
+  result.class_of.clear();
+  if (config.tolerance == 0) {
+    take_all(config, points, result);
+  } else if (!config.class_field) {
+    clusterer.extract(points, now.rules.others(), result.clusters, now.execution.parallel);
+  } else {
+    if (frame.classes == nullptr)
+      throw std::invalid_argument("the frame has no classes, but cluster.class_field is '" +
+                                  config.class_field->name + "'");
+    class_clusterer.extract(points, *frame.classes, now.rules.others(), now.rules.own(), result.clusters,
+                            result.class_of, now.execution.parallel);
+  }
+  // A million clusters of four points took 550 MB to be found, 300 MB are for their volumes.
+  constexpr std::size_t many = 250'000;
+  if (result.clusters.size() >= many) {
+    clusterer = EuclideanClusterer();
+    class_clusterer = ClassClusterer();
+  }
+  result.counts.small = result.clusters.small_points;
+  result.counts.large = result.clusters.large_points;
+  result.counts.noise = result.clusters.noise_points;
+  result.counts.of_class = result.clusters.class_points;
+}
+
+void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {
+  views.clear();
+  for (std::size_t i = 0; i < result.clusters.size(); ++i)
+    views.push_back(result.points_of(i, cloud));
+  const std::size_t methods = now.methods.size();
+  result.methods.assign(now.methods.begin(), now.methods.end());
+  result.volumes.resize(views.size() * methods);
+  result.results.resize(result.volumes.size());
+  result.wanted.resize(result.volumes.size());
+  const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
+    const std::vector<const Method*>& wanted = now.rules.methods_of(
+        result.class_of.empty() ? std::nullopt : std::optional(result.class_of[cluster]));
+    Supports supports;
+    const Execution shared = share_supports(views[cluster], wanted, execution, supports);
+    for (std::size_t m = 0; m < methods; ++m) {
+      const std::size_t i = cluster * methods + m;
+      result.wanted[i] = std::find(wanted.begin(), wanted.end(), now.methods[m]) != wanted.end();
+      if (result.wanted[i] == 0) {
+        result.volumes[i] = AnyVolume();
+        result.results[i] = EstimationResult();
+        continue;
+      }
+      result.results[i] = now.methods[m]->fit(views[cluster], result.volumes[i], shared, now.options);
+    }
+  };
+  for_each_view(views, now.execution, std::cref(fit_cluster));
+  if (now.looks) return;
+  result.counts.nonfinite = result.results.front().dropped;  // nobody has looked at the points before
+  result.clusters.offsets.back() = result.results.front().used;
+}
+
+FramePipeline::FramePipeline(PipelineConfig config) : state_(std::make_unique<State>()) {
+  set_config(std::move(config));
+}
+FramePipeline::~FramePipeline() = default;
+FramePipeline::FramePipeline(FramePipeline&&) noexcept = default;
+FramePipeline& FramePipeline::operator=(FramePipeline&&) noexcept = default;
+
+void FramePipeline::set_config(PipelineConfig config) {
+  std::shared_ptr<const Prepared> prepared = prepare(std::move(config));
+  const std::lock_guard lock(state_->mutex);
+  state_->prepared.swap(prepared);
+}
+
+PipelineConfig FramePipeline::config() const {
+  return state_->current()->config;
+}
+
+void FramePipeline::process(const Frame& frame, FrameResult& result) {
+  const std::shared_ptr<const Prepared> now = state_->current();
+  const AwakeThreads awake(now->execution.parallel);
+  Watch whole, watch;
+  result.header = frame.header;
+  result.config = {now, &now->config};
+  result.points = frame.points.count;
+  result.counts = Counts();
+  result.ms = StageTimes();
+  result.ms.decode = frame.decode_ms;
+
+  if (now->tells_apart && frame.points.source != nullptr)
+    throw std::invalid_argument("a cloud that is not in memory can be filtered, but not be told apart");
+  PointView points = state_->filter(*now, frame, result);
+  result.ms.filter = watch.lap();
+  state_->find_sensor(*now, frame, result);
+  points = state_->remove_ground(*now, points, result);
+  result.ms.ground = watch.lap();
+  state_->find_clusters(*now, frame, points, result);
+  result.ms.cluster = watch.lap();
+  state_->fit(*now, frame.points, result);
+  result.ms.fit = watch.lap();
+  result.tracks.clear();
+  result.track_time = TrackTime::stamps;
+  const bool nothing = result.clusters.size() == 1 && result.clusters.cluster_size(0) == 0;  // has no place
+  if (now->config.track.enabled && nothing) result.tracks.resize(result.clusters.size());
+  if (now->config.track.enabled && !nothing) {
+    state_->tracks.update(now->config.track, state_->views, frame, result);
+  } else {
+    state_->tracks.reset();
+  }
+  result.ms.track = watch.lap();
+  result.ms.total = whole.lap();
+}
+
+void FramePipeline::reserve(std::size_t points, FrameResult& result) {
+  const Frame frame = made_sweep(points, state_->current()->config);
+  for (int pass = 0; pass < 2; ++pass)  // tracks are born in one and met again in the other
+    process(frame, result);
+  state_->tracks = TrackedVolumes();
+}
+
+}  // namespace pcl_bv

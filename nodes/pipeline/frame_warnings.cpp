@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pcl_bv/nodes/frame_warnings.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "pipeline/config/settings.h"
+#include "pcl_bv/segmentation/sensor_place.h"
+#include "pcl_bv/segmentation/up.h"
+#include "ground.h"
+
+namespace pcl_bv {
+namespace {
+
+// Above: a sensor on a motorway may have a tenth of its points beyond 100 m.
+constexpr double kMostFar = 0.2;
+
+// Below: streets have 30 % to 60 % ground, cluttered ones 13 %.
+constexpr double kLittleGround = 0.15;
+
+struct Found {
+  const Frame& frame;
+  const FrameResult& result;
+  bool& searched;  // whether little ground was once a reason to search another up direction
+
+  const PipelineConfig& config() const { return *result.config; }
+  bool zones() const { return config().ground.method == GroundMethod::zones; }
+  double ground_share() const {
+    const Counts& c = result.counts;
+    const std::size_t kept = result.points - c.nonfinite - c.range - c.inside;
+    return kept < kFewPoints ? 1 : static_cast<double>(c.ground) / static_cast<double>(kept);
+  }
+  std::optional<OtherUp> other_up() const {
+    const double share = result.counts.ground > 0 ? ground_share() : 0;
+    return find_other_up(frame.points, plane_settings(config().ground), result.sensor.at, share);
+  }
+};
+
+std::string percent(double share) {
+  return std::to_string(std::lround(100 * share)) + " %";
+}
+
+std::string text_of(const Eigen::Vector3d& place) {
+  char text[120];
+  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f)", place.x(), place.y(), place.z());
+  return text;
+}
+
+std::string ground_found(const Found& f) {
+  std::string text = ground_remark(f.result);
+  if (text.empty() || f.result.counts.ground > 0) return text;
+  if (const auto other = f.other_up()) {
+    const std::string tried = "try ground.up";
+    text.insert(text.find(tried) + tried.size(),
+                ' ' + up_text(other->up) + " (" + percent(other->share) + " of the points would be ground)");
+  }
+  return text;
+}
+
+std::string little_ground(const Found& f) {
+  const double share = f.ground_share();
+  if (f.config().ground.method == GroundMethod::none || share == 0 || share >= kLittleGround) return {};
+  // A cluttered stream has little ground in every frame, and a search costs milliseconds.
+  if (std::exchange(f.searched, true)) return {};
+  const auto other = f.other_up();
+  if (!other) return {};
+  return "only " + percent(share) + " of the points are ground (up is " + up_text(f.config().ground.up) +
+         "), " + percent(other->share) +
+         " would be with the opposite up: if the cloud is upside down, use ground.up " + up_text(other->up);
+}
+
+std::string sensor_elsewhere(const Found& f) {
+  if (!f.zones() || f.result.sensor.around) return {};
+  if (const auto& said = f.config().ground.sensor)
+    return "few points lie around ground.sensor " + text_of(*said) +
+           ", where ground zones begin: ground may be missed";
+  return "the points do not lie around a sensor in the origin: ground zones begin at " +
+         text_of(f.result.sensor.at) +
+         ", where the points are densest; if the sensor was elsewhere, use ground.sensor";
+}
+
+std::string origin_elsewhere(const Found& f) {
+  if (f.result.around_origin) return {};
+  const bool range = f.config().filter.range_max < std::numeric_limits<double>::infinity();
+  const bool growth = f.config().cluster.tolerance_per_metre > 0;
+  if (!range && !growth) return {};
+  return std::string(range ? "filter.range_max" : "") + (range && growth ? " and " : "") +
+         (growth ? "cluster.tolerance_per_metre" : "") + (range && growth ? " are" : " is") +
+         " measured from the origin, but the points do not lie around it";
+}
+
+std::string far_points(const Found& f) {
+  if (!f.zones() || f.result.sensor.far_share < kMostFar) return {};
+  return percent(f.result.sensor.far_share) + " of the points are 100 m or more from " +
+         text_of(f.result.sensor.at) + ", where ground zones begin: there ground is a guess";
+}
+
+std::string level_ground(const Found& f) {
+  if (!f.zones() || !f.result.ground.level || f.result.counts.ground == 0) return {};
+  return "no plane lies ground.sensor_height " + to_text(*f.config().ground.sensor_height) +
+         " m below the sensor, within 0.5 m: level ground is assumed there";
+}
+
+std::string stamps_stand(const Found& f) {
+  return track_remark(f.result);
+}
+
+constexpr std::string (*kKinds[])(const Found&) = {
+    ground_found, little_ground, sensor_elsewhere, origin_elsewhere, far_points, level_ground, stamps_stand};
+
+}  // namespace
+
+std::vector<std::string> FrameWarnings::take(const Frame& frame, const FrameResult& result) {
+  if (config_ != result.config) {
+    said_ = 0;
+    searched_ = false;
+  }
+  config_ = result.config;
+  std::vector<std::string> texts;
+  std::uint32_t bit = 1;
+  for (const auto& kind : kKinds) {
+    std::string text = (said_ & bit) != 0 ? "" : kind({frame, result, searched_});
+    if (!text.empty()) {
+      said_ |= bit;
+      texts.push_back(std::move(text));
+    }
+    bit <<= 1;
+  }
+  return texts;
+}
+
+}  // namespace pcl_bv

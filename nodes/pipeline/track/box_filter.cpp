@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "box_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/points/point_source.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kForget = 0.9;         // a frame
+constexpr double kSurer = 2;            // frames
+constexpr double kTurnsForget = 0.5;    // a frame, of what moves and may turn
+constexpr double kStandsForget = 0.97;  // a frame, of what stands
+constexpr double kStep = 0.15;          // metres a frame by which sizes grow
+constexpr std::size_t kFree = 5;        // sightings that may be larger by any step
+
+// Of axis 0, turned by quarters about axis 2.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, int quarters) {
+  Eigen::Matrix3d result = axes;
+  for (int i = 0; i < quarters; ++i) {
+    const Eigen::Vector3d front = result.col(1);
+    result.col(1) = -result.col(0);
+    result.col(0) = front;
+  }
+  return result;
+}
+
+// Turned by an angle about axis 2, which keeps its bits.
+Eigen::Matrix3d about_third(const Eigen::Matrix3d& axes, double angle) {
+  Eigen::Matrix3d from_third;
+  from_third << axes.col(2), std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1), axes.col(1);
+  from_third = orthonormal_axes(from_third);
+  Eigen::Matrix3d result;
+  result << from_third.col(1), from_third.col(2), axes.col(2);
+  return result;
+}
+
+// The slabs between which all valid points lie, a little wider than the rounding of what is compared.
+void slabs_of(const PointView& points, const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin,
+              Eigen::Vector3d& low, Eigen::Vector3d& high) {
+  double farthest = 0;
+  low.setConstant(std::numeric_limits<double>::infinity());
+  high = -low;
+  for (std::size_t chunk = 0; chunk < chunk_count(points.count); ++chunk) {
+    const LoadedPoints loaded = load_chunk(points, chunk);
+    for (std::size_t i = 0; i < loaded.view().count; ++i) {
+      const Coordinates point = load_point(loaded.view(), i);
+      if (!is_valid(point)) continue;
+      const Eigen::Vector3d from = Eigen::Vector3d(point.x, point.y, point.z) - origin,
+                            along = axes.transpose() * from;
+      low = low.cwiseMin(along);
+      high = high.cwiseMax(along);
+      farthest = std::max(farthest, from.cwiseAbs().sum() + origin.cwiseAbs().sum());
+    }
+  }
+  const double margin = 16 * std::numeric_limits<double>::epsilon() * farthest;
+  low.array() -= margin;
+  high.array() += margin;
+}
+
+}  // namespace
+
+Obb BoxFilter::face(const Obb& box, const BoxSighting& sighting) {
+  if (box.empty()) return box;
+  const Eigen::Matrix3d turn = sighting.sensor.linear();
+  Obb facing = box;
+  if (known_) {
+    const Eigen::Matrix3d axes = orthonormal_axes(turn.transpose() * axes_);
+    facing = box.oriented_as(Obb(box.center(), axes, box.half_extents()));
+  }
+  if (sighting.moving && upright_) {
+    int best = 0;
+    for (int k = 1; k < 4; ++k) {
+      if (turned(facing.axes(), k).col(0).dot(sighting.velocity) >
+          turned(facing.axes(), best).col(0).dot(sighting.velocity))
+        best = k;
+    }
+    for (double& said : said_)
+      said *= kForget;
+    said_[static_cast<std::size_t>(best)] += 1;
+    if (best != 0 && said_[static_cast<std::size_t>(best)] > said_[0] + kSurer) {
+      Eigen::Vector3d half = facing.half_extents();
+      if (best % 2 == 1) std::swap(half.x(), half.y());
+      facing = Obb(facing.center(), turned(facing.axes(), best), half);
+      std::rotate(said_.begin(), said_.begin() + best, said_.end());
+      if (best % 2 == 1) std::swap(sizes_[0], sizes_[1]);
+    }
+  }
+  known_ = true;
+  axes_ = turn * facing.axes();
+  return facing;
+}
+
+double BoxFilter::smoothed_yaw(const Obb& box, const BoxSighting& sighting) {
+  const double yaw =
+      Obb(box.center(), orthonormal_axes(sighting.sensor.linear() * box.axes()), box.half_extents()).yaw();
+  if (!sighting.merged) {
+    const double forget = sighting.moving ? kTurnsForget : kStandsForget;
+    // The longer a side, the better its direction is seen.
+    const double weight = box.half_extents().head<2>().maxCoeff();
+    cosine_ = forget * cosine_ + weight * std::cos(4 * yaw);
+    sine_ = forget * sine_ + weight * std::sin(4 * yaw);
+  }
+  if (cosine_ == 0 && sine_ == 0) return 0;
+  return std::remainder(std::atan2(sine_, cosine_) / 4 - yaw, std::acos(0.0));  // by how much it is turned
+}
+
+double BoxFilter::grown(std::size_t axis, double seen, bool merged) {
+  double& size = sizes_[axis];
+  if (seen > size && !merged) {
+    const double more = seen - size;
+    size = seen_ <= kFree ? seen : size + std::min(0.3 * more, kStep);
+  }
+  return std::max(size, seen);
+}
+
+Obb BoxFilter::steady(const Obb& box, const PointView& points, const BoxSighting& sighting, bool smooth,
+                      bool grow) {
+  if (box.empty() || !upright_) return box;
+  if (sighting.separated) {
+    sizes_ = {};
+    seen_ = 0;
+  }
+  if (!sighting.merged) ++seen_;
+  Eigen::Matrix3d axes = box.axes();
+  if (smooth) {
+    axes = about_third(axes, smoothed_yaw(box, sighting));
+    axes_ = sighting.sensor.linear() * axes;  // names are kept by the turn that does not jitter
+  }
+  Eigen::Vector3d low, high;
+  slabs_of(points, axes, box.center(), low, high);
+  if (!(low.array() <= high.array()).all()) return box;
+  for (int i = 0; grow && i < 2; ++i) {
+    const double more =
+        grown(static_cast<std::size_t>(i), high[i] - low[i], sighting.merged) - (high[i] - low[i]);
+    const double sensor = -axes.col(i).dot(box.center());
+    const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;  // inside: nobody knows which end
+    high[i] += above * more;
+    low[i] -= (1 - above) * more;
+  }
+  return Obb::from_slabs(axes, box.center(), low, high);
+}
+
+}  // namespace pcl_bv

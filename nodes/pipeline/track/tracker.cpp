@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Which box is whose: what is expected, what is likely, and what costs least.
+
+#include "tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "box_grid.h"
+#include "assignment.h"
+#include "ego_motion.h"
+#include "track.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr double kGateCost = 16;         // four standard deviations
+constexpr std::size_t kHiddenShare = 4;  // frames inside another's box that count as one without a sighting
+constexpr std::size_t kSeparate = 5;     // sightings in a row of what came out of a box that was two objects
+
+bool holds(const Aabb& box, const Eigen::Vector3d& place) {
+  return (box.min().array() <= place.array()).all() && (place.array() <= box.max().array()).all();
+}
+
+Pose moved(const Pose& sensor, const PlanarMotion& motion) {
+  Pose step = Pose::Identity();
+  step.linear() = Eigen::AngleAxisd(motion.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  step.translation() << motion.shift, 0;
+  Pose next = sensor * step.inverse();
+  // Rounding must not add up over days.
+  next.linear() = Eigen::Quaterniond(next.linear()).normalized().toRotationMatrix();
+  return next;
+}
+
+}  // namespace
+
+struct Tracker::State {
+  void move_sensor(double seconds, const std::vector<Aabb>& boxes, const std::optional<Pose>& pose);
+  void find_sensor(double seconds, const std::vector<Aabb>& boxes);
+  void find_pairs(const std::vector<Aabb>& boxes, double gate);
+  void join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void miss(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void start(const std::vector<Aabb>& boxes, std::size_t box, std::vector<Assignment>& assignments);
+  void separate(std::vector<Assignment>& assignments);
+  void bury(std::size_t death);
+  std::size_t free_slot();
+  Eigen::Vector3d apparent(const Eigen::Vector3d& place) const;
+
+  std::vector<Track> tracks;
+  std::vector<std::size_t> free;
+  std::vector<char> track_taken, box_taken;
+  std::vector<Aabb> expected;
+  std::vector<Aabb> predicted;  // of each box: where its track was expected, before it was seen
+  std::vector<AssignmentPair> pairs;
+  BoxGrid grid;
+  SparseAssignment assignment;
+  EgoMotion ego;
+  PlanarMotion step;  // of standing points in the sensor's frame, over step_seconds
+  double step_seconds = 0;
+  Pose sensor = Pose::Identity();
+  bool posed = false;  // the frame is that of poses that were given
+  std::int64_t last_stamp_ns = 0;
+  bool started = false;
+  std::uint32_t next_id = 0;
+};
+
+// How fast a standing point seems to go.
+Eigen::Vector3d Tracker::State::apparent(const Eigen::Vector3d& place) const {
+  if (!(step_seconds > 0)) return Eigen::Vector3d::Zero();
+  const Eigen::Vector2d now = place.head<2>(), before = step.inverse() * now;
+  const Eigen::Vector2d velocity = (now - before) / step_seconds;
+  return {velocity.x(), velocity.y(), 0};
+}
+
+void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes) {
+  expected.clear();
+  for (const Track& track : tracks)
+    if (track.alive && track.missed == 0) expected.push_back(track.standing_box(sensor));
+  PlanarMotion guess;
+  if (step_seconds > 0) {
+    const double part = seconds / step_seconds;
+    guess = {part * step.yaw, part * step.shift};
+  }
+  PlanarMotion motion = guess;
+  const bool found = ego.estimate(expected, boxes, guess, motion);
+  sensor = moved(sensor, motion);
+  // Over a millisecond the noise of places is more than the way.
+  if (!found || seconds < 0.02) return;
+  step = motion;
+  step_seconds = seconds;
+}
+
+void Tracker::State::move_sensor(double seconds, const std::vector<Aabb>& boxes,
+                                 const std::optional<Pose>& pose) {
+  if (!pose || !posed) find_sensor(seconds, boxes);
+  if (pose && !posed) {  // what was followed so far moves into the fixed frame
+    for (Track& track : tracks) {
+      const Eigen::Matrix3d turn = pose->linear() * sensor.linear().transpose();
+      const Eigen::Vector3d place =
+          turn * (track.motion.place() - sensor.translation()) + pose->translation();
+      const Eigen::Vector3d velocity = turn * track.motion.velocity();
+      for (int i = 0; i < 3; ++i) {
+        track.motion.axes[static_cast<std::size_t>(i)].place = place[i];
+        track.motion.axes[static_cast<std::size_t>(i)].velocity = velocity[i];
+      }
+    }
+    posed = true;
+  }
+  if (pose) sensor = *pose;
+  for (Track& track : tracks)
+    if (track.alive) track.expect(sensor);
+}
+
+void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
+  pairs.clear();
+  grid.fill(boxes, 3 * gate);
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    const Track& track = tracks[t];
+    if (!track.alive) continue;
+    grid.visit_near(track.expected_box().center(), [&](std::size_t b) {
+      const double cost = cost_of(track, boxes[b], gate) + (track.id ? 0 : 1);
+      if (cost < kGateCost) pairs.push_back({t, b, cost});
+    });
+  }
+}
+
+void Tracker::State::join(double seconds, const std::vector<Aabb>& boxes,
+                          std::vector<Assignment>& assignments) {
+  track_taken.assign(tracks.size(), 0);
+  box_taken.assign(boxes.size(), 0);
+  predicted.assign(boxes.size(), Aabb());
+  assignment.solve(tracks.size(), boxes.size(), pairs, kGateCost);
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    const std::size_t b = assignment.columns()[t];
+    if (b == SparseAssignment::none) continue;
+    track_taken[t] = box_taken[b] = 1;
+    predicted[b] = tracks[t].expected_box();
+    tracks[t].correct(boxes[b], sensor, seconds);
+    assignments[b].slot = t;
+  }
+}
+
+// A track whose place is inside the box of another is likely part of it, and comes back when they part.
+void Tracker::State::miss(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
+  for (std::size_t t = 0; t < track_taken.size(); ++t) {
+    Track& track = tracks[t];
+    if (!track.alive || track_taken[t] != 0) continue;
+    bool hides = false;
+    const Eigen::Vector3d centre = track.expected_box().center();
+    grid.visit_near(centre, [&](std::size_t b) {
+      if (!holds(boxes[b], centre)) return;
+      hides = true;
+      if (track.id) assignments[b].merged = true;
+    });
+    if (hides) track.seen_since_split = 0;
+    if (hides && ++track.hidden % kHiddenShare != 0) continue;
+    ++track.missed;
+  }
+}
+
+void Tracker::State::start(const std::vector<Aabb>& boxes, std::size_t box,
+                           std::vector<Assignment>& assignments) {
+  const std::size_t slot = free_slot();
+  tracks[slot].start(boxes[box], sensor);
+  assignments[box].slot = slot;
+  assignments[box].fresh = true;
+  const Eigen::Vector3d centre = boxes[box].center();
+  grid.visit_near(centre, [&](std::size_t b) {
+    if (box_taken[b] != 0 && holds(predicted[b], centre)) tracks[slot].split_from = assignments[b].slot;
+  });
+}
+
+void Tracker::State::separate(std::vector<Assignment>& assignments) {
+  for (const Assignment& own : assignments) {
+    Track& track = tracks[own.slot];
+    if (!track.split_from || ++track.seen_since_split < kSeparate) continue;
+    const Track& other = tracks[*track.split_from];
+    const bool lives = other.alive && other.age > track.age;  // a slot that is used again holds a younger one
+    const std::size_t box = lives ? assignment.columns()[*track.split_from] : SparseAssignment::none;
+    if (box != SparseAssignment::none) assignments[box].separated = true;
+    if (!lives || box != SparseAssignment::none) track.split_from.reset();
+  }
+}
+
+void Tracker::State::bury(std::size_t death) {
+  free.clear();
+  for (std::size_t t = tracks.size(); t-- > 0;) {
+    Track& track = tracks[t];
+    track.alive = track.alive && track.missed < death;
+    ++track.age;
+    if (!track.alive) free.push_back(t);
+  }
+}
+
+std::size_t Tracker::State::free_slot() {
+  if (free.empty()) {
+    tracks.emplace_back();
+    return tracks.size() - 1;
+  }
+  const std::size_t slot = free.back();
+  free.pop_back();
+  return slot;
+}
+
+Tracker::Tracker() : state_(std::make_unique<State>()) {}
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
+void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
+                     std::vector<Assignment>& assignments, const std::optional<Pose>& pose) {
+  State& s = *state_;
+  const double passed = 1e-9 * (static_cast<double>(stamp_ns) - static_cast<double>(s.last_stamp_ns));
+  const double seconds = s.started && passed > 0 && passed <= 1 ? passed : 0;
+  s.started = true;
+  s.last_stamp_ns = stamp_ns;
+  assignments.assign(boxes.size(), Assignment());
+  // Room for what lives on while others come: a sequence that is seen again finds more tracks than it made.
+  if (s.tracks.capacity() < 2 * boxes.size()) s.tracks.reserve(4 * boxes.size());
+  s.track_taken.reserve(s.tracks.capacity());
+  s.free.reserve(s.tracks.capacity());
+  s.expected.reserve(s.tracks.capacity());
+  s.pairs.reserve(4 * s.tracks.capacity());
+  for (Track& track : s.tracks)
+    if (track.alive) track.predict(seconds);
+  s.move_sensor(seconds, boxes, pose);
+  s.find_pairs(boxes, config.gate);
+  s.join(seconds, boxes, assignments);
+  s.miss(boxes, assignments);
+  s.bury(config.death);
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    if (s.box_taken[b] == 0) s.start(boxes, b, assignments);
+    Track& track = s.tracks[assignments[b].slot];
+    assignments[b].moving = track.moving;
+    assignments[b].velocity = s.sensor.linear().transpose() * track.motion.velocity();
+    if (!track.id && track.seen >= config.birth) track.id = s.next_id++;
+    if (track.id) assignments[b].track = track.entry(s.sensor, pose.has_value(), s.apparent(track.expected));
+  }
+  s.separate(assignments);
+}
+
+const Pose& Tracker::sensor() const {
+  return state_->sensor;
+}
+
+void Tracker::reset() {
+  for (Track& track : state_->tracks)
+    track.alive = false;
+  state_->started = false;
+  state_->posed = false;
+  state_->step = PlanarMotion();
+  state_->step_seconds = 0;
+  state_->sensor = Pose::Identity();
+}
+
+}  // namespace pcl_bv

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The table of sinks.
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "stream/topics/message_sink.h"
+#include "sinks.h"
+
+namespace pcl_bv {
+namespace {
+
+constexpr std::string_view kPoints = ",points";
+
+class FunctionSink : public FrameSink {
+ public:
+  explicit FunctionSink(std::function<void(const Frame&, const FrameResult&)> on_result)
+      : on_result_(std::move(on_result)) {}
+  void write(const Frame& frame, const FrameResult& result) override { on_result_(frame, result); }
+
+ private:
+  std::function<void(const Frame&, const FrameResult&)> on_result_;
+};
+
+}  // namespace
+
+// A labelled cloud is only made where somebody reads it; scenes are Foxglove's, who shows markers, too.
+std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
+  MessageTopics topics;
+  topics.prefix = description.place.string();
+  topics.points = true;
+  topics.scene = topics.poses = false;
+  return make_message_sink(middleware("dds").carrier(""), topics);
+}
+
+std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description) {
+  MessageTopics topics;
+  topics.points = topics.frames = true;
+  return make_message_sink(middleware("ws").carrier(description.place.string()), topics);
+}
+
+const std::vector<SinkKind>& sink_kinds() {
+  static const std::vector<SinkKind> kinds{{"jsonl", "FILE", "", open_jsonl},
+                                           {"csv", "FILE", "", open_csv},
+                                           {"mcap", "FILE[,points]", "", open_mcap_sink},
+                                           {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink},
+                                           {"dds", "PREFIX", "", open_dds_sink, true},
+                                           {"ws", "[HOST:]PORT", "", open_ws_sink, true},
+                                           {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
+                                           {"image", "FOLDER", ".png", open_image},
+                                           {"labels", "FOLDER", ".pcd", open_labels}};
+  return kinds;
+}
+
+std::string sink_syntax() {
+  std::string all;
+  for (const SinkKind& kind : sink_kinds()) {
+    if (!all.empty()) all += &kind == &sink_kinds().back() ? " or " : ", ";
+    all += std::string(kind.name) + ':' + std::string(kind.place);
+  }
+  return all;
+}
+
+SinkDescription parse_sink(const std::string& description) {
+  const std::size_t colon = std::min(description.find(':'), description.size());
+  for (const SinkKind& kind : sink_kinds()) {
+    if (description.compare(0, colon, kind.name) != 0) continue;
+    std::string place = description.substr(std::min(colon + 1, description.size()));
+    const bool points = kind.place.ends_with("[,points]") && place.ends_with(kPoints);
+    if (points) place.resize(place.size() - kPoints.size());
+    const bool may_be_printed = kind.files.empty() && !kind.live;
+    if (!place.empty() && (may_be_printed || place != "-")) return {&kind, place, points};
+  }
+  throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
+}
+
+std::unique_ptr<FrameSink> make_sink(const SinkDescription& description) {
+  if (description.kind == nullptr) throw std::invalid_argument("make_sink: no kind of sink");
+  return description.kind->open(description);
+}
+
+std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const FrameResult&)> on_result) {
+  if (!on_result) throw std::invalid_argument("make_sink: no function");
+  return std::make_unique<FunctionSink>(std::move(on_result));
+}
+
+}  // namespace pcl_bv
