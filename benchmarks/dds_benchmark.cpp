@@ -19,9 +19,9 @@
 #include "child_process.h"
 #include "pcl_bv/messages/results.h"
 #include "pcl_bv/messages/serialize.h"
-#include "stream/middleware.h"
 #include "pcl_bv/synth/street.h"
 #include "program.h"
+#include "stream/middleware.h"
 
 namespace pcl_bv::bench {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "convex_region.h"
 #include "grown.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "rows.h"
 

@@ -11,10 +11,10 @@
 #include <stdexcept>
 
 #include "pcl_bv/io/posix_file.h"
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/messages/cloud.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/recording/mcap_writer.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/synth/street.h"

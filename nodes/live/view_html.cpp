@@ -10,8 +10,8 @@
 #include "page.h"
 #include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_source.h"
-#include "pipeline/config/settings.h"
 #include "pcl_bv/volumes/aabb.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {

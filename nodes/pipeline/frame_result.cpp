@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "pcl_bv/points/chunks.h"
-#include "pipeline/config/settings.h"
-#include "pcl_bv/segmentation/up.h"
 #include "filter.h"
 #include "ground.h"
+#include "pcl_bv/points/chunks.h"
+#include "pcl_bv/segmentation/up.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/config/settings.h"
+#include "ground.h"
 #include "pcl_bv/segmentation/sensor_place.h"
 #include "pcl_bv/segmentation/up.h"
-#include "ground.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "pcl_bv/nodes/frame_result.h"
-#include "pipeline/track/tracker.h"
 #include "pipeline/track/box_filter.h"
+#include "pipeline/track/tracker.h"
 
 namespace pcl_bv {
 

@@ -10,11 +10,12 @@
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "stream/sources/recorded_clouds.h"
 #include "pcl_bv/report/read_volumes.h"
 #include "pcl_bv/synth/synth.h"
 #include "raw_cloud_array.h"
 #include "read_docs.h"
+#include "stream/sources/recorded_clouds.h"
+#include "stream/sources/sources.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {

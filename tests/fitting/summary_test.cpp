@@ -15,8 +15,8 @@
 #include "executions.h"
 #include "flush_to_zero.h"
 #include "pcl_bv/fitting/fit.h"
-#include "pcl_bv/points/point_groups.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_groups.h"
 
 namespace pcl_bv {
 namespace {

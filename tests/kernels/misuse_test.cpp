@@ -17,12 +17,12 @@
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/half_spaces.h"
 #include "pcl_bv/kernels/moments.h"
-#include "pcl_bv/points/point_groups.h"
-#include "pcl_bv/points/point_records.h"
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/kernels/region_states.h"
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/kernels/support.h"
+#include "pcl_bv/points/point_groups.h"
+#include "pcl_bv/points/point_records.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {

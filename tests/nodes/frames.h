@@ -9,9 +9,9 @@
 #include <cstring>
 #include <vector>
 
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/frame_result.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {

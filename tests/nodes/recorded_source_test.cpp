@@ -14,8 +14,9 @@
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
-#include "stream/sources/recorded_clouds.h"
 #include "pcl_bv/recording/mcap_writer.h"
+#include "stream/sources/recorded_clouds.h"
+#include "stream/sources/sources.h"
 
 namespace pcl_bv {
 namespace {

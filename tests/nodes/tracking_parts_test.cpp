@@ -10,11 +10,11 @@
 #include <numeric>
 #include <random>
 
-#include "pipeline/tracked_volumes.h"
 #include "pipeline/track/assignment.h"
 #include "pipeline/track/ego_motion.h"
 #include "pipeline/track/motion_filter.h"
 #include "pipeline/track/track.h"
+#include "pipeline/tracked_volumes.h"
 
 namespace pcl_bv {
 namespace {

@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "pipeline/track/tracker.h"
 #include "pipeline/track/motion_judge.h"
+#include "pipeline/track/tracker.h"
 
 namespace pcl_bv {
 namespace {

@@ -11,10 +11,10 @@
 #include "frames.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/messages/types.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/topics.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/trees/region_mask.h"
 

@@ -11,8 +11,8 @@
 
 #include "clouds.h"
 #include "executions.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/volumes/pairs.h"
 #include "scattered_volumes.h"
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 

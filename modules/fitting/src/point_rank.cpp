@@ -12,8 +12,8 @@
 #include "across.h"
 #include "local_frame.h"
 #include "map_chunks.h"
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/points/point_source.h"
 #include "schedule.h"
 
 namespace pcl_bv {

@@ -12,11 +12,11 @@
 #include <cmath>
 #include <limits>
 
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
 #include "schedule.h"
 
 namespace pcl_bv {

@@ -7,8 +7,8 @@
 #include <bit>
 #include <cstring>
 
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 namespace {

@@ -3,8 +3,8 @@
 
 // FIND-k-DOP of the paper (Figure 2), once in the source, compiled for every instruction set.
 
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/kernels/support.h"
+#include "pcl_bv/points/chunks.h"
 #include "references.h"
 #include "support_plan.h"
 #include "targets.h"

@@ -11,10 +11,10 @@
 #include <cstring>
 #include <limits>
 
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "pcl_bv/points/chunks.h"
 #include "preconditions.h"
 
 namespace pcl_bv {

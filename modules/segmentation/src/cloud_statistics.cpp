@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 namespace {

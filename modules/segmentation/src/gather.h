@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "distance.h"
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv {
 

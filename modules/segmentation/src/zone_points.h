@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/parts.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 #include "plane_search.h"
 #include "polar_cells.h"
 #include "up_frame.h"

@@ -8,9 +8,9 @@
 
 #include "convex_region.h"
 #include "grown.h"
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
 #include "refusal.h"
 #include "region_runs.h"
 #include "vectors.h"

@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/kernels/run_boxes.h"
+#include "pcl_bv/points/chunks.h"
 #include "spatial_order.h"
 
 namespace pcl_bv {

@@ -5,8 +5,8 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/kernels/packed_tree.h"
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/parts.h"
+#include "pcl_bv/points/point_view.h"
 #include "spatial_order.h"
 
 namespace pcl_bv {

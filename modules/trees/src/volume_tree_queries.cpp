@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/volumes/pairs.h"
 #include "refusal.h"
 #include "vectors.h"

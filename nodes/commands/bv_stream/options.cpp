@@ -10,9 +10,9 @@
 #include "commands/shared/output_claims.h"
 #include "commands/shared/setting_options.h"
 #include "commands/shared/values.h"
-#include "pipeline/config/words.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
+#include "pipeline/config/words.h"
 
 namespace pcl_bv {
 namespace {

@@ -16,6 +16,7 @@
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/synth/synth.h"
+#include "stream/sources/sources.h"
 #include "tiles.h"
 
 namespace pcl_bv {

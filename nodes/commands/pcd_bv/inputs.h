@@ -12,8 +12,8 @@
 
 #include "options.h"
 #include "pcl_bv/io/raw_cloud.h"
-#include "stream/sources/recorded_clouds.h"
 #include "pcl_bv/parallel/policy.h"
+#include "stream/sources/recorded_clouds.h"
 
 namespace pcl_bv {
 

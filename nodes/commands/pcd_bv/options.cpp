@@ -12,10 +12,10 @@
 #include "commands/shared/command_line.h"
 #include "commands/shared/setting_options.h"
 #include "commands/shared/values.h"
-#include "pipeline/config/words.h"
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pipeline/config/settings.h"
+#include "pipeline/config/words.h"
 
 namespace pcl_bv {
 namespace {

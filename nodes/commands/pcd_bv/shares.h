@@ -11,9 +11,9 @@
 
 #include "options.h"
 #include "pcl_bv/fitting/execution.h"
-#include "pipeline/filtered_view.h"
 #include "pcl_bv/report/partial_file.h"
 #include "pcl_bv/report/report.h"
+#include "pipeline/filtered_view.h"
 #include "status.h"
 #include "tiles.h"
 

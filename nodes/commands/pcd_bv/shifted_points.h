@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_source.h"
 
 namespace pcl_bv {
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "messages.h"
-#include "values.h"
 #include "pipeline/config/check.h"
 #include "pipeline/config/settings.h"
+#include "values.h"
 
 namespace pcl_bv {
 namespace {

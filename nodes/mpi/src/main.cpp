@@ -7,13 +7,13 @@
 #include <functional>
 #include <new>
 
+#include "commands/pcd_bv/in_order.h"
 #include "commands/shared/interruption.h"
 #include "commands/shared/messages.h"
 #include "commands/shared/run_command.h"
 #include "commands/shared/values.h"
 #include "dealt.h"
 #include "failures.h"
-#include "commands/pcd_bv/in_order.h"
 #include "ranks.h"
 #include "together.h"
 

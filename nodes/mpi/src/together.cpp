@@ -14,10 +14,10 @@
 #include <optional>
 #include <vector>
 
-#include "commands/shared/messages.h"
-#include "failures.h"
 #include "commands/pcd_bv/process.h"
 #include "commands/pcd_bv/shares.h"
+#include "commands/shared/messages.h"
+#include "failures.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
 #include "volume_bytes.h"

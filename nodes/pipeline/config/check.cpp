@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "rows.h"
 #include "pcl_bv/fitting/methods.h"
+#include "rows.h"
 #include "settings.h"
 
 namespace pcl_bv {

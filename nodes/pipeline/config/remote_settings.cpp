@@ -13,8 +13,8 @@
 
 #include "check.h"
 #include "pcl_bv/io/read_json.h"
-#include "pcl_bv/points/isa.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
+#include "pcl_bv/points/isa.h"
 #include "settings.h"
 
 namespace pcl_bv {

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "rows.h"
-#include "words.h"
 #include "pcl_bv/fitting/methods.h"
-#include "settings.h"
 #include "pcl_bv/segmentation/up.h"
+#include "rows.h"
+#include "settings.h"
+#include "words.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,11 +9,11 @@
 #include <type_traits>
 
 #include "check.h"
-#include "rows.h"
-#include "words.h"
 #include "pcl_bv/io/text_from_outside.h"
 #include "pcl_bv/io/yaml_problem.h"
+#include "rows.h"
 #include "settings.h"
+#include "words.h"
 
 namespace pcl_bv {
 namespace {

@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/nodes/frame.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/obb.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

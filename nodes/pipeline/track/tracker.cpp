@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "box_grid.h"
 #include "assignment.h"
+#include "box_grid.h"
 #include "ego_motion.h"
 #include "track.h"
 

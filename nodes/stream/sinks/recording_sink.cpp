@@ -5,10 +5,10 @@
 
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/messages/schema.h"
-#include "stream/topics/message_sink.h"
 #include "pcl_bv/recording/mcap_writer.h"
 #include "pcl_bv/recording/rosbag2_writer.h"
 #include "sinks.h"
+#include "stream/topics/message_sink.h"
 
 namespace pcl_bv {
 namespace {
@@ -47,8 +47,6 @@ std::unique_ptr<FrameSink> open_recording_sink(const SinkDescription& descriptio
   return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.place)), topics);
 }
 
-}  // namespace
-
 std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description) {
   make_folder_of(description.place);
   return open_recording_sink<McapWriter>(description);
@@ -56,6 +54,12 @@ std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description) {
 
 std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkDescription& description) {
   return open_recording_sink<Rosbag2Writer>(description);
+}
+
+}  // namespace
+
+std::vector<SinkKind> recording_sinks() {
+  return {{"mcap", "FILE[,points]", "", open_mcap_sink}, {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink}};
 }
 
 }  // namespace pcl_bv

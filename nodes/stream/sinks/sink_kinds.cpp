@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "stream/topics/message_sink.h"
 #include "sinks.h"
+#include "stream/topics/message_sink.h"
 
 namespace pcl_bv {
 namespace {
@@ -43,15 +43,18 @@ std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description) {
 }
 
 const std::vector<SinkKind>& sink_kinds() {
-  static const std::vector<SinkKind> kinds{{"jsonl", "FILE", "", open_jsonl},
-                                           {"csv", "FILE", "", open_csv},
-                                           {"mcap", "FILE[,points]", "", open_mcap_sink},
-                                           {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink},
-                                           {"dds", "PREFIX", "", open_dds_sink, true},
-                                           {"ws", "[HOST:]PORT", "", open_ws_sink, true},
-                                           {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
-                                           {"image", "FOLDER", ".png", open_image},
-                                           {"labels", "FOLDER", ".pcd", open_labels}};
+  static const std::vector<SinkKind> kinds = [] {
+    std::vector<SinkKind> all{{"jsonl", "FILE", "", open_jsonl},
+                              {"csv", "FILE", "", open_csv},
+                              {"dds", "PREFIX", "", open_dds_sink, true},
+                              {"ws", "[HOST:]PORT", "", open_ws_sink, true},
+                              {"vtp", "FOLDER[,points]", ".vtp", open_vtp},
+                              {"image", "FOLDER", ".png", open_image},
+                              {"labels", "FOLDER", ".pcd", open_labels}};
+    const std::vector<SinkKind> recordings = recording_sinks();
+    all.insert(all.begin() + 2, recordings.begin(), recordings.end());
+    return all;
+  }();
   return kinds;
 }
 

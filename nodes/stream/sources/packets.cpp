@@ -7,6 +7,7 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/recording/velodyne.h"
+#include "recorded_clouds.h"
 #include "sources.h"
 
 namespace pcl_bv {

@@ -7,8 +7,9 @@
 
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/nodes/cloud_message.h"
-#include "recorded_clouds.h"
 #include "pcl_bv/recording/recording.h"
+#include "pcl_bv/recording/velodyne.h"
+#include "recorded_clouds.h"
 #include "sources.h"
 
 namespace pcl_bv {
@@ -85,14 +86,21 @@ class Recorded final : public FrameSource {
   std::size_t place_ = 0, loop_ = 0, remarks_ = 0;
 };
 
-}  // namespace
-
 std::unique_ptr<FrameSource> open_recorded(const std::string& name, const ReplayOptions& options) {
   try {
     return std::make_unique<Recorded>(name, options);
   } catch (const IoError& error) {
     throw IoError(name + ": " + error.what());
   }
+}
+
+}  // namespace
+
+std::vector<SourceKind> recording_kinds() {
+  return {{"packets of a Velodyne (.pcap, .pcapng)", FrameTimes::messages,
+           [](const std::string& name) { return is_capture(name); }, open_packets},
+          {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,
+           [](const std::string& name) { return is_recording(name); }, open_recorded}};
 }
 
 }  // namespace pcl_bv

@@ -19,6 +19,7 @@
 #include "pcl_bv/nodes/cloud_message.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/recording/velodyne.h"
+#include "sources.h"
 
 namespace pcl_bv {
 namespace {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/nodes/frame_source.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
@@ -23,10 +24,6 @@ std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::str
 /// Whether there are clouds of a recording (open_recording()) or of a sensor's packets (VelodyneReader), by
 /// the first bytes.
 bool has_recorded_clouds(const std::filesystem::path& file);
-
-/// Throws IoError for a file that is called a recording or a capture (.bag, .mcap, .db3, .pcap, .pcapng) and
-/// does not begin as one, and if it is not there or empty. Other names pass.
-void refuse_false_recording(const std::filesystem::path& file);
 
 /// The clouds of a recording or of a capture of packets, by their numbers. May be asked by several threads at
 /// a time, one of which waits.
@@ -61,5 +58,8 @@ class RecordedClouds {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// The sweeps of a capture of packets as frames. Throws IoError, naming the file.
+std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 
 }  // namespace pcl_bv

@@ -8,14 +8,11 @@
 #include <tuple>
 #include <utility>
 
+#include "message_source.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
-#include "message_source.h"
-#include "recorded_clouds.h"
-#include "pcl_bv/recording/recording.h"
-#include "pcl_bv/recording/velodyne.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
 #include "pcl_bv/synth/verges.h"
@@ -118,17 +115,18 @@ std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptio
 }
 
 const std::vector<SourceKind>& source_kinds() {
-  static const std::vector<SourceKind> kinds{
+  static const std::vector<SourceKind> kinds = [] {
+    std::vector<SourceKind> all{
       {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]",
        FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
       {"dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)", FrameTimes::live,
        [](const std::string& name) { return name.starts_with(kDds); }, open_dds},
-      {"packets of a Velodyne (.pcap, .pcapng)", FrameTimes::messages,
-       [](const std::string& name) { return is_capture(name); }, open_packets},
-      {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,
-       [](const std::string& name) { return is_recording(name); }, open_recorded},
       {"A folder of clouds, one file", FrameTimes::names, [](const std::string&) { return true; },
        open_folder}};
+    const std::vector<SourceKind> recordings = recording_kinds();
+    all.insert(all.end() - 1, recordings.begin(), recordings.end());
+    return all;
+  }();
   return kinds;
 }
 

@@ -4,7 +4,9 @@
 // What recordings share.
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "name_times.h"
 #include "pcl_bv/nodes/frame_source.h"
@@ -35,8 +37,13 @@ std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::fi
                                          std::function<void(std::size_t place, Frame&)> load,
                                          NameTimes times = {});
 
-std::unique_ptr<FrameSource> open_packets(const std::string& name, const ReplayOptions& options);
 std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options);
-std::unique_ptr<FrameSource> open_recorded(const std::string& name, const ReplayOptions& options);
+
+/// Packets and recordings; none in a build without recordings.
+std::vector<SourceKind> recording_kinds();
+
+/// Throws IoError for a file that is called a recording or a capture (.bag, .mcap, .db3, .pcap, .pcapng) and
+/// does not begin as one, and if it is not there or empty. Other names pass.
+void refuse_false_recording(const std::filesystem::path& file);
 
 }  // namespace pcl_bv

@@ -5,8 +5,8 @@
 
 #include <chrono>
 
-#include "pipeline/config/words.h"
 #include "name_times.h"
+#include "pipeline/config/words.h"
 
 namespace pcl_bv {
 namespace {

@@ -7,10 +7,10 @@
 #include <cstring>
 #include <utility>
 
+#include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_source.h"
 #include "pipeline/config/settings.h"
-#include "pcl_bv/nodes/topics.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,9 +9,9 @@
 #include "moment_tree.h"
 #include "partial/numbered_points.h"
 #include "pcl_bv/fitting/partial.h"
-#include "pcl_bv/points/chunks.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/numeric/directions.h"
+#include "pcl_bv/points/chunks.h"
 
 namespace pcl_bv {
 

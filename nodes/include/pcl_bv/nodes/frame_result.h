@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "pcl_bv/fitting/methods.h"
-#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/nodes/pipeline_config.h"
+#include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/frame_report.h"
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/report/report.h"

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "pcl_bv/points/isa.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/isa.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -12,9 +12,9 @@
 
 #include "pcl_bv/fitting/execution.h"
 #include "pcl_bv/fitting/result.h"
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/numeric/directions.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pcl_bv/volumes/kdop.h"
 

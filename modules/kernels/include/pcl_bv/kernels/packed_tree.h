@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
+#include "pcl_bv/numeric/coordinates.h"
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
-#include "pcl_bv/numeric/coordinates.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

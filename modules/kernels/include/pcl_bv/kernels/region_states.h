@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "pcl_bv/kernels/half_spaces.h"
+#include "pcl_bv/numeric/exact_dot.h"
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
-#include "pcl_bv/numeric/exact_dot.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -9,11 +9,11 @@
 #include <cstddef>
 #include <optional>
 
-#include "pcl_bv/points/isa.h"
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directions.h"
 #include "pcl_bv/numeric/exact_dot.h"
+#include "pcl_bv/points/isa.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

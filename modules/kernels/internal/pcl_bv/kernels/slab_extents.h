@@ -8,9 +8,9 @@
 #include <array>
 #include <cstddef>
 
+#include "pcl_bv/numeric/exact_dot.h"
 #include "pcl_bv/points/isa.h"
 #include "pcl_bv/points/point_view.h"
-#include "pcl_bv/numeric/exact_dot.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "pcl_bv/io/raw_cloud.h"
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/messages/types.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

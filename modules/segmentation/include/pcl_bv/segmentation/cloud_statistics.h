@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/aabb.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {

@@ -11,8 +11,8 @@
 #include <memory>
 #include <vector>
 
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

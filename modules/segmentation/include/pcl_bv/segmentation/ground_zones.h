@@ -10,8 +10,8 @@
 #include <memory>
 #include <optional>
 
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/parallel/policy.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/segmentation/ground_plane.h"
 #include "pcl_bv/segmentation/sensor_place.h"
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "pcl_bv/fitting/execution.h"
-#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/kernels/region_states.h"
+#include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
