@@ -18,9 +18,9 @@ namespace pcl_bv {
 ///
 /// The distance of a box is computed from the nearer end of the interval, so before rounding it is a lower
 /// bound. Three differences, three squares and two sums enlarge it by a factor of at most 1 + 6 * 2^-24, and
-/// by 3 * 2^-149 where squares underflow. The limits cover that by a factor of 1 + 2^-19. Positions
-/// beyond 2^100 are clamped to it: then all squares are infinite, which is right for every limit that a float
-/// can hold.
+/// by 3 * 2^-149 where squares underflow. The limits cover that by a factor of 1 + 2^-19. Positions beyond
+/// 2^100 are clamped to it: then all squares are infinite, which is right for every limit that a float can
+/// hold.
 struct BoxProbe {
   float low[3], high[3];
   float outer;  ///< A box whose squared distance exceeds this has no point within the limit.

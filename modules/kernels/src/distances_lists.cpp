@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lists the points outside a sphere, for UPDATESPHERE of EXPANDSPHERE (Karlsson, Winberg and Larsson 2010,
-// Figure 3).
+// Lists the points outside a sphere, for step UPDATESPHERE of EXPANDSPHERE (Karlsson, Winberg and Larsson
+// 2010, Figure 3).
 
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"

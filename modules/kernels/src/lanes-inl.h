@@ -71,7 +71,7 @@ void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_
   const auto least = hn::Set(d, static_cast<T>(threshold));
   const T* lanes = reach.values + end * n;
   for (std::size_t begin = 0; begin < points.count; begin += reach.block_points, lanes += reach.per_block) {
-    const auto candidates = hn::Not(hn::Lt(hn::Load(d, lanes), least));  // an overflown sum may be NaN
+    const auto candidates = hn::Not(hn::Lt(hn::Load(d, lanes), least));  // an overflowing sum may be NaN
     if (HWY_LIKELY(hn::AllFalse(d, candidates))) continue;
     const std::size_t count = HWY_MIN(reach.block_points, points.count - begin);
     const std::size_t whole = begin + count / n * n;

@@ -131,7 +131,7 @@ void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::
   const auto passes = [&](std::size_t i) {
     const std::byte* p = address(i);
     const T sum = (a * (loaded<T>(p) - x) + b * (loaded<T>(p + gap) - y)) + c * (loaded<T>(p + 2 * gap) - z);
-    return !(sum < threshold);  // an overflown sum may be NaN
+    return !(sum < threshold);  // an overflowing sum may be NaN
   };
   for (std::size_t begin = first; begin < last; begin += 64 * step) {
     std::uint64_t passing = 0;

@@ -24,9 +24,9 @@ inline double double_error(const Direction& scaled, const Coordinates& p) {
   return (0x1p-50 * dot3(magnitudes(scaled), magnitudes(p)) + 0x1p-1074 * taxicab3(p)) + kSmallestNormal;
 }
 
-/// Finds a valid point amid the others, relative to which the kernels project. Then no support is below 0,
-/// and rounding errors depend on the extent of the points, not on their position (UTM). Returns false if no
-/// point is valid.
+/// Finds a valid point in the middle of the others; the kernels project relative to it. Then no support is
+/// below 0, and rounding errors depend on the extent of the points, not on their position (UTM). Returns
+/// false if no point is valid.
 bool central_point(const PointView& points, Coordinates& center);
 
 /// The centre and the extent of the points that a pass has projected.
@@ -46,7 +46,7 @@ struct EndSearch {
   double threshold = 0;  ///< Of the view's scalar type.
 };
 
-/// The searches that follow for the two supports of a direction. Refers to the set and the spread.
+/// The searches that follow for the two supports of a direction. Stores references to the set and the spread.
 class SupportPlan {
  public:
   SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread, ScalarType scalar);
@@ -78,7 +78,7 @@ struct RoundedFilter {
 /// Returns the valid point with the smallest index: the support if all projections are equal.
 SupportPoint first_valid_point(const PointView& points);
 
-/// Compares points exactly for one support. T is the points' scalar type. Refers to the points.
+/// Compares points exactly for one support. T is the points' scalar type. Stores a reference to the points.
 template <typename T>
 class SupportLook {
  public:

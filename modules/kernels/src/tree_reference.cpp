@@ -23,8 +23,8 @@ double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k
   return sum * (1 - 0x1p-40);
 }
 
-// Calls take(packet) for each packet below an item if near(group, k) holds for all boxes in between. Stops and
-// returns true as soon as take() returns true.
+// Calls take(packet) for each packet below an item if near(group, k) holds for all boxes in between. Stops
+// and returns true as soon as take() returns true.
 template <typename Near, typename Take>
 bool visit_packets(const BoxLevels& boxes, std::size_t level, std::size_t item, const Near& near,
                    const Take& take) {

@@ -61,8 +61,8 @@ struct Rounded {
   double x, y, z;
 };
 
-// Not inlined: the stack that expansions and rationals need would considerably slow down the usual case
-// of compare_along(). If all magnitudes are tiny, scaling by a power of two keeps the products exact.
+// Not inlined: the stack that expansions and rationals need would considerably slow down the usual case of
+// compare_along(). If all magnitudes are tiny, scaling by a power of two keeps the products exact.
 [[gnu::noinline]] int compare_exactly(const Direction& n, const Coordinates& p, const Coordinates& q,
                                       double magnitude) {
   const double scale = magnitude < 0x1p-400 ? 0x1p500 : 1;

@@ -14,7 +14,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An owning copy of points in groups: 64 bytes of x, 64 of y, 64 of z (16 float or 8 double points),
-/// repeated. The memory is aligned to 64 bytes. The last group is padded with a valid point.
+/// repeated. The memory is aligned to 64 bytes. The last group is padded with a valid point, if there is one.
 ///
 /// Coordinates keep their bits, NaN and infinity included, and points keep their order: point i of view() is
 /// the i-th point visited by the assigned view. So index() of view() is the index in the cloud if a whole

@@ -38,8 +38,8 @@ struct SweptBall {
 class PacketVisitor {
  public:
   /// Called with a packet and, as bits, its points that may be touched (at least one bit is set). Returns the
-  /// latest time, in the frame of the boxes, at which a box must be entered to be visited: SweptBall::latest()
-  /// of the first touch so far; before there is one, the largest float.
+  /// latest time, in the frame of the boxes, at which a box must be entered to be visited:
+  /// SweptBall::latest() of the first touch so far; before there is one, the largest float.
   virtual float visit(std::size_t packet, std::uint32_t points) = 0;
 
  protected:

@@ -36,7 +36,7 @@ struct Threads {
 ///
 /// `run(tasks, task)` must call task(0) ... task(tasks - 1) on any threads, concurrently or one after
 /// another, and return when these calls have returned. `tasks` is at most `threads`; `threads` 0 means as
-/// many as for Threads. With TBB: `[](std::size_t tasks, const auto& task) {
+/// many as `Threads{}` uses. With TBB: `[](std::size_t tasks, const auto& task) {
 /// tbb::parallel_for(std::size_t{0}, tasks, task); }`.
 ///
 /// `run` may also omit tasks, or copy `task` and call it later: the calling thread does the remaining work.
@@ -54,7 +54,8 @@ using ParallelPolicy = std::variant<Serial, OpenMP, Threads, Executor>;
 /// Executor without `run`.
 unsigned thread_count(const ParallelPolicy& policy);
 
-/// Returns the same policy with at most `threads` threads (0 is treated as 1). Throws like thread_count().
+/// Returns the same policy with at most `threads` threads (0 is treated as 1); Serial for one thread. Throws
+/// like thread_count().
 ParallelPolicy limit_threads(const ParallelPolicy& policy, std::size_t threads);
 
 }  // namespace pcl_bv
