@@ -105,9 +105,9 @@ HWY_INLINE V<D> distances_in_float(D d, const FloatCenter& center, V<D> x, V<D> 
 // squared_distance() below `limit`; negative if there is no such float.
 //
 // A coordinate of q is off by 2.1 u of itself (u = 2^-24) and by 3.1 u of the rounding error of the centre.
-// Every float is at least that rounding error away from the centre, so the sum is at most 5.2 u of the
-// coordinate. Squares, sums and products add less than 4 u, or 2^-147 where they underflow. So the square in
-// double is at most f (1 + 2^-20) + 2^-140 if f is the one in float.
+// Every float is at least that rounding error away from the centre, so the total error is at most 5.2 u of
+// the coordinate. Squares, sums and products add less than 4 u, or 2^-147 where they underflow. So the square
+// in double is at most f (1 + 2^-20) + 2^-140 if f is the one in float.
 HWY_INLINE float float_limit(double limit) {
   const double least = (limit - 0x1p-139) * (1 - 0x1p-18);
   constexpr double most = std::numeric_limits<float>::max();

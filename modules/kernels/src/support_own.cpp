@@ -90,7 +90,7 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
   [[maybe_unused]] auto low##i = no_low_reach(d); \
   [[maybe_unused]] auto high##i = no_high_reach(d);
 
-// Fused or not: the filter's error bound covers both, and results are decided exactly.
+// MulAdd may be fused or not: the filter's error bound covers both, and results are decided exactly.
 #define PCL_BV_STEP(i)                                                         \
   if constexpr (i < count) {                                                   \
     const V<D> p = hn::MulAdd(c##i, z, hn::MulAdd(b##i, y, hn::Mul(a##i, x))); \
