@@ -7,13 +7,13 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// A point or vector in double.
 struct Coordinates {
   double x, y, z;
-/// A point or vector in double.
 
+  /// Returns coordinate 0 (x), 1 (y) or 2 (z).
   double operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
-/// Coordinate 0 (x), 1 (y) or 2 (z).
 
 /// Whether two points have equal coordinates. -0 equals 0; a NaN equals nothing.
 inline bool operator==(const Coordinates& a, const Coordinates& b) {

@@ -40,8 +40,9 @@ class Expansion {
   double value() const;
 
   /// Returns the sign of the sum: -1, 0 or 1. It is exact if certain().
-  /// Whether no product was small enough to lose digits (2^-960).
   int sign() const;
+
+  /// Whether no product was so small (below 2^-960 in magnitude) that digits may be lost.
   bool certain() const { return !lossy_; }
 
  private:
