@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// UPDATESPHERE's side of the paper's EXPANDSPHERE (Figure 3): which points are outside.
+// Lists the points outside a sphere, for step UPDATESPHERE of EXPANDSPHERE (Karlsson, Winberg and Larsson
+// 2010, Figure 3).
 
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
@@ -22,7 +23,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The lanes of runs that reach the limit, each with its kBoundPoints points.
+// Inspects the kBoundPoints points of each lane whose bound exceeds the limit.
 template <Layout layout>
 std::size_t reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
                      double limit, std::uint32_t* positions) {
@@ -36,7 +37,7 @@ std::size_t reaching(const PointView& block, const KeptBounds& kept, const Dista
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!(bounds[lane] > least)) continue;
       for (std::size_t packet = begin; packet < begin + kBoundPoints * lanes; packet += lanes) {
-        // The last packet of a view is loaded in order.
+        // An incomplete last packet was loaded in order.
         const std::size_t i =
             packet + (packet + lanes <= block.count ? point_of_lane<layout>(lane, lanes) : lane);
         if (i >= block.count) break;

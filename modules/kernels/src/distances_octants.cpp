@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The farthest points in each octant, for the smallest sphere: float arithmetic rejects runs of points, as
-// the mask of the paper's EXPANDSPHERE (Figure 3) does groups of four, and double arithmetic decides.
+// The farthest points in each octant, for the smallest sphere. Float arithmetic rejects runs of points, as
+// the mask of EXPANDSPHERE (Karlsson, Winberg and Larsson 2010, Figure 3) rejects groups of four; double
+// arithmetic decides.
 
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
@@ -22,7 +23,8 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// A second look at a packet of a run: whether no point of it is beyond the limit. Double points: never.
+// Tests one packet of a run again: returns whether none of its points is beyond the limit. Always false for
+// double points.
 template <class D>
 HWY_INLINE bool rejects(D d, const FloatCenter& center, float limit, V<D> x, V<D> y, V<D> z) {
   if constexpr (sizeof(hn::TFromD<D>) == 4) {
@@ -31,7 +33,7 @@ HWY_INLINE bool rejects(D d, const FloatCenter& center, float limit, V<D> x, V<D
   return false;
 }
 
-// The best distances per octant and lane while a block is scanned.
+// The largest distances per octant and lane while a block is scanned.
 struct LaneOctants {
   static constexpr std::size_t lanes = kGroupBytes / sizeof(double);
   LaneOctants() {
@@ -39,7 +41,7 @@ struct LaneOctants {
       b = -1;
   }
 
-  // d2: -1 where a point does not matter.
+  // d2 is -1 for points that are ignored.
   template <class D>
   HWY_INLINE void compete(D d, V<D> x, V<D> y, V<D> z, V<D> d2) {
     const auto none = hn::Set(d, -1.0), zero = hn::Zero(d);
@@ -72,7 +74,8 @@ struct LaneOctants {
   HWY_ALIGN double best[8 * lanes];
 };
 
-// Lets a run's points compete. False if some point is not valid and could win; never if `masked`.
+// Updates the octants with the points of a run. Returns false if a point that is not valid may be among the
+// maxima; never if `masked`.
 template <Layout layout, typename T, bool masked, bool filtered>
 bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, const InFloat& in_float,
                     LaneOctants& octants) {
@@ -104,12 +107,12 @@ bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, co
   return fine;
 }
 
-// Where three of a block's first four runs are not rejected, others will not be either: on the surface of a
-// sphere no run is.
+// If three of a block's first four runs are not rejected, the others are not expected to be either (as on the
+// surface of a sphere), and the filter is switched off.
 constexpr std::size_t kAskedRuns = 4;
 constexpr std::size_t kTooManyKept = 3;
 
-// False if some point is not valid and could win; never if `masked`.
+// Scans a block. Returns false if a point that is not valid may be among the maxima; never if `masked`.
 template <Layout layout, typename T, bool masked>
 bool octants_of(const PointView& points, OctantScan& scan) {
   const Tag<T> d;

@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The lanes that no half-space denies; without any, those in the ball.
+// Returns the lanes that are inside all half-spaces or in the ball; without half-spaces those in the ball.
 template <typename T, class D>
 HWY_INLINE hn::Mask<D> inside_lanes(D d, const HalfSpaces& inside, const T (*planes)[4], V<D> x, V<D> y,
                                     V<D> z) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the lanes of a cloud's blocks reach at each end, and the supports among the points behind those that
-// reach far.
+// The maximum projections of the lanes of blocks, and the support points among the points behind lanes with
+// large projections.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -28,17 +28,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Packets per block. Fewer cost more stores, more cost more points to look at behind a lane: 26-DOP on
-/// AVX-512, 4010 points 3.1 us with 32 and 4.2 with 64, 300 k points 100 and 97.
+/// Packets per block. Fewer cost more stores; more leave more points to compare behind a lane. 26-DOP on
+/// AVX-512: 4010 points take 3.1 us with 32 and 4.2 us with 64, 300 k points 100 and 97 us.
 inline constexpr std::size_t kPackets = 32;
 
-/// Of few points some eight blocks: 26-DOP on AVX-512, 1000 points 3.0 us, in two blocks 4.5; 300 points 2.4
-/// and, in one, 3.0.
+/// Few points are cut into about eight blocks. 26-DOP on AVX-512: 1000 points take 3.0 us, in two blocks 4.5
+/// us; 300 points 2.4 us, in one block 3.0 us.
 inline std::size_t packets_per_block(std::size_t packets) {
   return HWY_MIN(HWY_MAX(packets / 8, std::size_t{4}), kPackets);
 }
 
-/// Where the reach of blocks of packets is: per block the ends after one another, of each end a number per
+/// Where the maximum projections are stored: per block support after support, for each support one number per
 /// lane.
 template <typename T>
 struct LaneReach {
@@ -61,8 +61,8 @@ double greatest_reach(const LaneReach<T>& reach, std::size_t end, std::size_t po
   return hn::GetLane(hn::MaxOfLanes(d, greatest));
 }
 
-/// Calls look(first, n, last) for the points first, first + n, ... below `last` behind those lanes of those
-/// blocks that reach the threshold, a value of type T.
+/// Calls look(first, n, last) for the points first, first + n, ... below `last` behind each lane of a block
+/// whose maximum projection is at least the threshold, a value of type T.
 template <Layout layout, typename T, typename Look>
 void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_t end, double threshold,
                   const Look& look) {
@@ -71,7 +71,7 @@ void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_
   const auto least = hn::Set(d, static_cast<T>(threshold));
   const T* lanes = reach.values + end * n;
   for (std::size_t begin = 0; begin < points.count; begin += reach.block_points, lanes += reach.per_block) {
-    const auto candidates = hn::Not(hn::Lt(hn::Load(d, lanes), least));  // an overflown sum may be NaN
+    const auto candidates = hn::Not(hn::Lt(hn::Load(d, lanes), least));  // an overflowing sum may be NaN
     if (HWY_LIKELY(hn::AllFalse(d, candidates))) continue;
     const std::size_t count = HWY_MIN(reach.block_points, points.count - begin);
     const std::size_t whole = begin + count / n * n;
@@ -81,20 +81,21 @@ void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_
       const std::size_t point = point_of_lane<layout>(lane, n);
       look(begin + point, n, whole);
       if (whole == begin + count) continue;
-      // The last packet: either of points in order, or of the last n, which may begin in an earlier block.
+      // The last packet was loaded either in order or as the last n points, which may begin in an earlier
+      // block: look at both.
       look(whole + lane, n, begin + count);
       if (begin + count >= n) look(begin + count - n + point, n, begin + count);
     }
   }
 }
 
-/// Lets the supports in `out` compete with the points of a part, given what its lanes reach. What the
-/// supports reach is noted in `later`, if it is not null, for parts that come later.
+/// Updates the supports in `out` with the points of a part, given the maximum projections of its lanes. If
+/// `later` is not null, it receives lower bounds of the supports found, for the parts that follow.
 template <Layout layout, typename T>
 void search_ends(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach,
                  const Spread& spread, const ReachedSupports& reached, ReachedSupports* later,
                  ChunkSupports& out) {
-  std::optional<SupportPlan> plan;  // for both ends of a direction
+  std::optional<SupportPlan> plan;  // for both supports of a direction
   for (std::size_t end = 0; end < 2 * set.count; ++end) {
     if (end % 2 == 0) plan.emplace(set, end / 2, spread, part.scalar);
     const EndSearch what = plan->of(end % 2 != 0, greatest_reach(reach, end, part.count), reached[end]);
@@ -104,7 +105,7 @@ void search_ends(const PointView& part, const SupportDirections& set, const Lane
       keep_farther(set.end_direction(end), first_valid_point(part), best);
     } else {
       const SupportLook<T> look(part, set, end, {spread.center, what.threshold});
-      if (what.threshold <= 0) {  // which every lane reaches
+      if (what.threshold <= 0) {  // which every lane passes
         look(0, 1, part.count, best);
       } else {
         search_lanes<layout>(

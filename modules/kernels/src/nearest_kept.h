@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Collect the nearest neighbours while a tree is searched.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +13,12 @@
 
 namespace pcl_bv {
 
-/// The nearest of the points that were offered.
+/// Retains the nearest of the points that were offered.
 class NearestOne {
  public:
   explicit NearestOne(double limit) : best_{-1, limit} {}
 
-  /// What is farther is not wanted any more.
+  /// Squared distance beyond which points need not be offered.
   double limit() const { return best_.squared_distance; }
 
   void offer(const Neighbor& candidate) {
@@ -30,9 +31,9 @@ class NearestOne {
   Neighbor best_;
 };
 
-/// The nearest few of them. Up to 32 are kept in order: moving them costs less than choosing later. Of more,
-/// half as many again are collected before the nearest are chosen, so that a candidate costs a few
-/// nanoseconds.
+/// Retains the `most` nearest of the points that were offered. Up to 32 points are kept sorted: moving them
+/// costs less than selecting later. For larger `most`, half as many again are collected before the nearest
+/// are selected, so that a candidate costs a few nanoseconds.
 class NearestKept {
  public:
   NearestKept(std::size_t most, double limit, std::vector<Neighbor>& kept)
@@ -40,7 +41,7 @@ class NearestKept {
     kept_.clear();
   }
 
-  /// What is farther is not wanted any more.
+  /// Squared distance beyond which points need not be offered.
   double limit() const { return limit_; }
 
   void offer(const Neighbor& candidate) {

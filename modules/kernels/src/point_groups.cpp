@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Records to groups. Two loads and a transpose per packet: the copy is bound by memory, not by shuffles.
+// Copies points to groups: a few loads and a transpose per packet. The copy is limited by memory, not by
+// shuffles.
 
 #include "pcl_bv/points/point_groups.h"
 
@@ -40,7 +41,8 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 namespace {
 
-// The last valid point, from which the end of the last group is not far; the last one if none is valid.
+// Returns the index of the last valid point, which is mostly near the end; of the last point if none is
+// valid.
 std::size_t padding_point(const PointView& points) {
   for (std::size_t i = points.count; i-- > 0;) {
     if (is_valid(load_point(points, i))) return i;
@@ -63,7 +65,7 @@ void PointGroups::assign(const PointView& points, UsableIsa isa) {
   require_in_memory(points);
   const std::size_t points_per_group = kGroupBytes / size_of(points.scalar);
   const std::size_t groups = (points.count + points_per_group - 1) / points_per_group;
-  if (groups > groups_.capacity()) groups_.clear();  // nothing to carry over into new memory
+  if (groups > groups_.capacity()) groups_.clear();  // so that resize() copies no old contents
   groups_.resize(groups);
   size_ = points.count;
   scalar_ = points.scalar;

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far the lanes of projections reach on both sides of zero. Floats are compared as integers: of two
-// floats the greater positive one is the greater signed integer, the greater in magnitude of two negative
-// ones the greater unsigned one; zero, which is inside the extent, hides the others. Integer maxima run on
-// all four vector pipes of recent cores, those of floats on two (26-DOP, AVX-512, Zen 5: 4500 Mpt/s for
-// 3200), and NaN and infinity stay in the result to tell that a point was not valid.
+// Maximum projections of lanes on both sides of zero. Floats are compared as integers: of two positive floats
+// the larger is the larger signed integer, of two negative floats the one of larger magnitude is the larger
+// unsigned integer. Accumulators start at zero, which is inside the extent, so numbers of the other sign
+// never win. Recent cores compute integer maxima on all four vector pipes, those of floats on two (26-DOP,
+// AVX-512, Zen 5: 4500 instead of 3200 Mpt/s). NaN and infinity win against all numbers and so reveal an
+// invalid point.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_REACH_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -34,8 +35,8 @@ using Signed = hn::RebindToSigned<D>;
 template <class D>
 using Unsigned = hn::RebindToUnsigned<D>;
 
-/// What the reach above and below zero is held in. Doubles stay doubles, since few sets have 64-bit integer
-/// maxima: minima and maxima may then lose a NaN, which the sum tells.
+/// The types that hold the maximum above and below zero. Doubles stay doubles, since few instruction sets
+/// have 64-bit integer maxima. Minima and maxima of doubles may lose a NaN, which sum_is_finite() finds.
 template <class D>
 inline constexpr bool kIsFloat = sizeof(hn::TFromD<D>) == 4;
 template <class D>
@@ -43,7 +44,7 @@ using High = std::conditional_t<kIsFloat<D>, Signed<D>, D>;
 template <class D>
 using Low = std::conditional_t<kIsFloat<D>, Unsigned<D>, D>;
 
-/// How far from the centre every point is certainly valid.
+/// Returns the distance from the centre, along each axis, within which every point is certainly valid.
 template <typename T>
 T room_around(const T* center) {
   if (sizeof(T) == 4) return coordinate_limit<T>();
@@ -74,7 +75,7 @@ HWY_INLINE V<Low<D>> reach_lower(D, V<Low<D>> reach, V<D> p) {
   hold(reach);
   return reach;
 }
-/// As numbers >= 0.
+/// The projections as numbers >= 0.
 template <class D>
 HWY_INLINE V<D> high_reach(D d, V<High<D>> reach) {
   return hn::BitCast(d, reach);
@@ -86,7 +87,7 @@ HWY_INLINE V<D> low_reach(D d, V<Low<D>> reach) {
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE bool all_within(D d, [[maybe_unused]] T room, V<Low<D>> low, V<High<D>> high) {
   if constexpr (kIsFloat<D>) {
-    const auto greatest = hn::Set(Signed<D>(), 0x7F7FFFFF);  // of the finite floats
+    const auto greatest = hn::Set(Signed<D>(), 0x7F7FFFFF);  // largest finite float
     const auto low_magnitude = hn::BitCast(Signed<D>(), low_reach(d, low));
     return hn::AllFalse(Signed<D>(), hn::Gt(hn::Max(high, low_magnitude), greatest));
   } else {
@@ -94,7 +95,7 @@ HWY_INLINE bool all_within(D d, [[maybe_unused]] T room, V<Low<D>> low, V<High<D
     return hn::AllTrue(d, hn::And(hn::Le(hn::Abs(low), limit), hn::Le(high, limit)));
   }
 }
-/// Of floats all_within() has seen to it.
+/// Whether a sum of all coordinates is finite. For floats all_within() has found any NaN already.
 template <class D>
 HWY_INLINE bool sum_is_finite(D d, V<D> total) {
   const auto greatest = hn::Set(d, std::numeric_limits<hn::TFromD<D>>::max());

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The references but for that of supports. Compiled with -O3 -fno-tree-vectorize, so that they stay what
-// benchmarks call scalar.
+// The scalar references except that of the supports. Compiled with -O3 -fno-tree-vectorize, so that they are
+// what benchmarks call scalar.
 
 #include "references.h"
 
@@ -16,14 +16,14 @@
 namespace pcl_bv {
 namespace {
 
-// call.operator()<T>() with the type of the coordinates.
+// Calls call.operator()<T>() with the view's scalar type.
 template <typename Call>
 auto for_scalar(const PointView& points, const Call& call) {
   if (points.scalar == ScalarType::float64) return call.template operator()<double>();
   return call.template operator()<float>();
 }
 
-// Writes those of the first `points` positions for which `listed` holds; returns how many.
+// Writes the positions below `points` for which listed(position) holds. Returns their number.
 template <typename Listed>
 std::size_t list_if(std::size_t points, std::uint32_t* positions, const Listed& listed) {
   std::size_t count = 0;
@@ -123,7 +123,7 @@ RegionState state_in(const RegionTest<T>& test, const T (&p)[3]) {
   return test.shape == RegionShape::planes ? state_in_planes(test, q) : state_in_body(test, q);
 }
 
-// `test` says which region is the k-th one.
+// test(k) is the k-th region.
 template <typename T, typename Test>
 RegionState state_of_point(const RegionTestsOf<T>& all, std::size_t count, const Test& test,
                            const T (&p)[3]) {
@@ -139,7 +139,7 @@ RegionState state_of_point(const RegionTestsOf<T>& all, std::size_t count, const
   return result;
 }
 
-// Lets the point compete if it matters.
+// Updates the maximum of the point's octant if the point is valid and not nearer than the limit.
 void compete(const Coordinates& p, OctantScan& scan) {
   const double d2 = square(p, scan.center);
   if (!(d2 >= scan.limit) || !is_valid(p)) return;
@@ -263,7 +263,7 @@ void scan_octants_reference(const PointView& block, OctantScan& scan) {
   });
 }
 
-// Bounds only spare work: there are none here.
+// The bounds only save work: the reference ignores them.
 std::size_t list_reaching_reference(const PointView& block, const KeptBounds& /*kept*/,
                                     const DistanceCenter& center, double limit, std::uint32_t* positions) {
   return list_if(block.count, positions,

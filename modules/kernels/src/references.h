@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The scalar references: plain loops that say what the vectors of each kernel must agree with.
+// The scalar references: plain loops that define the result of each kernel.
 #pragma once
 
 #include "nearest_kept.h"
@@ -30,7 +30,7 @@ void chosen_states_reference(const PointView& points, const RegionTests::Prepare
                              const ChosenRegions& chosen, std::uint8_t* states);
 void run_boxes_reference(const PointView& points, RunBox* boxes);
 
-/// Writes the points as groups; the `pad`-th one (if there is any) fills the last group.
+/// Writes the points as groups; point number `pad` (if there is any) fills the rest of the last group.
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);
 
 void scan_octants_reference(const PointView& block, OctantScan& scan);
@@ -49,7 +49,7 @@ void visit_along_reference(const PackedTree& tree, const SweptBall& ball, Packet
 
 Moments block_moments_reference(const PointView& block);
 
-/// Calls sum(moments) with the exponents that doubles may need, until the sums are not too small.
+/// Calls sum(moments) with growing exponents until the sum of squares is large enough; for floats once.
 template <typename Sum>
 void sum_with_room(ScalarType scalar, Moments& moments, const Sum& sum) {
   for (moments.exponent = 0;; moments.exponent += 500) {

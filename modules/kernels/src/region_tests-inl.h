@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a region says of a packet of points, for the target being compiled.
+// Tests a packet of points against a region, for the target being compiled.
 
 // Included once per target by Highway's foreach_target.h.
 #if defined(PCL_BV_REGION_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Tests between two looks whether the others can still change anything.
+// Number of tests between two checks whether further tests can change anything.
 constexpr std::size_t kBetweenLooks = 4;
 
 template <class D, typename T = hn::TFromD<D>>
@@ -41,8 +41,8 @@ HWY_INLINE V<D> along(D d, const T (&n)[3], V<D> x, V<D> y, V<D> z) {
                  hn::Mul(hn::Set(d, n[2]), z));
 }
 
-// Those that judge say which lanes are inside and which outside; of lanes that are not asked that means
-// nothing. Two masks, since vectors of SVE cannot be members.
+// The judge functions return which lanes are inside and which are outside; the results of lanes that need no
+// test are meaningless. Two masks instead of a struct, since SVE vectors cannot be members.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void judge_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
                               hn::Mask<D>& outside) {
@@ -103,8 +103,8 @@ HWY_INLINE void judge_planes(D d, const RegionTest<T>& test, hn::Mask<D> asked, 
   }
 }
 
-// Adds what one region says of the `near` lanes. Those that are inside of another one are asked, too: a
-// processor that need not wait for that answer takes 0.8 of the time where most packets are in several boxes
+// Adds the result of one region for the `near` lanes. Lanes inside another region are tested, too: without
+// the wait for that other result the processor takes 0.8 of the time if most packets are in several boxes
 // (AVX-512).
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void test_region(D d, const RegionTest<T>& test, hn::Mask<D> near, V<D> x, V<D> y, V<D> z,
@@ -162,7 +162,8 @@ HWY_INLINE void store_states(D d, hn::Mask<D> inside, hn::Mask<D> unclear, std::
   }
 }
 
-/// The states of points by `test_packet(d, near, x, y, z, inside, unclear)`, which adds what regions say.
+/// Writes the states of the points. test_packet(d, near, x, y, z, inside, unclear) adds the results of the
+/// regions for a packet.
 template <Layout layout, typename T, typename TestPacket>
 HWY_INLINE void states_by(const PointView& points, const RegionTestsOf<T>& all, std::uint8_t* states,
                           const TestPacket& test_packet) {

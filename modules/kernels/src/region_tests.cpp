@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the thresholds lie, docs/numerics.md derives.
+// The thresholds are derived in docs/numerics.md.
 
 #include "region_tests.h"
 
@@ -15,7 +15,7 @@
 namespace pcl_bv {
 namespace {
 
-// Relative to |q|_1, or to a radius: what T's roundings take, and what the caller's numbers may lack.
+// Error relative to |q|_1 or to a radius: of rounding in T, and of the caller's numbers.
 template <typename T>
 constexpr double kSlope = 16 * (sizeof(T) == 4 ? 0x1p-24 : kU) + 0x1p-42;
 
@@ -48,12 +48,12 @@ void set_box(const ConvexRegion& region, RegionTest<T>& test) {
   }
 }
 
-// The farthest |q| in the box, by coordinate.
+// Returns the largest |q| in the box along an axis.
 double reach(const ConvexRegion& region, std::size_t k) {
   return std::max(region.center[k] - region.low[k], region.high[k] - region.center[k]);
 }
 
-// Returns what a distance is off by wherever the point is.
+// Sets the centre. Returns the part of the error of a distance that does not depend on the point.
 template <typename T>
 double set_center(const ConvexRegion& region, RegionTest<T>& test) {
   double lost = 0;
@@ -64,7 +64,7 @@ double set_center(const ConvexRegion& region, RegionTest<T>& test) {
     test.reach[k] = up<T>((reach(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kLeast<T>);
     lost += std::abs(rest - static_cast<double>(test.tail[k])) + kSlope<T> * std::abs(rest);
   }
-  return 2 * lost + region.doubt + 16 * kLeast<T> + 0x1p-500;  // which Sphere::contains() adds to a radius
+  return 2 * lost + region.doubt + 16 * kLeast<T> + 0x1p-500;  // Sphere::contains() adds 2^-500 to a radius
 }
 
 template <typename T>

@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// What Min and Max do with a NaN differs from set to set.
+// Compares explicitly: Min and Max treat a NaN differently from set to set.
 template <class D>
 HWY_INLINE void grow(D, V<D> v, V<D>& low, V<D>& high) {
   low = hn::IfThenElse(hn::Lt(v, low), v, low);

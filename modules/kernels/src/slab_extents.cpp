@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each block is laid out as groups first, with the origin, which changes no extreme, in the place of invalid
-// points and past the end: then all loads are alike, and the block stays in the first-level cache.
+// Each block is first copied to groups; the origin replaces invalid points and fills the last group, which
+// changes no extreme, since its projection is 0. So all loads are alike, and the block stays in the
+// first-level cache.
 
 #include "pcl_bv/kernels/slab_extents.h"
 

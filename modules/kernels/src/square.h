@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// squared_distance() where the compiler can see it. Not for public headers, whose users choose the flags.
+// squared_distance() as inline functions. Not for public headers, which are compiled with the user's flags.
 #pragma once
 
 #include "pcl_bv/kernels/distances.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// FIND-k-DOP of the paper (Figure 2), once in the source, compiled for every instruction set.
+// FIND-k-DOP (Karlsson, Winberg and Larsson 2010, Figure 2): one source, compiled for every instruction set.
 
 #include "pcl_bv/kernels/support.h"
 #include "pcl_bv/points/chunks.h"
@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Position of a direction of kCubeDirections among those of a set, or -1.
+// Returns the index in a set of a direction of kCubeDirections, or -1.
 constexpr int slot(DirectionSet set, std::size_t direction) {
   for (std::size_t k = 0; k < direction_count(set); ++k) {
     if (cube_direction(set, k) == direction) return static_cast<int>(k);
@@ -31,8 +31,8 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
   return -1;
 }
 
-// The 13 projections of a packet, with the sums x + y and x - y shared. Named variables, not arrays: vectors
-// of SVE have no size that the compiler knows.
+// The 13 projections of a packet share the sums x + y and x - y. Named variables instead of arrays: the
+// compiler does not know the size of SVE vectors.
 // clang-format off
 #define PCL_BV_EACH_DIRECTION(DO)                                                                 \
   DO(0, x) DO(1, y) DO(2, z)                                                                      \
@@ -58,9 +58,9 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
     hn::Store(high_reach(d, high##i), d, reach + (2 * slot(set, i) + 1) * n); \
   }
 
-// What each lane of a block reaches at each end: lanes(d) numbers per end, ends after one another. Returns
-// whether all points are valid; if not, `reach` means nothing. With `masked`, invalid points are replaced by
-// the centre, which reaches 0, and counted.
+// Computes the maximum projection of each lane of a block for each support: lanes(d) numbers per support,
+// support after support. Returns whether all points are valid; if not, `reach` is meaningless. With `masked`,
+// invalid points are replaced by the centre, whose projection is 0, and counted.
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
 bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
@@ -87,12 +87,12 @@ bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std:
          all_within(d, room, low2, high2) && sum_is_finite(d, total);
 }
 
-// The pass over a chunk's blocks; returns how many points were dropped.
+// Passes over the blocks of a chunk. Returns the number of dropped points.
 template <Layout layout, DirectionSet set, typename T>
 std::size_t reach_of_blocks(const PointView& chunk, const T* center, const LaneReach<T>& reach) {
   const Tag<T> d;
   std::size_t dropped = 0;
-  bool clean = true;  // where there was an invalid point there will be more
+  bool clean = true;  // where one point is invalid, others follow
   T* out = reach.values;
   for (std::size_t begin = 0; begin < chunk.count; begin += reach.block_points, out += reach.per_block) {
     const PointView block = chunk.slice(begin, HWY_MIN(reach.block_points, chunk.count - begin));
@@ -116,7 +116,7 @@ void supports_of_chunk(const PointView& chunk, const ReachedSupports& reached, C
   const T c[3] = {static_cast<T>(spread.center.x), static_cast<T>(spread.center.y),
                   static_cast<T>(spread.center.z)};
   constexpr std::size_t ends = 2 * direction_count(set);
-  // 104 KiB for floats, 208 for doubles, whatever the vectors.
+  // A 26-DOP takes 104 KiB for floats and 208 KiB for doubles, whatever the width of vectors.
   HWY_ALIGN T values[kChunkPoints / kPackets * ends];
   const LaneReach<T> reach(values, ends, packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
   out.dropped = reach_of_blocks<layout, set>(chunk, c, reach);

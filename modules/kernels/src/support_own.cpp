@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// FIND-k-DOP of the paper (Figure 2) for directions that need multiplications. A block is loaded once and
-// lies in the first-level cache while a few directions at a time, as many as there are registers for, run
-// over it.
+// FIND-k-DOP (Karlsson, Winberg and Larsson 2010, Figure 2) for directions that need multiplications. A block
+// is loaded once and stays in the first-level cache while it is projected on groups of directions, as many at
+// a time as there are registers for.
 
 #include "pcl_bv/kernels/support.h"
 
@@ -26,11 +26,11 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-inline constexpr std::size_t kGroup = 4;  // directions that run over a block together
+inline constexpr std::size_t kGroup = 4;  // directions on which a block is projected at a time
 
 // A block of points relative to a centre (a packet of x, one of y, one of z), 12 KiB of floats in the
-// first-level cache; and what the lanes reach, of all of a chunk for up to 13 directions. 49 directions on
-// AVX-512: 320 Mpt/s with 25 KiB, 380 with 50, 435 with 104.
+// first-level cache; and the maximum projections of lanes, with a capacity of a whole chunk for up to 13
+// directions. 49 directions on AVX-512: 320 Mpt/s with 25 KiB, 380 with 50, 435 with 104.
 template <typename T>
 struct Workspace {
   HWY_ALIGN T points[3 * kBlockPoints];
@@ -38,8 +38,8 @@ struct Workspace {
   T directions[3 * kMaxSupportDirections];
 };
 
-// Copies a block relative to the centre and lets `spread` grow to the greatest magnitudes. Returns whether
-// all points are valid; if not, nothing that was written means anything. With `masked`, invalid points are
+// Copies a block relative to the centre and raises `spread` to the largest magnitudes. Returns whether all
+// points are valid; if not, the copy is meaningless and `spread` unchanged. With `masked`, invalid points are
 // replaced by the centre and counted.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& spread,
@@ -78,7 +78,7 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
   return true;
 }
 
-// Named variables, not arrays: vectors of SVE have no size that the compiler knows.
+// Named variables instead of arrays: the compiler does not know the size of SVE vectors.
 #define PCL_BV_EACH_OF_GROUP(DO) DO(0) DO(1) DO(2) DO(3)
 
 #define PCL_BV_DIRECTION(i)                                                               \
@@ -90,7 +90,7 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
   [[maybe_unused]] auto low##i = no_low_reach(d); \
   [[maybe_unused]] auto high##i = no_high_reach(d);
 
-// Fused or not: the filter's bound covers both, and what is kept is decided exactly.
+// MulAdd may be fused or not: the filter's error bound covers both, and results are decided exactly.
 #define PCL_BV_STEP(i)                                                         \
   if constexpr (i < count) {                                                   \
     const V<D> p = hn::MulAdd(c##i, z, hn::MulAdd(b##i, y, hn::Mul(a##i, x))); \
@@ -104,7 +104,7 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
     hn::Store(high_reach(d, high##i), d, values + (2 * i + 1) * n); \
   }
 
-// What the lanes of copied packets reach at the ends of `count` directions, from `values` on.
+// Computes the maximum projections of the lanes of copied packets for `count` directions, from `values` on.
 template <std::size_t count, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void reach_of_group(D d, const T* points, std::size_t packets, const T* directions,
                                std::size_t per_block, T* values) {
@@ -139,17 +139,17 @@ void reach_of_copy(D d, const T* points, std::size_t packets, std::size_t count,
   if (count == 1) reach_of_group<1>(d, points, packets, directions, per_block, values);
 }
 
-// The pass over a part's points; returns how many of them were dropped.
+// Passes over the points of a part. Returns the number of dropped points.
 template <Layout layout, typename T>
 std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneReach<T>& reach,
                           Workspace<T>& work, Spread& spread) {
   const Tag<T> d;
   const T center[3] = {static_cast<T>(spread.center.x), static_cast<T>(spread.center.y),
                        static_cast<T>(spread.center.z)};
-  const std::size_t blocks = kBlockPoints / reach.block_points;  // copied together
+  const std::size_t blocks = kBlockPoints / reach.block_points;  // copied at a time
   const std::size_t step = blocks * reach.block_points;
   std::size_t dropped = 0;
-  bool clean = true;  // where there was an invalid point there will be more
+  bool clean = true;  // where one point is invalid, others follow
   T* values = reach.values;
   for (std::size_t begin = 0; begin < part.count; begin += step, values += blocks * reach.per_block) {
     const PointView block = part.slice(begin, HWY_MIN(step, part.count - begin));
@@ -165,8 +165,8 @@ std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneRe
   return dropped;
 }
 
-// As many points as the lanes' reach has room for; what they reach spares the later parts, if there are
-// `more`, the search.
+// Finds the supports of a part, which is as many points as `reach` has capacity for. If `more` parts follow,
+// `reached` receives lower bounds of the supports found, so that later parts compare fewer points.
 template <Layout layout, typename T>
 void supports_of_part(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach,
                       bool more, Workspace<T>& work, ReachedSupports& reached, ChunkSupports& out) {

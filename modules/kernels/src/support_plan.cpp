@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The bounds that docs/numerics.md derives.
+// The error bounds are derived in docs/numerics.md.
 
 #include "support_plan.h"
 
@@ -18,8 +18,8 @@
 #include "preconditions.h"
 
 namespace pcl_bv {
-// Of eight points the one nearest to their mean. At an end where the centre is the farthest point, zero is
-// what every lane reaches, and all points have to be looked at: 0.4 us for 300.
+// Takes, of eight points, the one nearest to their mean. A centre that is itself a support point makes the
+// maximum 0, which every lane has; then all points have to be compared: 0.4 us for 300.
 bool central_point(const PointView& points, Coordinates& center) {
   constexpr std::size_t samples = 8;
   std::array<Coordinates, samples> sample;
@@ -57,11 +57,11 @@ SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, co
   const double greatest = is_float_ ? static_cast<double>(std::numeric_limits<float>::max()) : 1e300;
   const auto& s = spread.greatest;
   const auto flat = [&](std::size_t axis) { return set.exact[direction][axis] == 0 || s[axis] == 0; };
-  constant_ = flat(0) && flat(1) && flat(2);  // p - c is 0 only if p is c
+  constant_ = flat(0) && flat(1) && flat(2);  // p - c rounds to 0 only if p is c
   size_ = dot3(magnitudes(scaled_), s);
-  overflow_ = !(size_ <= 0.99 * greatest);  // of infinite spreads it may be NaN
+  overflow_ = !(size_ <= 0.99 * greatest);  // size_ may be NaN for infinite spreads
   if (set.cube) {
-    // Only additions. A single term cannot swap two points, since x - c is monotone.
+    // Projections need additions only. Those of one term keep the order of points, since x - c is monotone.
     const double terms = taxicab3(scaled_);
     error_ = 4 * unit * size_;
     pair_error_ = (terms == 1 ? 0 : terms == 2 ? 5.2 : 7.2) * unit * size_;
@@ -80,7 +80,7 @@ bool SupportPlan::reaches(bool high, double top, double reached) const {
 
 EndSearch SupportPlan::of(bool high, double top, double reached) const {
   if (constant_) return {EndSearch::Kind::every, 0};
-  if (overflow_) return {EndSearch::Kind::some, -kInfinity};  // sums say nothing
+  if (overflow_) return {EndSearch::Kind::some, -kInfinity};  // overflowing sums decide nothing
   if (!reaches(high, top, reached)) return {EndSearch::Kind::none, 0};
   const double threshold = top - pair_error_;
   return {EndSearch::Kind::some, is_float_ ? float_down(threshold) : threshold};
@@ -119,8 +119,8 @@ SupportLook<T>::SupportLook(const PointView& points, const SupportDirections& se
   center_ = {static_cast<T>(center.x), static_cast<T>(center.y), static_cast<T>(center.z)};
 }
 
-// Of each 64 points first which pass, as bits: a branch for each point costs more than its arithmetic.
-// `address` gives where a point's x is, `gap` the bytes from there to y and on to z.
+// Finds, for 64 points at a time, which pass, as bits: a branch per point costs more than its arithmetic.
+// `address` returns the address of a point's x; y is `gap` bytes after x, z `gap` bytes after y.
 template <typename T>
 template <typename Address>
 void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
@@ -131,7 +131,7 @@ void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::
   const auto passes = [&](std::size_t i) {
     const std::byte* p = address(i);
     const T sum = (a * (loaded<T>(p) - x) + b * (loaded<T>(p + gap) - y)) + c * (loaded<T>(p + 2 * gap) - z);
-    return !(sum < threshold);  // an overflown sum may be NaN
+    return !(sum < threshold);  // an overflowing sum may be NaN
   };
   for (std::size_t begin = first; begin < last; begin += 64 * step) {
     std::uint64_t passing = 0;

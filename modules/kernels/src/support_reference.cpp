@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scalar reference: one point at a time into local accumulators, along the cube's directions with the paper's
-// shared sums x + y and x - y, then a second look at the blocks that can hold a support point. Compiled with
-// -O3 -fno-tree-vectorize, so that it stays what benchmarks call scalar.
+// Scalar reference of the supports. Projects one point at a time into local accumulators, on the cube's
+// directions with the shared sums x + y and x - y; then inspects again the blocks that can hold a support
+// point. Compiled with -O3 -fno-tree-vectorize, so that it is what benchmarks call scalar.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ template <typename T>
 constexpr T limit = sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::max())
                                    : static_cast<T>(1e100);
 
-// The projections along the cube's directions, in the arithmetic of the points.
+// Projects on the cube's directions, in the points' scalar type.
 template <DirectionSet set>
 struct AlongCube {
   static constexpr std::size_t count = direction_count(set);
@@ -49,7 +49,7 @@ struct AlongCube {
   }
 };
 
-// Along any directions, in double; first along the axes, for the magnitudes.
+// Projects on any directions, in double; first on the axes, whose extremes give the magnitudes.
 struct AlongOwn {
   const SupportDirections& set;
   std::size_t count = 3 + set.count;
@@ -63,7 +63,7 @@ struct AlongOwn {
   }
 };
 
-// Least and greatest projection of one block's valid points.
+// Minimum and maximum projections of the valid points of a block.
 template <typename T>
 struct Block {
   T low[3 + kMaxSupportDirections] = {};
@@ -83,7 +83,7 @@ std::size_t project_block(std::size_t points, const Load& load, const Along& alo
     T v[3];
     load(i, v);
     const T x = std::abs(v[0]), y = std::abs(v[1]), z = std::abs(v[2]);
-    // One test for nearly all: a sum that is small enough has valid terms.
+    // One test for nearly all points: if the sum is small enough, its terms are valid.
     if (!(x + y + z <= limit<T>)&&!(x <= limit<T> && y <= limit<T> && z <= limit<T>)) {
       ++dropped;
       continue;
@@ -100,7 +100,7 @@ std::size_t project_block(std::size_t points, const Load& load, const Along& alo
   return dropped;
 }
 
-// T may be double for points that are floats.
+// T may be double for float points.
 template <typename T, typename Along>
 std::size_t project_block(const PointView& points, const Along& along, Block<T>& out) {
   const bool stored = points.scalar == (sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64);
@@ -117,10 +117,10 @@ std::size_t project_block(const PointView& points, const Along& along, Block<T>&
   return project_block<T>(points.count, load, along, out);
 }
 
-// How far the projections of two points, of coordinates up to `m` in magnitude, may be off together. Of the
-// cube: u per addition for each, and once more for the difference itself and its rounding; sums that may
-// overflow say nothing. Of others: each 3.01 * 2^-53 of the magnitudes; then what underflow may take from
-// products and from the direction's tiny components.
+// Bounds the error of the difference of the projections of two points, whose coordinates are at most `m` in
+// magnitude. Cube: u per addition for each point, and u more for the difference and its rounding; infinite if
+// sums may overflow. Other directions: 3.01 * 2^-53 of the magnitudes for each point, and the underflow of
+// products and of the direction's tiny components.
 template <typename T>
 double pair_error(const SupportDirections& set, std::size_t k, const Coordinates& m) {
   const Direction& d = set.scaled[k];
@@ -143,7 +143,7 @@ void search(const PointView& block, const SupportDirections& set, std::size_t en
   }
 }
 
-// `first` is the number of the end 0 among those of the blocks.
+// `first` is the number of the first support of `set` in a Block: AlongOwn projects on the three axes before.
 template <typename T, typename Along>
 void supports(const PointView& chunk, const SupportDirections& set, const Along& along, std::size_t first,
               const ReachedSupports& reached, ChunkSupports& out) {

@@ -11,7 +11,7 @@ namespace pcl_bv {
 
 SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coordinates& direction, double r)
     : from(start), radius(r) {
-  // Boxes and points beyond 2^60 times the cloud's size: there floats tell nothing.
+  // Floats are not precise enough for boxes and points beyond 2^60 times the size of the cloud.
   constexpr double kFar = 0x1p60;
   const int exponent =
       std::ilogb(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}));
@@ -24,7 +24,7 @@ SweptBall::SweptBall(const BoxLevels& boxes, const Coordinates& start, const Coo
     const double place = (from[k] - boxes.origin[k]) * boxes.scale;
     size += std::abs(place);
     origin[k] = static_cast<float>(std::clamp(place, -kFar, kFar));
-    // A slope below 2^-40 is taken for that: it moves a place by no more than pad.
+    // A slope below 2^-40 is replaced by 2^-40: this moves a position by less than the pad.
     inverse[k] =
         static_cast<float>(1 / (slope[k] < 0 ? std::min(slope[k], -0x1p-40) : std::max(slope[k], 0x1p-40)));
   }

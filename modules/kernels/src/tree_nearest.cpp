@@ -40,7 +40,7 @@ HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* n
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
     const auto square = packet_squares(d, packet, center, k);
     hn::Store(square, d, squares + k);
-    least = hn::IfThenElse(hn::Lt(square, least), square, least);  // Min of a NaN may be NaN
+    least = hn::IfThenElse(hn::Lt(square, least), square, least);  // Min with a NaN may be NaN
   }
   const double nearest = hn::GetLane(hn::MinOfLanes(d, least));
   if (!(nearest <= kept.limit())) return;

@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-// When the ball enters the boxes k, k + 1, ..., and infinity where it does not.
+// Returns the times at which the ball enters the boxes k, k + 1, ...; infinity if it does not.
 HWY_INLINE V<Floats> enter_times(Floats d, const BoxGroup& group, const SweptBall& ball, std::size_t k) {
   auto enter = hn::Zero(d), leave = hn::Inf(d);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -35,8 +35,9 @@ HWY_INLINE V<Floats> enter_times(Floats d, const BoxGroup& group, const SweptBal
   return hn::IfThenElse(hn::Le(enter, leave), enter, hn::Inf(d));
 }
 
-// Which points the whole line may come near; a NaN is near nothing. With q from the origin to the point, |q x
-// d| is off by less than 2^-48 |q|_1 |d|, and what intersect() adds to a radius is less, too.
+// Returns, as bits, the points that may be within the radius of the whole line; a NaN never is. With q from
+// the origin to the point, |q x d| is off by less than 2^-48 |q|_1 |d|. kDoubt |q|_1 covers this and the
+// margin that Sphere::intersect() adds to a radius.
 template <typename T>
 HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const SweptBall& ball) {
   const Doubles d;

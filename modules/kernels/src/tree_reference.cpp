@@ -10,7 +10,8 @@
 namespace pcl_bv {
 namespace {
 
-// A lower bound of the squared distance between a place and box k of a group, in the unit of the items.
+// Returns a lower bound of the squared distance between a query point and box k of a group, in the unit of
+// the items.
 double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k, const Coordinates& center) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -22,7 +23,8 @@ double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k
   return sum * (1 - 0x1p-40);
 }
 
-// Calls take(packet) for the packets in boxes of which near(group, k) holds; ends where it returns true.
+// Calls take(packet) for each packet below an item if near(group, k) holds for all boxes in between. Stops
+// and returns true as soon as take() returns true.
 template <typename Near, typename Take>
 bool visit_packets(const BoxLevels& boxes, std::size_t level, std::size_t item, const Near& near,
                    const Take& take) {
@@ -42,8 +44,8 @@ Coordinates point_of(const PackedTree& tree, std::size_t packet, std::size_t lan
   return tree.scalar == ScalarType::float32 ? of(tree.floats[packet]) : of(tree.doubles[packet]);
 }
 
-// Calls take(Neighbor) for all points whose squared distance is at most limit(), which take may lower; ends
-// where it returns true.
+// Calls take(Neighbor) for all points whose squared distance is at most limit(), which take() may lower.
+// Stops and returns true as soon as take() returns true.
 template <typename Limit, typename Take>
 bool visit_ball(const PackedTree& tree, const Coordinates& center, const Limit& limit, const Take& take) {
   const auto near = [&](const BoxGroup& group, std::size_t k) {
@@ -71,7 +73,7 @@ void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept
       });
 }
 
-// When the ball enters box k of a group, and infinity where it does not.
+// Returns the time at which the ball enters box k of a group; infinity if it does not.
 float enter_time(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
   float enter = 0, leave = std::numeric_limits<float>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLossyProduct = 0x1p-960;
 
-// Terms that do not overlap, of growing magnitude.
+// A non-overlapping expansion, parts ordered by increasing magnitude.
 class Parts {
  public:
   Parts(const double* terms, std::size_t count) {
@@ -50,11 +50,11 @@ class Parts {
   }
 
  private:
-  std::array<double, 33> parts_;  // the terms and the one that up() adds
+  std::array<double, 33> parts_;  // the terms, and one more that up() adds
   std::size_t size_ = 0;
 };
 
-// Smallest double not below head + low.
+// Returns the smallest double >= head + low.
 double sum_up(double head, double low) {
   const auto [sum, error] = two_sum(head, low);
   return error > 0 ? next_up(sum) : sum;
@@ -81,7 +81,7 @@ Expansion& Expansion::add_product(double a, double b) {
   return exact ? *this : add(std::fma(a, b, -p));
 }
 
-// Sums of differences have more terms, of which few are left.
+// Sums of differences have more than 32 terms, but most of them cancel.
 void Expansion::compact() {
   const Parts parts(terms_.data(), size_);
   size_ = 0;
@@ -90,9 +90,11 @@ void Expansion::compact() {
     add(parts[i]);
 }
 
-// 32 errors of 2^-53 of the magnitude at most were added up with 32 errors of 2^-53 of themselves: 2^-96. What
-// a product below 2^-960 lost is less than that, unless the magnitude is small too. NaN there, and near the
-// largest double, where sums become infinite on the wrong side.
+// Bounds what head_ + low_ lacks of the sum. low_ is the sum of at most 32 errors, each at most 2^-53 of the
+// magnitude; adding them up made 32 errors of at most 2^-53 of their sum. Together that is 2^-96 of the
+// magnitude. A product below 2^-960 lost less than that if the magnitude exceeds 2^-900. The result is NaN
+// for smaller magnitudes, and near the largest double, where partial sums may overflow: then no comparison
+// with it holds and the expansion decides.
 double Expansion::missing() const {
   return magnitude_ > 0x1p-900 && magnitude_ < 0x1p1000 ? 0x1p-95 * magnitude_ : kNan;
 }
@@ -113,7 +115,7 @@ double Expansion::up() const {
   double result = parts.value();
   if (parts.size() <= 1 && !lossy_) return result;
   if (!std::isfinite(result)) return kInfinity;
-  // value() is one of the two doubles beside the sum, or the sum itself.
+  // value() is the sum itself or one of the two neighbouring doubles.
   parts.add(-result);
   if (parts.sign() > 0) result = next_up(result);
   return lossy_ ? next_up(result + kSmallestNormal) : result;

@@ -14,7 +14,8 @@
 namespace pcl_bv::internal {
 namespace {
 
-// Of the main thread, whose number is the process's. False beyond 1024 processors, which the set cannot hold.
+// Returns the processors of the main thread, whose thread id is the process id. Fails on machines with more
+// than 1024 processors, which a cpu_set_t cannot represent.
 bool main_thread_processors(cpu_set_t& set) {
   return ::sched_getaffinity(::getpid(), sizeof set, &set) == 0;
 }
@@ -50,7 +51,7 @@ void schedule_as_process(int avoided) {
   const bool ordinary = policy == SCHED_BATCH || policy == SCHED_IDLE;
   const sched_param none{};
   ::sched_setscheduler(0, ordinary ? policy : SCHED_OTHER, &none);
-  // Linux keeps one nice value for each thread, and 0 is the calling one.
+  // On Linux each thread has its own nice value; id 0 is the calling thread.
   const id_t main_thread = static_cast<id_t>(::getpid());
   ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, main_thread));
 }

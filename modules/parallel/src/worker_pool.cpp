@@ -19,16 +19,16 @@
 namespace pcl_bv::internal {
 namespace {
 
-// The process's pool, null until it is wanted. The object stays to the end of the process: others may be in
-// run(), or call it, while objects are destroyed.
+// The process's pool; null until it is first needed. It is never deleted, because other threads may be in
+// run() or call it while static objects are destroyed.
 std::atomic<WorkerPool*> current{nullptr};
 
 thread_local bool inside_region = false;
 
-// How long to wait without sleeping: longer than what a frame's stages do between two parallel calls.
+// How long to spin before sleeping: longer than the pause between two parallel calls of a frame's stages.
 constexpr std::chrono::milliseconds kPatience{2};
 
-// Waits without sleeping until it is true; says whether it is.
+// Spins until the condition holds, at most for kPatience. Returns whether it holds.
 template <typename Condition>
 bool spin_until(const Condition& condition) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -43,8 +43,9 @@ bool spin_until(const Condition& condition) {
   return true;
 }
 
-// A child has none of the pool's threads, one of them may have held the lock, and its condition variables
-// count them as waiting. So the child leaves that pool untouched and makes its own when it wants one.
+// A forked child has none of the pool's threads, the pool's lock may be held by one of them, and its
+// condition variables still count them as waiting. So the child never touches that pool and makes a new one
+// when needed.
 void begin_anew_in_child() {
   current = nullptr;
   inside_region = false;
@@ -75,7 +76,7 @@ WorkerPool& WorkerPool::instance() {
   if (pool != nullptr) return *pool;
   auto fresh = std::make_unique<WorkerPool>();
   if (!current.compare_exchange_strong(pool, fresh.get())) return *pool;
-  std::atexit(end_pool);  // a child has its parent's registration, too: end() may come twice
+  std::atexit(end_pool);  // a forked child inherits the registration: end() may be called twice
   return *fresh.release();
 }
 
@@ -89,7 +90,7 @@ void WorkerPool::end() {
     thread.join();
 }
 
-// The system may refuse a thread: then there are fewer.
+// If the system refuses a thread, the pool continues with fewer.
 void WorkerPool::start(unsigned threads) {
   const SignalsBlocked blocked;
   try {
@@ -99,8 +100,9 @@ void WorkerPool::start(unsigned threads) {
   }
 }
 
-// Systems that gather threads on few processors, to save power or to pack virtual machines, wake a helper on
-// its caller's own: there it waits for that one to stop, milliseconds, while others are idle.
+// Some systems place threads on few processors, to save power or to pack virtual machines. They wake a helper
+// on its caller's processor, where it waits for milliseconds until the caller stops, while other processors
+// are idle.
 void WorkerPool::avoid(int processor) {
   if (std::exchange(avoided_, processor) != processor) avoid_processor(processor, threads_);
 }
@@ -111,8 +113,8 @@ WorkerPool::Task* WorkerPool::wanting() {
   return found == tasks_.end() ? nullptr : *found;
 }
 
-// Waits without sleeping for the next task; false if it takes too long, or nobody wants that any more. A
-// thread that sleeps takes 25 us to wake, as long as a stage of a frame may be.
+// Spins until the next task is offered. Returns false if none was offered in time or if no AwakeThreads is
+// left. Spinning pays because a sleeping thread takes 25 us to wake, as long as a stage of a frame may take.
 bool WorkerPool::look_out(std::unique_lock<std::mutex>& lock) {
   const std::uint64_t seen = offers_;
   ++looking_out_;
@@ -141,9 +143,9 @@ void WorkerPool::serve() {
     ++task->active;
     lock.unlock();
     task->work();
-    if (current != this) return;  // a child forked by work(), in which there is nobody to report to
+    if (current != this) return;  // in a child forked by work(): there is no caller to notify
     lock.lock();
-    if (--task->active == 0) done_.notify_all();  // the task may be gone at once
+    if (--task->active == 0) done_.notify_all();  // after this, run() may destroy the task at any time
   }
 }
 
@@ -193,7 +195,7 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   }
   const auto done = [&] { return task.active == 0; };
   if (done_.wait_for(lock, kPatience, done)) return;
-  avoid(-1);  // now this processor is free, and the others may not be
+  avoid(-1);  // the caller now leaves its processor, while the others may be busy
   done_.wait(lock, done);
 }
 

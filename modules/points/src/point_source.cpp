@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each thread keeps its buffers between parts: a fresh one of 512 KiB would cost 128 page faults, as long as
-// reading it.
+// Each thread reuses its buffers: a fresh one of 512 KiB would cost 128 page faults, which take as long as
+// reading the points.
 
 #include "pcl_bv/points/point_source.h"
 
@@ -12,7 +12,7 @@
 namespace pcl_bv {
 namespace {
 
-// A source that reads from another one holds two at a time.
+// A source that reads from another source holds two buffers at a time.
 constexpr std::size_t kSpares = 2;
 
 thread_local std::vector<std::vector<std::byte>> spares;

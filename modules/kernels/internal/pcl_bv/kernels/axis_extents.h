@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The axis-aligned box, for those who do not ask which points touch it.
+// The axis-aligned bounding box of a cloud, without the points that touch it.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Exact minimum and maximum of the valid points; +infinity and -infinity if there is none. Never -0.
+/// Minimum and maximum coordinates of the valid points, exactly; +infinity and -infinity without valid
+/// points. Never -0.
 struct AxisExtents {
   std::array<double, 3> low;
   std::array<double, 3> high;
-  std::size_t dropped;  ///< Points with a coordinate that is not valid (is_valid()).
+  std::size_t dropped;  ///< Number of points that are not valid (is_valid()).
 };
 
-/// The same bits for every `isa`. O(n). Runs in the caller's floating-point environment: hold a
-/// FloatEnvironment. Throws std::invalid_argument unless the points are in memory.
+/// Returns the axis-aligned extents of the points. The result has the same bits for every `isa`. O(n). The
+/// caller must hold a FloatEnvironment. Throws std::invalid_argument if the points are not in memory.
 AxisExtents axis_extents(UsableIsa isa, const PointView& points);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Boxes around short runs of a cloud. A sensor's points that follow one another are mostly neighbours.
+// Boxes around runs of consecutive points. Consecutive points of a sensor are mostly neighbours.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,19 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Points of a run: four vectors of AVX-512.
+/// Number of points in a run: four AVX-512 vectors of floats.
 inline constexpr std::size_t kRunPoints = 64;
 
-/// Sides of a box; of doubles rounded outward. low is infinity and high -infinity where nothing is.
+/// Minimum and maximum of each coordinate of a run, rounded outward to float for double points. low is
+/// +infinity and high -infinity if all values of a coordinate are NaN.
 struct RunBox {
   float low[3], high[3];
 };
 
-/// Sets boxes[r] to one around the visited points 64 r to 64 r + 63. A NaN is passed over, but not what else
-/// its point has, nor an infinity. The same for every `isa`. O(n). Runs in the caller's floating-point
-/// environment: hold a FloatEnvironment. Throws std::invalid_argument unless the points are in memory.
+/// Sets boxes[r] to the box around the visited points 64 r to 64 r + 63. Only NaN coordinates are ignored;
+/// the point's other coordinates and infinities count. `boxes` needs one element per 64 points begun. The
+/// boxes are the same for every `isa`. O(n). The caller must hold a FloatEnvironment. Throws
+/// std::invalid_argument if the points are not in memory.
 void run_boxes(UsableIsa isa, const PointView& points, RunBox* boxes);
 
 }  // namespace pcl_bv

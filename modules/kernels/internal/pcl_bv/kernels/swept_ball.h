@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The points of a tree that a moving ball may touch.
+// Finds the points of a tree that a moving ball may touch.
 #pragma once
 
 #include <cstddef>
@@ -11,42 +11,45 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A ball whose centre moves along from + t direction, t >= 0: its line, and what the boxes of a tree are
-/// asked. Times there are those of a direction whose longest coordinate is from 1 to 2.
+/// A ball whose centre moves along from + t * direction, t >= 0, prepared for tests against the boxes and
+/// points of a tree. Times in the frame of the boxes refer to the direction scaled by a power of two, so that
+/// its largest component is from 1 to 2 in magnitude there.
 struct SweptBall {
-  float origin[3], inverse[3];  ///< In the frame of the boxes.
-  float pad;    ///< What every box is greater by: the radius, and a thousand times what rounding to float
-                ///< moves a place by. Infinity where floats tell nothing: then every box is entered at 0.
-  double time;  ///< Times there of times here.
-  Coordinates from, unit;  ///< The line in the unit of the points.
+  float origin[3], inverse[3];  ///< Start point and reciprocal direction in the frame of the boxes.
+  float pad;    ///< Margin of every box: the radius and a bound of the rounding to float. Infinite if floats
+                ///< are not precise enough; then every box is entered at time 0.
+  double time;  ///< Factor from times t to times in the frame of the boxes.
+  Coordinates from, unit;  ///< Start point and unit direction, in the unit of the points.
   double radius;
 
-  /// A point is shown if it is at most radius + kDoubt |q|_1 + kLeast from the line, q from `from` to it.
+  /// A point is shown to the visitor if its distance from the line is at most radius + kDoubt |q|_1 + kLeast,
+  /// with q the vector from `from` to the point.
   static constexpr double kDoubt = 0x1p-40, kLeast = 0x1p-400;
 
-  /// All finite, the direction not 0, the radius at least 0.
+  /// All arguments must be finite, the direction not 0, the radius at least 0.
   SweptBall(const BoxLevels& boxes, const Coordinates& from, const Coordinates& direction, double radius);
 
-  /// Boxes that are entered later need not be asked about what comes before t.
+  /// Returns, in the frame of the boxes, a time so late that boxes entered after it contain no point that is
+  /// touched before t.
   float latest(double t) const { return static_cast<float>(t * time * (1 + 0x1p-16)) + pad; }
 };
 
-/// Told by visit_along() which points to ask.
+/// Receives the points that visit_along() finds.
 class PacketVisitor {
  public:
-  /// The points of a packet whose bits are set, one at least, may be touched. Returns the time, in the frame
-  /// of the boxes, from which on no box is entered any more: SweptBall::latest() of the first touch so far,
-  /// and the greatest float before there is one.
+  /// Called with a packet and, as bits, its points that may be touched (at least one bit is set). Returns the
+  /// latest time, in the frame of the boxes, at which a box must be entered to be visited:
+  /// SweptBall::latest() of the first touch so far; before there is one, the largest float.
   virtual float visit(std::size_t packet, std::uint32_t points) = 0;
 
  protected:
   ~PacketVisitor() = default;
 };
 
-/// Visits packets, those entered early first, until no point that was not shown can be touched before the
-/// visitor's latest time. A point that is touched, as Sphere(point, radius).intersect() has it, is shown for
-/// every `isa`; which others are is not the same. An empty tree has none. Runs in the caller's
-/// floating-point environment: hold a FloatEnvironment.
+/// Visits packets until no other point can be touched before the visitor's latest time. Every point that the
+/// ball touches by then, as decided by Sphere(point, radius).intersect(), is shown to the visitor for every
+/// `isa`. Which other points are shown, and in which order, depends on `isa` (vector kernels visit boxes that
+/// are entered early first). An empty tree has no points. The caller must hold a FloatEnvironment.
 void visit_along(UsableIsa isa, const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of many terms without error: what the bounds of volumes are added up with.
+// Sums of many terms without rounding error. They add up the bounds of volumes.
 #pragma once
 
 #include <array>
@@ -9,32 +9,40 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A sum of doubles and of products of doubles without error. At most 32 terms (a product is two). Twice the
-/// precision of a double answers nearly always; where it cannot, the terms become a non-overlapping expansion
-/// (Shewchuk 1997). The one loss: a product below 2^-960 may lose some 2^-1074; then `certain()` is false, and
-/// up() and down() step a smallest normal further where so little can matter. Expects the IEEE default
-/// environment: hold a FloatEnvironment.
+/// An exact sum of doubles and of products of doubles, whose results are rounded only at the end.
+///
+/// Holds 32 terms (a product is two terms); when it is full, terms that cancel are merged. Most results come
+/// from a sum of twice the precision of a double with an error bound; where that does not decide, from a
+/// non-overlapping expansion (Shewchuk 1997).
+///
+/// There is one inexact case: a product below 2^-960 in magnitude may lose about 2^-1074. Then `certain()` is
+/// false, and up() and down() move outward by the smallest normal double where the loss could matter. The
+/// caller must hold a FloatEnvironment.
 class Expansion {
  public:
+  /// Adds x, or a * b.
   Expansion& add(double x);
   Expansion& add_product(double a, double b);
 
-  /// a . b, six terms, of vectors as dot3() takes them.
+  /// Adds a . b, which is six terms. Takes the vector types that dot3() takes.
   template <typename A, typename B>
   Expansion& add_dot(const A& a, const B& b) {
     return add_product(a[0], b[0]).add_product(a[1], b[1]).add_product(a[2], b[2]);
   }
 
-  /// Smallest double not below the sum / greatest not above. Infinite on overflow.
+  /// Returns the smallest double >= the sum or the largest double <= the sum. On overflow up() returns
+  /// +infinity and down() returns -infinity.
   double up() const;
   double down() const;
-  double magnitude_up() const;  ///< Of its magnitude.
+  double magnitude_up() const;  ///< Smallest double >= the magnitude of the sum.
 
-  /// The sum to less than one unit in the last place; the sum itself where it is a double.
+  /// Returns the sum with an error below one unit in the last place; the sum itself if it is a double.
   double value() const;
 
-  /// -1, 0 or 1; exact where certain().
+  /// Returns the sign of the sum: -1, 0 or 1. It is exact if certain().
   int sign() const;
+
+  /// Whether no product was so small (below 2^-960 in magnitude) that digits may be lost.
   bool certain() const { return !lossy_; }
 
  private:
@@ -42,11 +50,11 @@ class Expansion {
   void compact();
 
   static constexpr std::size_t capacity = 32;
-  std::array<double, capacity> terms_;  // none is zero
+  std::array<double, capacity> terms_;  // none of them is zero
   std::size_t size_ = 0;
-  // The sum is head_ + low_, but for missing() at most.
+  // The sum differs from head_ + low_ by at most missing().
   double head_ = 0, low_ = 0;
-  double magnitude_ = 0;  // of all terms
+  double magnitude_ = 0;  // sum of the magnitudes of all terms
   bool lossy_ = false;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of three in one stated order, (x + y) + z: Eigen's own order differs, and may between processors.
+// Vector operations with a fixed order of additions, (x + y) + z. Eigen's order differs and may depend on the
+// processor.
 #pragma once
 
 #include <cmath>
@@ -10,14 +11,15 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-// The functions below take whatever has three elements v[0], v[1], v[2]: Coordinates, std::array, Eigen's
-// vectors and expressions of them.
+// The functions below take any type with elements v[0], v[1], v[2]: Coordinates, std::array, Eigen's vectors
+// and expressions.
 namespace numeric_internal {
 
 template <typename Vector>
 using ScalarOf = std::decay_t<decltype(std::declval<Vector>()[0])>;
 
-// What can be returned of a Vector: of Eigen's expressions what they evaluate to.
+// The type in which a result for a Vector can be returned: for an Eigen expression its plain matrix type,
+// else Vector itself.
 template <typename Vector, typename = void>
 struct Plain {
   using Type = Vector;
@@ -31,29 +33,32 @@ using PlainOf = typename Plain<Vector>::Type;
 
 }  // namespace numeric_internal
 
+/// Returns the dot product a . b.
 template <typename A, typename B>
 inline auto dot3(const A& a, const B& b) {
   using Scalar = std::common_type_t<numeric_internal::ScalarOf<A>, numeric_internal::ScalarOf<B>>;
   return Scalar((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]);
 }
 
+/// Returns the Euclidean length |v|.
 template <typename Vector>
 inline auto norm3(const Vector& v) {
   return std::sqrt(dot3(v, v));
 }
 
-/// |v|_1, what error bounds are in terms of.
+/// Returns |v|_1, the sum of magnitudes. Error bounds are stated in terms of it.
 template <typename Vector>
 inline auto taxicab3(const Vector& v) {
   return (std::abs(v[0]) + std::abs(v[1])) + std::abs(v[2]);
 }
 
+/// Returns the cross product a x b.
 template <typename A, typename B>
 inline numeric_internal::PlainOf<A> cross3(const A& a, const B& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Of a vector of about unit length or more.
+/// Returns v / |v|. The length should be about 1 or more: squares of small components may underflow.
 template <typename Vector>
 inline numeric_internal::PlainOf<Vector> unit3(const Vector& v) {
   const auto length = norm3(v);

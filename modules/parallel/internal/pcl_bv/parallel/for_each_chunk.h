@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Chunk and merge (paper §5): work in fixed chunks, results by chunk number, merged in order. Which thread
-// does what can then not change a bit.
+// Chunk and merge (Karlsson, Winberg and Larsson 2010, section 5). Work is cut into chunks of fixed size;
+// results are stored by chunk number and merged in that order. So no result depends on which thread does
+// which chunk.
 #pragma once
 
 #include <algorithm>
@@ -19,26 +20,32 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
                 const std::function<void(std::size_t)>& body);
 }  // namespace internal
 
-/// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads; returns
-/// when all are done. Serial if the policy has one thread, if there is one chunk, or inside another parallel
-/// region (no oversubscription). If bodies throw, every chunk is still tried and the exception of the lowest
-/// chunk is rethrown. A child that a body forks may make calls of its own, but never returns from the body.
+/// Calls body(0) ... body(chunks - 1), each once, in any order and on any of the policy's threads. Returns
+/// when all calls have returned.
+///
+/// Runs on the calling thread alone if the policy has one thread, if there is one chunk, or inside another
+/// parallel call or an OpenMP region (no oversubscription). If bodies throw, the remaining chunks are still
+/// run; then the exception of the lowest failed chunk is rethrown. A body may fork. The child may make
+/// parallel calls of its own, but must never return from the body.
 template <typename Body>
 void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& body) {
   internal::run_chunks(policy, chunks, std::ref(body));
 }
 
-/// Calls body(begin, end) for runs of `of_chunk` items, the last of which may be shorter: each of 0, 1, ...
-/// items - 1 is in one of them.
+/// Calls body(begin, end) for consecutive ranges of `of_chunk` items that together cover 0 ... items - 1. The
+/// last range may be shorter. Runs and throws like for_each_chunk().
 template <typename Body>
 void for_each_run(const ParallelPolicy& policy, std::size_t items, std::size_t of_chunk, Body&& body) {
   for_each_chunk(policy, (items + of_chunk - 1) / of_chunk,
                  [&](std::size_t chunk) { body(chunk * of_chunk, std::min(items, (chunk + 1) * of_chunk)); });
 }
 
-/// While it lives, threads of our own that the policy uses wait for its calls without sleeping, up to 2 ms each
-/// time: for stages that follow one another, since a thread that sleeps wakes in some 25 us. They cost the
-/// processors on which they wait. Does nothing for other policies, and inside a parallel region.
+/// Keeps the library's threads spinning between parallel calls while the object lives, so that they need not
+/// be woken: waking a thread that sleeps takes about 25 us.
+///
+/// Each thread spins for at most 2 ms at a time and occupies its processor meanwhile. Use it around a
+/// sequence of short parallel stages. It has an effect only for the policy Threads, outside of parallel
+/// calls.
 class AwakeThreads {
  public:
   explicit AwakeThreads(const ParallelPolicy& policy);
@@ -50,8 +57,8 @@ class AwakeThreads {
   void* pool_ = nullptr;
 };
 
-/// merge(...merge(merge(identity, map(0)), map(1))..., map(chunks - 1)): the maps in parallel, the merges in
-/// order.
+/// Returns merge(...merge(merge(identity, map(0)), map(1))..., map(chunks - 1)). The maps run in parallel,
+/// the merges in order on the calling thread. Throws like for_each_chunk().
 template <typename Partial, typename Map, typename Merge>
 Partial reduce_chunks(const ParallelPolicy& policy, std::size_t chunks, Partial identity, Map&& map,
                       Merge&& merge) {

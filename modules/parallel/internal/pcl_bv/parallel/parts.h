@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points in a row, cut into parts for threads: for stages that need more than a merge of what chunks found.
+// Cuts a sequence of points into parts, one task each. For stages that need more than a merge of chunk
+// results.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +13,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Points 0 to count - 1 cut into parts, each with the members begin and end and what its thread finds. What
-/// parts hold stays where it is for the next cut: their memory is used again.
+/// The points 0 ... count - 1, cut into consecutive parts. A Part has members `begin` and `end`, and any
+/// members for the results of its task. Parts and the memory they own are reused by the next cut().
 template <typename Part>
 class Parts {
  public:
-  /// Sets begin and end of each part, of 8192 points at least (or of all): fewer are done before another thread
-  /// has come. Two parts a thread, so that one that comes late still finds work. No points: an empty part.
+  /// Sets `begin` and `end` of each part. A part has at least 8192 points (or all points): a smaller one
+  /// would be done before another thread has started. There are two parts per thread, so that a thread that
+  /// starts late still finds work; a policy with one thread gets one part. Zero points give one empty part.
   void cut(std::size_t count, const ParallelPolicy& policy) {
     const std::size_t threads = thread_count(policy);
     used_ = std::clamp<std::size_t>(count / 8192, 1, threads == 1 ? 1 : 2 * threads);
@@ -36,7 +38,8 @@ class Parts {
   Part& front() { return parts_.front(); }
   const Part& front() const { return parts_.front(); }
 
-  /// work(part) for each, of which none may depend on another. Throws as for_each_chunk() says.
+  /// Calls work(part) for each part, in parallel. No call may depend on another. Throws like
+  /// for_each_chunk().
   template <typename Work>
   void for_each(const ParallelPolicy& policy, const Work& work) {
     for_each_chunk(policy, used_, [&](std::size_t p) { work(parts_[p]); });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which instruction set runs: an argument of every call, never global state.
+// The instruction set of the kernels. It is an argument of every call, never global state.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,27 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// An instruction set for which the kernels are compiled. `scalar` is the scalar reference; every set gives
-/// the same bits. `automatic` is the set named by the environment variable PCL_BV_ISA, else the machine's
-/// best; of 64-bit Arm's NEON, SVE only on request.
+/// An instruction set for which the kernels are compiled; results have the same bits for each. `scalar` is
+/// the scalar reference. `automatic` is the set named by the environment variable PCL_BV_ISA, else the best
+/// one of the machine; on 64-bit Arm that is NEON: SVE runs only on request.
 enum class Isa : std::uint8_t { automatic, scalar, sse4, avx2, avx512, neon, sve, sve2 };
 
-/// The name used on command lines and in PCL_BV_ISA: "auto", "scalar", "sse4", ...
+/// Returns the name used on command lines and in PCL_BV_ISA: "auto", "scalar", "sse4", ...
 std::string_view isa_name(Isa isa);
 
-/// The reverse of isa_name(). Throws std::invalid_argument, listing the known names, for any other text.
+/// Returns the set of that name (the inverse of isa_name()). Throws std::invalid_argument, listing the known
+/// names, for any other text.
 Isa parse_isa(std::string_view name);
 
-/// The sets that this build and this machine can run, slowest (scalar) first.
+/// Returns the sets that this build and this machine can run, slowest (scalar) first.
 std::vector<Isa> usable_isas();
 
-/// An instruction set that this build and this machine can run, and no other: what kernels and fits take.
+/// An instruction set that this build and this machine can certainly run. Kernels and fits take this type.
 class UsableIsa {
  public:
-  /// Not explicit: an Isa says enough. `automatic` is looked up here, once: copies do not ask the environment
-  /// again. Throws std::invalid_argument if the set is not usable here or if PCL_BV_ISA, when asked, holds an
-  /// unknown name.
+  /// Implicit, so that an Isa can be passed where a UsableIsa is expected. `automatic` is resolved here,
+  /// once: copies do not read the environment again. Throws std::invalid_argument if the set is not usable
+  /// here, or if PCL_BV_ISA is read and holds an unknown name.
   UsableIsa(Isa isa = Isa::automatic);
 
   operator Isa() const { return isa_; }  ///< Never `automatic`.

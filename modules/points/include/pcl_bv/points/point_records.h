@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Arrays of point structs, as PCL and everybody else keeps them, to PointView. Knows no point type.
+// Views of arrays of point structs, such as PCL's. Does not depend on any particular point type.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +25,8 @@ struct has_xyz<Record, std::void_t<decltype(Record::x), decltype(Record::y), dec
   static constexpr bool value = one_type && (std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>);
 };
 
-/// All of `count` records. Record is any struct with members x, y, z, all float or all double, that follow
-/// one another in memory in this order; throws std::invalid_argument for a struct in which they do not.
+/// Returns a view of all `count` records. Record is any struct with members x, y, z, all float or all double,
+/// adjacent in memory in this order. Throws std::invalid_argument if they are not adjacent.
 template <typename Record>
 PointView view_records(const Record* records, std::size_t count) {
   static_assert(has_xyz<Record>::value,
@@ -40,9 +40,10 @@ PointView view_records(const Record* records, std::size_t count) {
   return view;
 }
 
-/// The points of a whole cloud in memory that an index list names, in its order. The list must outlive the
-/// view. Throws std::out_of_range, naming the index, if one is not in the cloud, and std::invalid_argument
-/// for a slice of a cloud, a cloud with an index list and one of a source.
+/// Returns a view of the points of a cloud that an index list selects, in the order of the list. The cloud
+/// must be whole and in memory; the list must outlive the view. Throws std::out_of_range, naming the index,
+/// if one is not in the cloud, and std::invalid_argument if the cloud is a slice, has an index list or has a
+/// source.
 inline PointView select_points(const PointView& cloud, const std::int32_t* indices, std::size_t count) {
   if (cloud.source != nullptr || cloud.indices != nullptr || cloud.first != 0)
     throw std::invalid_argument("select_points: the cloud must be whole and in memory");

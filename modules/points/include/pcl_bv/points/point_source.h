@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points that stay where they are, a file mostly, and come into memory part by part, as often as a fit passes
-// over them.
+// Points that are not in memory but, for example, in a file. Fits load them part by part, as often as they
+// pass over them.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,21 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Where the points of a view with PointView::source come from. Each load of the same points gives the same
+/// Provides the points of a view with PointView::source. Loading the same points again must give the same
 /// bits.
 class PointSource {
  public:
   virtual ~PointSource() = default;
 
-  /// Brings points [first, first + count) into memory and returns a view of them, whose index() is that in
-  /// the source: of `buffer`, which is resized as needed, or of memory that lives as long as the source.
-  /// `count` is at most kChunkPoints. Called by several threads at a time, with a buffer each. May throw.
+  /// Loads points [first, first + count) and returns a view of them, whose index() is the index in the
+  /// source. The view refers to `buffer`, which may be resized, or to memory that lives as long as the
+  /// source. `count` is at most kChunkPoints. Called concurrently by several threads, each with its own
+  /// buffer. May throw.
   virtual PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const = 0;
 };
 
-/// A view of `count` points of a source. Few of them (kChunkPoints or less) are better held in memory.
+/// Returns a view of `count` points of a source. For kChunkPoints points or fewer, copying them to memory is
+/// better.
 inline PointView view_of(const PointSource& source, std::size_t count, ScalarType scalar) {
   PointView view;
   view.source = &source;
@@ -35,13 +37,15 @@ inline PointView view_of(const PointSource& source, std::size_t count, ScalarTyp
   return view;
 }
 
-/// A part of a view, in memory while this object lives. Costs nothing where it is there already.
+/// A part of a view, in memory while this object lives. Copies nothing if the points are in memory already.
 class LoadedPoints {
  public:
-  /// Visited points [begin, begin + count) of the view, at most kChunkPoints if it has a source. Throws
-  /// std::out_of_range for points that the view does not have, and for those of a source what it throws and
-  /// std::invalid_argument for more points, for a view that has indices, too, and for a source that gives
-  /// other points than it was asked for.
+  /// Loads the visited points [begin, begin + count) of the view. Throws std::out_of_range if the view does
+  /// not have these points.
+  ///
+  /// For a view of a source, `count` is at most kChunkPoints. Then the constructor throws what the source
+  /// throws, and std::invalid_argument for more points, if the view has indices as well, or if the source
+  /// returns other points than requested.
   LoadedPoints(const PointView& points, std::size_t begin, std::size_t count) {
     if (begin > points.count || count > points.count - begin)
       throw std::out_of_range("LoadedPoints: the view does not have these points");
@@ -67,7 +71,7 @@ class LoadedPoints {
   std::vector<std::byte> buffer_;
 };
 
-/// Chunk number `chunk` of the view.
+/// Loads chunk number `chunk` of the view.
 inline LoadedPoints load_chunk(const PointView& points, std::size_t chunk) {
   const std::size_t begin = chunk * kChunkPoints;
   return {points, begin, std::min(kChunkPoints, points.count - begin)};
