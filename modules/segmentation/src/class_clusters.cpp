@@ -36,7 +36,7 @@ std::size_t count_valid(const PointView& points) {
 
 }  // namespace
 
-// The place of the class among the groups, a new one if need be.
+// Returns the position of the class in groups_; inserts the class if it is new.
 std::size_t ClassClusterer::group_of(std::int64_t value) {
   const auto at = std::lower_bound(groups_.begin(), groups_.end(), value,
                                    [](const Group& group, std::int64_t v) { return group.value < v; });
@@ -45,7 +45,7 @@ std::size_t ClassClusterer::group_of(std::int64_t value) {
   return place;
 }
 
-// Point numbers by class, in the order of the points within each.
+// Writes the point indices class by class, within a class in the order of the view.
 void ClassClusterer::sort_points(const PointView& points, const std::vector<std::int64_t>& classes) {
   groups_.clear();
   for (std::size_t i = 0; i < points.count; ++i)
@@ -68,7 +68,7 @@ void ClassClusterer::extract(const PointView& points, const std::vector<std::int
                              const ParallelPolicy& policy) {
   check(own);
   sort_points(points, classes);
-  clusterer_.extract(points.slice(0, 0), others, all_, policy);  // checks the settings, and empties
+  clusterer_.extract(points.slice(0, 0), others, all_, policy);  // checks the settings and empties all_
   found_class_.clear();
   for (const Group& group : groups_) {
     const auto settings = std::find_if(own.begin(), own.end(),

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Only the median matters. Each sample's distance to its nearest neighbour is bounded by what was seen of it
-// so far, and the median of these bounds is not below that of the distances. So all points are looked at, but
-// only for samples within that median: what is farther away changes no distance that is below it.
+// Finds the median spacing without an exact nearest-neighbour search for all samples. The smallest distance
+// seen so far bounds a sample's spacing, so the median of these bounds is at least the median of the
+// spacings. Each point is compared only with samples within that median: a point farther away cannot change a
+// spacing below it.
 
 #include "pcl_bv/segmentation/cloud_statistics.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMostSamples = 1000;
 
-// Points before and after a sample that give its bound.
+// Number of points before and after a sample that give its first bound.
 constexpr std::size_t kListedNear = 64;
 
 bool is_dead(const Coordinates& p) {
@@ -40,7 +41,7 @@ double distance(const Coordinates& a, const Coordinates& b) {
 struct Sample {
   Coordinates point;
   std::size_t index;
-  double nearest;  // distance, so far
+  double nearest;  // smallest distance so far
 };
 
 struct ChunkCounts {
@@ -74,11 +75,12 @@ double nearest_listed(const PointView& points, std::size_t i, const Coordinates&
   return best;
 }
 
-// Of `used` points every so many, as the chunk's points come: `before` of them are in the chunks before it.
+// Takes the samples of a chunk. They are evenly spaced among the `used` points of the cloud, of which
+// `before` are in earlier chunks.
 std::vector<Sample> take_samples(const PointView& points, std::size_t before, std::size_t used) {
   const std::size_t samples = std::min(used, kMostSamples);
   std::vector<Sample> taken;
-  std::size_t k = (before * samples + used - 1) / used;  // the next one is number k * used / samples
+  std::size_t k = (before * samples + used - 1) / used;  // sample k is usable point k * used / samples
   for (std::size_t i = 0, rank = before; i < points.count && k < samples; ++i) {
     const Coordinates p = load_point(points, i);
     if (!counts(p)) continue;
@@ -99,7 +101,8 @@ double median(const std::vector<Sample>& samples) {
   return *middle;
 }
 
-// Lets the points come nearer to the samples, which are sorted along `axis`. The reach shrinks as they do.
+// Lowers the distances of the samples, which are sorted along `axis`, by comparing them with the points. The
+// search radius `reach` shrinks with the median.
 void come_nearer(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
   constexpr std::size_t points_per_reach = 4096;
   const auto before = [&](const Sample& sample, double at) { return sample.point.*axis < at; };
@@ -143,7 +146,7 @@ double spacing(const PointView& points, std::vector<Sample> samples, const Aabb&
   double Coordinates::*const axis = longest_axis(box);
   std::sort(samples.begin(), samples.end(),
             [&](const Sample& a, const Sample& b) { return a.point.*axis < b.point.*axis; });
-  std::mutex merging;  // in any order: the least of some numbers
+  std::mutex merging;  // the order does not matter for minima
   for_each_chunk(policy, chunk_count(points.count), [&](std::size_t chunk) {
     std::vector<Sample> mine;
     {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Most points of a dense cloud are core by the number of points in their cell alone. Others ask the cells
-// around them, and stop at the point that makes them core.
+// In a dense cloud most points are core points because of the number of points in their cell. Other points
+// test the cells around them, and stop at the point that makes them core points.
 #include "core_points.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::uint32_t noise = std::numeric_limits<std::uint32_t>::max();
 
-// Fewer are not worth the start of a thread.
+// Fewer blocks are not worth the start of a thread.
 constexpr std::size_t blocks_per_part = 256;
 
-// What all steps look at.
+// The data that all steps use.
 template <typename T>
 struct CoreSearch {
   const Cells<T>& cells;
@@ -30,8 +30,8 @@ struct CoreSearch {
   std::size_t min_points;
   bool solid;
 
-  // Calls test(begin, end) for the places of a run, a group at a time, but for groups of which skip(box) says
-  // that they need none; ends when either returns false.
+  // Calls test(begin, end) for the positions of a run, group by group. Whole groups are left out if skip(box)
+  // is true. Stops and returns false when test returns false.
   template <typename Skip, typename Test>
   bool by_group(const PlaceRun& run, Skip skip, Test test) const {
     for (std::uint32_t i = run.begin; i < run.end;) {
@@ -44,7 +44,7 @@ struct CoreSearch {
     return true;
   }
 
-  // How many points of a run are linked to one; of no more than it needs.
+  // Returns how many points of a run are linked to p. Stops once it has counted `needed`.
   std::size_t count(const PlaceRun& run, const Point<T>& p, std::size_t needed) const {
     const Box<T> at{p, p};
     std::size_t found = 0;
@@ -65,7 +65,7 @@ struct CoreSearch {
   }
 };
 
-// Whether a point is core. The cells of other blocks are sought if they are needed.
+// Returns whether a point is a core point. Searches other blocks only if the cells of its own are not enough.
 template <typename T>
 bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
   std::size_t found = 0;
@@ -77,7 +77,7 @@ bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& n
   return true;
 }
 
-// The cells of one block.
+// Marks the core points of the cells of one block.
 template <typename T, typename FindAround>
 void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
                Neighbourhood<T>& near) {
@@ -108,7 +108,7 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
   search.scratch.sparse_cells[number] = sparse_cells;
 }
 
-// The place of the core point to which one that is none belongs, or `noise`.
+// Returns the position of the core point to which a point that is not core belongs, or `noise`.
 template <typename T>
 std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const Neighbourhood<T>& near) {
   const CoreScratch<T>& scratch = search.scratch;
@@ -122,7 +122,8 @@ std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const
           for (std::uint32_t i = begin; i < end; ++i) {
             const T d2 = squared_distance(search.cells.points[i], p);
             if (scratch.core[i] == 0 || d2 > least) continue;
-            const bool tie = d2 == least;  // with a point, or with the tolerance, which is no link
+            // Equal to another core point's distance, or to r2, which is not linked.
+            const bool tie = d2 == least;
             if (tie && (nearest == noise || scratch.number[i] > scratch.number[nearest])) continue;
             least = d2;
             nearest = i;
@@ -175,7 +176,7 @@ template <typename T, typename Key>
 void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, const ParallelPolicy& policy,
                const std::vector<Key>& keys, const Cells<T>& cells, CoreScratch<T>& scratch) {
   start_scratch(cells, scratch);
-  if (!(r2 > 0)) return;  // Nothing is linked.
+  if (!(r2 > 0)) return;  // nothing is linked
   const CoreSearch<T> search{cells, scratch, r2, min_points, solid};
   const auto in_parts = [&](auto work) {
     for_each_run(policy, keys.size(), blocks_per_part, [&](std::size_t begin, std::size_t end) {
@@ -206,7 +207,8 @@ std::uint32_t keep_core(Cells<T>& cells, CoreScratch<T>& scratch) {
     const std::uint32_t end_cell = cell + count_bits(cells.blocks[b].occupied);
     cells.blocks[b] = {scratch.core_cells[b], to_cell, false};
     for (; cell < end_cell; ++cell) {
-      const std::uint32_t end = cells.begin[cell + 1];  // Before begin[to_cell], which may be this cell's.
+      // Read before begin[to_cell] is written, which may be the same entry.
+      const std::uint32_t end = cells.begin[cell + 1];
       const std::uint32_t first = to;
       for (std::uint32_t i = begin; i < end; ++i) {
         if (scratch.core[i] == 0) continue;

@@ -24,7 +24,7 @@
 namespace pcl_bv {
 namespace {
 
-// The memory that calls share, by kind of point.
+// The buffers that calls reuse, for one scalar type.
 template <typename T>
 struct PointScratch {
   ValidPoints<T> valid;
@@ -55,9 +55,9 @@ void check(const ClusterSettings& settings) {
   throw std::invalid_argument(message.str());
 }
 
-// 1 / side of the cells. sqrt(r2), not the tolerance, bounds the coordinates' differences of a pair d2 < r2:
-// r2 may have been rounded up among the denormals, or to infinity, when d2 still has to be finite. The margin
-// of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell pass the test.
+// Returns 1 / side of the cells. sqrt(r2), not the tolerance, bounds the coordinate differences of a linked
+// pair (d2 < r2): r2 may have been rounded up among the denormals, or to infinity while d2 is finite. The
+// margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of one cell are linked.
 template <typename T>
 double inverse_cell_side(T r2) {
   using limits = std::numeric_limits<T>;
@@ -65,14 +65,15 @@ double inverse_cell_side(T r2) {
   return std::sqrt(3.0) * (1 + 1e-6) / reach;
 }
 
-// Whether all pairs of points in a cell are linked for certain: the margin of the cells' side covers the
-// rounding of d2 where it is relative to d2, and that of where cells end.
+// Returns whether all points of a cell are certainly linked. The margin of the cells' side covers the
+// rounding of the cell boundaries (if grid.near), and that of d2 if r2 is far from underflow and overflow.
 template <typename T>
 bool cells_are_solid(const CellGrid& grid, T r2) {
   return grid.near && r2 >= T(1e-30) && r2 <= T(1e30);
 }
 
-// Returns the root of noise. With min_points of 1 every point is core, and nothing is looked for.
+// Finds the connected components. Returns the root of noise, or no_root if min_points is 1: then every point
+// is a core point.
 template <typename T, typename Key>
 std::uint32_t find_components(const std::vector<Point<T>>& points, PointScratch<T>& scratch,
                               const CellGrid& grid, T r2, std::size_t min_points,
@@ -103,7 +104,8 @@ struct EuclideanClusterer::Scratch {
   Collector collector;
   SplitScratch split;
 
-  /// Components of the points at one tolerance, as roots of scratch.cells.node. Returns the root of noise.
+  /// Links the points at one tolerance: point i is in the component sets.roots()[scratch.cells.node[i]].
+  /// Returns the root of noise.
   template <typename T>
   std::uint32_t link(const std::vector<Point<T>>& all, const Box<T>& box, double r, std::size_t min_points,
                      const ParallelPolicy& policy) {
@@ -147,7 +149,7 @@ struct EuclideanClusterer::Scratch {
     collect(sets.roots(), scratch.cells.node, noise, scratch.valid.numbers, settings, collector, clusters);
   }
 
-  /// Appends the clusters, and those above max_size only if they are to be dropped later.
+  /// Appends the clusters. Those above max_size are left out only for Oversized::drop.
   void append(const PointView& view, ClusterSettings settings, const ParallelPolicy& policy,
               Clusters& clusters) {
     if (settings.oversized != Oversized::drop) settings.max_size = std::numeric_limits<std::size_t>::max();

@@ -13,7 +13,7 @@
 namespace pcl_bv {
 namespace {
 
-// The same points in strictly ascending order.
+// Returns the same points in strictly ascending order.
 PointView ascending(const PointView& view, std::vector<std::int32_t>& sorted_list) {
   if (!view.indices) return view;
   const std::int32_t* const end = view.indices + view.count;
@@ -27,7 +27,7 @@ PointView ascending(const PointView& view, std::vector<std::int32_t>& sorted_lis
   return sorted;
 }
 
-// is_valid(); a float is below the limit if it is finite.
+// is_valid() for arrays. A float is below the limit if it is finite.
 bool is_valid(const float (&p)[3]) {
   return 0 * p[0] + 0 * p[1] + 0 * p[2] == 0;
 }
@@ -35,12 +35,12 @@ bool is_valid(const double (&p)[3]) {
   return pcl_bv::is_valid(Coordinates{p[0], p[1], p[2]});
 }
 
-// Puts the valid points of a part from its beginning on.
+// Stores the valid points of a part, from its beginning.
 template <typename T>
 void gather_part(const PointView& points, ValidPoints<T>& valid, GatherPart<T>& part) {
   const FloatEnvironment environment;
   constexpr T largest = std::numeric_limits<T>::max();
-  const PointView view = points;  // of this loop only: not read again after each store
+  const PointView view = points;  // local, so that it is not read again after each store
   part.box = {{largest, largest, largest}, {-largest, -largest, -largest}};
   std::size_t to = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
@@ -55,7 +55,7 @@ void gather_part(const PointView& points, ValidPoints<T>& valid, GatherPart<T>& 
   part.kept = to - part.begin;
 }
 
-// Moves what lies in `from` to the end of what is there.
+// Moves the points of a part to position `to`.
 template <typename T>
 void append(const GatherPart<T>& from, std::size_t to, ValidPoints<T>& valid) {
   const auto move_down = [&](auto& all) {

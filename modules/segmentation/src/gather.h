@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From a PointView to its valid points in a row, ascending by point number.
+// Copies the valid points of a PointView to an array, ascending by index.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@
 
 namespace pcl_bv {
 
-/// Points of a view that one thread takes.
+/// A part of the points of a view, which one thread copies.
 template <typename T>
 struct GatherPart {
   std::size_t begin, end;
-  std::size_t kept;  ///< Valid ones.
-  Box<T> box;        ///< Of these.
+  std::size_t kept;  ///< Number of valid points.
+  Box<T> box;        ///< Box of the valid points.
 };
 
 template <typename T>
 struct ValidPoints {
   std::vector<Point<T>> points;
-  std::vector<std::int32_t> numbers;      ///< Number in the cloud of each point; strictly ascending.
-  Box<T> box;                             ///< Of the points; of no meaning if there are none.
-  std::vector<std::int32_t> sorted_list;  ///< Room for a sorted copy of the view's index list.
+  std::vector<std::int32_t> numbers;      ///< Index in the cloud of each point; strictly ascending.
+  Box<T> box;                             ///< Box of the points; undefined if there are none.
+  std::vector<std::int32_t> sorted_list;  ///< Buffer for a sorted copy of the view's index list.
   Parts<GatherPart<T>> parts;
 };
 
-/// Fills `valid` with each valid point of `view` once. T is the scalar of the view. Throws std::length_error
-/// if a point number exceeds 2^31 - 1.
+/// Fills `valid` with each valid point of `view`, once. T is the scalar type of the view. Throws
+/// std::length_error if a point index exceeds 2^31 - 1.
 template <typename T>
 void gather(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>& valid);
 

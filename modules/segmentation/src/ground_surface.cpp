@@ -11,29 +11,31 @@
 namespace pcl_bv {
 namespace {
 
-// A cell's lowest point is ground up to so far above and below the height expected, metres, and so much
-// farther for each metre since ground was last seen: curbs and clods pass, bonnets and seats of benches do
-// not.
+// A cell's lowest point is ground if it is at most `above` over, or `below` under, the expected height,
+// metres. Both limits grow for each metre since ground was last seen, up to the maxima. Curbs and clods pass;
+// bonnets and the seats of benches do not.
 constexpr float above = 0.12F, above_growth = 0.024F, above_most = 0.225F;
 constexpr float below = 0.1F, below_growth = 0.05F, below_most = 1;
 
-// Where something stands the lowest point may be its own.
+// Limits above the expected height in cells with an object, as the lowest point may belong to the object.
 constexpr float foot_above = 0.02F, foot_growth = 0.01F;
 
-// What a rise says of the slope counts over so many metres.
+// Distance over which a rise changes the slope, in addition to the distance since ground was last seen;
+// metres.
 constexpr float slope_memory = 2.6F;
 
-// What is expected sinks by so much a metre at most, beyond its slope: behind a ditch the ground goes on as
-// before it.
+// The expected height follows lower points by at most this much a metre, beyond its slope: behind a ditch the
+// ground continues as before.
 constexpr float fall = 0.06F;
 
-constexpr float first_age = 2;      // metres; the plane around the sensor is a guess for the innermost cells
+// Metres; the plane around the sensor is only a guess for the innermost cells.
+constexpr float first_age = 2;
 constexpr float never = 1000;       // metres since ground was seen
-constexpr float roughness = 0.02F;  // metres from the lowest point up to the middle of bare ground's points
+constexpr float roughness = 0.02F;  // metres from the lowest point to the middle of the points of bare ground
 
 }  // namespace
 
-// Where a neighbour has seen the ground more lately, it knows better.
+// Mixes in the states of the neighbours that have seen the ground more recently.
 void GroundSurface::Front::share(float width) {
   for (RingRow* row : {&height, &slope, &anchor, &age})
     row->close();
@@ -85,7 +87,7 @@ void GroundSurface::walk_out(const CellFacts& cells) {
   }
 }
 
-// Between two places where the ground is seen it is the line that connects them.
+// Interpolates linearly between two cells of a sector where ground is seen.
 void GroundSurface::walk_in() {
   Front front;
   front.slope.fill(0), front.height.fill(0), front.anchor.fill(0), front.age.fill(never);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ground's height in every cell, from the lowest points of those where it is seen.
+// Estimates the height of the ground in every cell from the lowest points of the cells where it is visible.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,31 @@
 
 namespace pcl_bv {
 
-/// The ground over the plane around the sensor, cell by cell: base + range * slope, metres.
+/// The ground in every cell, relative to the plane around the sensor: its height is base + range * slope,
+/// metres.
 class GroundSurface {
  public:
   struct Line {
     float base, slope;
   };
 
-  /// Replaces all lines. `plane`: over which the lows are; `max_slope`: of the ground against the level, a
-  /// tangent. O(cells).
+  /// Computes the lines of all cells. The heights in `cells` are relative to `plane`. `max_slope` is the
+  /// tangent of the largest angle between the ground and the horizontal. O(cells).
   void find(const CellFacts& cells, const Slope& plane, float max_slope);
 
-  /// Of point `i`, metres.
+  /// Returns the height of point `i` above the ground, metres.
   float clearance(const ZonePoints& points, std::size_t i) const {
     const Line line = lines_[points.cell[i]];
     return points.height[i] - (line.base + points.range[i] * line.slope);
   }
 
  private:
-  /// What a walk knows in each sector where it has come to.
+  /// The state of a walk in the current ring, by sector.
   struct Front {
-    RingRow height;  // expected
-    RingRow slope;   // outwards
+    RingRow height;  // expected height of the ground
+    RingRow slope;   // slope of the ground, outwards
     RingRow anchor;  // height where ground was last seen
-    RingRow age;     // metres since then
+    RingRow age;     // metres since ground was last seen
     void share(float width);
   };
 
@@ -42,7 +43,7 @@ class GroundSurface {
   void walk_in();
   void connect();
 
-  std::size_t rings_ = 0;  // up to the last one that holds a point
+  std::size_t rings_ = 0;  // number of rings up to the last with a point
   std::vector<float> height_, anchor_, age_;
   std::vector<std::uint8_t> seen_;
   std::vector<Line> lines_;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cells of a block are joined first, then blocks with their neighbours, found by sweeping the sorted keys.
-// Most blocks are one set after the first step, and then a pair of blocks that already share a root costs one
-// comparison, any other ends at the first link.
+// First the cells of each block are joined, then neighbouring blocks, found by a sweep over the sorted keys.
+// Most blocks are one set after the first step. A pair of such blocks costs one comparison if they already
+// share a root; otherwise it ends at the first link.
 #include "join_cells.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace pcl_bv {
 namespace {
 
-// What all steps look at.
+// The data that all steps use.
 template <typename T>
 struct Joining {
   Cells<T>& cells;
@@ -24,7 +24,7 @@ struct Joining {
   UnionFind& sets;
   T r2;
 
-  // Of a cell's first point.
+  // Returns the node of a cell's first point.
   std::uint32_t node(std::uint32_t cell) const { return cells.by_point ? cells.begin[cell] : cell; }
 
   bool linked(std::uint32_t a, std::uint32_t b, LinkScratch<T>& scratch) const {
@@ -34,8 +34,8 @@ struct Joining {
   bool is_loose(std::uint32_t cell) const { return !loose.empty() && loose[cell]; }
 };
 
-// Calls visit(bit of a, bit of b) for the occupied cells of two blocks that `masks` says are neighbours,
-// until it returns true; says whether it did.
+// Calls visit(bit of a, bit of b) for the pairs of occupied cells of two blocks that are neighbours by
+// `masks`. Stops and returns true when visit returns true.
 template <typename Visit>
 bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit visit) {
   for (; a != 0; a &= a - 1) {
@@ -47,10 +47,10 @@ bool visit_pairs(const CellMasks& masks, std::uint64_t a, std::uint64_t b, Visit
   return false;
 }
 
-// Joins points of two cells of which one at least is loose; a cell with itself, too.
+// Joins the points of two cells, at least one of which is loose. The two may be the same cell.
 template <typename T>
 void join_loose(const Joining<T>& joining, std::uint32_t a, std::uint32_t b, LinkScratch<T>& scratch) {
-  const auto parts = [&joining](std::uint32_t cell) {  // By node: each point, or the cell as a whole.
+  const auto parts = [&joining](std::uint32_t cell) {  // Nodes: each point of a loose cell, else the cell.
     return joining.is_loose(cell) ? joining.cells.run(cell).count : 1;
   };
   const auto part = [&joining](std::uint32_t cell, std::size_t i) {
@@ -76,7 +76,8 @@ void join_pair(const Joining<T>& joining, std::uint32_t a, std::uint32_t b, Link
   if (joining.sets.find(p) != joining.sets.find(q) && joining.linked(a, b, scratch)) joining.sets.unite(p, q);
 }
 
-// Adds to `reached` the cells of a block that are linked to one of `from`, by the masks given. Returns those.
+// Adds to `reached` the cells of a block that are linked to a cell of `from` and near it by `masks`. Returns
+// them.
 template <typename T>
 std::uint64_t spread(const Joining<T>& joining, const Block& block, const CellMasks& masks,
                      std::uint64_t from, std::uint64_t& reached, LinkScratch<T>& scratch) {
@@ -97,12 +98,13 @@ std::uint64_t spread(const Joining<T>& joining, const Block& block, const CellMa
   return added;
 }
 
-// The cells of a block that are connected to its lowest one of `rest`: by touching cells as far as that goes,
-// then by those two away, until neither adds one.
+// Returns the cells of a block that are connected to the lowest cell of `rest`. Spreads over touching cells
+// as far as possible, then over cells two away, until neither adds a cell.
 template <typename T>
 std::uint64_t component(const Joining<T>& joining, const Block& block, std::uint64_t rest,
                         LinkScratch<T>& scratch) {
-  std::uint64_t reached = (rest & -rest) | (block.occupied & ~rest);  // Those of others are not asked again.
+  // Cells of other components are not tested again.
+  std::uint64_t reached = (rest & -rest) | (block.occupied & ~rest);
   std::uint64_t all = rest & -rest;
   std::uint64_t near = all;
   std::uint64_t far = 0;
@@ -121,7 +123,7 @@ std::uint64_t component(const Joining<T>& joining, const Block& block, std::uint
   return all;
 }
 
-// The cells of one block, which no other thread knows yet.
+// Joins the cells of one block. No other thread uses them yet.
 template <typename T>
 void join_within(const Joining<T>& joining, Block& block, LinkScratch<T>& scratch) {
   std::uint64_t rest = block.occupied;
@@ -136,7 +138,7 @@ void join_within(const Joining<T>& joining, Block& block, LinkScratch<T>& scratc
   }
 }
 
-// The same where some cells may be loose.
+// Joins the cells of one block if some may be loose.
 template <typename T>
 void join_within_loosely(const Joining<T>& joining, Block& block, LinkScratch<T>& scratch) {
   for (std::uint32_t i = 0; i < count_bits(block.occupied); ++i) {
@@ -145,7 +147,7 @@ void join_within_loosely(const Joining<T>& joining, Block& block, LinkScratch<T>
   }
 }
 
-// Two neighbouring blocks.
+// Joins the cells of two neighbouring blocks.
 template <typename T>
 void join_between(const Joining<T>& joining, const NearAndFar& masks, const Block& a, const Block& b,
                   LinkScratch<T>& scratch) {
@@ -170,7 +172,8 @@ void join_between(const Joining<T>& joining, const NearAndFar& masks, const Bloc
   });
 }
 
-// From a block's key to that of the first in a row of neighbours, modulo 2^bits as unsigned numbers go.
+// Returns the difference between the key of a block and that of the first block in a row of neighbours,
+// modulo 2^bits.
 template <typename Key>
 Key key_offset(const CellGrid& grid, const BlockRow& row) {
   const auto along = [&grid](int blocks, std::size_t axis) {
@@ -179,7 +182,8 @@ Key key_offset(const CellGrid& grid, const BlockRow& row) {
   return static_cast<Key>(along(row.dz, 2) + along(row.dy, 1) + along(-1, 0));
 }
 
-// A chunk of blocks with those before them in one row; the row's place moves forward with the block.
+// Joins a chunk of blocks with the preceding blocks in one row. The position in the row moves forward with
+// the block.
 template <typename T, typename Key>
 void sweep(const Joining<T>& joining, const std::vector<Key>& keys, Key offset,
            const std::array<NearAndFar, 3>& masks, std::size_t begin, std::size_t end,
@@ -207,7 +211,7 @@ void find_loose(const Cells<T>& cells, T r2, std::vector<std::uint8_t>& loose) {
   }
 }
 
-// Every cell a set, or every point of a loose one.
+// Makes a set of each cell; of a loose cell, a set of each point.
 template <typename T>
 void start_sets(const Joining<T>& joining) {
   const Cells<T>& cells = joining.cells;
@@ -219,8 +223,8 @@ void start_sets(const Joining<T>& joining) {
   }
 }
 
-// Room for any two cells in each chunk's memory, but for cells of very many points. With threads it depends
-// on their timing which cells are compared; what is allocated should not.
+// Reserves memory for any two cells in each chunk, except for cells of very many points. Which cells a thread
+// compares depends on timing; allocations should not.
 template <typename T>
 void make_room(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
   constexpr std::size_t very_many = 4096;
@@ -233,7 +237,7 @@ void make_room(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::s
   }
 }
 
-// Fewer are not worth the start of a thread.
+// Fewer blocks are not worth the start of a thread.
 constexpr std::size_t blocks_per_chunk = 256;
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which cells of a block, or of the one beside it, are near a cell: as masks, worked out by the compiler.
+// Masks of the cells of a block, or of a block next to it, that are near a cell; computed at compile time.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace pcl_bv {
 
-/// From a block to its neighbour, in blocks.
+/// Offset from a block to its neighbour, in blocks.
 struct BlockOffset {
   int dx, dy, dz;
 };
@@ -20,14 +20,15 @@ struct BlockRow {
   int dy, dz;
 };
 
-/// Half of the 26 neighbours; the other half sees the block as its neighbour. Of the first row only dx = -1
-/// comes before the block itself.
+/// Half of the 26 neighbours; each pair of blocks is visited from one side only. In the first row only the
+/// first neighbour precedes the block itself.
 inline constexpr std::array<BlockRow, 5> half_of_neighbours{{{0, 0}, {-1, 0}, {0, -1}, {-1, -1}, {1, -1}}};
 
-/// For each cell of a block, the cells of another one.
+/// For each cell of a block, a set of cells of another block.
 using CellMasks = std::array<std::uint64_t, 64>;
 
-/// The cells whose coordinate in bits [shift, shift + 2) is at most so far from `own` in the block before.
+/// Returns the cells whose coordinate in bits [shift, shift + 2) is at most `most` from the coordinate `own`
+/// of a cell in another block.
 constexpr std::uint64_t cells_along(int shift, int own, int offset, int most) {
   std::uint64_t mask = 0;
   for (int b = 0; b < 64; ++b) {
@@ -37,7 +38,8 @@ constexpr std::uint64_t cells_along(int shift, int own, int offset, int most) {
   return mask;
 }
 
-/// By axis, which takes few steps of a compiler's constant evaluation: clang allows a million.
+/// Returns, for each cell, the cells at most `most` away along each axis. Computed by axis, which takes few
+/// steps: clang allows a million.
 constexpr CellMasks cells_up_to(const BlockOffset& offset, int most) {
   std::array<std::array<std::uint64_t, 4>, 3> along{};
   for (int own = 0; own < 4; ++own) {
@@ -51,7 +53,7 @@ constexpr CellMasks cells_up_to(const BlockOffset& offset, int most) {
   return masks;
 }
 
-/// Cells that touch and cells two away: the former are mostly linked, so they are asked first.
+/// Cells that touch a cell, and cells two away. Touching cells are mostly linked, so they are tested first.
 struct NearAndFar {
   CellMasks near, far;
 };
@@ -68,7 +70,7 @@ constexpr NearAndFar near_and_far(const BlockOffset& offset) {
 
 inline constexpr NearAndFar within_block = near_and_far({0, 0, 0});
 
-/// By row and dx + 1.
+/// Index: row, then dx + 1.
 inline constexpr std::array<std::array<NearAndFar, 3>, half_of_neighbours.size()> beside_block = [] {
   std::array<std::array<NearAndFar, 3>, half_of_neighbours.size()> all{};
   for (std::size_t row = 0; row < all.size(); ++row) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Searches the ground plane and writes the split.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,29 +12,30 @@
 
 namespace pcl_bv {
 
-/// The points p with normal.p = offset; the normal is of unit length and on the upper side.
+/// All points p with normal.p = offset. The normal has unit length and points up.
 struct Plane {
   Eigen::Vector3d normal;
   double offset;
 };
 
-/// Signed distance of p from the plane.
+/// Returns the signed distance of p from the plane.
 inline double height_above(const Plane& plane, const Eigen::Vector3d& p) {
   return dot3(plane.normal, p) - plane.offset;
 }
 
-/// Points that stand for a whole cloud: of a 64-beam sweep one in 15, still 8 for each cell of area.
+/// Number of points in the sample of a cloud: one in 15 of a 64-beam sweep, 8 for each cell of the grid of
+/// areas.
 inline constexpr std::size_t cloud_sample = 8192;
 
-/// The ground's plane as split_ground() says; `sensor` is what settings.sensor_height is the height of. At
-/// most `sample_size` points are looked at.
+/// Finds the ground plane as split_ground() describes, in a sample of at most `sample_size` points.
+/// settings.sensor_height is the height of `sensor`.
 std::optional<Plane> find_ground_plane(const PointView& points, const Eigen::Vector3d& sensor,
                                        const GroundPlaneSettings& settings, GroundScratch& scratch,
                                        std::size_t sample_size = cloud_sample);
 
-/// Makes `plane` that of the split and fills its lists: visit(put) calls put(number, is_ground) for each
-/// valid point, at most `most` times. Every number is written to both lists, and kept in one by moving its
-/// end: half the time of a branch that a cloud in scan order makes unpredictable.
+/// Stores `plane` in the split and fills its lists. visit(put) must call put(index, is_ground) for each valid
+/// point, at most `most` times. Each index is written to both lists, and the end of one list advances. This
+/// takes half the time of a branch, which clouds in scan order make unpredictable.
 template <typename Visit>
 void write_split(const std::optional<Plane>& plane, std::size_t most, GroundSplit& split,
                  const Visit& visit) {

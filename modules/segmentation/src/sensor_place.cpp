@@ -24,11 +24,11 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kSample = 1024;
-constexpr std::size_t kFewPoints = 100;  // say nothing about a sensor
-constexpr double kNear = 12.5;           // metres: where the plane around the sensor is searched first
+constexpr std::size_t kFewPoints = 100;  // too few to judge a sensor position
+constexpr double kNear = 12.5;           // metres; radius of the first search for the plane around the sensor
 constexpr double kNearShare = 0.05, kDenseShare = 0.5;
 
-/// Points seen from above, relative to where the sensor is said to be: u, v, 0.
+/// Points seen from above, relative to the assumed position of the sensor: (u, v, 0).
 using FlatPoints = std::vector<Vector3d>;
 
 void sample_from_above(const PointView& points, const UpFrame& frame, const Vector3d& said,
@@ -39,7 +39,7 @@ void sample_from_above(const PointView& points, const UpFrame& frame, const Vect
     p = Vector3d(dot3(p - said, frame.u), dot3(p - said, frame.v), 0);
 }
 
-/// Share of the points within `radius` of `place`.
+/// Returns the share of the points within `radius` of `place`.
 double share_near(const FlatPoints& points, const Vector3d& place, double radius) {
   const auto near = std::count_if(points.begin(), points.end(), [&](const Vector3d& p) {
     return (p - place).squaredNorm() < radius * radius;
@@ -47,7 +47,7 @@ double share_near(const FlatPoints& points, const Vector3d& place, double radius
   return static_cast<double>(near) / static_cast<double>(points.size());
 }
 
-/// The middle of the points about `place`, where there are some.
+/// Returns the mean of the points within kNear of `place`, or `place` if there are none.
 Vector3d mean_near(const FlatPoints& points, const Vector3d& place) {
   Vector3d sum = Vector3d::Zero();
   double count = 0;
@@ -59,11 +59,11 @@ Vector3d mean_near(const FlatPoints& points, const Vector3d& place) {
   return count > 0 ? Vector3d(sum / count) : place;
 }
 
-/// Where the points are densest: of squares of 25 m in steps of half of that the fullest one, then the mean
-/// of what is near its middle, twice.
+/// Returns the position where the points are densest: the centre of the fullest of squares of 25 m, in steps
+/// of 12.5 m, moved twice to the mean of the points near it.
 Vector3d densest_place(const FlatPoints& points) {
   using Square = std::pair<double, double>;
-  std::array<Square, 4 * kSample> corners;  // of each point those of its cell
+  std::array<Square, 4 * kSample> corners;  // four for each point, those of its grid cell
   auto end_of_all = corners.begin();
   for (const Vector3d& p : points) {
     const Square cell{std::floor(p.x() / kNear), std::floor(p.y() / kNear)};

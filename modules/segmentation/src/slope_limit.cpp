@@ -25,12 +25,14 @@ class SlopeLimit {
   }
 
  private:
-  // Of `ring`, by its own cells and those of at most `most` rings before it, at(1) the nearest.
+  // Limits the heights of `ring` by its own cells and by at most `most` rings that are done; at(1) is the
+  // nearest.
   template <typename At>
   void limit(std::size_t ring, std::size_t most, const At& at) {
     for (std::size_t aside = 1; aside <= max_aside; aside *= 2)
       limit_by(ring, ring, 0, aside);
-    const float square = ring_width / width_of(ring);  // so many sectors are as wide as a ring
+    // Number of sectors that are together as wide as a ring.
+    const float square = ring_width / width_of(ring);
     const auto aside = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(square)), 1, max_aside);
     const auto reach = static_cast<std::size_t>(1 / square) + 1;
     if (most > 0) limit_by(ring, at(1), 1, 0);
@@ -38,7 +40,8 @@ class SlopeLimit {
       limit_by(ring, at(steps), steps, aside);
   }
 
-  // By the cells of the ring `from`, `steps` rings away, `aside` sectors to both sides.
+  // Limits the heights of `ring` by the cells of ring `from`, which is `steps` rings away, `aside` sectors to
+  // either side.
   void limit_by(std::size_t ring, std::size_t from, std::size_t steps, std::size_t aside) {
     const float across = width_of(ring) * static_cast<float>(aside);
     const float along = ring_width * static_cast<float>(steps);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// In batches, a step after the other for all points of one: so compilers make vectors of all steps but those
-// that look something up.
+// Points are processed in batches, one step at a time for the whole batch, so that compilers vectorise all
+// steps except look-ups.
 
 #include "zone_points.h"
 
@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::size_t kBatch = 512;
 
-// A cell whose lowest point is so far below all around it has a reflection in it, metres.
+// A cell whose lowest point is this far below all cells around it has a reflection in it; metres.
 constexpr float pit_depth = 0.2F;
 
-// Something stands in a cell if it holds points so far above its lowest one, metres: a curb does not, and
-// neither does what is over a road.
+// An object stands in a cell if it has points this far above its lowest one, metres. Curbs are lower, and
+// things above a road are higher.
 constexpr float stands_from = 0.3F, stands_to = 2;
 
-// Doubles may be greater than any float.
+// Clamps to the range of float.
 float in_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -largest, largest));
@@ -39,12 +39,13 @@ T load_coordinate(const std::byte* at) {
   return value;
 }
 
-// Calls put(x, n), where a point's coordinates are, `view.step()` bytes apart, for each of some points. It
-// puts what the zones see at n, and says whether that is a valid point, which stays. Returns how many do.
+// Calls put(x, n) for each point from `begin` to `end`; x is the address of its coordinates, which are
+// view.step() bytes apart. put() stores the point at position n and returns whether it is valid; the next
+// point overwrites an invalid one. Returns the number of valid points.
 template <typename Put>
 std::size_t load(const PointView& points, std::size_t begin, std::size_t end, std::int32_t* number,
                  const Put& put) {
-  const PointView view = points;  // of this loop only: not read again after each store
+  const PointView view = points;  // local, so that it is not read again after each store
   std::size_t n = 0;
   for (std::size_t i = begin; i < end; ++i) {
     number[n] = static_cast<std::int32_t>(view.index(i));
@@ -53,13 +54,14 @@ std::size_t load(const PointView& points, std::size_t begin, std::size_t end, st
   return n;
 }
 
-// Where some points go.
+// Where load() stores points.
 struct Place {
   float *u, *v, *height;
   std::int32_t* number;
 };
 
-// Coordinates that the zones take as they are, but for the sign of one.
+// Loads floats for an up direction along an axis and a sensor at the origin: coordinates are only reordered,
+// and the sign of the height may change.
 std::size_t load_upright(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
                          const Place& to) {
   const std::size_t step = view.step();
@@ -95,7 +97,7 @@ std::size_t load_turned(const PointView& view, std::size_t begin, std::size_t en
 
 GroundPoint ZoneFrame::point(const Coordinates& p) const {
   const double relative[3] = {p.x - sensor.x(), p.y - sensor.y(), p.z - sensor.z()};
-  if (along_axis) {  // The sums below would take 2 % of the time of a sweep to add zeros.
+  if (along_axis) {  // else the sums below would add zeros, 2 % of the time of a sweep
     return {in_float(relative[(nearest + 1) % 3]), in_float(relative[(nearest + 2) % 3]),
             in_float(up[nearest] * relative[nearest])};
   }

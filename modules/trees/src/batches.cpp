@@ -15,15 +15,15 @@
 namespace pcl_bv {
 namespace {
 
-// Questions that a thread takes at a time: some 20 us of them.
+// Number of queries that a thread takes at a time; they take about 20 us.
 constexpr std::size_t kBlock = 256;
 
-// Fewer than four blocks are done before another thread has come.
+// Fewer than four blocks are finished before another thread has started.
 std::size_t threads_for_questions(std::size_t count) {
   return count / (4 * kBlock);
 }
 
-// Calls ask(begin, end) for blocks of `count` questions.
+// Calls ask(begin, end) for blocks of the `count` queries.
 template <typename Ask>
 void ask_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
   for_each_run(limit_threads(execution.parallel, threads_for_questions(count)), count, kBlock,
@@ -41,7 +41,7 @@ Eigen::Vector3d place_of(const PointView& places, std::size_t i) {
   return vector(load_point(places, i));
 }
 
-// ask(place, found) for each place, and all that was found in a row.
+// Calls ask(query point, one) for each query point and concatenates the results.
 template <typename Ask>
 void list_for_each(const PointView& places, const Execution& execution, NeighborLists& found,
                    const Ask& ask) {
@@ -66,7 +66,8 @@ void list_for_each(const PointView& places, const Execution& execution, Neighbor
 
 }  // namespace
 
-// The kernels themselves: a FloatEnvironment for each question would be an eighth of its time.
+// Calls the kernel directly: PointTree::nearest() sets a FloatEnvironment for each query, an eighth of its
+// time.
 void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found,
              double max_distance, const Execution& execution) {
   require_in_memory(places);

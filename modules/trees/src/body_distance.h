@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Distances of points and boxes from a volume.
 #pragma once
 
 #include "box_relation.h"
@@ -9,7 +10,7 @@
 
 namespace pcl_bv {
 
-/// Distances from a volume that is not empty.
+/// Distances from a non-empty volume.
 class BodyDistance {
  public:
   explicit BodyDistance(const AnyVolume& volume) : body_(volume) {
@@ -19,8 +20,9 @@ class BodyDistance {
 
   double of(const Eigen::Vector3d& point) const { return distance(body_, point); }
 
-  /// A lower bound of of(p) for every p in the box; NaN for an empty one. Distances differ by no more than
-  /// places do, and distance() is short of the true one by 1e-12 of it and of the sizes.
+  /// Returns a lower bound of of(p) for all p in the box; NaN for an empty box. Distances of two points from
+  /// the volume differ at most by the distance between the points. distance() is below the exact distance by
+  /// at most 1e-12 of the distance and of the sizes.
   double at_least(const PlainBox& box) const {
     const Eigen::Vector3d middle = 0.5 * (box.low + box.high);
     const double reach = 0.5 * norm3(Eigen::Vector3d(box.high - box.low)), away = of(middle);

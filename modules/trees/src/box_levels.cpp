@@ -14,8 +14,8 @@ std::size_t groups_of(std::size_t below) {
   return (below + kTreeWidth - 1) / kTreeWidth;
 }
 
-// What rounding to float, and the two roundings before, may have cost. Denormal floats have an error of their
-// own.
+// Error bound of the rounding to float and of the two roundings before it. The second term is for denormal
+// floats.
 float doubt(float rounded) {
   return std::abs(rounded) * 0x1p-22F + std::numeric_limits<float>::min();
 }
@@ -32,7 +32,8 @@ const BoxGroup& empty_group() {
   return group;
 }
 
-// A ball surely holds a point of a box once it reaches all of one side, at best from the middle of that side.
+// Returns the squared radius of the smallest ball that covers a face of one of the boxes; the best centre is
+// the middle of the face. Each face of a tight box has a point, so the ball certainly holds one.
 float least_reached(const BoxGroup& group) {
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
@@ -59,7 +60,7 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds
     boxes.below[boxes.levels] = groups;
   } while (boxes.below[boxes.levels] > 1);
   boxes.groups.assign(boxes.first[boxes.levels], empty_group());
-  if (!(bounds.low.x <= bounds.high.x)) return;  // there are items, but nowhere
+  if (!(bounds.low.x <= bounds.high.x)) return;  // items without any position
   double half = 0;
   const auto middle = [&half](double low, double high) {
     const double at = low / 2 + high / 2;
@@ -68,7 +69,8 @@ void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds
   };
   boxes.origin = {middle(bounds.low.x, bounds.high.x), middle(bounds.low.y, bounds.high.y),
                   middle(bounds.low.z, bounds.high.z)};
-  // Smaller clouds than 2^-400 lie in one box: their squares would leave the range of double.
+  // Clouds with a half extent up to 2^-400 are not scaled, so all their boxes are nearly the same: the square
+  // of a larger scale would leave the range of double.
   boxes.scale = std::ldexp(1.0, half > 0x1p-400 ? -std::ilogb(half) - 1 : 0);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sums of three in any order are good enough here: margins are a thousand times what rounding takes.
+// Sums of three terms may be added in any order here: the margins are a thousand times the rounding errors.
 
 #include "box_relation.h"
 
@@ -14,7 +14,7 @@
 namespace pcl_bv {
 namespace {
 
-// A box about its centre, seen from the region's, and by how much what is computed of both may be wrong.
+// A box as half extents and a centre relative to the region's centre, and an error bound for comparisons.
 struct CenteredBox {
   Eigen::Vector3d center, half;
   double margin;
@@ -63,7 +63,8 @@ double weighted_square(double weight, double beyond) {
   return beyond > 0 ? weight * beyond * weight * beyond : 0;  // a weight may be infinite
 }
 
-// Slabs, and what is round: both by how far the box is along each axis at least and at most.
+// For slabs and bodies: compares the smallest and the largest distance of the box from the centre along each
+// axis.
 Relation relation_to_body(const ConvexRegion& region, const CenteredBox& box) {
   bool inside = true;
   double least = 0, most = 0;

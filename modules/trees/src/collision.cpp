@@ -32,14 +32,15 @@ void require(const Eigen::Isometry3d& pose, double margin) {
 
 struct Prepared {
   ConvexBody body;
-  AnyVolume turning;  // of a kind that can be turned, holding the volume
-  Sphere around;      // holding it, too, if one is known
+  AnyVolume turning;  // the volume, or a larger one, as a type that can be rotated
+  Sphere around;      // a sphere around the volume; empty if none is known
 
   explicit Prepared(const AnyVolume& volume)
       : body(volume), turning(turnable(volume)), around(sphere_around(extent_of(volume))) {}
 };
 
-// Whether a point may be near a volume where it is now: a fiftieth of the time of touches().
+// Returns whether a point may be within `margin` of a moved volume. Conservative; takes a fiftieth of the
+// time of touches().
 bool may_touch(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double stretch,
                double margin) {
   if (volume.body.empty()) return false;
@@ -48,7 +49,7 @@ bool may_touch(const PointTree& points, const Prepared& volume, const Eigen::Iso
   return any_within(points, center, volume.around.radius() * stretch + margin);
 }
 
-// Of a volume where it is now.
+// Returns whether a point is within `margin` of a moved volume.
 bool touches(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double margin) {
   const ConvexBody body = volume.body.moved(pose);
   const PointView places = points.packed().view();
@@ -63,7 +64,7 @@ bool touches(const PointTree& points, const Prepared& volume, const Eigen::Isome
                      });
 }
 
-// What is within `margin` of a volume where it is now is in here.
+// Returns a box around everything within `margin` of a moved volume.
 PlaceBounds extent_near(const AnyVolume& turning, const Eigen::Isometry3d& pose, double margin) {
   PlaceBounds box = extent_of(transformed(turning, pose));
   box.low = {-add_up(-box.low.x, margin), -add_up(-box.low.y, margin), -add_up(-box.low.z, margin)};
@@ -98,7 +99,8 @@ const std::vector<AnyVolume>& MovingVolumes::volumes() const {
 
 namespace {
 
-// Calls found(i) for the volumes that a point is near, ascending; ends where that returns true.
+// Calls found(i) for the volumes within `margin` of a point, ascending. Stops and returns true when found()
+// returns true.
 template <typename Found>
 bool each_touched(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
                   double margin, const Found& found) {
@@ -115,7 +117,8 @@ bool each_touched(const PointTree& points, const MovingVolumes& volumes, const E
   return false;
 }
 
-// Calls found(i, j) for the pairs that are near, by j; ends where that returns true.
+// Calls found(i, j) for the pairs of volumes within `margin`, in the order of j. Stops and returns true when
+// found() returns true.
 template <typename Found>
 bool each_pair(const MovingVolumes& volumes, const MovingVolumes& others, const Eigen::Isometry3d& pose,
                double margin, const Found& found) {

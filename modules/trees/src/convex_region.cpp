@@ -20,7 +20,7 @@ Direction direction(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// More than what contains() of any volume adds to it, along an axis.
+// Returns more than contains() of any volume type accepts beyond the volume, along an axis.
 double margin(double coordinate) {
   return 0x1p-40 * std::abs(coordinate) + 0x1p-480;
 }
@@ -48,8 +48,8 @@ Eigen::Matrix3d axes_about(const Eigen::Vector3d& unit) {
   return axes;
 }
 
-// Half-spaces seen from a centre, as they are added. A normal along an axis gives the box a side: contains()
-// adds less than margin() to it.
+// Collects half-spaces relative to a centre. A normal along an axis also gives the box a side: contains()
+// accepts less than margin() beyond it.
 class Planes {
  public:
   explicit Planes(const Aabb& box) : center_(box.empty() ? Eigen::Vector3d::Zero().eval() : box.center()) {
@@ -69,7 +69,7 @@ class Planes {
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
   }
 
-  // Where planes along the axes leave the region open, all of them together may not.
+  // If the planes along the axes leave the box unbounded, all planes together may bound it.
   template <typename Volume>
   const ConvexRegion& region_within(const Volume& volume) {
     const Coordinates &low = region_.low, &high = region_.high;
@@ -82,8 +82,8 @@ class Planes {
   }
 
  private:
-  // Not a normal that is only nearly along the axis: n . p also has what a small component makes of a
-  // coordinate that is 10^16 times the others.
+  // Only normals exactly along the axis. A nearly aligned normal has another small component, which matters
+  // in n . p if the coordinate there is 10^16 times the others.
   static void bound(const Eigen::Vector3d& n, double offset, double& low, double& high, int axis) {
     if (n[(axis + 1) % 3] != 0 || n[(axis + 2) % 3] != 0) return;
     if (n[axis] == 1) high = std::min(high, offset + margin(offset));

@@ -48,7 +48,7 @@ class FirstHit final : public PacketVisitor {
   PointHit best_{-1, 0};
 };
 
-// Of a sphere that does not move.
+// Returns the point with the smallest index inside a sphere that does not move.
 std::optional<PointHit> lowest_inside(UsableIsa isa, const PackedTree& tree, const Sphere& sphere) {
   std::vector<Neighbor> found;
   list_in_ball(isa, tree, coordinates(sphere.center()), sphere.contained_square(), found);

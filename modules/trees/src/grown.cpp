@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each step rounds up, so that the result holds all that it should by exact arithmetic.
+// Each step rounds up, so that the result holds the inflated volume by exact arithmetic.
 
 #include "grown.h"
 
@@ -14,7 +14,7 @@
 namespace pcl_bv {
 namespace {
 
-// How much farther n . p reaches if p moves by `padding`.
+// Upper bound of how much n . p grows if p moves by `padding`.
 double reach(const Eigen::Vector3d& n, double padding) {
   return multiply_up(sqrt_up(Expansion().add_dot(n, n).up()), padding);
 }
@@ -57,9 +57,11 @@ struct Grow {
     return Capsule(capsule.a(), capsule.b(), add_up(capsule.radius(), padding));
   }
 
-  // With x along an axis of the ellipsoid and y of the ball, m > 0 and R as in Region, Cauchy's inequality
-  // gives (x + y)^2 / R^2 <= (x^2 / r^2) m / (m + padding) + (y^2 / padding^2) padding / (m + padding), and
-  // over the three axes the right sides sum up to 1 at most. The axes are orthonormal to 1e-12, so the sum of
+  // Proof that the result holds all sums of a point of the ellipsoid and a point of the padding ball. x and y
+  // are the coordinates of the two points along an axis, m > 0, and R is the new radius as in Region.
+  // Cauchy's inequality gives
+  //   (x + y)^2 / R^2 <= (x^2 / r^2) m / (m + padding) + (y^2 / padding^2) padding / (m + padding).
+  // Over the three axes the right sides sum up to at most 1. The axes are orthonormal to 1e-12, so the sum of
   // y^2 is at most (1 + 2^-38) padding^2.
   AnyVolume operator()(const Ellipsoid& ellipsoid) const {
     const double ball = multiply_up(padding, 1 + 0x1p-38);
@@ -79,11 +81,12 @@ struct Grow {
     return Hull(hull.vertices(), hull.triangles(), planes, hull.rank());
   }
 
-  // The m of the least volume, nearly: there, m^2 is the mean of the r^2 with weights 1 / R^2. Any would do.
+  // Returns the m of a nearly minimal volume: at the minimum, m^2 is the mean of the r^2 with the weights
+  // 1/R^2. Any m > 0 gives a valid volume.
   double middle(const Eigen::Vector3d& radii) const {
     const double greatest = radii.maxCoeff();
     if (greatest == 0) return 0;
-    double m = 1;  // in units of the greatest, in which nothing overflows
+    double m = 1;  // in units of the largest radius, in which nothing overflows
     for (int round = 0; round < 32; ++round) {
       double squares = 0, weights = 0;
       for (int i = 0; i < 3; ++i) {

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Inflates volumes by a padding.
 #pragma once
 
 #include "pcl_bv/volumes/any_volume.h"
 
 namespace pcl_bv {
 
-/// The volume grown as Region says; with padding 0 itself. Of a hull only the planes grow: the result's
-/// contains() is of use, not what goes by the vertices.
+/// Returns the volume inflated as Region says; padding 0 returns it unchanged. For a Hull only the planes
+/// move: use contains() of the result, not member functions that use the vertices.
 AnyVolume grown(const AnyVolume& volume, double padding);
 
 }  // namespace pcl_bv

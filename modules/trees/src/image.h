@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Transforms points with error bounds.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,7 +11,7 @@
 
 namespace pcl_bv {
 
-/// The image of a point, rounded, and more than its error: three products, three sums.
+/// A transformed point, rounded, and a bound of the rounding errors of its three products and three sums.
 struct Image {
   Coordinates place;
   double error;
@@ -26,7 +27,8 @@ inline Image image_of(const Eigen::Isometry3d& pose, const Coordinates& p) {
   return {{places[0], places[1], places[2]}, 0x1p-50 * sizes + 0x1p-500};
 }
 
-/// More than the matrix stretches any vector: the square is at most the greatest row sum of |M'M|.
+/// Returns an upper bound of |M v| / |v| for the linear part M. Its square is at most the largest absolute
+/// row sum of M'M.
 inline double stretch_of(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d squares = pose.linear().transpose() * pose.linear();
   return std::sqrt(squares.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 0x1p-45);

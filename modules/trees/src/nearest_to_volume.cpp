@@ -34,7 +34,7 @@ class NearestToVolume {
   std::array<double, kTreeWidth> least_distances(const BoxGroup& group) const {
     std::array<double, kTreeWidth> least;
     for (std::size_t k = 0; k < kTreeWidth; ++k)
-      least[k] = body_.at_least(plain_box(tree_.boxes, group, k));  // NaN of boxes that the group lacks
+      least[k] = body_.at_least(plain_box(tree_.boxes, group, k));  // NaN for boxes that the group lacks
     return least;
   }
 

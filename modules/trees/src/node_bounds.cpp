@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All sums here are of some terms below a few times 1 + |place|, in double, so off by less than 2^-45 of
-// that, which is nothing beside the slack of 2^-20 of it: no bound adds a margin of its own.
+// All sums here have a few terms below a few times 1 + |place| in double, so their errors are below 2^-45 of
+// that. This is negligible against the slack of 2^-20, so no bound adds a margin of its own.
 
 #include "node_bounds.h"
 
@@ -36,7 +36,8 @@ void clip(double start, double slope, double low, double high, double& enter, do
   exit = std::min(exit, std::max(a, b));
 }
 
-// Infinity if nothing is left of t >= 0; what underflow may have added there is kept.
+// Returns where the ray enters, at least 0; infinity if the interval has no t >= 0. The margin accepts what
+// underflow may have added to the interval.
 double entered(const FrameRay& ray, double enter, double exit) {
   return enter - ray.margin <= exit + ray.margin ? std::max(0.0, enter - ray.margin) : kInfinity;
 }
@@ -71,7 +72,7 @@ double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size
 }
 
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k) {
-  if (group.low[0][k] > group.high[0][k]) return kInfinity;  // nothing inside
+  if (group.low[0][k] > group.high[0][k]) return kInfinity;  // empty
   double enter = 0, exit = kInfinity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     clip(ray.from.at[axis], ray.u[axis], group.low[axis][k] - ray.from.slack,
@@ -131,10 +132,10 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
   slabs.min.fill(-std::numeric_limits<float>::infinity());
   slabs.max.fill(std::numeric_limits<float>::infinity());
   const Aabb box = aabb(volume);
-  if (box.empty()) return slabs;  // a k-DOP of slabs that miss each other
+  if (box.empty()) return slabs;  // a k-DOP whose slabs have no common point
   const SlabBounds<kSlabs, double> bounds(volume);
   const double margin = 2 * contained_margin(box);
-  for (std::size_t i = 3; i < kSlabs; ++i) {  // boxes are of the others
+  for (std::size_t i = 3; i < kSlabs; ++i) {  // the box bounds the first three
     Expansion low, high;
     low.add_dot(-cube_vector(i), boxes.levels().origin);
     high = low;
@@ -156,7 +157,7 @@ NodeShapes::Ball NodeShapes::ball_of(const VolumeBoxes& boxes, const AnyVolume& 
   Ball ball;
   ball.center = FramePlace(boxes, coordinates(center)).at.cast<float>();
   ball.radius =
-      float_up(radius * boxes.levels().scale * (1 + 0x1p-20) + 0x1p-20);  // of it, and of the centre
+      float_up(radius * boxes.levels().scale * (1 + 0x1p-20) + 0x1p-20);  // errors of radius and centre
   return ball;
 }
 
@@ -218,7 +219,7 @@ double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
     const double radius = ball.radius + 4 * ray.from.slack, uu = dot3(ray.u, ray.u),
                  nearest = dot3(q, ray.u) / uu;
     const double least =
-        dot3(q, q) - nearest * nearest * uu;  // off by 2^-48 |q|^2; (4 slack)^2 is 2^-38 of it at least
+        dot3(q, q) - nearest * nearest * uu;  // error < 2^-48 |q|^2, and (4 slack)^2 >= 2^-38 |q|^2
     const double half = radius * radius - least;
     if (half < 0) return kInfinity;
     const double reach = std::sqrt(half / uu);

@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Weak duality proves a bound: weights w >= 0 whose normals sum up to d, but for a residual r, give
-// d . p <= sum of w offset + |r|_1 |p|, whatever rounding did to the search for them. |p| is the greatest
-// coordinate. contains() and intersect() allow each plane less than 2^-46 |n| |p| besides, which the weights
-// multiply. With such bounds for the six directions along the axes, B at most and in doubt by e |p| at most,
-// |p| <= B + e |p|, so |p| <= 2 B.
+// Bounds are proven by weak duality. If weights w >= 0 make the sum of w n equal to d up to a residual r,
+// then
+//   d . p <= sum of w offset + |r|_1 |p|
+// for every p of the body, however inaccurate the search for the weights was. Here |p| is the largest
+// absolute coordinate of p, and |n| that of n. contains() and intersect() also accept points beyond a plane
+// by less than 2^-46 |n| |p|; the weights multiply this as well.
+//
+// Six bounds along the axes then bound |p| itself. If all are at most B, with an error of at most e |p|, then
+//   |p| <= B + e |p|, so |p| <= 2 B.
 
 #include "plane_body.h"
 
@@ -22,7 +26,8 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::size_t kFences = 6;
-// More says that planes are nearly parallel where the body ends: its end is then no place worth to know.
+// Largest error bound, relative to |p|, that is accepted. A larger one means nearly parallel planes: the
+// vertex is ill-conditioned and its bound useless.
 constexpr double kMostDoubt = 0x1p-26;
 
 double greatest(const Eigen::Vector3d& v) {
@@ -47,7 +52,7 @@ PlaneBody::PlaneBody(const Hull& hull) {
   prove_box();
 }
 
-// Puts up the fences about where the body is thought to be.
+// Adds the fences: the sides of a box around the expected body, with a margin. The search starts from them.
 bool PlaneBody::set_out(const Aabb& about) {
   if (about.empty()) return false;
   origin_ = about.center();
@@ -60,12 +65,12 @@ bool PlaneBody::set_out(const Aabb& about) {
 }
 
 void PlaneBody::add(const Eigen::Vector3d& normal, double offset) {
-  if (normal.isZero(0)) return;  // says nothing of where the body ends
+  if (normal.isZero(0)) return;  // bounds nothing
   planes_.push_back({normal, offset});
   local_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
 }
 
-// Fences are left out: no bound may rest on them, and a corner beyond them is proven all the same.
+// Skips the fences: no bound may rest on them, and a vertex beyond them can be proven as well.
 std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point) const {
   const double tolerance = 0x1p-44 * taxicab3(point);
   std::optional<std::size_t> side;
@@ -82,7 +87,8 @@ std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point
   return side;
 }
 
-// The dual simplex method. Every step keeps the weights sound; the limit is against cycling.
+// The dual simplex method (Lemke 1954). After every step the weights are valid; the limit on the steps ends a
+// cycle.
 PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
   Corner corner{{}, direction.cwiseAbs()};
   for (std::size_t k = 0; k < 3; ++k)
@@ -98,7 +104,7 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
     const Eigen::Matrix3d inverse = normals.inverse();
     const std::optional<std::size_t> side = most_violated(inverse * offsets);
     if (!side) break;
-    // Compared as if all normals were of length 1: long ones would hide short ones.
+    // Compares as if all normals had length 1; otherwise long normals would hide short ones.
     const Eigen::Vector3d share = inverse.transpose() * planes_[*side].normal,
                           of_units = share.cwiseProduct(normals.rowwise().norm());
     Eigen::Index leaving = 0;
@@ -135,7 +141,7 @@ PlaneBody::Proof PlaneBody::prove(const Eigen::Vector3d& direction) const {
 }
 
 void PlaneBody::prove_box() {
-  std::array<Proof, 6> proofs;  // along x, y, z, then the other way
+  std::array<Proof, 6> proofs;  // along x, y, z, then -x, -y, -z
   double reach = 0;
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     proofs[i] = prove((i < 3 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<int>(i % 3)));
@@ -147,7 +153,9 @@ void PlaneBody::prove_box() {
   };
   const Aabb box(-Eigen::Vector3d(end(proofs[3]), end(proofs[4]), end(proofs[5])),
                  {end(proofs[0]), end(proofs[1]), end(proofs[2])});
-  if (!box.empty()) box_ = box;  // empty: no point is in all planes, which contains() need not know
+  // An empty box proves that no point is in all half-spaces. contains() may still accept points by rounding,
+  // so no box is stored.
+  if (!box.empty()) box_ = box;
 }
 
 double PlaneBody::reach_up(const Eigen::Vector3d& direction) const {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far a body reaches that half-spaces enclose: linear programs in three variables whose answers are
-// proven.
+// Support values of a body that half-spaces enclose: linear programs in three variables with proven results.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,29 +14,31 @@
 
 namespace pcl_bv {
 
-/// All p with normal . p <= offset for each plane, by exact arithmetic or as Hull::contains() and
+/// All points with normal . p <= offset for each plane, by exact arithmetic or as Hull::contains() and
 /// Kdop::contains() compute it.
 class PlaneBody {
  public:
   explicit PlaneBody(const Kdop& kdop);
   explicit PlaneBody(const Hull& hull);
 
-  /// An upper bound of direction . p; tight to some units in the last place of the coordinates and 2^-48 of
-  /// the weights with which the planes prove it. Infinity where they prove none: not every body of planes is
-  /// bounded. O(planes), some ten times.
+  /// Returns an upper bound of direction . p. Infinity if the planes prove no bound, as a body of planes need
+  /// not be bounded. Tight to a few units in the last place of the coordinates and 2^-48 of the weights with
+  /// which the planes prove it. O(planes), about ten passes over them.
   double reach_up(const Eigen::Vector3d& direction) const;
 
-  /// A box around all p; none if that cannot be proven.
+  /// Returns a box around all points; nothing if no box is proven.
   std::optional<Aabb> box() const;
 
  private:
+  // direction . p <= bound + doubt |p|, where |p| is the largest absolute coordinate of p
   struct Proof {
-    double bound;  // of direction . p, but for
-    double doubt;  // times the greatest |coordinate| of p
+    double bound;
+    double doubt;
   };
+  // A vertex: the intersection of three planes.
   struct Corner {
     std::array<std::size_t, 3> sides;
-    Eigen::Vector3d weights;  // of the sides' normals: they sum up to the direction
+    Eigen::Vector3d weights;  // of the planes' normals; the weighted sum is the direction
   };
 
   bool set_out(const Aabb& about);
@@ -47,9 +48,9 @@ class PlaneBody {
   Proof prove(const Eigen::Vector3d& direction) const;
   void prove_box();
 
-  // The first six are sides of a box that should hold the body and that no bound may rest on.
+  // The first six are fences: sides of a box that should hold the body. No bound may rest on them.
   std::vector<HullPlane> planes_;
-  std::vector<double> local_;  // offsets as seen from origin_
+  std::vector<double> local_;  // offsets relative to origin_
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::optional<Aabb> box_;
 };

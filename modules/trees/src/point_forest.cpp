@@ -17,7 +17,7 @@ namespace {
 template <typename T>
 using Rows = std::vector<T>;
 
-// Writes a tree's points at their numbers, three coordinates each.
+// Writes the points of a tree to the rows of their indices, three coordinates each.
 template <typename T>
 void write_points(const PackedTree& tree, T* rows) {
   const PointView points = tree.view();
@@ -29,7 +29,7 @@ void write_points(const PackedTree& tree, T* rows) {
   }
 }
 
-// Called 0, 1, ... as they are visited.
+// Copies the visited points to rows, so that their indices become 0, 1, ...
 template <typename T>
 Rows<T> rows_of(const PointView& points) {
   Rows<T> rows(3 * points.count);
@@ -80,7 +80,7 @@ PointForest::Tree PointForest::joined(const Tree* trees, std::size_t count, cons
   const bool floats = std::all_of(trees, trees + count, [](const Tree& tree) {
     return tree.tree.packed().scalar == ScalarType::float32 || tree.tree.empty();
   });
-  // What is not valid stays NaN.
+  // Rows of invalid points stay NaN.
   const auto build = [&]<typename T>(T nan) {
     Rows<T> rows(3 * points, nan);
     for (std::size_t i = 0; i < count; ++i)
@@ -117,7 +117,8 @@ void PointForest::nearest(const Eigen::Vector3d& place, std::size_t k, std::vect
   found.clear();
   require_distance("PointForest", max_distance);
   std::vector<Neighbor> of_tree;
-  // From the largest tree on, which mostly has them: the others then are asked about less.
+  // Merged trees start with the largest, which mostly has the nearest points; they limit the search in the
+  // others.
   for (const Tree& tree : trees_) {
     double limit = max_distance;
     if (k > 0 && found.size() == k) limit = std::min(limit, next_up(sqrt_up(found.back().squared_distance)));

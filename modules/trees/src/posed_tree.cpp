@@ -22,7 +22,7 @@ void require_rigid(const Eigen::Isometry3d& pose) {
     throw std::invalid_argument("PosedTree: a pose must be finite, its axes unit and orthogonal to 1e-6");
 }
 
-// The inverse of what is nearly a rotation, to rounding: the transpose, and one step of Newton's.
+// Inverts a near-rotation to rounding: one Newton step from the transpose.
 Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d axes = pose.linear(), transposed = axes.transpose();
   Eigen::Isometry3d back = Eigen::Isometry3d::Identity();
@@ -31,16 +31,16 @@ Eigen::Isometry3d inverse(const Eigen::Isometry3d& pose) {
   return back;
 }
 
-// An upper bound of |back (pose p) - p| for |p|_1 <= reach: what the product of the axes differs from the
-// identity by, and rounding.
+// Upper bound of |back (pose p) - p| for |p|_1 <= reach: the product of the axes minus the identity, and
+// rounding.
 double difference(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, double reach) {
   const Eigen::Matrix3d turned = back.linear() * pose.linear() - Eigen::Matrix3d::Identity();
   const double place = taxicab3(pose.translation()) + taxicab3(back.translation());
   return turned.cwiseAbs().sum() * reach + 0x1p-46 * (reach + place);
 }
 
-// The greatest |p|_1 of the tree's points, or more, by its topmost boxes. Of a point it is 2^-401 or more:
-// what underflow takes from products is covered, too.
+// Upper bound of |p|_1 for the points of the tree, from its topmost boxes. It is at least 2^-401 if the tree
+// has points, so bounds relative to it cover underflow of products, too.
 double reach_of(const BoxLevels& boxes) {
   double reach = 0;
   if (boxes.groups.empty()) return reach;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each step rounds up. Along an axis a volume's box says how far it reaches.
+// Each step rounds up. The bounds along the axes are those of the volume's aabb().
 
 #include "reaches.h"
 
@@ -16,12 +16,12 @@
 namespace pcl_bv {
 namespace {
 
-// More than the roundings of some tens of sums and products of magnitudes, and what underflows in them.
+// Adds more than the rounding errors of some tens of sums and products of magnitudes, and their underflow.
 double grown_up(double magnitude) {
   return magnitude * (1 + 0x1p-45) + 0x1p-1000;
 }
 
-// Without the squares leaving the range of double.
+// Returns the norm, without squares that leave the range of double.
 double length(const Eigen::Vector3d& v) {
   const double greatest = v.cwiseAbs().maxCoeff();
   return greatest > 0 ? norm3(Eigen::Vector3d(v / greatest)) * greatest : 0;
@@ -34,15 +34,16 @@ void add_axes(const Aabb& box, Reaches& found) {
   }
 }
 
-// How far n . q reaches, for q from the centre of the volume on, and so -n . q. |q[k]| is at most half[k].
+// Each half_width_up() is an upper bound of n . q and of -n . q for all points q of the volume, relative to
+// its centre. `half` is a bound of |q|, coordinate by coordinate.
 double half_width_up(const Eigen::Vector3d& n, const Sphere& sphere, const Eigen::Vector3d&) {
   return grown_up(length(n) * sphere.radius());
 }
 
-// n = sum of weights[i] axes[i] + rest, whatever the weights are.
+// Splits n into the sum of weights[i] axes[i] and a remainder. Valid for any weights.
 struct AlongAxes {
   Eigen::Vector3d weights;
-  double rest = 0;  // of n . q
+  double rest = 0;  // upper bound of |remainder . q|
 
   AlongAxes(const Eigen::Vector3d& n, const Eigen::Matrix3d& axes, const Eigen::Vector3d& half)
       : weights(dot3(n, axes.col(0)), dot3(n, axes.col(1)), dot3(n, axes.col(2))) {
@@ -59,14 +60,14 @@ double half_width_up(const Eigen::Vector3d& n, const Obb& box, const Eigen::Vect
   return grown_up(dot3(along.weights.cwiseAbs(), box.half_extents()) + along.rest);
 }
 
-// By Cauchy's inequality.
+// Cauchy's inequality bounds the projection.
 double half_width_up(const Eigen::Vector3d& n, const Ellipsoid& ellipsoid, const Eigen::Vector3d& half) {
   const AlongAxes along(n, ellipsoid.axes(), half);
   return grown_up(length(along.weights.cwiseProduct(ellipsoid.radii())) + along.rest);
 }
 
-// q is a part along the axis, of at most half_height, and one across, of at most the radius: there n may be
-// taken without any multiple of the axis.
+// q has a part along the axis, of at most half_height, and a perpendicular part, of at most the radius. For
+// the perpendicular part any multiple of the axis may be subtracted from n.
 double half_width_up(const Eigen::Vector3d& n, const Cylinder& cylinder, const Eigen::Vector3d&) {
   const Eigen::Vector3d& a = cylinder.axis();
   const double along = dot3(n, a), doubt = 0x1p-49 * taxicab3(n);

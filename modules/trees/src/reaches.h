@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Upper bounds of a volume's projections on the directions of kCubeDirections.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,13 +18,13 @@ inline Eigen::Vector3d cube_vector(std::size_t i) {
   return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
 }
 
-/// Upper bounds of d . p and of -d . p, by exact arithmetic, over the points of a volume that is not empty,
-/// along the directions of the cube. Infinite where there is none.
+/// Upper bounds, by exact arithmetic, of the projections d . p (up) and -d . p (down) of all points p of a
+/// non-empty volume, along each d of kCubeDirections. Infinite where no bound is proven.
 struct Reaches {
   std::array<double, kMaxDirections> up, down;
 };
 
-/// Of the first `count` directions.
+/// Computes the bounds along the first `count` directions; the others stay unset.
 Reaches reaches(const AnyVolume& volume, std::size_t count);
 
 }  // namespace pcl_bv

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Checks of arguments.
 #pragma once
 
 #include <sstream>
@@ -9,18 +10,19 @@
 
 namespace pcl_bv {
 
-/// Throws std::invalid_argument: what must be how, and what it is.
+/// Throws std::invalid_argument with the text "<what_it_must_be>, not <value>".
 [[noreturn]] inline void refuse(const std::string& what_it_must_be, double value) {
   std::ostringstream what;
   what << what_it_must_be << ", not " << value;
   throw std::invalid_argument(what.str());
 }
 
+/// Throws std::invalid_argument if the distance is negative or NaN.
 inline void require_distance(const char* whose, double distance) {
   if (!(distance >= 0)) refuse(std::string(whose) + ": a distance must be 0 or more", distance);
 }
 
-/// What Neighbor::squared_distance may be for points within a distance.
+/// Returns the largest Neighbor::squared_distance of points within a distance.
 inline double square_limit(double distance) {
   require_distance("PointTree", distance);
   return distance * distance;

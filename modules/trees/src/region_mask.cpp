@@ -48,7 +48,7 @@ std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volume
   return boxes;
 }
 
-// Two chunks are some 50 us of work: less is not worth waking a thread.
+// Two chunks take about 50 us; for less, starting a thread does not pay.
 std::size_t threads_for_chunks(std::size_t chunks) {
   return chunks / 2;
 }

@@ -37,7 +37,7 @@ Side longest_side(const ItemRun<T>& run) {
   return longest;
 }
 
-// Where the parts of a run begin, and where the last one ends.
+// The positions in a run where its parts begin, and where the last part ends.
 struct Cuts {
   std::array<std::size_t, kParts + 1> at{};
   std::size_t parts;
@@ -54,11 +54,11 @@ struct Cuts {
   }
 };
 
-// Writes each item's bin, ascending along the side, and counts them.
+// Writes the bin of each item, ascending along the side, and counts the items of each bin.
 template <typename T>
 void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::uint32_t* counts) {
   std::fill_n(counts, bins, 0U);
-  // Rounding may take the last place to the end of the last bin, not beyond.
+  // Rounding may move the last item to the end of the last bin, but not beyond it.
   const double per_length = (static_cast<double>(bins) - 0x1p-20) / side.length;
   for (std::size_t i = 0; i < run.count; ++i) {
     const double along = static_cast<double>(run.items[i].place[side.axis]) - side.low;
@@ -68,11 +68,12 @@ void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::u
   }
 }
 
-// Where the bins that a cut goes through, and the bins between those, begin.
+// Groups the bins to buckets: a bin that a cut passes through is one bucket, all bins between two of these
+// are another. `begin` has the first position of each bucket.
 struct Buckets {
   std::array<std::uint8_t, kMostBins> of_bin;
   std::array<std::size_t, 2 * kParts> begin{};
-  std::array<std::size_t, kParts + 1> of_cut{};  // of the bin that it goes through
+  std::array<std::size_t, kParts + 1> of_cut{};  // bucket of the bin that the cut passes through
 
   Buckets(const Cuts& cuts, std::size_t bins, const std::uint32_t* counts) {
     std::size_t place = 0, bucket = 0, cut = 1;
@@ -99,7 +100,7 @@ void move_items(const ItemRun<T>& run, const Buckets& buckets) {
     run.other[place[buckets.of_bin[run.bins[i]]]++] = run.items[i];
 }
 
-// Moves the items to `other`, those of each part to where it is.
+// Moves the items to `other`, each to the positions of its part.
 template <typename T>
 void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   std::array<std::uint32_t, kMostBins> counts;
@@ -118,11 +119,11 @@ void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   }
 }
 
-// Cuts a run and calls take(part) for its parts; a run that needs no cut is done.
+// Cuts a run and calls take(part) for its parts. A run that needs no cut is only moved to its buffer.
 template <typename T, typename Take>
 void cut_run(const ItemRun<T>& run, const Take& take) {
   const Side side = run.count > kTreeWidth ? longest_side(run) : Side{};
-  if (!(side.length > 1e-290)) {  // few, or all in one place
+  if (!(side.length > 1e-290)) {  // few items, or all at the same position
     if (!run.in_place) std::copy_n(run.items, run.count, run.other);
     return;
   }
@@ -137,8 +138,8 @@ void sort_run(const ItemRun<T>& run) {
   cut_run(run, [](const ItemRun<T>& part) { sort_run(part); });
 }
 
-// How many runs threads share. Fewer than 8192 items are sorted before another thread has come; four runs a
-// thread even out what they take.
+// Number of runs that threads share. A thread takes at least 8192 items: fewer are sorted before another
+// thread has started. Four runs a thread balance the load.
 std::size_t runs_for(std::size_t threads, std::size_t items) {
   threads = std::min(threads, items / 8192);
   return threads > 1 ? 4 * threads : 1;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A sphere around a box.
 #pragma once
 
 #include "pcl_bv/numeric/constants.h"
@@ -11,8 +12,8 @@
 
 namespace pcl_bv {
 
-/// Around a box; empty for one that is infinite or nowhere. Roundings are below 2^-50 (reach + |low|_1 +
-/// |high|_1); the radius grows by 2^-45 of that.
+/// Returns a sphere around a box; empty for an empty or infinite box. Rounding errors are below 2^-50 of
+/// radius + |low|_1 + |high|_1; the radius grows by 2^-45 of this sum.
 inline Sphere sphere_around(const PlaceBounds& box) {
   const Eigen::Vector3d low = vector(box.low), high = vector(box.high);
   if (!(low.x() <= high.x()) || !low.allFinite() || !high.allFinite()) return {};

@@ -15,7 +15,7 @@ SweepWindow::SweepWindow(std::size_t sweeps) : capacity_(sweeps) {
 void SweepWindow::add(const PointView& points, const Execution& execution) {
   if (points.count > 0 && points_ > 0 && points.scalar != scalar_)
     throw std::invalid_argument("SweepWindow: has sweeps of floats and doubles");
-  // The view's own numbers are taken off again: unsigned ones wrap.
+  // Partial adds PointView::first to this number, so it is subtracted here; unsigned numbers wrap.
   const std::size_t number = static_cast<std::size_t>(first_) + points_;
   const Partial sweep(points, number - points.first, execution);
   Partial merged = newest_merged_;

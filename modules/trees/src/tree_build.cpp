@@ -44,7 +44,7 @@ void load_part(const PointView& points, LoadPart& part, PlacedItem<T>* to) {
   part.valid = place - part.begin;
 }
 
-// Returns how many are valid.
+// Loads the valid points and returns their number.
 template <typename T>
 std::size_t load(const PointView& points, const ParallelPolicy& policy, Parts<LoadPart>& parts,
                  PlacedItem<T>* to) {
@@ -68,7 +68,7 @@ PlaceBounds bounds_of(const PointPacket<T>& packet) {
   return extremes.bounds();
 }
 
-// Calls fill(p, packet) for all packets, and then sets the boxes around what is in them.
+// Calls fill(p, packet) for all packets, and then sets the boxes around their points.
 template <typename T, typename Fill>
 void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPart>& parts,
                   const Fill& fill) {

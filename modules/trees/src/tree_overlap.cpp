@@ -10,7 +10,8 @@
 namespace pcl_bv {
 namespace {
 
-// The boxes of the tree that moves, as long as a point of the other one is near; then point by point.
+// Descends into the boxes of the moved tree that are near a point of the other tree, and tests the points of
+// their packets.
 class TreeOverlap {
  public:
   TreeOverlap(const PointTree& points, const PackedTree& moving, const Eigen::Isometry3d& pose, double margin)
@@ -52,8 +53,8 @@ class TreeOverlap {
 
 }  // namespace
 
-// 2^-48 is for the six roundings of Neighbor's squares, the two here and two of the distance: 2^-49 in all.
-// This square does not underflow: an image's error is 2^-500 or more.
+// The factor 1 + 2^-48 covers the six roundings of Neighbor::squared_distance, the two here and two in
+// `distance`: 2^-49 in all. The square does not underflow because the error of an image is at least 2^-500.
 bool any_within(const PointTree& points, const Image& place, double distance) {
   const double reach = distance + place.error;
   return any_in_ball(points.isa(), points.packed(), place.place, reach * reach * (1 + 0x1p-48));

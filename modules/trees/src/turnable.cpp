@@ -10,7 +10,7 @@
 namespace pcl_bv {
 namespace {
 
-// The polytope of a k-DOP as a hull. Normals are rounded, so planes move outward by what that may cost.
+// Returns the polytope of a k-DOP as a hull. Planes move outward by an error bound of their rounded normals.
 Hull hull_of(const Kdop& kdop) {
   const Mesh mesh = kdop.mesh();
   if (mesh.vertices.empty()) return {};

@@ -50,7 +50,7 @@ void VolumeBoxes::build(const std::vector<PlaceBounds>& extents, const ParallelP
   const PlaceBounds all = around(extents);
   SpatialOrder<double> order;
   PlacedItem<double>* const items = order.reset(extents.size());
-  // A place for those without a box, which must be valid also if no volume has one.
+  // Position in the order for volumes without a box; valid also if no volume has a box.
   const auto anywhere = [&](std::size_t axis) { return std::min(all.low[axis], kMaxCoordinate); };
   for (std::size_t i = 0; i < extents.size(); ++i) {
     items[i].number = static_cast<std::int64_t>(i);

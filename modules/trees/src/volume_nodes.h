@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The data of a VolumeTree: its volumes and the bounds of its nodes.
 #pragma once
 
 #include <array>
@@ -18,12 +19,13 @@ struct VolumeTree::Nodes {
   NodeBounds kind = NodeBounds::aabb;
   VolumeBoxes boxes;
   NodeShapes shapes;
-  std::vector<std::uint32_t> loose;  // those that rays ask without a box
+  std::vector<std::uint32_t> loose;  // flat ellipsoids, which rays test without a box
 
+  /// Builds the boxes and shapes: in a new order if `anew`, else in the present order.
   void measure(bool anew, const Execution& execution);
 
-  /// Calls visit(number of the volume) for those that may hold a place, and those without a box; ends where
-  /// it returns true.
+  /// Calls visit(index) for the volumes that may hold a point, and for those without a box. Stops and returns
+  /// true when visit returns true.
   template <typename Visit>
   bool visit_near(const Coordinates& place, const Visit& visit) const {
     const BoxQuery query = boxes.query(place, place);
@@ -38,7 +40,7 @@ struct VolumeTree::Nodes {
     return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.number(item)); });
   }
 
-  /// Calls visit(number) for the volumes whose bound(group, k) is at most limit(), as descend() says.
+  /// Calls visit(index) for the volumes whose bound(group, k) is at most limit(), in the order of descend().
   template <typename Bound, typename Limit, typename Visit>
   void nearest_first(const Bound& bound, const Limit& limit, const Visit& visit) const {
     const auto bounds = [&](std::size_t group) {

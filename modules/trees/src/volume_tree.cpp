@@ -14,7 +14,7 @@
 namespace pcl_bv {
 namespace {
 
-// Those whose ends of a ray may be farther from them than slack() covers.
+// Returns whether the ends of a ray's interval may be farther from the volume than slack() covers.
 bool is_loose(const AnyVolume& volume) {
   const auto* const ellipsoid = std::get_if<Ellipsoid>(&volume);
   return ellipsoid != nullptr && !ellipsoid->empty() &&

@@ -28,7 +28,7 @@ std::uint32_t count_of(const std::vector<AnyVolume>& volumes) {
   return static_cast<std::uint32_t>(volumes.size());
 }
 
-// Calls visit for all volumes: places and rays beyond 1e100 leave the range of what boxes are compared in.
+// Calls visit for all volumes. Needed for points and rays beyond 1e100, which cannot be compared with boxes.
 template <typename Visit>
 bool visit_all(const std::vector<AnyVolume>& volumes, const Visit& visit) {
   for (std::uint32_t number = 0; number < count_of(volumes); ++number) {
@@ -46,8 +46,8 @@ bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Vi
                                       : visit_all(nodes.volumes, ask);
 }
 
-// Calls visit for the volumes that a ray may hit where their bound is at most limit(), t in the unit of the
-// ray; for some twice.
+// Calls visit for the volumes that a ray may hit and whose lower bound of t is at most limit(), in the unit
+// of the ray. Some volumes are visited twice.
 template <typename Nodes, typename Limit, typename Visit>
 void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                  const Limit& limit, const Visit& visit) {

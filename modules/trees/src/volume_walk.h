@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The points of a tree that are inside a volume: whole boxes where they are, point by point at its surface.
+// Finds the points of a tree that are inside a volume: whole boxes if they are inside, single points near the
+// surface.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 
 namespace pcl_bv {
 
-/// A volume that is not empty, as walks ask about it.
+/// A non-empty volume, prepared for tests against the boxes and packets of a tree.
 class VolumeProbe {
  public:
   explicit VolumeProbe(const AnyVolume& volume)
@@ -26,7 +27,8 @@ class VolumeProbe {
     return relation(region_, plain_box(boxes, group, k));
   }
 
-  /// Which of a packet's points contains() holds for, as bits; those that it lacks are NaN, so outside.
+  /// Returns for which points of a packet contains() holds, as bits. Lanes without a point are NaN, so
+  /// outside.
   std::uint32_t inside(UsableIsa isa, const PackedTree& tree, std::size_t packet) const {
     const PointView points = tree.view().slice(packet * kTreeWidth, kTreeWidth);
     std::array<std::uint8_t, kTreeWidth> states;
@@ -49,8 +51,8 @@ class VolumeProbe {
   RegionTests tests_;
 };
 
-/// Calls found(packet, bits) for packets of which some points are inside, in order; ends, with true, where
-/// that says true.
+/// Calls found(packet, bits), in order, for each packet with points inside. Stops and returns true when
+/// found() returns true.
 template <typename Found>
 class VolumeWalk {
  public:
@@ -90,7 +92,7 @@ class VolumeWalk {
     return false;
   }
 
-  // All that are not NaN.
+  // Returns the lanes of a packet that are not NaN, as bits.
   std::uint32_t valid_points(std::size_t packet) const {
     const auto bits_of = [](const auto& points) {
       std::uint32_t bits = 0;
@@ -108,7 +110,7 @@ class VolumeWalk {
   const Found& found_;
 };
 
-/// The same for any volume.
+/// Walks the points inside any volume; an empty volume has none. Otherwise as VolumeWalk.
 template <typename Found>
 bool walk_inside(UsableIsa isa, const PackedTree& tree, const AnyVolume& volume, const Found& found) {
   if (empty(volume)) return false;
