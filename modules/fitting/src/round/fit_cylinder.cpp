@@ -23,8 +23,8 @@ Eigen::Vector3d find_axis(const LocalHull& hull, const std::vector<Eigen::Vector
   });
 }
 
-// With q off by U = 2^-53 of itself, q . axis is off by 5 U |q|_1, |q x axis| by 15 U |q|_1, and 1 / |axis|
-// by 4 U.
+// The cylinder with this centre and axis around all points. With q off by U = 2^-53 of itself, q . axis is
+// off by 5 U |q|_1, |q x axis| by 15 U |q|_1, and 1 / |axis| by 4 U.
 Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& center,
                            const Eigen::Vector3d& axis) {
   double radius = 0, half_height = 0;
