@@ -37,7 +37,7 @@ class PointLanes {
   }
 
  private:
-  static constexpr std::size_t kCount = 16;  // at least the 14 points
+  static constexpr std::size_t kCount = 16;  // no less than the 14 support points
   using Array = Eigen::Array<float, static_cast<int>(kCount), 1>;
   Array x_, y_, z_;
 };

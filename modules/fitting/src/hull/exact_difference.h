@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A test whether a difference of doubles is free of rounding.
 #pragma once
 
 namespace pcl_bv {

@@ -14,7 +14,7 @@ namespace pcl_bv {
 namespace {
 
 Eigen::Vector3d find_axis(const LocalHull& hull, const std::vector<Eigen::Vector3d>& vertices) {
-  if (hull.rank == 2) return hull.axes.col(2);  // a disc
+  if (hull.rank == 2) return hull.axes.col(2);  // points in a plane: a disc
   if (hull.rank < 2) return hull.axes.col(0);
   Profile profile;
   return search_axis(hull, [&](const Eigen::Vector3d& axis) {

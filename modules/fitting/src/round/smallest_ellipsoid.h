@@ -16,7 +16,7 @@ namespace pcl_bv {
 struct WeightedEllipsoid {
   std::vector<double> weights;  ///< One per point, not negative, sum 1.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< S; zero beyond `dimensions`.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< S; rows and columns beyond d are zero.
   int iterations = 0;
 };
 

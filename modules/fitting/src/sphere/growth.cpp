@@ -47,7 +47,7 @@ class GrowingSphere {
 
   const LocalFrame& frame_;
   Eigen::Vector3d center_;
-  double radius_;  // in the kernels' unit
+  double radius_;  // in the unit of the kernels
 };
 
 void grow_over_block(const DistanceScan& scan, std::size_t block, GrowingSphere& sphere) {

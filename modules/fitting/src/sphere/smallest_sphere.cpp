@@ -46,7 +46,7 @@ bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
 Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints candidates,
              SphereCertificate& certificate) {
   Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
-  double best_distance = -1;  // squared, of the farthest point
+  double best_distance = -1;  // squared distance of the farthest point
   SmallBall ball;
   for (;;) {
     ball = candidates.smallest_ball(frame, &ball);

@@ -13,8 +13,8 @@ struct Supports;
 /// How a fit runs: threads, instruction set and supports that are already known. No choice here changes a
 /// single bit of the result.
 struct Execution {
-  ParallelPolicy parallel = Serial{};
-  UsableIsa isa = Isa::automatic;  ///< `automatic` is resolved when an Execution is made, not when copied.
+  ParallelPolicy parallel = Serial{};  ///< Threads that the fit may use.
+  UsableIsa isa = Isa::automatic;      ///< `automatic` is resolved when an Execution is made, not copied.
 
   /// If not null: the result of find_supports() for exactly these points. Most fits begin with supports; they
   /// save a pass over the points if the directions and the detail that they need are in here.

@@ -56,8 +56,8 @@ struct SphereOptions {
   SphereOptions(SphereMethod m = SphereMethod::exact, SphereGrowth g = SphereGrowth::deferred)
       : method(m), growth(g) {}
 
-  SphereMethod method;
-  SphereGrowth growth;
+  SphereMethod method;  ///< How the sphere is computed.
+  SphereGrowth growth;  ///< How a first sphere is enlarged; `exact` ignores it.
 };
 
 /// Proof that a sphere cannot be smaller: up to four points p_i of the cloud and weights w_i >= 0 with sum 1.
@@ -108,8 +108,8 @@ EstimationResult fit_kdop(const PointView& points, const std::shared_ptr<const K
 /// side and of a point that touches its maximum side. Of several such points the one with the smallest index.
 /// The paper, §3.
 struct SlabPoints {
-  std::vector<std::size_t> min;
-  std::vector<std::size_t> max;
+  std::vector<std::size_t> min;  ///< For each slab the point on its minimum side.
+  std::vector<std::size_t> max;  ///< For each slab the point on its maximum side.
 };
 
 /// As above; also returns the points that touch the slabs. `touching` is empty if there is no valid point.

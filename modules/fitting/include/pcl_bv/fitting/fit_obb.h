@@ -39,6 +39,7 @@ struct ObbOptions {
   ObbOptions(ObbMethod m = ObbMethod::minimal, const Eigen::Vector3d& u = Eigen::Vector3d::UnitZ())
       : method(m), up(u) {}
 
+  /// How the axes are chosen.
   ObbMethod method;
   /// For `yaw` and `lshape`: the direction against gravity. Any length, with the largest component from 1e-30
   /// to 1e30 in magnitude.

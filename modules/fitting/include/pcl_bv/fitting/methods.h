@@ -27,6 +27,7 @@ struct Method {
   std::string_view name;                  ///< The canonical name, as written into results: "dop26".
   std::vector<std::string_view> aliases;  ///< Other accepted names.
   std::string_view shape;  ///< As shape_name() returns it; empty for `best`, whose shape varies.
+  /// Called by fit().
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
   std::optional<DirectionSet> begins_with;  ///< The directions whose supports it finds first, if it does.
   bool upright = false;                     ///< Whether it uses MethodOptions::up.
@@ -48,8 +49,9 @@ const Method* find_method(std::string_view name);
 
 /// Prepares an execution for fitting several methods to the same points. If two or more of the methods begin
 /// with supports, and not only with those along the coordinate axes, these are found once. If two or more
-/// need the convex hull, it is computed once. The results are stored in `supports`, which must outlive the
-/// returned execution. Otherwise the execution is returned unchanged.
+/// need the convex hull, it is computed once, with the supports along dop26. The results are stored in
+/// `supports`, which must outlive the returned execution. If neither applies, the execution is returned
+/// unchanged.
 Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
                          const Execution& execution, Supports& supports);
 

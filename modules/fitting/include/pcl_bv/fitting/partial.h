@@ -17,9 +17,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct PartialState;
 
-/// What some points of a cloud contribute to volumes around the whole cloud. Up to kAllKept points are all
-/// stored. Of more points it stores the extreme ones (the vertices of their convex hull), the support points
-/// along the 26 directions, and sums for the covariance. Copies share their data.
+/// The contribution of some points of a cloud to volumes around the whole cloud. Up to kAllKept points are
+/// all stored. Of more points it stores the extreme ones (the vertices of their convex hull), the support
+/// points along the 26 directions, and sums for the covariance. Copies share their data.
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
 /// the serialised bytes. The volumes have the bits of a fit to the whole cloud. There are two exceptions, for

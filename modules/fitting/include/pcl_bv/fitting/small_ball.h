@@ -12,6 +12,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A ball around a few points, with the proof that it cannot be smaller.
 struct SmallBall {
+  /// Centre, in the coordinates of the points.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double squared_radius = -1;  ///< The largest squared distance of a point, as computed; negative: no point.
   int support_size = 0;        ///< Number of support points: 1 to 4 points that alone require this radius.

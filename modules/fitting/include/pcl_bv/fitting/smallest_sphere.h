@@ -19,7 +19,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct FarPoint {
   double squared_distance = -1;  ///< From the centre: squared_distance() of kernels/distances.h.
   std::size_t index = 0;         ///< Index of the point in the cloud.
-  Coordinates point{};
+  Coordinates point{};           ///< Coordinates of the point.
 };
 
 /// The farthest point in each octant() around a centre; of equally far points the one with the smallest

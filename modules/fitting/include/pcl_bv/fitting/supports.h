@@ -40,7 +40,7 @@ struct Moments;
 
 /// Supports of a cloud along directions of the cube.
 struct Supports {
-  DirectionSet set = DirectionSet::dop6;
+  DirectionSet set = DirectionSet::dop6;         ///< The directions.
   SupportDetail detail = SupportDetail::bounds;  ///< Whether the support points are stored, too.
   std::size_t used = 0;                          ///< Number of valid points.
   std::size_t dropped = 0;                       ///< Number of points that are not valid (is_valid()).
