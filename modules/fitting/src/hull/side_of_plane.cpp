@@ -34,8 +34,8 @@ bool add_triple(double a, double b, double c, Expansion& sum) {
   return sum.certain();
 }
 
-// The exponents of the lowest and the highest bit that the coordinates have together. Not all of them may be
-// 0.
+// The exponents of the lowest and the highest bit that the coordinates have together. One coordinate must not
+// be 0.
 struct Bits {
   int lowest = std::numeric_limits<int>::max(), highest = std::numeric_limits<int>::min();
 

@@ -166,8 +166,8 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
     best.raise(scan.greatest);
   }
   if (scan.filter == FloatFilter::reject) best.filtered();
-  // The points are found while the chunk is in memory. Later, a source would have to load it again; and the
-  // values of all chunks would have to be stored, 31 000 chunks for a billion points.
+  // The points are found while the chunk is in memory. To find them later, a source would have to load the
+  // chunk again, and the values of all chunks would have to be stored: 31 000 chunks for a billion points.
   for (std::size_t o = 0; o < 8; ++o) {
     for (std::size_t b = 0; b < count; ++b) {
       if (greatest[b][o] < 0 || greatest[b][o] < best[o]) continue;
@@ -179,8 +179,8 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
 }
 
 void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPoints& found) {
-  // Not initialised, as the kernel writes every bound. Not for a source: a scan loads all of its points
-  // anyway.
+  // The array is not initialised, because the kernel writes every bound. Points of a source get no bounds,
+  // because a scan loads all of them anyway.
   if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr)
     bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;

@@ -29,9 +29,9 @@ struct SmallBall {
 /// practice; no allocation.
 ///
 /// In each step the farthest point joins the support of at most four points (the pivoting of Gaertner 1999).
-/// Of the balls that two, three or four of these five points span, the next ball is the one that the five
-/// points exceed least. No tolerance decides which points are flat: if a support is too flat to be solved
-/// for, points exceed its ball by more, so another one is taken.
+/// Of the balls that two, three or four of these five points span, the next ball is the one from which the
+/// five points stick out least. No tolerance decides which points are flat: if a support is too flat to be
+/// solved for accurately, points stick out further from its ball, and another ball is taken.
 ///
 /// `start`, if not null, is the ball that this function returned for the first of these points; it saves the
 /// steps to that ball.
