@@ -58,8 +58,9 @@ std::vector<std::size_t> near_outline(const std::vector<Eigen::Vector2d>& points
   return positions;
 }
 
-// Appends a point to the chain that begins at position `first` of `chain`, and removes the corners before it
-// at which the chain does not turn left. What is before `first` is the other chain, which is complete.
+// Appends a point to the chain that begins at position `first` of `chain`, and removes the corners before the
+// point at which the chain does not turn left. The corners before `first` belong to the other chain, which is
+// complete.
 void extend_chain(const std::vector<Eigen::Vector2d>& points, std::size_t next, std::size_t first,
                   std::vector<std::size_t>& chain) {
   while (chain.size() >= first + 2 &&
