@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// An orthonormal basis of the plane perpendicular to an axis.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +11,7 @@
 
 namespace pcl_bv {
 
-/// Two unit vectors across a unit vector, right-handed with it.
+/// Two unit vectors perpendicular to a unit vector; (u, v, axis) is right-handed.
 struct Across {
   explicit Across(const Eigen::Vector3d& axis) {
     Eigen::Vector3d least = Eigen::Vector3d::UnitX();

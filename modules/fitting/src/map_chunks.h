@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud in chunks over the cores: what every pass of a kernel is built on.
+// Parallel passes over the chunks of a cloud. Every pass of a kernel is built on this.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace pcl_bv {
 
-/// merge(map(chunk)) for each chunk of the points: the maps in parallel, each under a FloatEnvironment, the
-/// merges in order, `most` chunks at a time, so that what they give takes little memory whatever the cloud's
-/// size. Clouds of one chunk, of which there are many in a sweep, need no allocation; for
-/// them the caller's FloatEnvironment counts.
+/// Calls merge(map(chunk)) for each chunk of the points: map() in parallel, each call under a
+/// FloatEnvironment; merge() in the order of the chunks. At most `most` results exist at a time, so memory is
+/// bounded for clouds of any size. A cloud of one chunk, of which a sweep has many, is handled without
+/// allocation and in the caller's FloatEnvironment.
 template <typename Partial, std::size_t most = 256, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Directions all around, and the points that are farthest along some.
+// Directions spread over the sphere, and the support points along directions.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,13 @@
 
 namespace pcl_bv {
 
-/// Components 0, +-1, +-2, none a multiple of another: 49, no direction farther than 15 degrees from one of
-/// them. The 13 of the cube and the types (0,1,2), (1,1,2) and (1,2,2) of Larsson 2008.
+/// Returns the 49 directions with components 0, +-1 and +-2 of which none is a multiple of another. Every
+/// direction is within 15 degrees of one of them or of its opposite. They are the 13 directions of the cube
+/// and the types (0,1,2), (1,1,2) and (1,2,2) of Larsson 2008.
 std::vector<Direction> scattered_directions();
 
-/// Those of the points, in their order, that are farthest along one of the directions or opposite to it.
+/// Returns the points with the minimum or the maximum projection along one of the directions, in the order of
+/// `points`.
 std::vector<Eigen::Vector3d> farthest_along(const std::vector<Eigen::Vector3d>& directions,
                                             const std::vector<Eigen::Vector3d>& points);
 

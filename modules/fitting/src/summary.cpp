@@ -21,7 +21,7 @@
 namespace pcl_bv {
 namespace {
 
-// What a chunk gives; the supports are those of a search, or the box alone.
+// Results of one chunk. `Found` is the result of a search for supports, or only a box.
 template <typename Found>
 struct Part {
   Found supports;
@@ -51,7 +51,8 @@ void finish(Moments moments, CloudSummary& summary) {
   }
 }
 
-// One pass: search(chunk) and the moments of the chunk, merge(found) in order.
+// One pass: search(chunk) and the moments of each chunk in parallel, merge(found) in order. Returns the
+// moments of all points.
 template <typename Found, typename Search, typename Merge>
 Moments pass(const PointView& points, const Execution& execution, std::size_t count, const Search& search,
              const Merge& merge) {
@@ -70,7 +71,7 @@ Moments pass(const PointView& points, const Execution& execution, std::size_t co
   return moments.total();
 }
 
-// Of points whose moments are known, as their supports are.
+// Summary of points whose supports and moments are known already.
 CloudSummary known_summary(const Supports& supports) {
   CloudSummary summary;
   summary.supports = supports;
@@ -88,7 +89,7 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
   constexpr DirectionSet set = DirectionSet::dop26;
   const SupportDirections& directions = SupportDirections::of(set);
   SupportSearch search(execution.isa, directions, points.count);
-  // Moments cost about as much again as the supports.
+  // Twice: the moments cost about as much as the supports.
   const Moments moments = pass<ChunkSupports>(
       points, execution, 2 * directions.count * points.count,
       [&](const PointView& chunk) { return search.find(chunk); },
@@ -113,7 +114,7 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
     return summary;
   }
   summary.supports = no_bounds(points);
-  // Moments cost about as much as a 26-DOP, the box next to nothing.
+  // The moments cost about as much as a 26-DOP, the box next to nothing.
   const Moments moments = pass<AxisExtents>(
       points, execution, kMaxDirections * points.count,
       [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },

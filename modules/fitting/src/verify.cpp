@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Exact predicates: rationals decide, and a double computation with a rigorous bound spares them nearly all
-// points.
+// Exact predicates in rational arithmetic. A double computation with a rigorous error bound first accepts
+// nearly all points that are inside.
 
 #include "pcl_bv/fitting/verify.h"
 
@@ -34,7 +34,8 @@ ExactVector difference(const ExactVector& a, const ExactVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-// How far p is outside, as a double: 0 only if it is inside by exact arithmetic.
+// Converts an exact excess to a distance, excess / scale. The result is 0 only if the excess is not positive,
+// so only if the point is inside by exact arithmetic.
 double positive(const Rational& excess, double scale) {
   if (excess <= 0) return 0.0;
   return std::max(static_cast<double>(excess) / scale, std::numeric_limits<double>::denorm_min());
@@ -50,7 +51,7 @@ double violation(const Aabb& box, const Eigen::Vector3d& p) {
   return worst;
 }
 
-// What n . p in double may be off by, and more.
+// Upper bound of the rounding error of n . p in double.
 double dot_error(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
   return 8 * kU * dot3(n.cwiseAbs(), p.cwiseAbs()) + kSmallestNormal;
 }
@@ -111,8 +112,8 @@ double violation(const Hull& hull, const Eigen::Vector3d& p) {
   return worst;
 }
 
-// With q = p - center, off by U of itself, and an axis of about length 1, q . axis and |q x axis| are off by
-// less than 32 U |q|_1 together with the axis' length.
+// With U = 2^-53: q = p - center is off by U of itself, and the axis has about length 1. The errors of
+// q . axis and of |q x axis|, including that of the axis' length, are below 32 U |q|_1.
 double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - cylinder.center();
   const Eigen::Vector3d& axis = cylinder.axis();
@@ -200,7 +201,7 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
 
 Verification verify(const AnyVolume& volume, const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  constexpr std::size_t chunk_points = 4096;  // a chunk may be all rationals: a microsecond each
+  constexpr std::size_t chunk_points = 4096;  // few: a point that needs rationals takes a microsecond
   const auto check = [&](std::size_t chunk) {
     const std::size_t begin = chunk * chunk_points;
     const LoadedPoints part(points, begin, std::min(chunk_points, points.count - begin));

@@ -38,7 +38,7 @@ void turn(BoxFrame& frame, int times, double smaller, const Silhouette& shape, S
     frame.axes.col(c) = box.side.x() * v - box.side.y() * u;
     frame.size[b] = box.width;
     frame.size[c] = box.height;
-    frame.in_vain = 1;  // about this axis it cannot get better
+    frame.in_vain = 1;  // no further rotation about this axis can shrink the box
   }
 }
 

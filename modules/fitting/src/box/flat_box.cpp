@@ -19,15 +19,15 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Whether the corners turn left at b.
+// Whether the path from a over b to c turns left.
 bool turns_left(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return cross(b - a, c - a) > 0;
 }
 
 }  // namespace
 
-// The leftmost, lowest, rightmost and highest points are corners; of the others, those inside of the four
-// matter no more, and the rest falls into four runs from one of them to the next.
+// The leftmost, lowest, rightmost and highest points are corners. Points inside the quadrilateral of these
+// four are dropped. The other points fall into four runs, each between two successive corners.
 std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
   if (count < 2) return count;
   Eigen::Vector2d* const end = points + count;
@@ -49,7 +49,8 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
     };
     begin[run] = std::partition(points, begin[run + 1], [&](const auto& p) { return !beyond(p); });
   }
-  // The corners are before begin[0]: as the runs are read, there is room for what is written.
+  // The four corners are stored before begin[0], so the output never overtakes the runs that are still to be
+  // read.
   std::size_t kept = 0;
   const auto add = [&](const Eigen::Vector2d& next, std::size_t first) {
     while (kept >= first + 2 && !turns_left(points[kept - 2], points[kept - 1], next))
@@ -57,7 +58,7 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
     points[kept++] = next;
   };
   for (int run = 0; run < 4; ++run) {
-    // Of points with one x only the outermost stays, in whatever order they come.
+    // Points with equal x may come in any order: only the outermost remains.
     std::sort(begin[run], begin[run + 1], [to_the_right = run < 2](const auto& a, const auto& b) {
       return to_the_right ? a.x() < b.x() : a.x() > b.x();
     });
@@ -82,8 +83,8 @@ FlatBox least_rectangle(const Eigen::Vector2d* corners, std::size_t count) {
     const Eigen::Vector2d edge = corners[next(i)] - corners[i];
     const double length = std::sqrt(dot(edge, edge));
     const Eigen::Vector2d u = edge / length, v(-u.y(), u.x());
-    // Each pointer moves on as long as that gets it farther; a whole turn at most. What is along the edge
-    // itself does not wait for the root.
+    // Moves a caliper on while its projection along `direction` grows, at most once around. `direction` need
+    // not be a unit vector, so this does not wait for the square root above.
     const auto advance = [&](std::size_t& at, const Eigen::Vector2d& direction) {
       for (std::size_t steps = 0; steps < count; ++steps) {
         if (!(dot(corners[next(at)] - corners[at], direction) > 0)) break;

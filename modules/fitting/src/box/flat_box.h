@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The convex polygon and the smallest rectangle of points in the plane, in double arithmetic.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,22 +10,23 @@
 
 namespace pcl_bv {
 
-/// Moves the corners of the convex hull to the front, counter-clockwise, and returns how many: 1 of equal
-/// points, 2 of points on a line. In plain double, for those who choose axes, not for those who must enclose;
-/// planar_hull.h is exact, and slower by an allocation. O(n log n). Andrew 1979.
+/// Moves the corners of the convex hull to the front, counter-clockwise, and returns their number: 1 for
+/// equal points, 2 for points on a line. Subject to rounding: good enough to choose axes, not to enclose
+/// points. planar_hull.h is exact, and slower by an allocation. O(n log n). Andrew 1979.
 std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count);
 
+/// A rectangle in the plane, without its position.
 struct FlatBox {
   Eigen::Vector2d side = Eigen::Vector2d::UnitX();  ///< Unit vector along a side.
-  double width = 0, height = 0;                     ///< Along it, and across.
+  double width = 0, height = 0;                     ///< Extents along `side` and perpendicular to it.
 
   double area() const { return width * height; }
   double diagonal() const { return std::sqrt(width * width + height * height); }
 };
 
-/// The rectangle of least area around a convex polygon of 1 corner or more, as to_convex_chain() leaves it:
-/// of those with a side along an edge, which the least one is among (Freeman, Shapira 1975). Rotating
-/// calipers (Toussaint 1983): O(corners).
+/// Returns the rectangle of minimum area around a convex polygon of 1 corner or more, as returned by
+/// to_convex_chain(). Such a rectangle has a side along an edge of the polygon (Freeman, Shapira 1975), so
+/// only these are compared. Rotating calipers (Toussaint 1983): O(corners).
 FlatBox least_rectangle(const Eigen::Vector2d* corners, std::size_t count);
 
 }  // namespace pcl_bv

@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A smallest box has two adjacent sides that each hold an edge of the hull (O'Rourke 1985). For two edges,
-// the normal of one side moves along the arc of its edge, n1 = (1 - t) a + t b, and the other is normal to it
-// and to its own edge: n2 is linear in t, too, and n3 = n1 x n2 quadratic. Over given far vertices, with d1,
-// d2, d3 from there to the vertices on the sides, the volume is (d1.n1)(d2.n2)(d3.n3) / (|n1|^2 |n2|^2), and
-// that of the box is the greatest over all vertices. So any six vertices whose quartic (d1.n1)(d2.n2)(d3.n3)
-// - v |n1|^2 |n2|^2 is not negative on a range of t prove that no box there is smaller than v. Ranges without
-// a proof are cut where the far vertices change.
+// A smallest box has two adjacent sides that each contain an edge of the hull (O'Rourke 1985). Take a pair of
+// edges. The normal of one side moves along the arc of its edge: n1 = (1 - t) a + t b. The normal of the
+// other side is perpendicular to n1 and to its own edge, so n2 is linear in t, too, and n3 = n1 x n2 is
+// quadratic.
+//
+// Take any six vertices, two for each normal, and let d1, d2, d3 be the vectors from the vertex on the low
+// side to the vertex on the high side. The volume over these six vertices is (d1.n1)(d2.n2)(d3.n3) /
+// (|n1|^2 |n2|^2). The volume of the box around the hull is the maximum of this over all choices of vertices.
+// So if for one choice the quartic (d1.n1)(d2.n2)(d3.n3) - v |n1|^2 |n2|^2 is not negative on a range of t,
+// no box in this range is smaller than v. A range without such a proof is divided where the support vertices
+// change.
 
 #include "box/flush_search.h"
 
@@ -27,7 +31,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The normals of two adjacent sides, on a range of t, and the arcs that they are on.
+// The normals of two adjacent sides at both ends of a range of t, and the arcs that the normals are on.
 struct Swing {
   std::array<Vector3d, 2> first, second;
   const GaussArcs::Arc *one, *other;
@@ -39,15 +43,15 @@ struct Swing {
   }
 };
 
-// From the vertex at the low side to the one at the high side, for each direction of a box.
+// The vectors from the vertex on the low side to the vertex on the high side, for each direction of a box.
 struct Across {
   Vector3d first, second, third;
 };
 
-// Numbers of the vertices at the low and the high side of each direction.
+// Indices of the vertices on the low and the high side of each direction.
 using Ends = std::array<std::int32_t, 6>;
 
-// A box around all vertices, or over some.
+// A box over six vertices: around the whole hull, if these are the support vertices.
 struct Measured {
   Across across;
   Ends ends;
@@ -101,7 +105,8 @@ class FlushSearch {
   double limit_ = 0;
 };
 
-// Rounding moves each width by some units of 2^-53 of the hull's size.
+// Sets the volume below which a box is smaller than the best. The margin is above rounding, which moves each
+// width by a few 2^-53 of the hull's size.
 void FlushSearch::set_limit() {
   constexpr double kClose = 1e-10, kOfRounding = 1e-14;
   limit_ =
@@ -129,7 +134,8 @@ const BoxFrame& FlushSearch::run() {
   return best_;
 }
 
-// n2 is between f and g where n1.f and n1.g have different signs.
+// Searches the ranges of t in which n2 is on the arc of the other edge: where f and g, the dot products of n1
+// with the two ends of this arc, have different signs.
 void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& other, const double* from_row,
                               const double* to_row) {
   const Linear f = {from_row[other.from], to_row[other.from]}, g = {from_row[other.to], to_row[other.to]};
@@ -151,8 +157,8 @@ void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& o
     };
     const auto first = [&](double t) -> Vector3d { return arc[0] + t * (arc[1] - arc[0]); };
     Swing swing{{first(begin), first(end)}, {second(begin), second(end)}, &one, &other};
-    // Where n1 is along the other edge, n2 is any; what this leaves out is a turn about n1, smallest at its
-    // ends.
+    // Where n1 is parallel to the other edge, n2 can be anywhere on the arc. The boxes left out there are
+    // rotations about n1, of which the smallest is at an end of the arc.
     const double lengths[2] = {swing.second[0].squaredNorm(), swing.second[1].squaredNorm()};
     if (std::max(lengths[0], lengths[1]) < 1e-24) continue;
     for (std::size_t k = 0; k < 2; ++k)
@@ -161,8 +167,10 @@ void FlushSearch::search_pair(const GaussArcs::Arc& one, const GaussArcs::Arc& o
   }
 }
 
-// A box with this side is no smaller than the side's width times the area of the hull's shadow along the
-// normal, which is no less than the sum of the facets with any fixed signs, a linear function.
+// Whether a side of a box smaller than the limit may have its normal on this arc. The volume of a box is no
+// less than the hull's width along the normal times the area of the hull's shadow along the normal. This area
+// is no less than the sum of the facets' projected areas with any fixed signs, which is a linear function of
+// the normal.
 bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   const std::array<Vector3d, 2> n = {gauss_.nodes[arc.from], gauss_.nodes[arc.to]};
   const Vector3d middle = n[0] + n[1];
@@ -179,7 +187,7 @@ bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
   return false;
 }
 
-// First over vertices that cost no climb.
+// Tries vertices first that need no climb.
 void FlushSearch::search(const Swing& swing) {
   const Vector3d n1 = swing.first[0] + swing.first[1], n2 = swing.second[0] + swing.second[1],
                  n3 = cross3(n1, n2);
@@ -210,7 +218,8 @@ bool FlushSearch::is_proven(const Swing& swing, const Across& across) const {
   return true;
 }
 
-// Where the volume over the far vertices of the end overtakes that over those of the beginning.
+// Returns the t at which the volume over the vertices of `end` overtakes the volume over the vertices of
+// `begin`; 0.5 if there is no such t.
 double FlushSearch::change(const Swing& swing, const Measured& begin, const Measured& end) const {
   if (begin.ends == end.ends) return 0.5;
   Quartic lead = numerator(swing, begin.across);
@@ -225,7 +234,7 @@ double FlushSearch::change(const Swing& swing, const Measured& begin, const Meas
     if (value == 0) return t;
     (value > 0 ? low : high) = t;
     (value > 0 ? below : above) = value;
-    (value > 0 ? above : below) *= 0.5;  // Illinois
+    (value > 0 ? above : below) *= 0.5;  // Illinois variant of regula falsi
   }
   return 0.5 * (low + high);
 }
@@ -255,8 +264,8 @@ Measured FlushSearch::over(const Eigen::Matrix3d& axes, const Ends& ends) const 
   return found;
 }
 
-// A climb may end early, among vertices that are in one line or plane but for rounding: what it says is too
-// small is looked at again, with all vertices.
+// Measures the box at t. A climb may end early, among vertices in one line or plane up to rounding. So a
+// volume below the limit is measured again over all vertices.
 Measured FlushSearch::measure(const Swing& swing, double t) {
   const Vector3d second = swing.second_at(t);
   Eigen::Matrix3d axes;
@@ -273,7 +282,8 @@ Measured FlushSearch::measure(const Swing& swing, double t) {
   return whole;
 }
 
-// Turned on to where it is smallest nearby, so that the next proofs have a lower volume to beat.
+// Rotates a better box to a local minimum before it becomes the best, so that a lower limit discards more
+// pairs.
 void FlushSearch::accept(const Eigen::Matrix3d& axes) {
   constexpr int kTurns = 90;
   BoxFrame better{orthonormal_axes(axes), {}};

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The smallest box. Hulls of few vertices: all pairs of edges (flush_search.h). Others: a search that starts
-// from many frames and turns each about one of its axes after the other as far as the volume sinks; the box
-// around the outline along that axis is a matter of calipers (Barequet, Har-Peled 2001; Chang et al. 2011).
-// It ends within a few thousandths of the smallest, now and then within a few hundredths. Frames that fall
-// behind are given up, half of them at a time (Karnin, Koren, Somekh 2013).
+// The smallest box. For hulls of few vertices, all pairs of edges are compared (flush_search.h). For other
+// hulls, a search starts from many frames and rotates each about one of its axes after another while the
+// volume decreases. Rotating calipers give the smallest box around the outline along an axis (Barequet,
+// Har-Peled 2001; Chang et al. 2011). The search ends within a few thousandths of the minimum, occasionally
+// within a few hundredths. The worse half of the frames is dropped repeatedly (Karnin, Koren, Somekh 2013).
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -27,7 +27,7 @@
 namespace pcl_bv {
 namespace {
 
-// From the unit quaternions of seeded integers: the same on every machine.
+// Random rotations, from unit quaternions of seeded integers: the same on every machine.
 std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
   std::vector<Eigen::Matrix3d> frames;
   std::mt19937_64 random(1);
@@ -43,10 +43,10 @@ std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
   return frames;
 }
 
-// Normals of the greatest facets.
+// Adds frames with the normals of the largest facets.
 void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
   constexpr std::size_t kFacets = 20;
-  constexpr double kNoNormal = 1e-20;  // squared: of what is rounding alone
+  constexpr double kNoNormal = 1e-20;  // squared length: below, a normal is mere rounding
   std::vector<Eigen::Vector3d> normals;
   for (const Triangle& t : hull.triangles) {
     const auto at = [&](std::size_t k) { return hull.vertices[static_cast<std::size_t>(t[k])].local; };
@@ -58,24 +58,26 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
     if (normals[i].squaredNorm() > kNoNormal) frames.push_back(axes_from(normals[i].normalized()));
 }
 
-// Hulls of more vertices are only searched from many frames: the time of pairs of edges grows with their square.
+// Hulls of more vertices are only searched from many frames: the time for all pairs of edges grows
+// quadratically.
 constexpr std::size_t kExhaustive = 128;
 
-// How many frames the search begins with, and goes on with. Before pairs of edges are tried, a box within
-// some percent of the smallest is enough.
+// Numbers of frames in the search: random ones among the starts, the best starts that are rotated, and those
+// that are rotated to the end. If pairs of edges are compared afterwards, a box within some percent of the
+// minimum is enough.
 struct Effort {
   std::size_t scattered, beginners, finalists;
 };
 constexpr Effort kSearch = {60, 40, 8}, kBeforePairs = {8, 6, 2};
 
-// The first of the starts: what the box must not be greater than.
+// The first starts, DiTO, PCA and the coordinate axes: the result must not be larger than their boxes.
 constexpr std::size_t kSureStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
                                           const LocalFrame& frame, const LocalHull& hull,
                                           const Effort& effort) {
   Supports supports = summary.supports;
-  supports.set = DirectionSet::dop14;  // whose directions come first
+  supports.set = DirectionSet::dop14;  // the directions of dop14 come first in dop26
   static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(kSearch.scattered);
   std::vector<Eigen::Matrix3d> frames{dito_axes(few_points(points, supports, frame), supports, frame),
                                       principal_axes(summary), Eigen::Matrix3d::Identity()};
@@ -98,7 +100,7 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
 
 void turn_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape, const Execution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
-  constexpr double kSmaller = 1e-9;  // less is not worth another round
+  constexpr double kSmaller = 1e-9;  // a smaller gain is not worth another round
   const std::size_t looks = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
   const ParallelPolicy policy = worthwhile(execution, Work::look, looks);
   for_each_run(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
@@ -129,7 +131,7 @@ BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& 
   }
   turn_all(frames, kLastTurns, shape, execution);
   BoxFrame best = *std::min_element(frames.begin(), frames.end(), smaller);
-  best.size = extents(shape.vertices(), best.axes);  // without the rounding of rims
+  best.size = extents(shape.vertices(), best.axes);  // over all vertices, without the rounding of silhouettes
   const BoxFrame& surest = *std::min_element(sure.begin(), sure.end(), smaller);
   return smaller(surest, best) ? surest : best;
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Most points are inside the polygon of the 26 extremal ones, and SIMD says which (Akl, Toussaint 1978); the
-// others go through the monotone chain.
+// A SIMD filter drops the points inside the polygon of the 26 extremal points (Akl, Toussaint 1978): usually
+// most points. The monotone chain processes the others.
 
 #include "box/outline.h"
 
@@ -19,9 +19,10 @@
 namespace pcl_bv {
 namespace {
 
-// The walls over the polygon's edges. Floats may be off by 128 units of the extent, and by what underflows:
-// points nearer to a wall count as outside. Points that rounding puts on the wrong side all the same cost
-// area, not enclosure.
+// The vertical half-spaces through the polygon's edges. Their margin covers rounding of up to 128 units of
+// the extent (2^-17 for floats, 2^-46 for doubles) and underflow: points this near to a wall are treated as
+// outside. If rounding drops an outside point nevertheless, the box may get larger, but it still encloses
+// this point.
 HalfSpaces walls(const PointView& points, const FewPoints& few, const LocalFrame& frame,
                  const Ground& ground) {
   SmallVector<Eigen::Vector2d, 32> corners;

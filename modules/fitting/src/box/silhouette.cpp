@@ -14,10 +14,10 @@
 namespace pcl_bv {
 namespace {
 
-// An edge as one of its two facets has it.
+// An edge as a side of one of its two facets.
 struct Side {
   std::int32_t low, high;
-  bool falls;  // from the higher number to the lower
+  bool falls;  // runs from the higher vertex index to the lower
   std::int32_t facet;
 
   auto key() const { return std::tie(low, high, falls); }
@@ -36,9 +36,9 @@ std::vector<Side> sides_of(const std::vector<Triangle>& triangles) {
   return sides;
 }
 
-// Whether b is right of the line from a to c by more than rounding, of a hull with an extent of 1 to 2. The
-// calipers stop at corners that are not: facets and edges along the view make several corners in a line, or
-// in one place.
+// Whether b is right of the line from a to c by more than rounding, for a hull with an extent from 1 to 2.
+// Other corners are dropped, because the calipers would stop at them: where facets or edges are parallel to
+// the view, several corners are in a line or at the same position.
 bool sticks_out(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   constexpr double kRounding = 1e-13;
   const Eigen::Vector2d along = c - a, to = b - a;
@@ -73,7 +73,7 @@ void Silhouette::find_rim(const Eigen::Vector3d& towards, View& view) const {
     facing[t] = (nx[t] * x + ny[t] * y) + nz[t] * z;
   view.rim.resize(edges_.size());
   std::size_t count = 0;
-  for (const Edge& edge : edges_) {  // without branches, which could not be foretold
+  for (const Edge& edge : edges_) {  // without branches, which would be unpredictable
     const bool left = facing[edge.left] > 0, right = facing[edge.right] > 0;
     const std::int32_t turned = (edge.from ^ edge.to) & (static_cast<std::int32_t>(left) - 1);
     view.rim[count] = {edge.from ^ turned, edge.to ^ turned};
@@ -111,7 +111,8 @@ const std::vector<Eigen::Vector2d>& Silhouette::look(const Eigen::Vector3d& u, c
                                                      View& view) const {
   find_rim(u.cross(v), view);
   if (follow_rim(u, v, view)) return view.corners;
-  // Facets so thin that rounding turns them over make more rims than one.
+  // Rounding can flip the orientation of thin facets, which makes more than one closed chain of edges. Then
+  // the corners are found among all vertices.
   view.corners.clear();
   for (const Eigen::Vector3d& p : vertices_)
     view.corners.emplace_back(dot3(u, p), dot3(v, p));

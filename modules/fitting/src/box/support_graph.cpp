@@ -56,7 +56,7 @@ SupportGraph::LowHigh SupportGraph::near_ends(const Eigen::Vector3d& direction) 
   const int second = (axis + 1) % 3, third = (axis + 2) % 3;
   const double major = direction[axis];
   if (major == 0) return {0, 0};
-  const double half = 0.5 * kCells, scale = half / major;  // opposite directions have one cell
+  const double half = 0.5 * kCells, scale = half / major;  // opposite directions share a cell
   const int u = std::min(kCells - 1, static_cast<int>(direction[second] * scale + half));
   const int v = std::min(kCells - 1, static_cast<int>(direction[third] * scale + half));
   LowHigh& found = near_[static_cast<std::size_t>((axis * kCells + u) * kCells + v)];

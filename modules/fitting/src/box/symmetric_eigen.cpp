@@ -11,7 +11,7 @@
 namespace pcl_bv {
 namespace {
 
-// Zeroes a(p, q).
+// Applies to `a` and `v` the rotation that makes a(p, q) zero.
 void rotate(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
   if (a(p, q) == 0) return;
   const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));

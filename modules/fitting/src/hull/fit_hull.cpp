@@ -19,7 +19,7 @@ namespace {
 
 using Normals = std::vector<Eigen::Vector3d>;
 
-// Nothing for vectors that have no direction.
+// Appends v / |v|; nothing for a zero vector.
 void add_unit(const Eigen::Vector3d& v, Normals& normals) {
   const double length = norm3(v);
   if (length > 0) normals.push_back((v / length).array() + 0.0);
@@ -30,9 +30,9 @@ void add_both(const Eigen::Vector3d& v, Normals& normals) {
   add_unit(-v, normals);
 }
 
-// Of the faces; of a flat hull of both sides along each flat direction, then of the edges; last of the box.
-// Without the box, faces that meet at a small angle would, by their rounding, let the body reach far beyond its
-// points.
+// The normals of the planes: of the faces; for a flat hull of both sides along each flat direction, then of
+// the edges; last of the axis-aligned box. Without the box, the rounding of faces that meet at a small angle
+// would let the body extend far beyond its points.
 Normals normals_of(const LocalHull& hull) {
   Normals normals;
   const auto at = [&](std::int32_t i) { return hull.vertices[static_cast<std::size_t>(i)].local; };
@@ -51,7 +51,7 @@ Normals normals_of(const LocalHull& hull) {
   return normals;
 }
 
-// Equal ones once, in the order of their first appearance.
+// Removes repeated normals; the others keep the order of their first appearance.
 void drop_repeated(Normals& normals) {
   std::vector<std::size_t> order(normals.size());
   for (std::size_t i = 0; i < order.size(); ++i)
@@ -69,7 +69,7 @@ void drop_repeated(Normals& normals) {
   normals = std::move(kept);
 }
 
-// By the hundred: some 10 us each where a surface is smooth.
+// Calls measure(plane), 100 planes at a time: a plane takes some 10 us where a surface is smooth.
 template <typename Measure>
 void for_each_plane(const Execution& execution, std::size_t planes, const Measure& measure) {
   constexpr std::size_t kTogether = 100;

@@ -14,7 +14,7 @@ namespace pcl_bv {
 Quickhull::Quickhull(const std::vector<Coordinates>& points, const std::array<std::int32_t, 4>& corners)
     : points_(points), beginning_(points.size()) {
   std::array<std::int32_t, 4> c = corners;
-  // The fourth is below the first three.
+  // The fourth corner must be below the plane of the first three.
   if (side_of_plane(at(c[0]), at(c[1]), at(c[2]), at(c[3])) > 0) std::swap(c[1], c[2]);
   facets_ = {{{c[0], c[1], c[2]}, {1, 2, 3}, {}},
              {{c[1], c[0], c[3]}, {0, 3, 2}, {}},
@@ -36,7 +36,7 @@ std::vector<Triangle> Quickhull::triangles() const {
   return found;
 }
 
-// Facets in one plane are next to one another.
+// Facets in one plane are connected: a search over neighbours finds them.
 std::vector<std::size_t> Quickhull::faces() const {
   std::vector<std::size_t> face(facets_.size());
   std::iota(face.begin(), face.end(), std::size_t{0});
@@ -72,7 +72,8 @@ bool Quickhull::in_plane(const Facet& facet, const Facet& other) const {
   });
 }
 
-// Each point to the first facet from `first` on that it sees; those that see none are inside.
+// Assigns each point to the first facet that it sees, from facet number `first` on. Points that see none are
+// inside.
 void Quickhull::hand_out(const std::vector<std::int32_t>& points, std::size_t first) {
   for (const std::int32_t point : points) {
     const auto seen = std::find_if(facets_.begin() + static_cast<std::ptrdiff_t>(first), facets_.end(),
@@ -81,7 +82,8 @@ void Quickhull::hand_out(const std::vector<std::int32_t>& points, std::size_t fi
   }
 }
 
-// Of equally far ones the first, which of equal points is the one that counts.
+// The point farthest above the facet. Of equally far points the first, because of equal points the first is a
+// vertex.
 std::int32_t Quickhull::farthest(const Facet& facet) const {
   const Eigen::Vector3d a = vector(at(facet.corners[0]));
   const Eigen::Vector3d normal = (vector(at(facet.corners[1])) - a).cross(vector(at(facet.corners[2])) - a);
@@ -98,7 +100,8 @@ std::int32_t Quickhull::farthest(const Facet& facet) const {
   return best;
 }
 
-// Removes the facets that the point sees, from one of them on, and gives the way around them.
+// Removes the facets that the point sees, beginning with one of them. Returns the edges around these facets,
+// the horizon; appends the points above them to `waiting`.
 std::vector<Quickhull::Edge> Quickhull::remove_seen(std::int32_t point, std::int32_t start,
                                                     std::vector<std::int32_t>& waiting) {
   std::vector<Edge> around;
@@ -117,7 +120,7 @@ std::vector<Quickhull::Edge> Quickhull::remove_seen(std::int32_t point, std::int
         stack.push_back(seen.beside[k]);
         continue;
       }
-      other.visited = point;  // asked once
+      other.visited = point;  // so that sees() is called once
       around.push_back({seen.corners[k], seen.corners[(k + 1) % 3], seen.beside[k]});
     }
   }

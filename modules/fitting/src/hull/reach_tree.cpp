@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Branch and bound in rounded local coordinates; what is within their error of the greatest is decided
+// Branch and bound in rounded local coordinates. Points within the error bound of the maximum are compared
 // exactly.
 
 #include "hull/reach_tree.h"
@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t kLeafPoints = 8;
 constexpr std::size_t kFewQuestions = 64;
 
-// Local coordinates are at most 2, off by 4 2^-53 each; a product with a normal and the sum of three add less
-// than 20 times that, box sides the same once more.
+// Error bound of a projection. Local coordinates are at most 2 and off by 4 2^-53. The products with a normal
+// and the sum of three add less than 20 times that, and the sides of a box as much again.
 constexpr double kDoubt = 0x1p-44;
 
 }  // namespace
@@ -41,9 +41,10 @@ double ReachTree::Node::reach(const Eigen::Vector3d& normal) const {
   return dot3(normal, center) + dot3(along.cwiseAbs(), half) + kDoubt;
 }
 
-// In the plane through the farthest point and the one farthest from the line to it, the sides are those of
-// the least rectangle. With a side along that line the box of a square patch would stick out by a third of
-// its width, and of a flat helix of 100 000 points each facet on top would look at half the nodes: 15 s.
+// The axes of the box of some points. Its plane contains the first point, the point farthest from it, and the
+// point farthest from the line through these two. In this plane the sides are those of the smallest
+// rectangle. If a side were along that line, the box of a square patch would be too wide by a third; and for
+// a flat helix of 100 000 points each facet on top would visit half the nodes, which takes 15 s.
 Eigen::Matrix3d ReachTree::sides(std::uint32_t begin, std::uint32_t end) const {
   const auto from_start = [&](std::uint32_t i) -> Eigen::Vector3d {
     return point(i).local - point(begin).local;
@@ -62,8 +63,8 @@ Eigen::Matrix3d ReachTree::sides(std::uint32_t begin, std::uint32_t end) const {
   const Eigen::Vector3d u = unit3(first), second = farthest(u);
   Eigen::Vector3d v = negligible(second) ? Across(u).u : unit3(second);
   v = unit3(v - dot3(v, u) * u);
-  // For so few a rectangle takes longer than it saves: the hull of 300 points of a gaussian 213 us, with one
-  // 253.
+  // For so few points a rectangle takes longer than it saves: the hull of 300 points of a Gaussian takes
+  // 213 us without rectangles and 253 us with them.
   constexpr std::uint32_t kFew = 500;
   Eigen::Vector2d side = Eigen::Vector2d::UnitX();
   if (end - begin > kFew) {
@@ -111,7 +112,7 @@ void ReachTree::build(std::uint32_t begin, std::uint32_t end, std::size_t leaf_p
   build(middle, end, leaf_points);
 }
 
-// The greatest rounded projection, if it is above what is known.
+// Returns the maximum rounded projection of the points below node n, or `known` if that is larger.
 double ReachTree::greatest(const Eigen::Vector3d& normal, double known, std::uint32_t n) const {
   const Node& node = nodes_[n];
   if (node.reach(normal) < known) return known;
@@ -126,6 +127,8 @@ double ReachTree::greatest(const Eigen::Vector3d& normal, double known, std::uin
   return greatest(normal, known, second_reaches ? first : node.second);
 }
 
+// Raises `reach` to the exact projection, rounded up, of each point below node n with a rounded projection of
+// at least `least`.
 void ReachTree::reach_up(const Eigen::Vector3d& normal, double least, std::uint32_t n, double& reach) const {
   const Node& node = nodes_[n];
   if (node.reach(normal) < least) return;

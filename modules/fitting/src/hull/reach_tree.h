@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far a set of points reaches along any direction, exactly, without looking at most of them.
+// The exact maximum projection of a set of points along any direction, without inspecting most of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,23 +12,24 @@
 
 namespace pcl_bv {
 
-/// A tree of boxes over points, each turned as its points lie: on a smooth surface upright ones would stick
-/// out so far that hundreds of points were looked at for each question, not tens.
+/// A tree of oriented boxes over points. Each box is oriented along its points: on a smooth surface,
+/// axis-aligned boxes would be so loose that a query inspects hundreds of points, not tens.
 class ReachTree {
  public:
-  /// Keeps the points, for about so many questions: few of them are not worth a tree. O(m log m).
+  /// Keeps a reference to the points. `questions` is the expected number of queries: a small number does not
+  /// pay for a tree. O(m log m).
   ReachTree(const std::vector<HullPoint>& points, std::size_t questions);
 
-  /// The least double that is not below the exact normal . p for any of the points as they are stored.
-  /// Components of the normal up to 2 in magnitude. O(log m) where few points reach equally far.
+  /// Returns the exact maximum of normal . p over the points as stored, rounded up to a double. Components of
+  /// the normal must be at most 2 in magnitude. O(log m) if few points have nearly the maximum projection.
   double reach_up(const Eigen::Vector3d& normal) const;
 
  private:
   struct Node {
     Eigen::Matrix3d axes;
-    Eigen::Vector3d center, half;  // of a box around the local coordinates
-    std::uint32_t begin, end;      // of its points in order_
-    std::uint32_t second;          // the second child; the first follows its parent; 0: a leaf
+    Eigen::Vector3d center, half;  // of the box, in local coordinates
+    std::uint32_t begin, end;      // range of its points in order_
+    std::uint32_t second;          // position of the second child; 0: a leaf. The first child is next
 
     double reach(const Eigen::Vector3d& normal) const;
   };

@@ -19,8 +19,8 @@ namespace pcl_bv {
 
 namespace {
 
-// What of these points is needed where more are than can be kept, but for their moments: number(i) is that of
-// the i-th in the whole cloud.
+// Sets counts, support points and extreme points, but no moments, in the state of points that are not all
+// stored. number(i) is the number of the i-th point in the whole cloud.
 template <typename Number>
 void add_extremes(const PointView& points, const Execution& execution, const Number& number,
                   PartialState& state) {
@@ -57,7 +57,7 @@ MomentTree block_moments_of(const PointView& points, std::size_t first_block, co
   return blocks;
 }
 
-// Of more points than can be kept.
+// The state of more than kAllKept points.
 PartialState state_of(const PointView& points, std::size_t first, const Execution& execution) {
   PartialState state;
   state.scalar = points.scalar;
@@ -72,7 +72,7 @@ PartialState state_of(const PointView& points, std::size_t first, const Executio
   return state;
 }
 
-// The same points as those of more than can be kept.
+// The state of the same points in the form of more than kAllKept points.
 PartialState reduced(PartialState state) {
   if (!state.all_kept() || state.loose.empty()) return state;
   const HeldPoints held(state.loose, state.scalar);
@@ -108,7 +108,8 @@ MomentTree tree_of(MomentNodes nodes) {
   return tree;
 }
 
-// Lets blocks that have become whole leave the loose points.
+// Moves the blocks that have become complete from the loose points to the tree, which is built of these and
+// `nodes`.
 void sum_whole_blocks(PartialState& state, MomentNodes nodes) {
   NumberedPoints loose;
   for_each_block(state.loose, [&](std::size_t block, const NumberedPoints& points) {
@@ -145,7 +146,8 @@ PartialState merged(const PartialState& one, const PartialState& other) {
   return both;
 }
 
-// The extreme points and the ends, which of a flat side may be any point of it.
+// The points that represent the cloud: the extreme points and the support points. On a flat side, a support
+// point may be any point of the side, so it need not be an extreme point.
 NumberedPoints standing_for_all(const PartialState& state) {
   NumberedPoints points = state.extreme;
   for (const SupportPoint& end : state.ends) {
@@ -164,7 +166,7 @@ std::shared_ptr<const Moments> moments_of_all(const PartialState& state) {
   return std::make_shared<Moments>(tree_of(std::move(nodes)).total());
 }
 
-// Of the cloud, as those of points that stand for it.
+// The supports of the whole cloud, with indices into `points`, which represent it.
 Supports supports_of(const PartialState& state, const NumberedPoints& points, const PointView& view,
                      const Execution& execution) {
   Supports supports;
@@ -245,7 +247,7 @@ EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate&
   const NumberedPoints points = standing_for_all(*state_);
   const HeldPoints held(points, state_->scalar);
   Supports supports = supports_of(*state_, points, held.view(), execution);
-  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // by the numbers of the cloud
+  for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // with indices in the whole cloud
     supports.along[k].low_point.index = state_->ends[2 * k].index;
     supports.along[k].high_point.index = state_->ends[2 * k + 1].index;
   }

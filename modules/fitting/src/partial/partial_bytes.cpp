@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All numbers are little-endian, as they lie in memory on every machine that pcl_bv runs on:
-//   "PCLBVPRT"  version: u32  scalar: u32 (4 or 8 bytes)  used, dropped: u64  the 26 ends
-//   loose points, extreme points, nodes of moments: u64 how many, then each
-//   CRC-32 of all before: u32
+// The bytes of a Partial. All numbers are little-endian, as in memory on every machine that pcl_bv supports:
+//   "PCLBVPRT"  version: u32  scalar: u32 (4 or 8 bytes)  used, dropped: u64  26 support points
+//   loose points, extreme points, nodes of moments: for each list u64 count, then the elements
+//   CRC-32 of all bytes before: u32
 
-// Also what a Partial is without its points' kernels, so that the fuzzer of its bytes needs none.
+// This file also holds the members of Partial that need no kernels, so that the fuzzer of the bytes needs
+// none.
 
 #include <algorithm>
 #include <boost/crc.hpp>
@@ -86,7 +87,7 @@ class Reader {
   std::size_t left_;
 };
 
-// One description for both ways: Io is Writer or Reader, the rest const for a Writer.
+// One description for both directions: Io is Writer or Reader. For a Writer the other arguments are const.
 
 template <typename Io, typename Point>
 void transfer_point(Io& io, Point& p) {
@@ -130,7 +131,7 @@ void write(const NumberedPoints& points, Writer& out) {
     transfer_numbered(out, p);
 }
 
-// How many elements of at least that size follow.
+// Reads the number of elements that follow. Each has at least `element` bytes.
 std::size_t read_count(Reader& in, std::size_t element) {
   std::size_t count = 0;
   in(count);
@@ -148,7 +149,7 @@ NumberedPoints read_points(Reader& in) {
   return points;
 }
 
-// So many have points with numbers.
+// The largest number of blocks for which every point has a number.
 constexpr std::size_t kMostBlocks = std::numeric_limits<std::size_t>::max() / kBlockPoints;
 
 MomentTree read_tree(Reader& in) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Compass search in the plane that touches the sphere of directions.
+// Compass search in the tangent plane of the sphere of directions.
 
 #include "round/axis_search.h"
 
@@ -28,8 +28,9 @@ std::vector<Eigen::Vector3d> hemisphere() {
   return axes;
 }
 
-// Moves to the best of eight neighbours while one is better, then halves the step and turns the pattern by
-// what 3/5, 4/5 make, so that ridges along it do not hold for long.
+// Moves to the best of eight neighbours while one is better. Otherwise halves the step and rotates the
+// pattern by the angle with the cosine 3/5 and the sine 4/5, so that a ridge along the pattern does not stop
+// the search for long.
 void improve(Rated& best, double step, double last_step,
              const std::function<double(const Eigen::Vector3d&)>& size) {
   constexpr int kMostMoves = 400;

@@ -15,12 +15,12 @@ namespace pcl_bv {
 namespace {
 
 struct Candidate {
-  double low = 0, high = 0;  // the ends along the axis
+  double low = 0, high = 0;  // the ends of the segment, along the axis
   double radius = 0;
-  double volume() const { return radius * radius * ((high - low) + 4 * radius / 3); }  // over pi
+  double volume() const { return radius * radius * ((high - low) + 4 * radius / 3); }  // divided by pi
 };
 
-// The shortest one of this radius: each cap's centre is as far in as the points leave it.
+// The shortest capsule of this radius: each cap's centre is as far inward as the points allow.
 Candidate shortest(const Profile& profile, double squared_radius) {
   double low = profile.along.front(), high = low;
   bool first = true;
@@ -34,10 +34,10 @@ Candidate shortest(const Profile& profile, double squared_radius) {
   return {low, high, std::sqrt(squared_radius)};
 }
 
-// Wider ones can be so much shorter that they are smaller.
+// Tries larger radii: a wider capsule can be so much shorter that its volume is smaller.
 Candidate widened(const Profile& profile) {
   Candidate best = shortest(profile, profile.squared_radius);
-  constexpr int kHalvings = 18;  // down to 2e-6 of the radius
+  constexpr int kHalvings = 18;  // steps down to 2e-6 of the radius
   double width = 1, step = 0.25;
   for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
     for (const double next : {width * (1 + step), std::max(1.0, width / (1 + step))}) {
@@ -50,7 +50,9 @@ Candidate widened(const Profile& profile) {
   return best;
 }
 
-// Everything within 20 U |q|_1 + 20 U |ends apart|: feet, differences and lengths together.
+// The capsule with these ends around all points. With q = p - a and e = b - a, the computed distance from the
+// segment is off by less than 20 U (|q|_1 + |e|_1), U = 2^-53: the foot, the differences and the lengths
+// together.
 Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& a,
                          const Eigen::Vector3d& b) {
   const Eigen::Vector3d e = (b - a) * frame.scale();

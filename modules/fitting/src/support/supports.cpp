@@ -17,13 +17,13 @@
 namespace pcl_bv {
 namespace {
 
-// Whether all directions of a set are among those that were searched, with what is asked of them.
+// Whether `known` has all directions of `set`, with the points if `detail` wants them.
 bool holds(const Supports& known, DirectionSet set, SupportDetail detail) {
   const bool directions = known.set == set || known.set == DirectionSet::dop26 || set == DirectionSet::dop6;
   return directions && (known.detail == SupportDetail::points || detail == SupportDetail::bounds);
 }
 
-// The same with fewer directions.
+// Returns the supports of `known` along the directions of `set`, which holds() must allow.
 Supports part_of(const Supports& known, DirectionSet set) {
   Supports part = known;
   part.set = set;
