@@ -49,8 +49,24 @@ class Parts {
     return parts_[size_ - 1] > 0 ? 1 : -1;
   }
 
+  // Makes each part the rounded sum of itself and all smaller ones (the first pass of Shewchuk's COMPRESS), so that
+  // each is at most 2^-52 of the next larger one: the 2098 binary digits of a double hold at most 41 such parts.
+  void compress() {
+    if (size_ == 0) return;
+    std::size_t lowest = size_ - 1;
+    double rounded = parts_[lowest];
+    for (std::size_t i = size_ - 1; i-- > 0;) {
+      const auto [sum, error] = two_sum(rounded, parts_[i]);
+      if (error != 0) parts_[lowest--] = sum;
+      rounded = error != 0 ? error : sum;
+    }
+    parts_[lowest] = rounded;
+    std::copy(parts_.begin() + static_cast<std::ptrdiff_t>(lowest), parts_.begin() + static_cast<std::ptrdiff_t>(size_), parts_.begin());
+    size_ -= lowest;
+  }
+
  private:
-  std::array<double, 33> parts_;  // the terms, and one more that up() adds
+  std::array<double, Expansion::capacity + 1> parts_;  // the terms, and one more that up() adds
   std::size_t size_ = 0;
 };
 
@@ -81,18 +97,19 @@ Expansion& Expansion::add_product(double a, double b) {
   return exact ? *this : add(std::fma(a, b, -p));
 }
 
-// Sums of differences have more than 32 terms, but most of them cancel.
+// Sums of differences can have more terms than there is capacity for. compress() always leaves free capacity.
 void Expansion::compact() {
-  const Parts parts(terms_.data(), size_);
+  Parts parts(terms_.data(), size_);
+  parts.compress();
   size_ = 0;
   head_ = low_ = magnitude_ = 0;
   for (std::size_t i = 0; i < parts.size(); ++i)
     add(parts[i]);
 }
 
-// Bounds what head_ + low_ lacks of the sum. low_ is the sum of at most 32 errors, each at most 2^-53 of the
-// magnitude; adding them up made 32 errors of at most 2^-53 of their sum. Together that is 2^-96 of the
-// magnitude. A product below 2^-960 lost less than that if the magnitude exceeds 2^-900. The result is NaN
+// Bounds what head_ + low_ lacks of the sum. low_ is the sum of at most 44 errors, each at most 2^-53 of the
+// magnitude; adding them up made 44 errors of at most 2^-53 of their sum. Together that is 44^2 2^-106 < 2^-95 of
+// the magnitude. A product below 2^-960 lost less than that if the magnitude exceeds 2^-900. The result is NaN
 // for smaller magnitudes, and near the largest double, where partial sums may overflow: then no comparison
 // with it holds and the expansion decides.
 double Expansion::missing() const {

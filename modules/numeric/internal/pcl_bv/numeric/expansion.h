@@ -11,7 +11,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An exact sum of doubles and of products of doubles, whose results are rounded only at the end.
 ///
-/// Holds 32 terms (a product is two terms); when it is full, terms that cancel are merged. Most results come
+/// Holds 44 terms (a product is two terms); when it is full, terms are merged without loss into at most 41. Most results come
 /// from a sum of twice the precision of a double with an error bound; where that does not decide, from a
 /// non-overlapping expansion (Shewchuk 1997).
 ///
@@ -20,6 +20,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// caller must hold a FloatEnvironment.
 class Expansion {
  public:
+  static constexpr std::size_t capacity = 44;  ///< Terms.
+
   /// Adds x, or a * b.
   Expansion& add(double x);
   Expansion& add_product(double a, double b);
@@ -49,7 +51,6 @@ class Expansion {
   double missing() const;
   void compact();
 
-  static constexpr std::size_t capacity = 32;
   std::array<double, capacity> terms_;  // none of them is zero
   std::size_t size_ = 0;
   // The sum differs from head_ + low_ by at most missing().
