@@ -125,7 +125,7 @@ std::optional<RayInterval> Sphere::intersect(const Eigen::Vector3d& origin,
 
 bool Sphere::overlaps(const Sphere& other) const {
   const FloatEnvironment environment;
-  return within_rounding(center_, other.center_, radius_ + other.radius_);  // false if a centre is NaN (empty)
+  return within_rounding(center_, other.center_, radius_ + other.radius_);  // false if either is empty
 }
 
 Aabb Sphere::aabb() const {
