@@ -52,8 +52,8 @@ class Cylinder {
   double distance(const Eigen::Vector3d& point) const;
 
   /// Returns the part of the ray origin + t * direction, t >= 0, inside the cylinder; see RayInterval. Both
-  /// ends of the interval lie in a cylinder whose radius and half height are larger by at most 2^-43 (|origin
-  /// - center|_1 + radius + half_height).
+  /// ends of the interval lie in a cylinder whose radius and half height are larger by at most
+  /// 2^-43 (|origin - center|_1 + radius + half_height).
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns a box that encloses the cylinder by exact arithmetic; larger than the smallest such box by about

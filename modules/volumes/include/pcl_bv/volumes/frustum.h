@@ -14,17 +14,17 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// `pose` is the transform from the camera's frame to the frame of the points. The camera is at the origin of
 /// its frame and looks along z, with x to the right and y down: the optical frame of ROS, not the frame of
-/// pcl::FrustumCulling, which has x forward. In the camera's frame, the frustum is near <= z <= far, |x| <= z
-/// horizontal_tan and |y| <= z vertical_tan. The tangents are those of half the fields of view: for a pinhole
-/// camera, horizontal_tan is (columns / 2) / fx.
+/// pcl::FrustumCulling, which has x forward. In the camera's frame, the frustum is near <= z <= far,
+/// |x| <= z horizontal_tan and |y| <= z vertical_tan. The tangents are those of half the fields of view: for
+/// a pinhole camera, horizontal_tan is (columns / 2) / fx.
 ///
 /// Vertex i is at `far` if bit 2 of i is set, at positive x if bit 0 is set and at positive y if bit 1 is
 /// set. The planes are near, far, positive x, negative x, positive y, negative y. Vertices are rounded; each
 /// plane is moved outward until it encloses all vertices by exact arithmetic.
 ///
-/// `near` 0 gives a complete pyramid. Throws std::invalid_argument unless 0 <= near < far <= 1e100, both
-/// tangents are above 0 and at most 1e6, the translation of the pose is within 1e100, and its axes are
-/// right-handed, and unit and orthogonal to 1e-6.
+/// `near` 0 gives a complete pyramid. Throws std::invalid_argument unless 0 <= near < far <= 1e100 and both
+/// tangents are above 0 and at most 1e6. Also throws unless the translation of the pose is from -1e100 to
+/// 1e100 in each coordinate, and its axes are right-handed, and unit and orthogonal to 1e-6.
 Hull frustum(const Eigen::Isometry3d& pose, double near, double far, double horizontal_tan,
              double vertical_tan);
 

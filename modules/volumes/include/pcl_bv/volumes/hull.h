@@ -64,7 +64,7 @@ class Hull {
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty or flat. O(triangles).
-  double surface_area() const;  ///< Surface area in squared units; both sides of a flat hull count. 0 if empty.
+  double surface_area() const;  ///< Area in squared units; both sides of a flat hull count. 0 if empty.
 
   /// Returns the centre of mass of the hull; if flat, that of the polygon, segment or point. NaN if empty.
   Eigen::Vector3d center() const;

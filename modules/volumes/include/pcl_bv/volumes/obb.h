@@ -23,9 +23,9 @@ struct FloatObb {
   Eigen::Vector3f half_extents;
 };
 
-/// An oriented box in the frame and unit of its points: the closed set of all p with |axis(i) . (p - center)|
-/// <= half_extents[i] for i = 0, 1, 2, by exact arithmetic on the stored doubles. The axes are right-handed,
-/// and unit and orthogonal to 1e-12.
+/// An oriented box in the frame and unit of its points: the closed set of all p with
+/// |axis(i) . (p - center)| <= half_extents[i] for i = 0, 1, 2, by exact arithmetic on the stored doubles.
+/// The axes are right-handed, and unit and orthogonal to 1e-12.
 ///
 /// The empty box has half extents -1, centre NaN and the coordinate axes. A box with a half extent of 0 is
 /// flat and a valid volume. Coordinates beyond 1e100 are not supported.
@@ -76,12 +76,12 @@ class Obb {
   /// Returns whether the box contains the point. Conservative: true for every point that is inside by exact
   /// arithmetic. False for an empty box and for a point with a coordinate that is not finite.
   ///
-  /// Computed in double: with q = point - center and s = axis . q, |s| <= half extent + 8 * 2^-53 |q|_1 +
-  /// 2^-1022 for each axis.
+  /// Computed in double, with q = point - center and s = axis . q. For each axis,
+  /// |s| <= half extent + 8 * 2^-53 |q|_1 + 2^-1022.
   bool contains(const Eigen::Vector3d& point) const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty or flat.
-  double surface_area() const;  ///< Surface area in squared units; both sides of a flat box count. 0 if empty.
+  double surface_area() const;  ///< Area in squared units; both sides of a flat box count. 0 if empty.
 
   /// Returns a corner that is farthest along `direction` (any length). NaN if empty.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
@@ -99,8 +99,9 @@ class Obb {
   std::optional<RayInterval> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Returns whether the boxes have a point in common. Conservative: true for all boxes that overlap by exact
-  /// arithmetic. False if either box is empty. Separating axes (Gottschalk et al. 1996); a gap of less than
-  /// 4e-12 of the sizes plus the distance of the centres is treated as no gap.
+  /// arithmetic. False if either box is empty. Separating axes (Gottschalk et al. 1996). A gap is treated as
+  /// no gap if it is at most 4e-12 of the sum of all half extents and |c2 - c1|_1, where c1 and c2 are the
+  /// centres.
   bool overlaps(const Obb& other) const;
 
   /// Returns the eight corners, rounded. Corner i is on the positive side of axis 0 if bit 0 of i is set, of
@@ -147,9 +148,9 @@ class Obb {
   /// 2, points along x (along y if axis 2 is less than 45 degrees from the x axis). NaN if empty.
   double yaw() const;
 
-  /// Returns the same box with the order and signs of its axes, out of 24, that need the smallest rotation
-  /// from `previous`. Trackers use it so that a box does not flip between frames. Unchanged if either box is
-  /// empty.
+  /// Returns the same box with its axes reordered and negated: in the way, out of 24, that has the smallest
+  /// rotation from `previous`. Trackers use it so that a box does not flip between frames. Unchanged if either
+  /// box is empty.
   Obb oriented_as(const Obb& previous) const;
 
   /// Returns a float copy that encloses the box.

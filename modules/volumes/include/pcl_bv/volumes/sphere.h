@@ -42,8 +42,8 @@ class Sphere {
   /// Returns whether the sphere contains the point. Conservative: true for every point that is inside by
   /// exact arithmetic. False for an empty sphere and for a point with a coordinate that is not finite.
   ///
-  /// Computed in double: with q = point - center, (qx^2 + qy^2) + qz^2 <= radius^2 (1 + 16 * 2^-53) +
-  /// 2^-1022.
+  /// Computed in double, with q = point - center:
+  /// (qx^2 + qy^2) + qz^2 <= radius^2 (1 + 16 * 2^-53) + 2^-1022.
   bool contains(const Eigen::Vector3d& point) const;
 
   /// Returns the limit up to which contains() accepts squared distances from the centre; -1 if empty.
