@@ -23,8 +23,9 @@ using namespace volumes_internal;
 
 namespace {
 
-// Returns the distance of a point from the segment from a to b; q is the point and e is b, both relative to
-// a. An error of the foot of the perpendicular increases the distance, by less than that error.
+// Returns the distance of a point from a segment; q is the point and e the segment's second end, both
+// relative to its first end. An error of the foot of the perpendicular increases the distance, by less than
+// that error.
 double distance_to_segment(const Eigen::Vector3d& q, const Eigen::Vector3d& e) {
   const double length = e.stableNorm();
   if (length == 0) return q.stableNorm();
@@ -53,9 +54,9 @@ Capsule::Capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radi
   radius_ = radius + 0.0;
 }
 
-// Rounding moves q and e by U = 2^-53 of themselves, the foot of the perpendicular by less than 12 U (|q| +
-// |e|) and the distance by that plus 6 U of itself. Near the surface, the distance is about the radius, so
-// the tolerance of 2^-48 (|q|_1 + |e|_1 + radius), which is 32 U, exceeds the sum.
+// Rounding moves q and e by U = 2^-53 of themselves, the foot of the perpendicular by less than
+// 12 U (|q| + |e|) and the distance by that plus 6 U of itself. Near the surface, the distance is about the
+// radius, so the tolerance of 32 U (|q|_1 + |e|_1 + radius) exceeds the sum.
 bool Capsule::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;

@@ -68,8 +68,8 @@ Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
   return center_ + axes_ * radii_.cwiseProduct(unit);
 }
 
-// In coordinates in which the ellipsoid is the unit sphere, positions of the ray are off by less than `doubt`
-// / smallest radius, up to the point where the ray leaves. The sphere is inflated by that.
+// In coordinates in which the ellipsoid is the unit sphere, positions of the ray up to its exit are off by
+// less than `doubt` divided by the smallest radius. The sphere is inflated by that.
 std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
                                                 const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
@@ -104,9 +104,9 @@ Aabb Ellipsoid::aabb() const {
   return box_around(center_, half);
 }
 
-// A point center + q has the new coordinates a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, with d_i = M'
-// a'_i - a_i and e the rounding error of the new centre. The last two terms are at most extra_i together. So
-// it suffices that all radii grow by the factor 1 + |(extra_i / radius_i)|.
+// A point center + q has the new coordinates a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, where
+// d_i = M' a'_i - a_i and e is the rounding error of the new centre. The last two terms are at most extra_i
+// together. So it suffices that all radii grow by the factor 1 + |(extra_i / radius_i)|.
 Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

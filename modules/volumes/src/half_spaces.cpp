@@ -160,8 +160,8 @@ void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::
 
 // Each side of the box is proven without the box, with a residual r. If |r|_1 < 1 for all six directions
 // +-e_k, the body is bounded: a v in its recession cone with the largest component v_k = +-1 would satisfy
-// +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1, a contradiction. So there is a largest |q|_inf, R, and R
-// <= reach + |r|_1 R.
+// +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1, a contradiction. So there is a largest |q|_inf, R, with
+// R <= reach + |r|_1 R.
 bool HalfSpaces::enclose(double guess) {
   const std::size_t usable = size();
   for (int side = 0; side < 6; ++side) {

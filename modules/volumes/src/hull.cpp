@@ -68,8 +68,8 @@ Body body_of(const Hull& hull) {
 
 // Returns an upper bound of normal . (matrix p + shift) over all p of the hull, where `normal` is
 // plane.normal rotated by the matrix. With the tiny d = matrix' normal - plane.normal, the value is
-// plane.normal . p + d . p + normal . shift. The first term is at most plane.offset, the second at most d .
-// middle + |d| . reach, for a box around the hull with centre `middle` and half extents `reach`.
+// plane.normal . p + d . p + normal . shift. The first term is at most plane.offset, the second at most
+// d . middle + |d| . reach, for a box around the hull with centre `middle` and half extents `reach`.
 double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const Eigen::Isometry3d& transform,
                     const Eigen::Vector3d& middle, const Eigen::Vector3d& reach) {
   Expansion sum;

@@ -114,7 +114,7 @@ class PairSearch {
 
   void prove(const Eigen::Vector3d& d) { found_ = std::max(found_, certified(d)); }
 
-  // Returns the point of the difference b - a with the smallest projection on d, in units of 1 / scale_.
+  // Returns the point of the difference b - a with the smallest projection on d, multiplied by scale_.
   template <typename Real>
   Vector<Real> support(const Eigen::Vector3d& d) const {
     const Vector<Real> w = difference(delta_, delta_rest_, b_.support(-d), a_.support(d), Real());

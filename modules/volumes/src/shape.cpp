@@ -110,7 +110,7 @@ Eigen::Vector3d combined(const Eigen::Matrix3d& columns, const Eigen::Vector3d& 
   return {dot3(columns.row(0), s), dot3(columns.row(1), s), dot3(columns.row(2), s)};
 }
 
-// A point q can be longer than its components along axes that are orthonormal only to 1e-12, by this factor.
+// By this factor, |q| can exceed the length computed from components along axes orthonormal to 1e-12.
 constexpr double kSkewed = 1 + 0x1p-36;
 
 class TurnedBoxShape final : public Shape {
@@ -173,9 +173,9 @@ class EllipsoidShape final : public Shape {
   Eigen::Vector3d radii_;
 };
 
-// With the axis u, each point is q = t u + v with |t| <= h / |u|, v perpendicular to u and |v| <= r. So d . q
-// <= (h |d . u| + r |d x u|) / |u|, and |u| is 1 to 2^-50. The error of d . u is below 4 U |d|, that of d x u
-// below 6 U |d|.
+// With the axis u, each point is q = t u + v with |t| <= h / |u|, v perpendicular to u and |v| <= r. So
+// d . q <= (h |d . u| + r |d x u|) / |u|, where |u| is 1 to 2^-50. The error of d . u is below 4 U |d|, the
+// error of d x u below 6 U |d|.
 class CylinderShape final : public Shape {
  public:
   explicit CylinderShape(const Cylinder& c)

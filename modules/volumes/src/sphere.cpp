@@ -53,9 +53,9 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return dot3(q, q) <= square_within_rounding(r);
 }
 
-// Clips the ray to an interval around the computed point of the line that is nearest to the centre. With U =
-// 2^-53 and q = origin - center, the position of that point is off by at most 4 U |q|, its distance h from
-// the centre by another 9 U |q|; along the line, it is at most 8 U |q|_1 from the exact foot of the
+// Clips the ray to an interval around the computed point of the line that is nearest to the centre. Let
+// q = origin - center and U = 2^-53. The position of that point is off by at most 4 U |q|, and its distance h
+// from the centre by another 9 U |q|. Along the line, it is at most 8 U |q|_1 from the exact foot of the
 // perpendicular. A radius that is larger by 52 U |q|_1 covers all of that; 64 U |q|_1 also cover the rounding
 // of the radius.
 void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,

@@ -137,10 +137,10 @@ class Obb {
 
   /// Returns the same box with its axes in the order and direction of every upright method. Axis 2 is the
   /// axis nearest to `up` (any length from 1e-100 to 1e100) and points up. Axis 0 is the longer of the other
-  /// two axes, with a yaw() from -pi/2 (exclusive) to pi/2. Axis 1 makes the axes right-handed. If the two
-  /// sizes agree to 2^-40, axis 0 is the axis whose yaw has the smaller magnitude (at 45 degrees: the
-  /// positive yaw). Components below 1e-9 are treated as 0, so that rounding noise does not flip an axis. An
-  /// empty box stays empty.
+  /// two axes, with a yaw() from -pi/2 (exclusive) to pi/2. Axis 1 makes the axes right-handed. If the
+  /// horizontal sizes agree to 2^-40, axis 0 is the axis whose yaw has the smaller magnitude (at 45 degrees:
+  /// the positive yaw). Components below 1e-9 are treated as 0, so that rounding noise does not flip an axis.
+  /// An empty box stays empty.
   Obb upright(const Eigen::Vector3d& up) const;
 
   /// Returns the rotation of axis 0 about axis 2 in radians, from -pi (exclusive) to pi. With axis 2 along z,
@@ -148,9 +148,9 @@ class Obb {
   /// 2, points along x (along y if axis 2 is less than 45 degrees from the x axis). NaN if empty.
   double yaw() const;
 
-  /// Returns the same box with its axes reordered and negated: in the way, out of 24, that has the smallest
-  /// rotation from `previous`. Trackers use it so that a box does not flip between frames. Unchanged if either
-  /// box is empty.
+  /// Returns the same box with its axes reordered and negated: of the 24 possible ways, the way with the
+  /// smallest rotation from `previous`. Trackers use it so that a box does not flip between frames. Unchanged
+  /// if either box is empty.
   Obb oriented_as(const Obb& previous) const;
 
   /// Returns a float copy that encloses the box.
