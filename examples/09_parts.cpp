@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cloud in parts, on many machines or in many files: the volumes of the whole from what each part sends.
+// Fits volumes to a cloud whose parts are on many machines or in many files, from a short message for each
+// part.
 #include <pcl_bv/fitting/methods.h>
 #include <pcl_bv/fitting/partial.h>
 
@@ -18,9 +19,10 @@ int main() {
 
   pcl_bv::Partial all;
   for (std::size_t first = 0; first < whole.count; first += 20'000) {
-    const pcl_bv::Partial part(whole.slice(first, 20'000));           // on its machine
-    const std::vector<std::byte> message = part.to_bytes();          // some kilobytes
-    all.merge(pcl_bv::Partial::from_bytes(message.data(), message.size()));  // where they meet, in any order
+    const pcl_bv::Partial part(whole.slice(first, 20'000));  // on the machine that has the part
+    const std::vector<std::byte> message = part.to_bytes();  // a few kilobytes
+    // On the machine that fits the volumes; messages may arrive in any order.
+    all.merge(pcl_bv::Partial::from_bytes(message.data(), message.size()));
     std::cout << "a part of 20000 points: " << message.size() << " bytes\n";
   }
   const pcl_bv::Method& method = *pcl_bv::find_method("obb-min");

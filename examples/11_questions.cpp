@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Questions to one sweep: what is near, is a robot's way free, what does a ray hit.
+// Queries of one sweep: nearest point, points in view, collision along a path, ray hit, contact of a robot
+// arm.
 #include <pcl_bv/trees/collision.h>
 #include <pcl_bv/trees/point_tree.h>
 #include <pcl_bv/volumes/frustum.h>
@@ -12,7 +13,7 @@
 int main() {
   std::vector<float> xyz;
   for (int i = 0; i < 100; ++i) {
-    for (int j = 0; j < 100; ++j)  // a wall 5 m ahead, 4 m wide and 3 m high
+    for (int j = 0; j < 100; ++j)  // a wall 5 m ahead (x), 4 m wide (y) and 3 m high (z)
       xyz.insert(xyz.end(), {5, 0.04F * static_cast<float>(i) - 2, 0.03F * static_cast<float>(j)});
   }
   const auto cloud = pcl_bv::PointView::of(xyz.data(), 3 * sizeof(float), xyz.size() / 3);
@@ -25,12 +26,12 @@ int main() {
                   seen);
   std::cout << "nearest point " << nearest->index << ", " << seen.size() << " points in view\n";
 
-  // A way of 4 m, as wide as the robot, and one of 6.
+  // Paths of 4 m and 6 m, with the radius of the robot: the longer path hits the wall.
   const bool short_way = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {4, 0, 1}, 0.5));
   const bool long_way = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {6, 0, 1}, 0.5));
   const auto hit = tree.first_hit({0, 0, 1}, {1, 0, 0}, 0.05);
 
-  // An arm of two links, in the posture that it was modelled in, and 4 m ahead of there.
+  // An arm of two links: first at the pose of its model, then 4.08 m ahead of it.
   const pcl_bv::MovingVolumes arm(
       {pcl_bv::Capsule({0, 0, 1}, {0.5, 0, 1}, 0.1), pcl_bv::Aabb({0.5, -0.1, 0.9}, {0.9, 0.1, 1.1})});
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

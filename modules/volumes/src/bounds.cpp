@@ -14,12 +14,12 @@
 namespace pcl_bv::volumes_internal {
 namespace {
 
-// Squares of anything between 2^-400 and 2^400 are far from both ends of double; below, a factor of 2^600
-// lifts them.
+// Squares of values between 2^-400 and 2^400 are well inside the range of double. Smaller values are
+// multiplied by 2^600 first.
 constexpr double kSmallExtent = 0x1p-400;
 constexpr double kLift = 0x1p600;
 
-// Adds sign * (a - b)^2, six terms. a - b = d + e exactly.
+// Adds sign * (a - b)^2 exactly, as three products: a - b = d + e, where e is the rounding error of d.
 void add_square_of_difference(Expansion& sum, double a, double b, double sign) {
   const double d = a - b;
   const double e = Expansion().add(a).add(-b).add(-d).value();
@@ -46,7 +46,7 @@ bool within(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double
   const double slack = r - s;
   const Eigen::Vector3d q = a - b;
   const double d2 = dot3(q, q);
-  // d2 is off by at most 5 units of 2^-53 and slack^2 by 3; 2^-48 is 32 of them.
+  // The relative errors of d2 and slack^2 are at most 5 * 2^-53 and 3 * 2^-53; 2^-48 is 32 * 2^-53.
   constexpr double doubt = 0x1p-48;
   const double limit = slack * slack;
   if (limit > kSmallExtent * kSmallExtent) {

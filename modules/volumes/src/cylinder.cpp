@@ -22,17 +22,18 @@ using namespace volumes_internal;
 
 namespace {
 
-// Of q seen from the centre: how far along the axis, and how far from it.
+// A vector q from the centre, relative to the axis.
 struct Seen {
-  double along;
-  Eigen::Vector3d across;  // q x axis: as long as q is far from the axis
+  double along;            // q . axis
+  Eigen::Vector3d across;  // q x axis, whose length is the distance of q from the axis
 };
 
 Seen see(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(q, axis), q.cross(axis)};
 }
 
-// The vector if it is of length 1 to 2^-50 already, else made so: what was normalised once stays as it is.
+// Returns the vector unchanged if its squared length is 1 to 2^-50, else normalised. So a vector that was
+// normalised once never changes again.
 Eigen::Vector3d unit_axis(const Eigen::Vector3d& v) {
   const Eigen::Vector3d unit = std::abs(dot3(v, v) - 1) <= 0x1p-50 ? v : v.stableNormalized();
   return unit.array() + 0.0;
@@ -63,9 +64,9 @@ Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, d
   half_height_ = half_height + 0.0;
 }
 
-// Each component of q is off by U = 2^-53 of itself, along by 5 U |q|_1, across by 6 U |q|_1 in each
-// component, 11 in length, the length's own rounding is 4 U of it and that of |axis| another 4: 32 U |q|_1 is
-// more than each.
+// Errors, with U = 2^-53: each component of q is off by U of itself, `along` by 5 U |q|_1, each component of
+// `across` by 6 U |q|_1 and its length by 11 U |q|_1. Computing the length adds 4 U of it, and |axis| another
+// 4 U. The tolerance of 32 U |q|_1 exceeds all sums of these.
 bool Cylinder::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;
@@ -89,7 +90,7 @@ double Cylinder::surface_area() const {
 Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
-  // Of d nearly along the axis, what is left of subtracting that would be rounding, in any direction.
+  // For d nearly parallel to the axis, d - (d . axis) axis would be rounding noise in any direction.
   const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));
   return center_ + (dot3(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
          radius_ * across.stableNormalized();
@@ -106,9 +107,9 @@ double Cylinder::distance(const Eigen::Vector3d& point) const {
       .stableNorm();
 }
 
-// Where the ray is between the ends, it is no farther from the origin than |q| + half_height and the radius
-// tell, and all of this is off by less than `doubt`: a cylinder that has grown by it holds the true one.
-// (Half of it covers the positions, half the roots.)
+// The part of the ray inside the cylinder is no farther from the ray's origin than |q|, half_height and the
+// radius allow, so its ends are off by less than `doubt`: half of that covers the positions, half the square
+// roots. A cylinder that is inflated by `doubt` therefore encloses the exact cylinder.
 std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
@@ -138,7 +139,7 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
   });
 }
 
-// |axis| is 1 to 2^-50, so each half extent is off by no more than 2^-49 of the sum of sizes.
+// |axis| is 1 to 2^-50, so each half extent is off by at most 2^-49 (half_height + radius).
 Aabb Cylinder::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
@@ -158,9 +159,10 @@ Mesh Cylinder::mesh() const {
                    Triad(axis_), 48);
 }
 
-// A point center + s axis + v goes to the moved centre + s (length w + e) + M v, with w the new axis and e,
-// small, what the rounding of it leaves; M v reaches along w as far as v along M' w, which is the old axis
-// and, again, little else.
+// A point center + s axis + v, with v perpendicular to the axis, moves to the new centre + s (length w + e) +
+// M v, where w is the new axis and e the small error M axis - length w. The projection of M v on w is that of
+// v on M' w. M' w is `length` times the old axis plus a small error. Since v is perpendicular to the old
+// axis, only the error counts, and `back` bounds its projection.
 Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

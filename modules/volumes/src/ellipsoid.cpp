@@ -38,7 +38,7 @@ Ellipsoid::Ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes,
   radii_ = radii.array() + 0.0;
 }
 
-// Each axis . q is off by at most 5 U |q|_1 (U = 2^-53), the quotients, squares and sums by 6 U more.
+// Each axis . q is off by at most 5 U |q|_1 (U = 2^-53); quotients, squares and the sum add 6 U.
 bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d q = point - center_;
@@ -46,7 +46,7 @@ bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
     const double along = std::max(0.0, std::abs(dot3(axes_.col(i), q)) - doubt);
-    if (!(along <= radii_[i] * (1 + 0x1p-48))) return false;  // also where all is NaN
+    if (!(along <= radii_[i] * (1 + 0x1p-48))) return false;  // also for an empty ellipsoid: radii are -1
     const double ratio = along > 0 ? along / radii_[i] : 0;
     sum += ratio * ratio;
   }
@@ -68,8 +68,8 @@ Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
   return center_ + axes_ * radii_.cwiseProduct(unit);
 }
 
-// In coordinates in which the ellipsoid is the unit sphere, positions up to where the ray leaves are off by
-// less than `doubt` / least radius: the sphere grows by that.
+// In coordinates in which the ellipsoid is the unit sphere, positions of the ray up to its exit are off by
+// less than `doubt` divided by the smallest radius. The sphere is inflated by that.
 std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
                                                 const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
@@ -79,7 +79,7 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
     const double doubt = 0x1p-45 * (taxicab3(q) + greatest) + kSmallestNormal;
     Eigen::Vector3d at, step;
     for (int i = 0; i < 3; ++i) {
-      const double radius = std::max(radii_[i], doubt);  // a flat one gets room for the rounding
+      const double radius = std::max(radii_[i], doubt);  // inflates a flat ellipsoid by the error bound
       at[i] = dot3(axes_.col(i), q) / radius;
       step[i] = dot3(axes_.col(i), u) / radius;
     }
@@ -92,8 +92,8 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
   });
 }
 
-// With N = axes' the body is the image of the unit ball under N^-1 diag(radii); N^-1 differs from the axes by
-// less than 4 skew in each row.
+// With N = axes', the ellipsoid is the unit ball transformed by N^-1 diag(radii); N^-1 differs from the axes
+// by less than 4 skew in each row.
 Aabb Ellipsoid::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
@@ -104,9 +104,9 @@ Aabb Ellipsoid::aabb() const {
   return box_around(center_, half);
 }
 
-// For a point center + q the new coordinates are a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, with d_i =
-// M' a'_i - a_i. The last two are at most `extra` together, and the radii grow by the length of these in
-// units of theirs.
+// A point center + q has the new coordinates a'_i . (M q + e) = a_i . q + d_i . q + a'_i . e, where
+// d_i = M' a'_i - a_i and e is the rounding error of the new centre. The last two terms are at most extra_i
+// together. So it suffices that all radii grow by the factor 1 + |(extra_i / radius_i)|.
 Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

@@ -74,7 +74,7 @@ Hull frustum(const Eigen::Isometry3d& pose, double near, double far, double hori
         Eigen::Vector3d(0, -1, -vertical_tan)}) {
     planes.push_back(plane_around(vertices, turned(pose, n)));
   }
-  // Two for each plane, counter-clockwise seen from outside.
+  // Two triangles for each plane, counter-clockwise seen from outside.
   std::vector<Hull::Triangle> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {1, 3, 7}, {1, 7, 5},
                                         {0, 4, 6}, {0, 6, 2}, {2, 6, 7}, {2, 7, 3}, {0, 1, 5}, {0, 5, 4}};
   return {std::move(vertices), std::move(triangles), std::move(planes), 3};

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Weak duality does the work: weights w >= 0 with sum w_i n_i = d - r prove d.q <= sum w_i offset_i + r.q for
-// every q of the body. Plain double finds the weights; what they prove holds whatever rounding did to them.
+// Weak duality proves the bounds: weights w >= 0 with sum w_i n_i = d - r prove d.q <= sum w_i offset_i + r.q
+// for every q of the body. The weights are computed in plain double; the proof holds for any weights >= 0, so
+// their rounding errors cannot make it wrong.
 #include "half_spaces.h"
 
 #include <algorithm>
@@ -16,11 +17,12 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// The dual simplex method (Lemke 1954). Each step lets the half-space that the corner is farthest beyond
-/// take the place of one of the three, such that the weights stay >= 0: what they prove only becomes better.
+/// The dual simplex method (Lemke 1954). Each step replaces one of the three half-spaces of the basis by the
+/// half-space that the corner violates most, such that the weights stay >= 0. So the proven bound only
+/// improves.
 class HalfSpaces::DualSimplex {
  public:
-  /// Offsets are seen from a point near the corner that is looked for: there they lose no digits.
+  /// `near` is a point near the sought corner. Offsets relative to it lose no digits.
   DualSimplex(const HalfSpaces& all, const Eigen::Vector3d& direction, const Eigen::Vector3d& near)
       : all_(all), direction_(direction), slack_(all.size()) {
     const std::size_t count = all.size();
@@ -28,7 +30,7 @@ class HalfSpaces::DualSimplex {
       slack_[i] = all.offset_[i] - ((all.x_[i] * near[0] + all.y_[i] * near[1]) + all.z_[i] * near[2]);
   }
 
-  /// The half-spaces whose boundary is no farther away than this, and the box.
+  /// Returns the half-spaces whose boundary is at most `tolerance` from `near`, and those of the box.
   std::vector<std::size_t> tight(double tolerance) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < slack_.size(); ++i) {
@@ -37,8 +39,8 @@ class HalfSpaces::DualSimplex {
     return found;
   }
 
-  /// Until no half-space of these is violated by more than the tolerance. The limit is against cycling, which
-  /// costs only tightness.
+  /// Improves the basis until its corner violates none of the candidates by more than the tolerance. The
+  /// limit of 60 steps is against cycling; a basis that is not final costs only tightness.
   template <typename Candidates>
   Basis solve(Basis basis, double tolerance, const Candidates& candidates) const {
     for (int step = 0; step < 60; ++step) {
@@ -52,7 +54,8 @@ class HalfSpaces::DualSimplex {
   }
 
  private:
-  // The three normals of a basis and the rows of their inverse, times the determinant.
+  // The three normals of a basis and their cross products: crosses[k] / determinant is column k of the
+  // inverse of the matrix whose rows are the normals.
   struct Frame {
     Frame(const HalfSpaces& all, const Basis& basis) {
       for (std::size_t k = 0; k < 3; ++k)
@@ -62,17 +65,19 @@ class HalfSpaces::DualSimplex {
       determinant = dot3(normals[0], crosses[0]);
     }
 
+    // Returns the corner q with normals[k] . q = s[k].
     Eigen::Vector3d combine(const Eigen::Vector3d& s) const {
       return ((s[0] / determinant) * crosses[0] + (s[1] / determinant) * crosses[1]) +
              (s[2] / determinant) * crosses[2];
     }
 
+    // Returns the coefficients of d as a sum of multiples of the normals.
     Eigen::Vector3d shares(const Eigen::Vector3d& d) const {
       return {dot3(crosses[0], d) / determinant, dot3(crosses[1], d) / determinant,
               dot3(crosses[2], d) / determinant};
     }
 
-    // False if none of the three can leave.
+    // Lets the half-space `entering` replace one of the three. Returns false if none of them can leave.
     bool exchange(const Eigen::Vector3d& normal, std::size_t entering, Basis& basis) const {
       const Eigen::Vector3d share = shares(normal);
       const double negligible =
@@ -113,8 +118,9 @@ class HalfSpaces::DualSimplex {
     return found;
   }
 
-  // Steps add up their rounding, and normals of neighbouring faces are nearly alike: of a direction as long
-  // as 1, weights left up to 3e-14 on bodies of 200 half-spaces, and leave 2e-15 once corrected by that.
+  // Corrects the weights by their residual. Rounding errors of the steps add up, and normals of neighbouring
+  // faces are nearly parallel: on bodies of 200 half-spaces and directions of length 1, the residual was up
+  // to 3e-14 before and is 2e-15 after the correction.
   Basis refined(Basis basis) const {
     const Frame frame(all_, basis);
     for (int round = 0; round < 2; ++round) {
@@ -142,7 +148,7 @@ void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::
   const double largest = std::max({std::abs(normal[0]), std::abs(normal[1]), std::abs(normal[2])});
   if (!(largest > 0)) return;
   double unit = std::ldexp(1.0, std::clamp(std::ilogb(largest), -1000, 1000));
-  if (Eigen::Vector3d(normal / unit) * unit != normal) unit = 1;  // a component would underflow
+  if (Eigen::Vector3d(normal / unit) * unit != normal) unit = 1;  // else a component underflows
   const double local = divide_up(Expansion().add(offset).add_dot(-normal, origin).up(), unit);
   const Eigen::Vector3d scaled = normal / unit;
   if (!std::isfinite(local)) return;
@@ -152,9 +158,10 @@ void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::
   offset_.push_back(local);
 }
 
-// The recession cone of a body whose directions +-e_k are all proven with residuals below 1 is {0}: for v in
-// it, with the largest component v_k = +-1, +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1 would follow. So
-// there is a largest |q|_inf, R, and R <= reach + |r|_1 R.
+// Each side of the box is proven without the box, with a residual r. If |r|_1 < 1 for all six directions
+// +-e_k, the body is bounded: a v in its recession cone with the largest component v_k = +-1 would satisfy
+// +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1, a contradiction. So there is a largest |q|_inf, R, with
+// R <= reach + |r|_1 R.
 bool HalfSpaces::enclose(double guess) {
   const std::size_t usable = size();
   for (int side = 0; side < 6; ++side) {
@@ -202,7 +209,8 @@ HalfSpaces::Basis HalfSpaces::start(const Eigen::Vector3d& direction) const {
   return basis;
 }
 
-// The sums are off by 4.01 U (U = 2^-53) of their terms at most, 8 U also cover adding the bound.
+// Uses only half-spaces with an index below `usable`. The sums are off by at most 4.01 U (U = 2^-53) of their
+// terms; 8 U also cover adding the error bound.
 HalfSpaces::Proof HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& direction,
                                     std::size_t usable) const {
   Eigen::Vector3d rest = direction, terms = direction.cwiseAbs();
@@ -226,7 +234,7 @@ double HalfSpaces::bound(const Basis& basis, const Eigen::Vector3d& direction) c
   return reach + rest + 0x1p-51 * (std::abs(reach) + rest);
 }
 
-// First by the half-spaces at the vertex, which are enough unless rounding hides a short edge.
+// First tries only the half-spaces at the vertex, which suffice unless rounding hides a short edge.
 double HalfSpaces::reach_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
   const double extent = std::max({widest_[0], widest_[1], widest_[2]});
   const double tolerance = 0x1p-51 * extent;

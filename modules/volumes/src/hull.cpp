@@ -43,11 +43,11 @@ std::vector<Face> faces_of(const Hull& hull) {
   return faces;
 }
 
-// Relative to the first vertex, in units in which the size is about 1: products of five lengths must not
-// overflow.
+// The hull relative to its first vertex, divided by `unit` so that its size is about 1: products of five
+// lengths must not overflow.
 struct Body {
   Polytope polytope;
-  double unit = 1;  // a power of two
+  double unit = 1;  // power of two
 };
 
 Body body_of(const Hull& hull) {
@@ -66,9 +66,10 @@ Body body_of(const Hull& hull) {
   return body;
 }
 
-// An upper bound of normal . (matrix p + shift) over the p of the hull, if `normal` is that of `plane` turned
-// by the matrix: with d = matrix' normal - plane.normal, which is tiny, it is plane.normal . p + d . p +
-// normal . shift, and d . p is d . middle and at most |d| . reach more.
+// Returns an upper bound of normal . (matrix p + shift) over all p of the hull, where `normal` is
+// plane.normal rotated by the matrix. With the tiny d = matrix' normal - plane.normal, the value is
+// plane.normal . p + d . p + normal . shift. The first term is at most plane.offset, the second at most
+// d . middle + |d| . reach, for a box around the hull with centre `middle` and half extents `reach`.
 double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const Eigen::Isometry3d& transform,
                     const Eigen::Vector3d& middle, const Eigen::Vector3d& reach) {
   Expansion sum;
@@ -85,7 +86,8 @@ double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const
   return sum.add(spread).up();
 }
 
-// Where planes say that the hull ends along x, y, z and then along -x, -y, -z; infinity where none is along it.
+// Returns upper bounds of the projections of the hull on x, y, z, -x, -y, -z, from its planes perpendicular
+// to these axes; infinity where there is no such plane.
 std::array<double, 6> ends_along_axes(const std::vector<HullPlane>& planes) {
   std::array<double, 6> ends;
   ends.fill(kInfinity);
@@ -168,7 +170,7 @@ Eigen::Vector3d Hull::support(const Eigen::Vector3d& direction) const {
   if (empty()) return Eigen::Vector3d::Constant(kNan);
   const Eigen::Vector3d* best = &vertices_.front();
   const Eigen::Vector3d unit = direction.stableNormalized();
-  double greatest = 0;  // of v - front, so that coordinates of UTM size do not eat up the digits
+  double greatest = 0;  // relative to the first vertex, so that large coordinates (UTM) cost no digits
   for (const Eigen::Vector3d& v : vertices_) {
     const double reach = project(unit, v - vertices_.front()).value;
     if (reach <= greatest) continue;

@@ -17,7 +17,7 @@ using namespace volumes_internal;
 
 namespace {
 
-// The first slab along axis k, or size().
+// Returns the index of the first slab along coordinate axis k, or size() if there is none.
 std::size_t axis_slab(const KdopSet& set, int k) {
   std::size_t i = 0;
   while (i < set.size() && set.direction(i) != Eigen::Vector3d(Eigen::Vector3d::Unit(k)))
@@ -102,7 +102,7 @@ Kdop Kdop::tightened() const {
     lower[i] = std::max(min(i), -support_up(*this, slabs, identity, -n));
     upper[i] = std::min(max(i), support_up(*this, slabs, identity, n));
   }
-  // Both bounds are proven, so where they cross there is no point: the constructor makes that the empty
+  // Both bounds are proven. If they cross, the polytope has no point, and the constructor makes the empty
   // k-DOP.
   return {set_, lower, upper};
 }

@@ -24,13 +24,13 @@ using namespace volumes_internal;
 
 namespace {
 
-// axis . q in double. q is itself a rounded difference: with it, three products and two sums, the value is
-// off by at most 4.01 2^-53 of |q|_1; the bound is twice that, and covers its own addition.
+// Returns axis . q in double. q is itself a rounded difference: with it, three products and two sums, the
+// value is off by at most 4.01 * 2^-53 |q|_1. The error bound is twice that, which also covers adding it.
 Projection component(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(axis, q), 0x1p-50 * taxicab3(q) + kSmallestNormal};
 }
 
-// In one order, whatever the axes are called: products and sums have the same bits for all names of a box.
+// Sorts sizes, so that their products and sums have the same bits for every order of the axes.
 Eigen::Vector3d descending(Eigen::Vector3d sizes) {
   std::sort(sizes.begin(), sizes.end(), std::greater<>());
   return sizes;
@@ -71,7 +71,7 @@ Obb Obb::from_slabs(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin, 
   if ((low.array() > high.array()).any()) return {};
   const Eigen::Vector3d middle = low + 0.5 * (high - low);
   Eigen::Vector3d center = origin;
-  // A second time for what the axes lack of being orthogonal.
+  // The second round corrects for axes that are not exactly orthogonal.
   for (int round = 0; round < 2; ++round) {
     Eigen::Vector3d missing;
     for (int i = 0; i < 3; ++i)
@@ -112,7 +112,7 @@ bool Obb::contains(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d q = point - center_;
   for (int i = 0; i < 3; ++i) {
     const auto [s, error] = component(axes_.col(i), q);
-    if (!(std::abs(s) <= half_extents_[i] + error)) return false;  // an empty one is nowhere: NaN
+    if (!(std::abs(s) <= half_extents_[i] + error)) return false;  // also for an empty box: s is NaN
   }
   return point.allFinite();
 }
@@ -174,8 +174,8 @@ std::array<Eigen::Vector3d, 8> Obb::corners() const {
   return result;
 }
 
-// With w = A y + r, where y_i = axis(i) . w as rounded and r is what that lacks: w . q is at most
-// sum |y_i| h_i + |r| |q|, and |q| at most 1.001 |h|_1.
+// For the direction w, let y_i = axis(i) . w, rounded, and r = w - A y (`lacking`). Each q = p - center of
+// the box satisfies w . q <= sum |y_i| h_i + |r| |q|, with |q| <= 1.001 |h|_1.
 double Obb::reach_up(const Eigen::Vector3d& direction) const {
   Eigen::Vector3d y;
   double reach = 0;
@@ -205,7 +205,8 @@ Mesh Obb::mesh() const {
   return mesh;
 }
 
-// a' . (M p + t - c') = (M' a') . (p - c) + a' . (M c + t - c').
+// For a new axis a' and the new centre c': a' . (M p + t - c') = (M' a') . (p - c) + a' . (M c + t - c'). The
+// last term is at most 1.001 times the rounding error of c'.
 Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What takes two boxes: whether they overlap, and a box around both. There is no smallest one to be had
-// cheaply, so it is the best of three frames.
+// Overlap test of two boxes, and a box around both. The smallest box around both is expensive to find, so
+// merged() takes the best of three orientations.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ namespace pcl_bv {
 
 namespace {
 
-// A total order, so that merging is commutative.
+// A total order of boxes, so that merged() is commutative.
 bool precedes(const Obb& a, const Obb& b) {
   const auto numbers = [](const Obb& box) {
     Eigen::Matrix<double, 15, 1> all;
@@ -32,12 +32,13 @@ bool is_smaller(const Obb& a, const Obb& b) {
   return a.volume() != b.volume() ? a.volume() < b.volume() : a.surface_area() < b.surface_area();
 }
 
-// Upper bound of axis . (to - from).
+// Returns an upper bound of axis . (to - from).
 double along_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, const Eigen::Vector3d& from) {
   return Expansion().add_dot(axis, to).add_dot(-axis, from).up();
 }
 
-// The coordinate axes; of two boxes with one third axis, as upright ones have, axes with that third.
+// Returns the third orientation for merged(): the coordinate axes; for boxes with the same third axis, such
+// as upright boxes, axes with that third axis.
 Eigen::Matrix3d frame_of(const Eigen::Vector3d& third, const Eigen::Vector3d& other_third) {
   if (third != other_third) return Eigen::Matrix3d::Identity();
   Eigen::Index least = 0;

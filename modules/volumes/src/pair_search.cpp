@@ -20,9 +20,10 @@ Eigen::Vector3d turned_back(const Eigen::Matrix3d& turn, const Eigen::Vector3d& 
   return {dot3(turn.col(0), d), dot3(turn.col(1), d), dot3(turn.col(2), d)};
 }
 
-// What the two kinds of numbers need: how clearly the origin must be inside four points (coordinates are of
-// magnitudes below 4, so six products of three are off by 1e-13), what length is as good as 0, and what
-// absolute error a projection has.
+// Tolerances of the two number types. `margin`: the origin is inside four points only if the volumes that
+// they span with it exceed this (coordinates are below 4 in magnitude, so sums of six products of three
+// numbers are off by 1e-13). `nothing`: shorter lengths are treated as 0. `rounding`: absolute error of a
+// projection.
 template <typename Real>
 struct Precision;
 template <>
@@ -34,7 +35,7 @@ struct Precision<DoubleDouble> {
   static constexpr double margin = 0, nothing = 0x1p-96, rounding = 0x1p-100;
 };
 
-// b + delta - a.
+// Return b + delta - a. In DoubleDouble, delta + rest is the exact difference of the origins.
 Vector<double> difference(const Eigen::Vector3d& delta, const Eigen::Vector3d&, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& a, double) {
   return {delta[0] + (b[0] - a[0]), delta[1] + (b[1] - a[1]), delta[2] + (b[2] - a[2])};
@@ -59,7 +60,7 @@ class PairSearch {
       delta_rest_[k] = apart.lo;
       extent = std::max(extent, std::abs(delta_[k]));
     }
-    // Also where something overflows, and where it is not known how far a body reaches.
+    // Bodies are treated as overlapping also if a number overflows or the size of a body is not known.
     meet_ = !(extent > 0 && std::isfinite(extent) && std::isfinite(radii_));
     if (meet_) return;
     scale_ = std::ldexp(1.0, -std::max(std::ilogb(extent), -1000));
@@ -83,21 +84,23 @@ class PairSearch {
  private:
   bool done() const { return meet_ || (goal_ == Goal::enough && found_ > bound_); }
 
-  // What balls around the origins tell, which most pairs of a scene are far outside of.
+  // Returns the distance of the bounding balls around the origins, a lower bound that decides most pairs of a
+  // scene.
   double apart_by_size() const {
     const double reach = add_up(add_up(a_.size, b_.size), radii_);
     const double apart = length3(delta_) * (1 - 0x1p-49) - reach;
     return apart > 0 ? apart * (1 - 0x1p-52) : 0;
   }
 
-  // Whether more digits could tell more than the rounding of sizes.
+  // Returns whether the lower and upper bounds agree up to rounding, so that more digits would not help.
   bool settled() const {
     const double sizes = (a_.size + b_.size) + radii_;
     return upper_ - radii_ - found_ <= 0x1p-42 * upper_ + 0x1p-46 * sizes;
   }
 
-  // The gap along d, of length about 1, in exact arithmetic at least. Delta is off by U of itself, products
-  // and sums by 3.01 U; each further step by U of its result.
+  // Returns a lower bound of the distance, by exact arithmetic, from the gap along d, whose length is about
+  // 1; 0 if d does not separate the bodies. With U = 2^-53, delta is off by U of itself, products and sums by
+  // 3.01 U, each further step by U of its result.
   double certified(const Eigen::Vector3d& d) const {
     const double x = d[0] * delta_[0], y = d[1] * delta_[1], z = d[2] * delta_[2];
     const double reach_a = a_.reach_up(d), reach_b = b_.reach_up(-d);
@@ -111,15 +114,15 @@ class PairSearch {
 
   void prove(const Eigen::Vector3d& d) { found_ = std::max(found_, certified(d)); }
 
-  // The point of b - a that is least along d.
+  // Returns the point of the difference b - a with the smallest projection on d, multiplied by scale_.
   template <typename Real>
   Vector<Real> support(const Eigen::Vector3d& d) const {
     const Vector<Real> w = difference(delta_, delta_rest_, b_.support(-d), a_.support(d), Real());
     return times(Real(scale_), w);
   }
 
-  // Ends where the points of the simplex prove that no direction is better, where rounding lets it go no
-  // further, and where the two are known to meet.
+  // Ends if the points of the simplex prove that no direction is better, if rounding prevents further
+  // progress, or if the bodies are known to overlap.
   template <typename Real>
   void search() {
     using P = Precision<Real>;
@@ -153,7 +156,8 @@ class PairSearch {
     prove(direction_);
   }
 
-  // Two points of the bodies that are nearer than what is asked for, by more than rounding.
+  // Returns whether two points of the cores, `length` apart after scaling, prove that the bodies overlap (for
+  // Goal::enough: that their distance is below the bound) by more than rounding errors.
   bool near_enough(double length) {
     if (goal_ == Goal::best && found_ > 0) return false;
     meet_ = length / scale_ * (1 + 0x1p-40) < radii_ + (goal_ == Goal::enough ? bound_ : 0);
@@ -164,14 +168,14 @@ class PairSearch {
   const Goal goal_;
   const double bound_, radii_;
   Eigen::Vector3d delta_, delta_rest_;
-  double scale_ = 1;           // a power of two that brings lengths to about 1
-  Eigen::Vector3d direction_;  // to begin with, then the best of a search
-  bool meet_ = false;          // or they are near enough
-  double found_ = 0;           // the best bound that is proven
-  double upper_ = kInfinity;   // the distance of two points of the cores, to rounding
+  double scale_ = 1;           // power of two that scales lengths to about 1
+  Eigen::Vector3d direction_;  // initial direction, then the best direction of a search
+  bool meet_ = false;          // the bodies overlap or are nearer than bound_
+  double found_ = 0;           // best proven lower bound of the distance
+  double upper_ = kInfinity;   // distance of two points of the cores, up to rounding
 };
 
-// Each body in its own numbers, so that the order of two does not depend on how they were asked about.
+// Numbers of one body, by which a pair is ordered, so that the order of the arguments does not matter.
 auto key(const Placed& p) {
   const Eigen::Vector3d mark = p.shape.mark();
   return std::array{static_cast<double>(p.shape.kind),
@@ -203,7 +207,7 @@ Eigen::Vector3d Placed::support(const Eigen::Vector3d& d) const {
   return {dot3(turn->row(0), q), dot3(turn->row(1), q), dot3(turn->row(2), q)};
 }
 
-// d . (turn q) = (turn' d) . q, and what rounding takes from turn' d is less than 4 U of its terms.
+// d . (turn q) = (turn' d) . q. The rounding error of turn' d is below 4 U of its terms (U = 2^-53).
 double Placed::reach_up(const Eigen::Vector3d& d) const {
   if (turn == nullptr) return shape.reach_up(d);
   double terms = 0;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The distance of two convex bodies: Gilbert, Johnson and Keerthi's algorithm proposes directions, and bounds
-// of how far the bodies reach along them prove what is answered.
+// Lower bounds of the distance of two convex bodies: the algorithm of Gilbert, Johnson and Keerthi proposes
+// directions, and upper bounds of the bodies' supports along them prove the result.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,31 +12,30 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A shape where it stands: all origin + turn q for the q of its core, and everything within a radius of
-/// these.
+/// A shape at its current pose: all points within `radius` of a point origin + turn q, for the q of its core.
 struct Placed {
   explicit Placed(const ConvexBody& body);
   Placed(const Shape& point, const Eigen::Vector3d& at);
 
-  /// As those of Shape, of turn q.
+  /// As the functions of Shape, for the rotated points turn q.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
   double reach_up(const Eigen::Vector3d& direction) const;
 
   const Shape& shape;
-  const Eigen::Matrix3d* turn;  ///< Null: none.
+  const Eigen::Matrix3d* turn;  ///< Null for the identity.
   Eigen::Vector3d origin;
-  double size, radius;  ///< No turn q is longer than size.
+  double size, radius;  ///< `size` is an upper bound of |turn q|.
 };
 
-/// What a search is for.
+/// The purpose of a search.
 enum class Goal {
   best,    ///< The distance.
-  enough,  ///< Whether it exceeds a bound: the search ends when that is known.
+  enough,  ///< Whether the distance exceeds a bound: the search ends as soon as that is known.
 };
 
-/// A lower bound of the distance by exact arithmetic; 0: none above 0 was found, none is more than rounding
-/// away from one. Goal::enough: above `bound`, if the distance is by more than rounding. The same for both
-/// orders.
+/// Returns a lower bound of the distance, by exact arithmetic. 0 means that no positive bound was found; then
+/// the bodies overlap or are only rounding errors apart. With Goal::enough, the result exceeds `bound` if the
+/// distance exceeds it by more than rounding errors. The order of a and b does not change the result.
 double lower_bound(const Placed& a, const Placed& b, Goal goal, double bound);
 
 }  // namespace pcl_bv::volumes_internal

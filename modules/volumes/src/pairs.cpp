@@ -20,7 +20,7 @@ using namespace volumes_internal;
 
 namespace {
 
-// a b as rounded, and an upper bound of how much a vector as long as 1 can differ by it.
+// The rounded product a b, and an upper bound of |(matrix - a b) v| for |v| = 1.
 struct Product {
   Eigen::Matrix3d matrix;
   double error;
@@ -57,8 +57,9 @@ ConvexBody::ConvexBody(const AnyVolume& volume) : ConvexBody() {
   size_ = shape_->size;
 }
 
-// M (origin + turn q + e) + t, with |e| <= radius, is the moved origin and the product's turn of q to their
-// rounding, and no further from that than M stretches e.
+// A point origin + turn q + e, with |e| <= radius, moves to M (origin + turn q + e) + t. That is the new
+// origin plus (M turn) q, up to the rounding errors of both, plus M e, which is at most stretch * radius
+// long.
 ConvexBody ConvexBody::moved(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return *this;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Bodies of half-spaces, k-DOPs and hulls: their corners propose, the half-spaces answer.
+// Bodies that are given by half-spaces, k-DOPs and hulls: the corners propose support points, the half-spaces
+// prove bounds.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -39,7 +40,7 @@ class PolytopeShape : public Shape {
   Eigen::Vector3d mark() const override { return {x_.front(), y_.front(), z_.front()}; }
 
  protected:
-  // Corners are seen from `from`.
+  // `corners` are relative to `from`.
   void set_corners(const Eigen::Vector3d& from, const std::vector<Eigen::Vector3d>& corners) {
     Eigen::Vector3d low = corners.front(), high = corners.front();
     for (const Eigen::Vector3d& v : corners) {
@@ -53,7 +54,8 @@ class PolytopeShape : public Shape {
       y_.push_back(v[1] + shift[1]);
       z_.push_back(v[2] + shift[2]);
     }
-    // Half-spaces leave room of the rounding of coordinates about the corners, which may be one point.
+    // Half-spaces can extend beyond the corners by the rounding of coordinates, even if all corners are one
+    // point.
     const Eigen::Vector3d at = origin.cwiseAbs();
     guess_ = 2 * (high - low).maxCoeff() + 0x1p-40 * at.maxCoeff() + kSmallestNormal;
   }
@@ -118,7 +120,8 @@ std::shared_ptr<Shape> make_polytope(const Hull& hull) {
   return std::make_shared<HullShape>(hull);
 }
 
-// Slabs that miss each other by rounding have no corners, and may have a point: their box has both.
+// Slabs that miss each other only by rounding have no corners but may have a point in common. Then the
+// corners of their box are used.
 std::shared_ptr<Shape> make_polytope(const Kdop& kdop) {
   Polytope polytope = intersect_slabs(kdop);
   if (polytope.vertices.empty()) {

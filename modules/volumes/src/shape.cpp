@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The kinds but those made of half-spaces. With U = 2^-53, three products and two sums are off by at most
-// 3.01 U of the sum of their magnitudes: 2^-50 of it also covers adding the bound. Smallest normals cover
-// what underflows.
+// The shapes of all kinds except k-DOPs and hulls. With U = 2^-53, three products and two sums are off by at
+// most 3.01 U of the sum of their magnitudes; 2^-50 of it also covers adding the error bound. The smallest
+// normal covers underflow.
 #include "shape.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ class BoxShape final : public Shape {
     return ((x + y) + z) + (0x1p-50 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + kSmallestNormal);
   }
 
-  // The distance itself, whose sides are rounded down.
+  // The distance itself: gaps along the axes, rounded down.
   Gap parallel_gap(const Shape& other) const override {
     const Aabb& b = static_cast<const BoxShape&>(other).box_;
     Eigen::Vector3d gap;
@@ -69,9 +69,9 @@ class BoxShape final : public Shape {
   Eigen::Vector3d low_, high_;
 };
 
-// d = A y + residual for the axes A in columns, which are nearly orthonormal: one step of refinement leaves
-// the rounding of the residual. |residual| is its sum of magnitudes, with the error of each component, at
-// most 4.01 U of its terms.
+// Components y of d along axes A (columns, nearly orthonormal): d = A y + r. One step of refinement reduces r
+// to rounding errors. `residual` is an upper bound of |r|: the sum of the magnitudes of its components, each
+// with its error bound, which is at most 4.01 U of the terms.
 struct Components {
   Components(const Eigen::Matrix3d& axes, const Eigen::Vector3d& d) {
     for (int i = 0; i < 3; ++i)
@@ -92,8 +92,8 @@ struct Components {
   double residual = 0;
 };
 
-// The columns q_i with axis i . q_i = 1, across the other axes, for the axes in columns: to 1e-24 the axes
-// and what they lack of being orthonormal, once.
+// Returns the dual basis of the axes: column i satisfies axis i . q_i = 1 and is perpendicular to the other
+// axes. One correction of the axes by their deviation from orthonormal is accurate to 1e-24.
 Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
   Eigen::Matrix3d result = axes;
   for (int i = 0; i < 3; ++i) {
@@ -110,7 +110,7 @@ Eigen::Vector3d combined(const Eigen::Matrix3d& columns, const Eigen::Vector3d& 
   return {dot3(columns.row(0), s), dot3(columns.row(1), s), dot3(columns.row(2), s)};
 }
 
-// How much longer q can be than its components along axes that are orthonormal to 1e-12.
+// By this factor, |q| can exceed the length computed from components along axes orthonormal to 1e-12.
 constexpr double kSkewed = 1 + 0x1p-36;
 
 class TurnedBoxShape final : public Shape {
@@ -140,7 +140,8 @@ class TurnedBoxShape final : public Shape {
   Eigen::Vector3d half_;
 };
 
-// With s_i = axis i . q, sum y_i s_i = sum (y_i r_i)(s_i / r_i) <= |(y_i r_i)| by Cauchy and Schwarz.
+// With s_i = axis i . q: sum y_i s_i = sum (y_i r_i)(s_i / r_i) <= |(y_i r_i)| by Cauchy-Schwarz, since
+// |(s_i / r_i)| <= 1.
 class EllipsoidShape final : public Shape {
  public:
   explicit EllipsoidShape(const Ellipsoid& e) : axes_(e.axes()), dual_(dual(axes_)), radii_(e.radii()) {
@@ -172,8 +173,9 @@ class EllipsoidShape final : public Shape {
   Eigen::Vector3d radii_;
 };
 
-// q is t u + v with |t| <= h / |u| and v across u, |v| <= r: d . q <= (h |d . u| + r |d x u|) / |u|, and the
-// length of u is 1 to 2^-50. d . u is off by less than 4 U |d|, d x u by less than 6 U |d|.
+// With the axis u, each point is q = t u + v with |t| <= h / |u|, v perpendicular to u and |v| <= r. So
+// d . q <= (h |d . u| + r |d x u|) / |u|, where |u| is 1 to 2^-50. The error of d . u is below 4 U |d|, the
+// error of d x u below 6 U |d|.
 class CylinderShape final : public Shape {
  public:
   explicit CylinderShape(const Cylinder& c)
@@ -184,7 +186,7 @@ class CylinderShape final : public Shape {
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     const double along = dot3(axis_, d);
-    const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));  // across the axis also where it is tiny
+    const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));  // perpendicular even if it is tiny
     const double length = length3(across);
     Eigen::Vector3d end = (along < 0 ? -half_height_ : half_height_) * axis_;
     if (!(length > 0)) return end;
@@ -203,7 +205,7 @@ class CylinderShape final : public Shape {
   double across_, half_height_;
 };
 
-// Of capsules, spheres and points. Both ends are rounded once when they are seen from the origin.
+// The shape of capsules, spheres and points. Both ends are rounded once, relative to the origin.
 class SegmentShape final : public Shape {
  public:
   SegmentShape(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double around) {

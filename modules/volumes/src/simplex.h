@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sub-algorithm of Gilbert, Johnson and Keerthi: the point of a simplex that is nearest the origin.
+// The sub-algorithm of Gilbert, Johnson and Keerthi: the point of a simplex that is nearest to the origin.
 #pragma once
 
 #include <array>
@@ -34,16 +34,17 @@ Real inner(const Vector<Real>& a, const Vector<Real>& b) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/// One to four points in units of about 1.
+/// One to four points with coordinates of magnitude about 1.
 ///
-/// Of all the parts that the newest point belongs to, those in whose inside the foot of the perpendicular is
-/// are candidates, and the nearest foot wins: that needs no order of cases, and what rounding does to a thin
-/// part, it loses by being farther (van den Bergen 1999 falls back on the same). The foot on a triangle is
-/// taken along its normal, which is good to the shape of the triangle however near the origin is.
+/// A part of the simplex (vertex, edge or triangle) is a candidate if it contains the newest point and the
+/// foot of the perpendicular from the origin is inside the part. The candidate with the nearest foot wins, so
+/// no order of cases is needed; a wrong foot on a thin part is farther away and loses (van den Bergen 1999
+/// uses the same as a fallback). The foot on a triangle is computed along its normal, whose accuracy depends
+/// on the shape of the triangle, but not on the distance of the origin.
 template <typename Real>
 class Simplex {
  public:
-  /// There is room for it after reduce().
+  /// Adds a point. There must be fewer than four, as after reduce() has returned a foot.
   void add(const Vector<Real>& point) { points_[size_++] = point; }
 
   int size() const { return size_; }
@@ -56,8 +57,8 @@ class Simplex {
     return false;
   }
 
-  /// Keeps the part that is nearest the origin; returns the foot on it. None if the origin is inside four
-  /// points, by more than `margin` of the volumes that they span with it.
+  /// Keeps the part that is nearest to the origin and returns its foot. Returns nothing if four points
+  /// enclose the origin and the determinant of each three of them exceeds `margin` in magnitude.
   std::optional<Vector<Real>> reduce(double margin) {
     const int newest = size_ - 1;
     try_point(newest);

@@ -22,16 +22,16 @@ using namespace volumes_internal;
 
 namespace {
 
-// An order of spheres in which the bigger comes first, total so that merge() is commutative.
+// A total order of spheres, larger radius first, so that merge() is commutative.
 bool precedes(const Sphere& a, const Sphere& b) {
   if (a.radius() != b.radius()) return a.radius() > b.radius();
   return std::lexicographical_compare(a.center().begin(), a.center().end(), b.center().begin(),
                                       b.center().end());
 }
 
-// The smallest sphere around both, neither of which holds the other. Its centre is rounded as it comes; its
-// radius is measured from there to the far side of either sphere, each step rounded up, so it encloses both
-// whatever the centre's error.
+// Returns the smallest sphere around two spheres, neither of which encloses the other. Its radius is measured
+// from the rounded centre to the far side of each sphere, with each step rounded up. So it encloses both in
+// spite of the rounding error of the centre.
 Sphere around(const Sphere& big, const Sphere& small) {
   const Eigen::Vector3d step = small.center() - big.center();
   const double d = step.stableNorm();
@@ -41,8 +41,9 @@ Sphere around(const Sphere& big, const Sphere& small) {
   return {center, std::max(reach(big), reach(small))};
 }
 
-// Of squared distances, for |a - b| <= r or beyond by rounding only. Each q is off by 1 unit of 2^-53, so d2
-// by 5; the limit loses 3 at most, 5 where r is itself a rounded sum. 16 covers both.
+// Returns the limit of the computed squared distance d2 for |a - b| <= r, so large that no pair is rejected
+// because of rounding. In units of 2^-53, the relative errors are 1 for each component of q = a - b, at most
+// 5 for d2, and at most 3 for the limit (5 if r is itself a rounded sum). 16 covers all of them.
 double square_within_rounding(double r) {
   return r * r * (1 + 0x1p-49) + kSmallestNormal;
 }
@@ -52,10 +53,11 @@ bool within_rounding(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double 
   return dot3(q, q) <= square_within_rounding(r);
 }
 
-// Around the point of the line that is nearest the centre, as computed. With q = origin - center, its place
-// is off by at most 4 U |q|, its distance h from the centre by 9 U |q| more, and it is 8 U |q|_1 at most
-// along the line from the true foot of the perpendicular. A radius greater by 52 U |q|_1 covers all of that;
-// it grows by 64, for its own rounding.
+// Clips the ray to an interval around the computed point of the line that is nearest to the centre. Let
+// q = origin - center and U = 2^-53. The position of that point is off by at most 4 U |q|, and its distance h
+// from the centre by another 9 U |q|. Along the line, it is at most 8 U |q|_1 from the exact foot of the
+// perpendicular. A radius that is larger by 52 U |q|_1 covers all of that; 64 U |q|_1 also cover the rounding
+// of the radius.
 void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& direction) {
   const auto [exponent, u] = ScaledDirection(direction);
@@ -123,7 +125,7 @@ std::optional<RayInterval> Sphere::intersect(const Eigen::Vector3d& origin,
 
 bool Sphere::overlaps(const Sphere& other) const {
   const FloatEnvironment environment;
-  return within_rounding(center_, other.center_, radius_ + other.radius_);  // an empty one is nowhere: NaN
+  return within_rounding(center_, other.center_, radius_ + other.radius_);  // false if either is empty
 }
 
 Aabb Sphere::aabb() const {
