@@ -9,9 +9,9 @@
 
 namespace pcl_bv {
 
-/// What the database's last call failed at, in our words.
+/// Returns the error message for the last failed call on the database.
 inline std::string sqlite_problem(sqlite3* database) {
-  const int code = sqlite3_errcode(database) & 0xFF;  // without what SQLite says beside the kind
+  const int code = sqlite3_errcode(database) & 0xFF;  // primary result code
   switch (code) {
     case SQLITE_NOTADB:
       return "is no database of SQLite";
