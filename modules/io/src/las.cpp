@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // ASPRS LAS Specification 1.4 R15, tables 3 (header), 7 to 17 (records) and 24 (extended records). All
-// numbers are little-endian. Versions 1.0, 1.1 and 1.5 have all fields that are read here at the same
+// numbers are little-endian. Versions 1.0, 1.1 and 1.5 have the fields that are read here at the same
 // offsets.
 
 #include <algorithm>
@@ -128,7 +128,7 @@ bool is_extended_record(const InputFile& file, std::size_t at) {
   return bytes <= file.size() - at - header;
 }
 
-// Upper limit for the end of the point data: the begin of the extended records behind it (waveforms or other
+// Upper limit for the end of the point data: the start of the extended records behind it (waveforms or other
 // data), or the end of the file.
 std::size_t end_of_point_data(const InputFile& file, const HeaderBytes& bytes, int minor, std::size_t begin) {
   std::size_t end = file.size();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The header and the fields of .las files, shared by the reader's parts.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The header of .pcd and .bin files, and readers and writers of their points.
 #pragma once
 
 #include <array>
@@ -43,8 +44,7 @@ std::string format_ascii_points(const RawCloud& cloud);
 /// Throws IoError if there are more than 4e9 bytes to compress.
 std::string compress_points(const RawCloud& cloud);
 
-/// Throws IoError with an advice if the path has the extension of another known format (mesh, recording,
-/// ...).
+/// Throws IoError with advice if the path has the extension of another known format (mesh, recording, ...).
 void refuse_other_formats(const std::filesystem::path& path);
 
 }  // namespace pcl_bv

@@ -53,7 +53,7 @@ bool gather_lines(std::string_view start, bool more, KeywordLines& lines, std::s
     const std::size_t newline = start.find('\n', at);
     const std::size_t end = std::min(newline, start.size());
     const std::string_view line = start.substr(at, end - at);
-    // The last line is incomplete: do not interpret it, except a line DATA at the end of the file.
+    // An incomplete last line is not interpreted, except a line DATA, or the only line, of the whole file.
     if (newline == std::string_view::npos && (more || (!lines.empty() && !line.starts_with("DATA"))))
       return false;
     const std::string_view keyword = add_line(line, lines);

@@ -82,14 +82,12 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   RawCloud& cloud = header.cloud;
   const std::size_t available = file.size() - header.data_offset;
   const std::size_t values = std::max<std::size_t>(header.vertex.properties.size(), 1);
-  // Each value takes at least a digit and a separator; only the last value of the file may lack the
-  // separator.
+  // Each value takes at least a digit and a separator, which only the last value of the file may lack.
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " vertices of " + std::to_string(values) +
                   " properties do not fit in the " + std::to_string(available) + " bytes after the header");
   }
-  // A carriage return alone ends a row, too. Before a line feed it ends the row, and the row between the two
-  // is empty.
+  // A carriage return alone ends a row, too. If a line feed follows it, there is an empty row between them.
   TextBody body{file, header.data_offset, true};
   for (const PlyElement& element : header.skipped)
     skip(body, element);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The header of .ply files, and readers of their vertices.
 #pragma once
 
 #include <cstddef>

@@ -48,7 +48,7 @@ inline DigitRun read_digit_run(const char* at) {
   const unsigned length = others == 0 ? 8U : static_cast<unsigned>(std::countr_zero(others)) / 8;
   const unsigned half_shift = 32 - 4 * length;  // applied twice, since a shift by 64 is undefined
   std::uint64_t value = digits << half_shift << half_shift;
-  value = value * 10 + (value >> 8);  // pairs of digits, in every other byte
+  value = value * 10 + (value >> 8);  // the values of pairs of digits, in every other byte
   constexpr std::uint64_t pairs = 0x000000FF000000FF;
   value = ((value & pairs) * (100 + (std::uint64_t{1000000} << 32)) +
            ((value >> 16) & pairs) * (1 + (std::uint64_t{10000} << 32))) >>

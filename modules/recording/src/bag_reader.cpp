@@ -263,7 +263,7 @@ class BagReader final : public ChunkedReader {
   std::vector<RecordedTopic> found_topics_;        // moved to the base class by start()
   std::vector<Part> found_parts_;                  // moved to the base class by start()
   std::vector<std::uint64_t> offsets_;             // positions of the chunks, ascending
-  std::map<std::uint32_t, std::size_t> topic_of_;  // by connection
+  std::map<std::uint32_t, std::size_t> topic_of_;  // index in the topics, by connection id
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The table of recording formats, and the function that opens each.
 #pragma once
 
 #include <filesystem>

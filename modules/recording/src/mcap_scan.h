@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Finds the chunks and messages of an MCAP file by walking over its records.
 #pragma once
 
 #include <cstdint>

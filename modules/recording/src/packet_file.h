@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Reads the UDP packets of .pcap and .pcapng captures.
 #pragma once
 
 #include <cstdint>

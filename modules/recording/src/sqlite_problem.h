@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Error messages for errors of SQLite.
 #pragma once
 
 #include <sqlite3.h>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Finds the UDP payload in a captured network packet.
 #pragma once
 
 #include <cstddef>

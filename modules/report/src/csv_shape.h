@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The CSV columns that depend on the type of a shape: size, rotation and radius.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The colours of clusters and volumes in pictures and meshes.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// How numbers, method names and upright boxes are written in all report formats.
 #pragma once
 
 #include <charconv>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Error messages for exceptions of yaml-cpp.
 #pragma once
 
 #include <yaml-cpp/depthguard.h>
