@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t kLeastFields = 3, kMostFields = 32;
 
-// Floats that are looked at: some thousand points say enough, and take 0.1 ms.
+// Number of floats that are checked: about 2000 points are enough and take 0.1 ms.
 constexpr std::size_t kSample = 8192;
 
-// Other numbers of floats that a file may be of.
+// Alternative numbers of fields that are tried.
 constexpr std::size_t kLikelyFields[] = {3, 4, 5, 6, 7, 8};
 
 std::size_t fields_of_name(const std::filesystem::path& path) {
@@ -38,8 +38,8 @@ bool is_no_coordinate(float value) {
   return !(magnitude <= 1e7F) || (magnitude < 1e-20F && magnitude != 0);
 }
 
-// How much values differ from those `distance` on: the median, which a few jumps do not move. Lost beams
-// (NaN) say nothing.
+// The median difference between values that are `distance` floats apart: robust against a small number of
+// jumps. Differences of NaN (lost beams) are ignored.
 float median_difference(const std::vector<float>& values, std::size_t distance) {
   std::vector<float> differences;
   for (std::size_t i = 0; i + distance < values.size(); ++i) {
@@ -52,8 +52,8 @@ float median_difference(const std::vector<float>& values, std::size_t distance) 
   return *middle;
 }
 
-// Another number of floats whose records follow one another clearly better, or 0. Of a multiple of the true
-// number that holds nearly as well, so it has to be a third, and the least such number counts.
+// The smallest other number of fields with which successive records differ clearly less, or 0. Multiples of
+// the true number also give small differences: hence the factor of 3, and the smallest number.
 std::size_t better_fields(const std::vector<float>& values, std::size_t fields, std::size_t file_size) {
   if (values.size() < 16 * fields) return 0;
   const float own = median_difference(values, fields);

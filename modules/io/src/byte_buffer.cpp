@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-// Below, the unused end of a last huge page would be a great part of the whole.
+// Minimum size for huge pages: in smaller blocks the unused rest of the last page would be too large a part.
 constexpr std::size_t least_huge = 2 * huge_page;
 
 }  // namespace

@@ -32,7 +32,7 @@ std::size_t values_per_point(const RawCloud& cloud) {
   return values;
 }
 
-// Reads a row at a time; fields of one type that follow each other are read as one.
+// Reads one row. Successive fields of the same type are read as one run.
 class PointRow {
  public:
   PointRow(const RawCloud& cloud, UnreadValues& unread) : cloud_(cloud), unread_(unread) {
@@ -54,7 +54,7 @@ class PointRow {
   }
 
  private:
-  // Where the value after `read` others is missing or none of its type.
+  // Handles value number `read` of the row (from 0), which is missing or not a number of its field's type.
   void pass_over(TextRows& rows, std::size_t read, std::byte* at) const {
     if (!rows.find_value()) {
       throw RowError{"truncated: row ", " has " + std::to_string(read) + " values instead of " +
@@ -81,7 +81,7 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
   RawCloud& cloud = header.cloud;
   check_types(cloud);
   const std::size_t available = file.size() - header.data_offset;
-  // A value takes a digit and a separator, which only the last one of the file may lack.
+  // Each value takes at least a digit and a separator, which only the last value of the file may lack.
   const std::size_t values = std::max<std::size_t>(values_per_point(cloud), 1);
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " + std::to_string(values) +
@@ -109,7 +109,7 @@ std::string format_ascii_points(const RawCloud& cloud) {
         with_element_type(field, [&](auto value) {
           std::memcpy(&value, at, sizeof value);
           if (std::isnan(static_cast<double>(value))) {
-            text += "nan";  // whatever its sign and payload
+            text += "nan";  // without sign and payload
           } else {
             append_number(text, value);
           }

@@ -19,10 +19,11 @@ struct BlockSizes {
   std::uint32_t unpacked;
 };
 
-// Three bytes of LZF unpack to at most 264 (7 + 255 + 2): a small file cannot ask for much memory.
+// Three bytes of LZF unpack to at most 264 bytes (7 + 255 + 2), a factor of 88. The limit keeps a small file
+// from requesting much memory.
 constexpr std::uint64_t greatest_expansion = 88;
 
-// What LZF takes at most for data that it cannot pack (1 byte more in 32) still has to fit in a uint32.
+// The compressed size must fit in a uint32, also for incompressible data, which LZF expands by 1 byte in 32.
 constexpr std::size_t most_unpacked = 4'000'000'000;
 
 void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t needed) {
@@ -40,8 +41,8 @@ void check_sizes(const BlockSizes& sizes, std::size_t available, std::size_t nee
   }
 }
 
-// A block that LZF does not shrink is stored as it is by some writers. One of the same size can be LZF, too
-// (it takes up to 1 byte in 32 more than it is given), so that is tried first.
+// Some writers store a block uncompressed if LZF does not shrink it. A block of equal packed and unpacked
+// size can also be LZF (which can expand data by 1 byte in 32), so LZF is tried first.
 void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   const unsigned got = lzf_decompress(packed.data(), static_cast<unsigned>(packed.size()), unpacked.data(),
                                       static_cast<unsigned>(unpacked.size()));
@@ -50,7 +51,7 @@ void unpack(ByteBuffer& packed, ByteBuffer& unpacked) {
   unpacked.swap(packed);
 }
 
-// The records of a block of points stay in the cache while field after field is written to them.
+// Size of a block of records that stays in the cache while its fields are written one after another.
 constexpr std::size_t block_bytes = 128 << 10;
 
 void gather_records(const ByteBuffer& columns, RawCloud& cloud) {
@@ -66,7 +67,7 @@ void gather_records(const ByteBuffer& columns, RawCloud& cloud) {
   }
 }
 
-// All values of the first field, then of the second one, ...; padding is left out.
+// Returns all values of the first field, then all values of the second field, and so on, without padding.
 ByteBuffer field_by_field(const RawCloud& cloud) {
   std::size_t step = 0;
   for (const PointField& field : cloud.fields)

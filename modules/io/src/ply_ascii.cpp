@@ -13,7 +13,7 @@
 namespace pcl_bv {
 namespace {
 
-// Reads a vertex at a time; properties of one type that follow each other are read as one.
+// Reads one vertex. Successive properties of the same type are read as one run.
 class VertexRow {
  public:
   VertexRow(const PlyElement& vertex, UnreadValues& unread) : vertex_(vertex), unread_(unread) {
@@ -43,7 +43,7 @@ class VertexRow {
 
  private:
   static void skip_list(TextRows& rows, const PlyProperty& list) {
-    std::uint64_t n = 0;  // little-endian, and not negative: a smaller element fills its low bytes
+    std::uint64_t n = 0;  // a count of a smaller unsigned type fills the low bytes (little-endian)
     PointField count = list.count;
     count.type = 'U';
     count.count = 1;
@@ -54,7 +54,7 @@ class VertexRow {
     }
   }
 
-  // The value that is missing here, or is none of this type.
+  // Throws for a value at the cursor that is missing or not of this type.
   [[noreturn]] static void refuse(TextRows& rows, const PointField& value) {
     if (!rows.find_value()) {
       throw RowError{"truncated: vertex ", " has no more values for property " + in_quotes(value.name)};
@@ -82,12 +82,12 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   RawCloud& cloud = header.cloud;
   const std::size_t available = file.size() - header.data_offset;
   const std::size_t values = std::max<std::size_t>(header.vertex.properties.size(), 1);
-  // A value takes a digit and a separator, which only the last one of the file may lack.
+  // Each value takes at least a digit and a separator, which only the last value of the file may lack.
   if (cloud.size() > (available + 1) / (2 * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " vertices of " + std::to_string(values) +
                   " properties do not fit in the " + std::to_string(available) + " bytes after the header");
   }
-  // A carriage return alone ends rows too; where a line feed follows, the row between them is empty.
+  // A carriage return alone ends a row, too. If a line feed follows it, there is an empty row between them.
   TextBody body{file, header.data_offset, true};
   for (const PlyElement& element : header.skipped)
     skip(body, element);

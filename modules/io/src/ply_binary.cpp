@@ -14,14 +14,14 @@
 namespace pcl_bv {
 namespace {
 
-/// The bytes of a file one after another, by way of a window.
+/// Reads the bytes of a file in sequence, small values through a buffer of 64 KiB.
 class ByteStream {
  public:
   ByteStream(const InputFile& file, std::size_t offset) : file_(file), at_(offset) {}
 
   std::size_t left() const { return file_.size() - at_; }
 
-  /// The caller makes sure that so many are left().
+  /// For the three functions below, `bytes` must be at most left().
   void skip(std::size_t bytes) { at_ += bytes; }
   void read_all(std::byte* to, std::size_t bytes) {
     file_.read(at_, to, bytes);
@@ -90,7 +90,7 @@ class ElementReader {
                   std::to_string(stream_.left()));
   }
 
-  // Copies a value as it is, or moves over a list.
+  // Copies a value in the file's byte order, or skips a list.
   void take(const PlyElement& element, std::size_t i, const PlyProperty& property, std::byte* to) {
     const auto need = [&](std::uint64_t bytes) {
       if (bytes <= stream_.left()) return;

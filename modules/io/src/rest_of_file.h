@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Warns about points behind the last point that a header announces.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +11,14 @@
 
 namespace pcl_bv {
 
-/// Bytes of a file, from `begin` to before `end`.
+/// The bytes [begin, end) of a file.
 struct ByteRange {
   std::size_t begin, end;
 };
 
-/// Notes that the bytes behind the last point, `rest`, hold more points of `record` bytes: a recorder that
-/// stops early leaves their number as it was when it began. A partial record, and less than 4 KiB of zeros as
-/// PCL writes them, are ignored. Throws IoError if the header says 0 points.
+/// Adds a note to the cloud if the bytes behind the last point, `rest`, have more points of `record` bytes: a
+/// recorder that stopped early may not have updated the header. An incomplete record is ignored, and so are
+/// zeros of less than 4 KiB, which PCL appends. Throws IoError if the header says 0 points but more follow.
 void note_rest(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud);
 
 }  // namespace pcl_bv

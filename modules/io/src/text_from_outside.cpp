@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kSpace = " \t\r\n";
 constexpr std::string_view kEndsScalar = "\"[]{} \t\r\n";
 
-// Behind the closing quote of the text that begins at `at`.
+// Returns the position behind the closing quote of the string that begins at `at`.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   for (++at; at < text.size() && text[at] != '"'; ++at)
     at += text[at] == '\\';
@@ -69,7 +69,7 @@ std::string_view next_json_value(std::string_view text, std::size_t& at) {
 
 std::string position_in(std::string_view text, std::size_t at) {
   const std::string_view before = text.substr(0, std::min(at, text.size()));
-  const std::size_t line_begin = before.rfind('\n') + 1;  // 0 where there is none
+  const std::size_t line_begin = before.rfind('\n') + 1;  // 0 if there is no line feed (npos + 1)
   return "line " + std::to_string(std::count(before.begin(), before.end(), '\n') + 1) + ", column " +
          std::to_string(before.size() - line_begin + 1);
 }

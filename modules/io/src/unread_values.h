@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What to do with a word where a number should be, in a field that is no coordinate.
+// Replaces and counts the values of a text file that are not numbers, in fields other than coordinates.
 #pragma once
 
 #include <atomic>
@@ -17,20 +17,20 @@
 
 namespace pcl_bv {
 
-/// Values that are no numbers of their field's type are read as NaN, or as 0 by integer fields, and counted;
-/// negative integers of unsigned fields wrap around as in C++ (-1 becomes the greatest). Several threads at a time;
-/// what is said of them depends only on the file.
+/// Values that are not numbers of their field's type become NaN, or 0 in integer fields, and are counted.
+/// Negative integers in unsigned fields wrap around as in C++ (-1 becomes the maximum) and are not counted.
+/// Thread-safe; the report depends only on the file.
 class UnreadValues {
  public:
-  /// `row`: what a row is called; `first_number`: that of the first one. The cloud must outlive this object
-  /// and have its data.
+  /// `row`: word for a row in messages; `first_number`: number of the first row. The cloud must outlive this
+  /// object, and its `data` must have its final size.
   UnreadValues(const RawCloud& cloud, std::string_view row, std::size_t first_number);
 
-  /// Moves over the value here, which is of this field and belongs at `to`. False, and nothing is done, if
-  /// the field is a coordinate or the row has no more values.
+  /// Skips the value at the cursor, an element of this field, and writes its replacement to `to`. Returns
+  /// false and does nothing if the field is a coordinate or the row has no more values.
   bool pass_over(TextRows& rows, std::size_t field, std::byte* to);
 
-  /// Says of the cloud which fields have such values.
+  /// Adds the fields with such values to the cloud's note and unread_fields.
   void report(RawCloud& cloud) const;
 
  private:

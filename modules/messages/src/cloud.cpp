@@ -21,7 +21,7 @@ struct Datatype {
   std::uint32_t size;
 };
 
-// By sensor_msgs/PointField's numbers, less one.
+// Index: the datatype of sensor_msgs/PointField minus 1.
 constexpr Datatype kDatatypes[]{{'I', 1}, {'U', 1}, {'I', 2}, {'U', 2},
                                 {'I', 4}, {'U', 4}, {'F', 4}, {'F', 8}};
 
@@ -29,7 +29,7 @@ constexpr Datatype kDatatypes[]{{'I', 1}, {'U', 1}, {'I', 2}, {'U', 2},
   throw MessageError("the cloud " + what);
 }
 
-// Where the points are.
+// Positions of the points in the data.
 struct Layout {
   std::size_t width = 0, height = 0;
   std::uint64_t row = 0;  // bytes from one row to the next
@@ -37,9 +37,8 @@ struct Layout {
   std::size_t points() const { return width * height; }
 };
 
-// Drivers write all kinds of numbers into row_step, which repeats what width and point_step say, and leave
-// the height of an unorganised cloud at 0: where the data are just as many as the points need, the data
-// decide.
+// Tolerates two errors of drivers: a wrong row_step (which is redundant for rows without padding), and height
+// 0 for an unorganised cloud. Both are ignored if the data has exactly the bytes that the points need.
 Layout layout_of(const msg::PointCloud2& cloud) {
   const std::uint64_t width = cloud.width, step = cloud.point_step, size = cloud.data.size;
   const std::uint64_t packed = width * step;  // below 2^64
@@ -57,7 +56,7 @@ Layout layout_of(const msg::PointCloud2& cloud) {
   return {width, height, height == 1 || exact ? packed : cloud.row_step};
 }
 
-// What is wrong with a field that reaches out of the record, or is of no type; empty if nothing is.
+// Returns what is wrong with a field: its type is unknown, or it exceeds the record. Empty if it is valid.
 std::string problem_of(const msg::PointField& field, std::uint32_t count, std::uint32_t point_step) {
   if (field.datatype < 1 || field.datatype > std::size(kDatatypes))
     return "is of datatype " + std::to_string(field.datatype) + ", not 1 to 8";
@@ -69,7 +68,7 @@ std::string problem_of(const msg::PointField& field, std::uint32_t count, std::u
 
 using Coordinates3 = std::array<const msg::PointField*, 3>;
 
-// X where there is no x, as some writers have it.
+// Finds the fields x, y and z, or X, Y and Z, which some writers use instead. Throws MessageError.
 Coordinates3 coordinates_of(const msg::PointCloud2& cloud) {
   Coordinates3 found{};
   const auto named = [&](const char* name) -> const msg::PointField* {
@@ -99,7 +98,7 @@ PointField element_of(const msg::PointField& field, std::string name, std::uint3
   return {std::move(name), type, size, count, field.offset};
 }
 
-// Where a field lies in the message's record and how it becomes one of ours.
+// A field of the message's record, and the field of the new record that it becomes.
 struct Move {
   PointField from, to;
 };
@@ -129,7 +128,7 @@ void copy_element(const std::byte* from, bool swap, const Move& move, std::byte*
   }
 }
 
-// What coordinates become: 4 if float32 holds each, else 8.
+// Returns the size of the new coordinates: 4 if float32 represents all values of their types exactly, else 8.
 std::uint32_t coordinate_size(const Coordinates3& xyz) {
   const bool wide = std::any_of(xyz.begin(), xyz.end(), [](const msg::PointField* field) {
     const auto [type, size] = kDatatypes[field->datatype - 1];
@@ -138,14 +137,14 @@ std::uint32_t coordinate_size(const Coordinates3& xyz) {
   return wide ? 8 : 4;
 }
 
-// The fields that can be read, and a line about the others.
+// The fields that can be read, and a note about those that cannot.
 struct Selection {
   std::vector<Move> moves;
   std::string note;
   std::size_t left_out = 0;
 
   void leave_out(const msg::PointField& field, const std::string& problem) {
-    constexpr std::size_t most = 3;  // in one line
+    constexpr std::size_t most = 3;  // fields that the note names
     if (++left_out <= most)
       note += (note.empty() ? "" : "; ") + ("field " + in_quotes(field.name)) + " is left out: it " + problem;
     if (left_out == most + 1) note += "; and others";
@@ -154,8 +153,8 @@ struct Selection {
 
 Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) {
   Selection selection;
-  // Colours often stand in one place under two names; more than that is no record of points, and would be
-  // long.
+  // Limits the new record to twice the old one. Overlapping fields are allowed, since a colour often has two
+  // names, but a damaged message could repeat the whole record many times.
   const std::size_t most = 2 * std::size_t{cloud.point_step};
   const std::uint32_t size = coordinate_size(xyz);
   std::size_t bytes = 0, offset = 0;
@@ -204,12 +203,12 @@ void set_fields(RawCloud& cloud, const std::vector<Move>& moves) {
   }
 }
 
-// A filter that has nothing left publishes a cloud without points, and often without fields.
+// Returns a cloud without points. A filter that removes all points often publishes no fields, too.
 RawCloud cloud_without_points(const msg::PointCloud2& cloud) {
   RawCloud made = make_cloud({});
   try {
     set_fields(made, select_fields(cloud, coordinates_of(cloud)).moves);
-  } catch (const MessageError&) {  // it keeps x, y and z as float32
+  } catch (const MessageError&) {  // keep x, y and z as float32
   }
   return made;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// ROS 1's bags (http://wiki.ros.org/Bags/Format/2.0).
+// Reads ROS 1 bags (http://wiki.ros.org/Bags/Format/2.0).
 
 #include <bzlib.h>
 
@@ -19,7 +19,8 @@ namespace pcl_bv {
 namespace {
 
 void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, std::vector<std::byte>& to) {
-  // Its best is 1 : 20 000, but of more than 8 MiB nobody has so much of the same.
+  // Limits the memory that a small file can request. bz2 can reach a ratio of 20 000, but real data of more
+  // than 8 MiB does not exceed 1000.
   if (expected > std::max<std::size_t>(8U << 20U, 1000 * size))
     throw IoError("bz2: " + std::to_string(size) + " bytes for " + std::to_string(expected));
   to.resize(expected);
@@ -31,13 +32,13 @@ void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, s
   if (status != BZ_OK || made != expected) throw IoError("bz2: not " + std::to_string(expected) + " bytes");
 }
 
-// Where a record is in the file, and its header; its data are not read.
+// A record in the file: its header, and position and size of its data, which are not read.
 struct BagPlace {
   std::vector<std::byte> header;
-  std::uint64_t data = 0, size = 0;  // of its data
+  std::uint64_t data = 0, size = 0;
 };
 
-// Bytes of a header: names of topics and few numbers; of a chunk's, its compression and size.
+// Maximum bytes of any header (a topic's name, a few numbers) and of a chunk's header (compression, size).
 constexpr std::uint64_t kMaxHeader = 1U << 20U, kMaxChunkHeader = 256;
 
 class BagReader final : public ChunkedReader {
@@ -51,7 +52,7 @@ class BagReader final : public ChunkedReader {
   }
 
  private:
-  // Nothing if it reaches beyond the file, or its header has more bytes than `max_header`.
+  // Returns the record at `at`; nullopt if it exceeds the file or its header exceeds `max_header` bytes.
   std::optional<BagPlace> place_at(std::uint64_t at, std::uint64_t max_header = kMaxHeader) const {
     const std::uint64_t size = file_.size();
     if (at + 4 > size) return std::nullopt;
@@ -83,7 +84,8 @@ class BagReader final : public ChunkedReader {
         found_topics_, {std::string(header.text("topic")), ros2_type(connection.text("type")), "ros1"});
   }
 
-  // The connections and the places of the chunks, which stand at the end. False if they do not.
+  // Reads the index at the file's end: connections and positions of chunks. Returns false, with a warning, if
+  // it is missing or damaged.
   bool by_index() {
     std::string problem = "it was not closed";
     try {
@@ -130,7 +132,7 @@ class BagReader final : public ChunkedReader {
     return true;
   }
 
-  // False if two chunks begin at one byte.
+  // Sorts the positions of the chunks. Returns false if two chunks have the same position.
   bool note_offsets() {
     offsets_.clear();
     for (const Part& part : found_parts_)
@@ -142,7 +144,7 @@ class BagReader final : public ChunkedReader {
   void scan() {
     std::vector<std::byte> raw, unpacked;
     Decompressor decompressor;
-    std::uint64_t previous = 0;  // its length may be what is damaged
+    std::uint64_t previous = 0;  // position of the last record: its length may be damaged
     for (std::uint64_t at = kMagicBytes; at < file_.size();) {
       const std::optional<BagPlace> place = place_at(at);
       const std::optional<BagOp> op = place ? op_of(*place) : std::nullopt;
@@ -178,7 +180,7 @@ class BagReader final : public ChunkedReader {
     }
   }
 
-  // Where the next chunk begins whose header says so; the file's end if there is none.
+  // Returns the position of the next chunk, found by its header's field "op", or the file's end.
   std::uint64_t find_chunk(std::uint64_t from) const {
     constexpr std::string_view mark("\x04\0\0\0op=\x05", 8);
     std::uint64_t chunk = file_.size();
@@ -193,7 +195,8 @@ class BagReader final : public ChunkedReader {
     return chunk;
   }
 
-  // Where the chunk begins whose header holds these bytes, but not before `from`; else the file's end.
+  // Returns the position of the chunk whose header contains the bytes [begin, end), searched backwards down
+  // to `from`; the file's end if there is none.
   std::uint64_t chunk_around(std::uint64_t begin, std::uint64_t end, std::uint64_t from) const {
     const std::uint64_t least = std::max(from, begin - std::min(begin, kMaxChunkHeader));
     for (std::uint64_t at = begin; at-- > least;) {
@@ -241,7 +244,7 @@ class BagReader final : public ChunkedReader {
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
     const std::optional<BagPlace> place = place_at(part_offset(part));
     if (!place) throw IoError("it is cut");
-    // Chunks within chunks would let a small file be read for each of its entries.
+    // Refuse overlapping chunks: each entry of a small file's index could refer to most of the file.
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), part_offset(part));
     if (next != offsets_.end() && place->data + place->size > *next)
       throw IoError("it reaches into the next one");
@@ -257,10 +260,10 @@ class BagReader final : public ChunkedReader {
   }
 
   InputFile file_;
-  std::vector<RecordedTopic> found_topics_;        // until start()
-  std::vector<Part> found_parts_;                  // until start()
-  std::vector<std::uint64_t> offsets_;             // of the chunks, ascending
-  std::map<std::uint32_t, std::size_t> topic_of_;  // by connection
+  std::vector<RecordedTopic> found_topics_;        // moved to the base class by start()
+  std::vector<Part> found_parts_;                  // moved to the base class by start()
+  std::vector<std::uint64_t> offsets_;             // positions of the chunks, ascending
+  std::map<std::uint32_t, std::size_t> topic_of_;  // index in the topics, by connection id
 };
 
 }  // namespace

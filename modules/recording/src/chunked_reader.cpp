@@ -47,7 +47,7 @@ bool ChunkedReader::next(RecordedMessage& message) {
   return true;
 }
 
-// Of equal times that of the part which comes first in the file.
+// Returns the loaded part with the earliest next message; of equal times the first part in the file.
 ChunkedReader::Loaded* ChunkedReader::earliest() const {
   const auto before = [](const auto& a, const auto& b) {
     const std::int64_t at = a->messages[a->next].log_time_ns, bt = b->messages[b->next].log_time_ns;
@@ -56,7 +56,7 @@ ChunkedReader::Loaded* ChunkedReader::earliest() const {
   return std::min_element(loaded_.begin(), loaded_.end(), before)->get();
 }
 
-// What next() gave is not looked at any more.
+// Releases the parts without further messages. The message that next() returned before is no longer needed.
 void ChunkedReader::release() {
   for (auto loaded = loaded_.begin(); loaded != loaded_.end();) {
     if ((*loaded)->next < (*loaded)->messages.size()) {
@@ -86,7 +86,7 @@ void ChunkedReader::load_next() {
   try {
     load(number, loaded->buffers, loaded->messages);
   } catch (const IoError& error) {
-    const bool some = !loaded->messages.empty();  // those before the damage are whole
+    const bool some = !loaded->messages.empty();  // the messages before the damage are intact
     remark(std::string("passed over the ") + (some ? "rest of the " : "") + "chunk at byte " +
            std::to_string(part.offset) + ": " + error.what());
   }

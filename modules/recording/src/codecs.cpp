@@ -17,13 +17,13 @@
 namespace pcl_bv {
 namespace {
 
-// The fastest: recording must not hold up a stream.
+// The fastest level: recording must not slow down a stream.
 constexpr int kZstdLevel = 1;
 [[noreturn]] void refuse(const char* library, const std::string& what) {
   throw IoError(std::string(library) + ": " + what);
 }
 
-// A byte of lz4 stands for at most 255.
+// One byte of lz4 decompresses to at most 255 bytes.
 void check_lz4(std::size_t size, std::size_t expected) {
   if (expected / 256 > size)
     refuse("lz4", std::to_string(size) + " bytes do not stand for " + std::to_string(expected));
@@ -36,7 +36,7 @@ void unpack_lz4(LZ4F_dctx* context, const std::byte* data, std::size_t size, std
     std::size_t source = size - read, room = to.size() - written;
     hint = LZ4F_decompress(context, to.data() + written, &room, data + read, &source, nullptr);
     if (LZ4F_isError(hint) != 0) refuse("lz4", LZ4F_getErrorName(hint));
-    if (hint != 0 && source == 0 && room == 0) break;  // no room, or no data any more
+    if (hint != 0 && source == 0 && room == 0) break;  // no progress: `to` is full, or the data ends
     read += source;
     written += room;
   }
@@ -101,7 +101,7 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
     to.resize(expected);
     return unpack_lz4(contexts_->lz4, data, size, to);
   }
-  if (expected / 64 > size) {  // more than what is usual: as much memory as comes out
+  if (expected / 64 > size) {  // unusual ratio: do not trust `expected`, let the buffer grow with the output
     decompress_zstd(data, size, to, expected);
     if (to.size() != expected) refuse("zstd", "not " + std::to_string(expected) + " bytes");
     return;
@@ -115,7 +115,8 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
 void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
                                    std::size_t most) {
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
-  // A few bytes may ask for a window of 128 MiB; level 19 asks for 8.
+  // Limit the window, since a few bytes can request 128 MiB: to 8 MiB (enough for level 19) for less than 1
+  // MiB of data, else to 128 MiB.
   ZSTD_DCtx_setParameter(contexts_->zstd.get(), ZSTD_d_windowLogMax, size < (1U << 20U) ? 23 : 27);
   ZSTD_inBuffer in{data, size, 0};
   std::size_t made = 0, rest = 1;

@@ -12,7 +12,7 @@ namespace pcl_bv {
 namespace mcap {
 namespace {
 
-// The records of the summary. Throws IoError if it is not whole.
+// Returns the records of the summary, empty if there is none. Throws IoError if file or summary are damaged.
 std::vector<std::byte> read_summary(const InputFile& file) {
   const std::uint64_t size = file.size();
   if (size < kMagic.size() + kFileEnd) throw IoError("it is cut");
@@ -23,7 +23,7 @@ std::vector<std::byte> read_summary(const InputFile& file) {
   if (footer.op != Op::footer) throw IoError("it has no footer");
   Fields values = footer.fields();
   const auto start = values.number<std::uint64_t>();
-  values.number<std::uint64_t>();  // where the summary's offsets are
+  values.number<std::uint64_t>();  // position of the summary offset records, not needed
   const auto crc = values.number<std::uint32_t>();
   if (start == 0) return {};
   if (start < kMagic.size() || start > size - kFileEnd) throw IoError("its summary lies outside");
@@ -47,7 +47,7 @@ void note_chunk(const Record& record, std::uint64_t end, Summary& summary) {
   summary.index_bytes[chunk.offset] = chunk.index_bytes;
 }
 
-// Overlapping chunks would let a short summary make the whole file be read for each of its entries.
+// Throws IoError for overlapping chunks: each entry of a short summary could refer to the whole file.
 void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   std::uint64_t end = 0;
   for (const auto& [offset, chunk] : chunks) {
@@ -56,7 +56,8 @@ void require_disjoint(const std::map<std::uint64_t, Part>& chunks) {
   }
 }
 
-// Whether each channel that the summary names, or whose messages it counts or indexes, is described there.
+// Whether the index has the channel and schema of each channel that the summary's channel, statistics and
+// chunk index records refer to.
 bool describes_channels(const Summary& summary, const Index& index) {
   const auto known = [&](std::uint16_t id) {
     const auto channel = index.channels.find(id);
@@ -73,7 +74,7 @@ bool describes_channels(const Summary& summary, const Index& index) {
          });
 }
 
-// Nothing if there is no summary, or none that describes all channels.
+// Reads the summary. Returns nullopt if there is none, or if it does not describe all channels.
 std::optional<Summary> by_summary(const InputFile& file, Index& index) {
   const std::vector<std::byte> bytes = read_summary(file);
   Summary summary;
@@ -100,7 +101,7 @@ Fields load_part(const InputFile& file, const Part& part, Decompressor& decompre
   const Record record = take_record(all);
   if (record.op != Op::chunk) throw IoError("there is no chunk");
   Fields fields = record.fields();
-  fields.take(16);  // its times
+  fields.take(16);  // first and last time
   const auto length = fields.number<std::uint64_t>();
   const auto crc = fields.number<std::uint32_t>();
   const std::string_view name = fields.text();

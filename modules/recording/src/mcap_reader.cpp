@@ -53,7 +53,7 @@ class McapReader final : public ChunkedReader {
       mcap::Fields fields = record.fields();
       const auto channel = fields.number<std::uint16_t>();
       const auto topic = topic_of_.find(channel);
-      fields.number<std::uint32_t>();  // its number in the channel
+      fields.number<std::uint32_t>();  // sequence number
       RecordedMessage message;
       message.log_time_ns = signed_time(fields.number<std::uint64_t>());
       message.publish_time_ns = signed_time(fields.number<std::uint64_t>());
@@ -70,8 +70,8 @@ class McapReader final : public ChunkedReader {
 
   InputFile file_;
   mcap::Index index_;
-  std::map<std::uint16_t, std::size_t> topic_of_;  // by channel
-  std::set<std::uint16_t> unknown_;                // channels of messages
+  std::map<std::uint16_t, std::size_t> topic_of_;  // index in the topics, by channel id
+  std::set<std::uint16_t> unknown_;                // channels of messages that have no channel record
 };
 
 }  // namespace

@@ -14,12 +14,12 @@ namespace pcl_bv {
 namespace mcap {
 namespace {
 
-// Messages outside of chunks are taken together up to this.
+// Size in bytes at which a part of successive messages outside of chunks ends.
 constexpr std::uint64_t kLooseBytes = 1U << 20U;
-// Bytes that hold the fields of a chunk before its records, where its compression has a name of up to 47.
+// Bytes that are enough for a chunk's fields before its records, for compression names of up to 47 bytes.
 constexpr std::size_t kChunkStart = 96;
 
-// Walks over the records of a file, but not into the chunks that the summary describes.
+// Walks over the records of a file. Skips the content of chunks that the summary describes.
 class Scan {
  public:
   Scan(const InputFile& file, Index& index, const Summary& summary)
@@ -29,19 +29,19 @@ class Scan {
   }
 
   Unknown all() {
-    std::uint64_t previous = 0;  // a record whose length may be what is damaged begins here
+    std::uint64_t previous = 0;  // position of the last record: its length may be damaged
     for (std::uint64_t at = kMagic.size(); at + kRecordStart <= file_.size();) {
       if (const auto known = summary_.chunks.find(at); known != summary_.chunks.end()) {
         loose_ = false;
         index_.parts.push_back(known->second);
         unseen_.erase(at);
-        at = std::max(behind(*known), at + kRecordStart);  // progress, whatever the summary says
+        at = std::max(behind(*known), at + kRecordStart);  // moves forward even if the summary is wrong
         previous = at - 1;
         continue;
       }
       const std::vector<std::byte> start = bytes_at(file_, at, kRecordStart);
       Fields fields(start.data(), start.size());
-      // All but 0 are records: those that the specification reserves or leaves to others are skipped.
+      // Every opcode other than 0 can be a record. Reserved and private opcodes are skipped.
       const auto op = static_cast<Op>(fields.number<std::uint8_t>());
       const auto size = fields.number<std::uint64_t>();
       if (op == Op{0} || size > file_.size() - at - kRecordStart || (op == Op::chunk && !is_chunk_at(at))) {
@@ -59,7 +59,8 @@ class Scan {
   }
 
  private:
-  // The message index behind a chunk is skipped if it is as long as the summary says.
+  // Returns the end of a chunk that the summary describes, including its message indexes if they end before
+  // the next chunk.
   std::uint64_t behind(const std::pair<const std::uint64_t, Part>& chunk) const {
     const std::uint64_t end = chunk.first + chunk.second.bytes;
     const std::uint64_t index = summary_.index_bytes.at(chunk.first);
@@ -68,8 +69,8 @@ class Scan {
     return end <= most && index <= most - end ? end + index : end;
   }
 
-  // Where the next chunk begins, known or by its own fields, which must agree with one another: the file's
-  // end if there is none. What lies before cannot be read.
+  // Returns the position of the next chunk at or after `from`: one of the summary, or one found by consistent
+  // fields. Returns the file's end if there is none. Adds a warning for the skipped bytes.
   std::uint64_t find_chunk(std::uint64_t from, std::uint64_t damage) {
     const auto next = summary_.chunks.lower_bound(from);
     const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
@@ -78,7 +79,7 @@ class Scan {
           return *bytes == std::byte{static_cast<std::uint8_t>(Op::chunk)} &&
                  is_chunk(bytes, size, file_.size() - at);
         });
-    // Where the damage is the length of a record, the next chunk may lie before its end.
+    // If the length of a record is damaged, the next chunk may begin before the record's supposed end.
     index_.warnings.add(found == file_.size()
                             ? "the file ends within a record, at byte " + std::to_string(damage)
                             : skipped_bytes(found > damage ? damage : from - 1, found));
@@ -92,7 +93,8 @@ class Scan {
     return is_chunk(bytes.data(), bytes.size(), file_.size() - at);
   }
 
-  // Also one of a compression that we do not know, so that a warning can name it.
+  // Whether a chunk begins here: its lengths must be consistent. Accepts unknown compressions, so that a
+  // warning can name them.
   static bool is_chunk(const std::byte* bytes, std::size_t size, std::uint64_t left) {
     try {
       Fields fields(bytes, size);
@@ -107,7 +109,7 @@ class Scan {
     }
   }
 
-  // Chunks that the summary knows, but that lie behind where the walk ended.
+  // Adds the chunks of the summary that are behind the end of the walk.
   void add_rest() {
     for (const std::uint64_t offset : unseen_)
       index_.parts.push_back(summary_.chunks.at(offset));
@@ -141,7 +143,7 @@ class Scan {
     part.last_time = std::max(part.last_time, time);
   }
 
-  // Channels may be nowhere else than inside.
+  // Reads a chunk that is not in the summary. Its schemas and channels may occur only in the chunk.
   void add_chunk(std::uint64_t at, std::uint64_t size) {
     ++found_.chunks;
     Part part{at, kRecordStart + size, 0, 0};
@@ -160,7 +162,7 @@ class Scan {
 
   static void note_message(Fields fields, Part& part) {
     part.channels.insert(fields.number<std::uint16_t>());
-    fields.number<std::uint32_t>();  // its number in the channel
+    fields.number<std::uint32_t>();  // sequence number
     const auto time = fields.number<std::uint64_t>();
     part.first_time = std::min(part.first_time, time);
     part.last_time = std::max(part.last_time, time);
@@ -178,11 +180,11 @@ class Scan {
   const InputFile& file_;
   Index& index_;
   const Summary& summary_;
-  std::set<std::uint64_t> unseen_;  // of the summary's chunks
+  std::set<std::uint64_t> unseen_;  // positions of the summary's chunks that the walk has not met
   Unknown found_;
   Decompressor decompressor_;
   std::vector<std::byte> raw_, unpacked_;
-  bool loose_ = false;  // whether the last part is of messages that this one follows
+  bool loose_ = false;  // the last record was a message outside of chunks, in the last part
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace pcl_bv {
 namespace {
 
-// Of a regular file only: a pipe would wait, or lose what is read from it.
+// Returns the first 64 bytes of a regular file. Other files are not read: a pipe would block or lose data.
 std::string start_of(const std::filesystem::path& file) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(file, unknown)) return {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// rosbag2's folders: metadata.yaml and files one after the other, and files that are compressed whole.
+// Reads rosbag2's folders (metadata.yaml and one or more files), and files that are compressed as a whole.
 
 #include <unistd.h>
 
@@ -28,17 +28,18 @@ bool is_member(const fs::path& file) {
   return name.extension() == ".db3" || name.extension() == ".mcap";
 }
 
-// A folder that names itself or one that holds it would be opened in itself without end.
+// Throws IoError unless the path can be a file of a recording. A folder is refused: metadata.yaml could name
+// the folder itself, which would recurse without end.
 void require_member(const fs::path& file) {
   std::error_code unknown;
   if (!is_member(file) || (fs::exists(file, unknown) && !fs::is_regular_file(file, unknown)))
     throw IoError("no .db3 or .mcap file");
 }
 
-// As one, each from its beginning to its end: a recorder begins a file where it ends the last one.
+// Reads several files one after another as one recording: a recorder begins a file where the last one ends.
 class JoinedReader final : public RecordingReader {
  public:
-  /// Remarks are what was noticed of the folder.
+  /// `remarks`: warnings about the folder.
   JoinedReader(std::vector<fs::path> files, const std::vector<std::string>& remarks) {
     for (const std::string& line : remarks)
       remark(line);
@@ -90,8 +91,8 @@ class JoinedReader final : public RecordingReader {
  private:
   struct Member {
     std::unique_ptr<RecordingReader> reader;
-    std::vector<std::size_t> topics;  // of the reader's, their places in ours
-    std::uint64_t warnings = 0;       // that were passed on
+    std::vector<std::size_t> topics;  // index in topics_ of each topic of the reader
+    std::uint64_t warnings = 0;       // number of the reader's warnings that were passed on
   };
 
   std::vector<fs::path> files_;
@@ -100,7 +101,7 @@ class JoinedReader final : public RecordingReader {
   std::size_t at_ = 0;
 };
 
-// The files that metadata.yaml names.
+// Returns the files that metadata.yaml names.
 std::vector<fs::path> files_of(const fs::path& folder) {
   const fs::path metadata = folder / "metadata.yaml";
   std::vector<fs::path> files;
@@ -108,7 +109,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
     const YAML::Node root = YAML::Load(read_text_from_outside(metadata, kMaxMetadataBytes));
     for (const YAML::Node& file : root["rosbag2_bagfile_information"]["relative_file_paths"])
       files.push_back(folder /
-                      fs::path(file.as<std::string>()).filename());  // older ones have the folder, too
+                      fs::path(file.as<std::string>()).filename());  // old versions include the folder
   } catch (const YAML::Exception& error) {
     throw IoError("metadata.yaml: " + yaml_problem(error));
   } catch (const IoError& error) {
@@ -118,7 +119,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
-// A file that is named again would be read again, and a small metadata.yaml can name one a million times.
+// Removes repeated files, with a warning: a small metadata.yaml could name one file a million times.
 std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
                                           std::vector<std::string>& remarks) {
   std::vector<fs::path> once;
@@ -134,7 +135,7 @@ std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
   return once;
 }
 
-// Others have files of this name, too.
+// Whether the folder has a metadata.yaml of rosbag2: other programs also write files of this name.
 bool has_metadata(const fs::path& folder) {
   std::ifstream stream(folder / "metadata.yaml", std::ios::binary);
   std::string start(1000, ' ');
@@ -142,7 +143,7 @@ bool has_metadata(const fs::path& folder) {
   return start.find("rosbag2_bagfile_information") != std::string::npos;
 }
 
-// The files of rosbag2 in a folder: NAME_0.db3, NAME_1.db3, ... or .mcap, in natural order.
+// Returns the .db3 and .mcap files in a folder (NAME_0.db3, NAME_1.db3, ...), in natural order.
 std::vector<fs::path> members_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code unknown;
@@ -155,7 +156,8 @@ std::vector<fs::path> members_in(const fs::path& folder) {
   return files;
 }
 
-// Those of a folder without metadata.yaml, as after a crash. A folder of clouds may hold a recording, too.
+// Returns the files of a recording without metadata.yaml, as after a crash. Returns none if the folder also
+// has clouds: then it is a folder of clouds.
 std::vector<fs::path> parts_in(const fs::path& folder) {
   std::vector<fs::path> files = members_in(folder);
   if (files.empty()) return files;
@@ -167,7 +169,7 @@ std::vector<fs::path> parts_in(const fs::path& folder) {
   return files;
 }
 
-// A file in the folder for temporary ones that nobody else sees, gone with the process.
+// A temporary file that only this user can read; removed at destruction.
 class Temporary {
  public:
   explicit Temporary(const std::vector<std::byte>& bytes)
@@ -203,8 +205,8 @@ bool is_rosbag2_folder(const fs::path& folder) {
   return fs::is_directory(folder, unknown) && (has_metadata(folder) || !parts_in(folder).empty());
 }
 
-// A recorder writes metadata.yaml last: what it says may be older than the files, or never have been
-// finished.
+// A recorder writes metadata.yaml last, so it may be older than the files or incomplete. If it cannot be
+// read, all files of the folder are used.
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   if (!has_metadata(folder))
     return std::make_unique<JoinedReader>(parts_in(folder), std::vector<std::string>());
@@ -225,7 +227,7 @@ std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   return std::make_unique<JoinedReader>(std::move(files), remarks);
 }
 
-// SQLite wants a file; the name of the temporary one may go as soon as it is open.
+// Unpacks into a temporary file, which SQLite needs. It can be unlinked as soon as the reader has opened it.
 std::unique_ptr<RecordingReader> open_zstd_file(const fs::path& file) {
   std::vector<std::byte> unpacked;
   {

@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Schema 3, Humble's. Without synchronous writes a power cut may cost more than the last transaction; the end
-// of the process does not.
+// Schema version 3 of Humble. Writes are not synchronous: a power failure can lose more than the last
+// transaction, a crash of the process cannot.
 constexpr const char* kBegin = R"(
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = OFF;
@@ -40,6 +40,7 @@ CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timesta
 CREATE INDEX timestamp_idx ON messages (timestamp ASC);
 )";
 
+// Minimum duration of a transaction.
 constexpr std::chrono::milliseconds kTransaction{50};
 
 fs::path made_folder(const fs::path& folder) {
@@ -49,7 +50,7 @@ fs::path made_folder(const fs::path& folder) {
   return folder;
 }
 
-// "bag", also of "bag/".
+// Returns the folder's name: "bag" for "bag" and "bag/".
 std::string name_of(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
@@ -72,7 +73,8 @@ class Rosbag2Writer::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  // Replaces what is there. Not before the first message: a recording that is opened in vain costs no other.
+  // Replaces an existing recording. Called at the first message, attachment or close(), so that a writer that
+  // is never used leaves the old recording unchanged.
   void open() {
     if (database_ != nullptr) return;
     if (closed_) throw IoError("the recording is closed");
@@ -135,7 +137,7 @@ class Rosbag2Writer::State {
     open();
     closed_ = true;
     commit();
-    run("PRAGMA journal_mode = DELETE");  // all into the one file
+    run("PRAGMA journal_mode = DELETE");  // moves all data into the database file
     release();
     write_file_atomically(folder_ / "metadata.yaml", metadata());
   }
@@ -201,7 +203,7 @@ class Rosbag2Writer::State {
     }
     const auto begins = [&] {
       return nanoseconds("nanoseconds_since_epoch", messages > 0 ? first_ : 0);
-    };  // a node of its own each time: no alias
+    };  // a new node each time: yaml-cpp writes a shared node as an alias
     const auto lasts = [&] { return nanoseconds("nanoseconds", messages > 0 ? last_ - first_ : 0); };
     YAML::Node part;
     part["path"] = file_;
@@ -241,7 +243,7 @@ Rosbag2Writer::Rosbag2Writer(const fs::path& folder) : state_(std::make_unique<S
 Rosbag2Writer::~Rosbag2Writer() {
   try {
     if (state_->has_begun()) state_->close();
-  } catch (const std::exception&) {  // a destructor has nobody to tell
+  } catch (const std::exception&) {  // a destructor cannot report errors
   }
 }
 

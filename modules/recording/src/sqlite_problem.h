@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Error messages for errors of SQLite.
 #pragma once
 
 #include <sqlite3.h>
@@ -9,9 +10,9 @@
 
 namespace pcl_bv {
 
-/// What the database's last call failed at, in our words.
+/// Returns the error message for the last failed call on the database.
 inline std::string sqlite_problem(sqlite3* database) {
-  const int code = sqlite3_errcode(database) & 0xFF;  // without what SQLite says beside the kind
+  const int code = sqlite3_errcode(database) & 0xFF;  // primary result code
   switch (code) {
     case SQLITE_NOTADB:
       return "is no database of SQLite";

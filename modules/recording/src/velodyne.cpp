@@ -14,18 +14,18 @@
 namespace pcl_bv {
 namespace {
 
-// Packets of one model from one address to one port, mostly of one sensor; of a relay or a played back file
-// perhaps of several.
+// The packets of one model from one address to one port. They are usually of one sensor; those of a relay or
+// of a file that is played back can be of several.
 struct Origin {
   std::vector<VelodyneSensor> sensors{};
-  std::vector<std::byte> waiting{};  // a packet that none of them expects, until the next one says why
+  std::vector<std::byte> waiting{};  // a packet that no sensor expects; the next packet decides, see take()
   std::int64_t waiting_time_ns = 0;
 
   Payload waiting_packet() const { return {waiting_time_ns, waiting.data(), waiting.size()}; }
 };
 
 constexpr std::size_t kMostSensors = 8;  // of one origin
-constexpr std::size_t kMostNames = 5;    // in a line
+constexpr std::size_t kMostNames = 5;    // in a message
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
@@ -70,7 +70,7 @@ struct VelodyneReader::State {
     rewind();
   }
 
-  // What a capture without the packets that are wanted has instead.
+  // The packets that are not used, for the error message of a capture without usable packets.
   struct Strangers {
     std::vector<std::string> sensors, others;
 
@@ -116,7 +116,8 @@ struct VelodyneReader::State {
     VelodyneSensor* sensor = expecting(packet, origin);
     if (!origin.waiting.empty()) {
       const Payload earlier = origin.waiting_packet();
-      // The sensor goes on where it was: the packet between was another's. Else it has jumped.
+      // If a sensor expects this packet, the waiting packet was of another sensor. Otherwise the azimuth has
+      // jumped, and the waiting packet was the first one after the jump.
       if (sensor != nullptr && origin.sensors.size() < kMostSensors) {
         const auto place = static_cast<std::size_t>(sensor - origin.sensors.data());
         add_sensor(found, origin).add(earlier, whole);
@@ -146,7 +147,7 @@ struct VelodyneReader::State {
     return origin.sensors.emplace_back(found, sensors - 1);
   }
 
-  // Made when it is read, with the sensors up to then: one line, however many they are.
+  // Updates the warning about several sensors, a single line that names the sensors found so far.
   void note_several() {
     if (sensors <= said_sensors || sensors < 2) return;
     said_sensors = sensors;
@@ -180,7 +181,7 @@ struct VelodyneReader::State {
       sensor.finish(whole);
   }
 
-  // An address and the port it sends to.
+  // A source address and destination port.
   struct Address {
     std::string name;
     std::map<const VelodyneModel*, Origin> origins{};
@@ -193,9 +194,9 @@ struct VelodyneReader::State {
   std::map<std::uint64_t, Address> origins;
   std::size_t sensors = 0, said_sensors = 0;
   std::deque<VelodyneSweep> whole;
-  WarningList warnings;                // of the packets; those of a second reading are the same
-  std::uint64_t warnings_added = 0;    // how many of the packets' are in it
-  std::optional<std::size_t> several;  // the number of warnings before several_line
+  WarningList warnings;                // about packets; kept by rewind(), since a second pass finds the same
+  std::uint64_t warnings_added = 0;    // number of warnings of `packets` that are in `warnings`
+  std::optional<std::size_t> several;  // number of warnings before several_line
   std::string several_line;
   bool done = false;
 };

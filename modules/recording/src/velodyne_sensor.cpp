@@ -10,15 +10,15 @@
 
 namespace pcl_bv {
 
-// A sensor: of 32 returns of a block the beams in turn, and how far a firing takes.
+// A sensor model. A block has 32 returns, one of each beam in this order; a VLP-16 fires its 16 beams twice.
 struct VelodyneModel {
   std::string_view name;
-  std::uint8_t factory;  // the last byte of a packet
+  std::uint8_t factory;  // product id, the last byte of a packet
   std::size_t beams;
-  double metres;              // of a step of distance
-  double block_ns, laser_ns;  // from a block to the next, from a laser (or pair) to the next
-  std::array<double, kVelodyneLasers> degrees;  // up, of each beam
-  std::array<double, kVelodyneLasers> aside;    // azimuth of each beam, degrees
+  double metres;              // unit of distances
+  double block_ns, laser_ns;  // time from a block to the next, and from a laser (or pair) to the next
+  std::array<double, kVelodyneLasers> degrees;  // elevation of each beam
+  std::array<double, kVelodyneLasers> aside;    // azimuth offset of each beam, degrees
 };
 
 namespace {
@@ -57,7 +57,7 @@ constexpr VelodyneModel kModels[] = {
      {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
       1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
 
-// Azimuths are hundredths of a degree.
+// Azimuths are in hundredths of a degree.
 constexpr std::size_t kTurn = 36'000;
 struct Turn {
   double sine, cosine;
@@ -75,9 +75,9 @@ const std::vector<Turn>& turns() {
   return all;
 }
 
-constexpr double kForgotten = 0.3e9;  // nanoseconds without a packet after which a sensor can be anywhere
-constexpr double kStrange = 6'000;    // hundredths of a degree from where it should be: another sensor
-constexpr unsigned kLate = 8;         // packets behind the end of a turn, 10 ms, until it is complete
+constexpr double kForgotten = 0.3e9;  // pause in nanoseconds after which the azimuth cannot be predicted
+constexpr double kStrange = 6'000;    // maximum prediction error, hundredths of a degree, of the same sensor
+constexpr unsigned kLate = 8;         // packets (10 ms) after a revolution's end until it is complete
 
 std::uint16_t word(const std::byte* at) {
   std::uint16_t value;
@@ -93,17 +93,17 @@ const std::byte* return_of(const Payload& packet, std::size_t block, std::size_t
   return packet.data + kBlock * block + 4 + 3 * laser;
 }
 
-// Blocks of one firing: two of dual returns.
+// Returns the number of blocks per firing: 2 in dual return mode, else 1.
 std::size_t step_of(const Payload& packet) {
   return std::to_integer<int>(packet.data[kVelodynePacket - 2]) == 0x39 ? 2 : 1;
 }
 
-// The shorter way from one azimuth to the other, -180 to 180 degrees.
+// Returns the signed difference of two azimuths, -180 to 180 degrees.
 double way_between(double from, double to) {
   return std::remainder(to - from, static_cast<double>(kTurn));
 }
 
-// From the first firing to the last one.
+// Returns the rotation from the packet's first firing to its last one.
 double way_within(const Payload& packet) {
   return way_between(azimuth_of(packet, 0), azimuth_of(packet, kBlocks - step_of(packet)));
 }
@@ -141,7 +141,8 @@ VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
   sweep_.sensor = number;
 }
 
-// From the newest packet's first block to that of this one, by the number of turns that fits its time best.
+// Returns the rotation from the newest packet's first block to this packet's first block, with the number of
+// revolutions that fits the packet's time best.
 double VelodyneSensor::ahead(const Payload& packet) const {
   const double expected = speed_ * static_cast<double>(packet.time_ns - last_time_ns_);
   return expected + way_between(place_ + expected, azimuth_of(packet, 0));
@@ -153,8 +154,8 @@ bool VelodyneSensor::expects(const Payload& packet) const {
   return std::abs(ahead(packet) - speed_ * passed) <= kStrange;
 }
 
-// From packet to packet once there are two, which no jitter of a single one and no other rate of firing
-// changes much.
+// Estimates the rotation speed: from the first packet alone, then from each pair of packets with a smoothing
+// factor of 1/8, so that jitter of a single packet or another firing rate has little effect.
 void VelodyneSensor::learn_speed(const Payload& packet, double way) {
   const std::size_t firings = kBlocks / step_of(packet) - 1;
   if (speed_ == 0) speed_ = way_within(packet) / (static_cast<double>(firings) * model_->block_ns);
@@ -193,7 +194,8 @@ void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole
     last_time_ns_ = packet.time_ns;
   }
   started_ = true;
-  // The second firing of a block of a VLP-16 is half way to the next block, by this packet's first two.
+  // The second firing of a VLP-16's block is half way to the next block. The rotation per block is that
+  // between the packet's first two blocks.
   const double half = way_between(azimuth_of(packet, 0), azimuth_of(packet, step)) / 2;
   for (std::size_t block = 0; block < kBlocks; block += step) {
     if (block > 0) place += way_between(azimuth_of(packet, block - step), azimuth_of(packet, block));

@@ -9,7 +9,8 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kListed = 10;  // warnings, so that damaged input cannot fill memory or a log
+// Maximum number of listed warnings, so that damaged input cannot fill memory or a log.
+constexpr std::size_t kListed = 10;
 
 }  // namespace
 

@@ -50,7 +50,8 @@ void append(T value, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// The count of a face's corners is a byte, as everywhere, unless a flat hull has more of them.
+/// Whether the vertex count of every face fits in a byte, as is usual in .ply files. Flat hulls can have
+/// more.
 bool counts_fit_a_byte(const VolumeCells& cells) {
   return std::all_of(cells.polygons.begin(), cells.polygons.end(),
                      [](const Cell& face) { return face.vertices.size() <= 255; });

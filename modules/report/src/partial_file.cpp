@@ -40,7 +40,7 @@ void require_same(bool same, const char* what) {
   if (!same) throw std::invalid_argument(what);
 }
 
-// Of both; those that touch become one.
+// Returns the union of both; adjacent shares become one. Throws std::invalid_argument if they overlap.
 Shares united(const Shares& a, const Shares& b) {
   Shares sorted = a, shares;
   sorted.insert(sorted.end(), b.begin(), b.end());
@@ -64,13 +64,13 @@ std::size_t points_in(const Shares& shares) {
   return points;
 }
 
-// Nothing below 0 and no fraction, and no number that only a double holds.
+// Returns a non-negative integer of at most 64 bits. Throws IoError for any other value.
 std::size_t whole(const Json& number) {
   require(number.is_number_unsigned(), "its heading has no whole number where it should");
   return number.get<std::size_t>();
 }
 
-// Throws Json::exception, and IoError.
+// Throws Json::exception and IoError.
 PartialFile read_heading(std::string_view line) {
   require(line.size() <= kMaxHeadingBytes, "its heading is too long");
   const Json json = read_json(line);
@@ -104,7 +104,7 @@ void PartialFile::add_input(std::string_view name, std::size_t points) {
   const auto add = [&](unsigned char byte) { inputs_hash = (inputs_hash ^ byte) * 0x100000001b3; };
   for (const char c : name)
     add(static_cast<unsigned char>(c));
-  for (std::size_t i = 0; i <= 8; ++i)  // the 0 ends the name
+  for (std::size_t i = 0; i <= 8; ++i)  // a zero byte ends the name, then 8 bytes of the number follow
     add(i == 0 ? 0 : static_cast<unsigned char>(points >> (8 * (i - 1))));
   ++inputs;
   cloud_points += points;

@@ -11,8 +11,8 @@ namespace {
 
 using Path = std::vector<Eigen::Vector3d>;
 
-/// What of a path has sign * coordinate <= limit. Where an open one leaves and comes back, it goes along the
-/// limit.
+/// Returns the part of a path with sign * coordinate <= limit. Where an open path leaves this half-plane and
+/// returns, the two crossings are connected along its boundary.
 Path cut(const Path& path, bool closed, int axis, double sign, double limit) {
   Path kept;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -42,7 +42,7 @@ Styles::Styles(const Picture& picture) {
 }
 
 void add_path(cairo_t* cairo, const View& view, const std::vector<Eigen::Vector3d>& points, bool closed) {
-  constexpr double beyond = 64;  // pixels, more than any line is wide
+  constexpr double beyond = 64;  // pixels outside the picture, wider than any line
   Path path;
   for (const Eigen::Vector3d& point : points) {
     path.push_back(view.project(point));

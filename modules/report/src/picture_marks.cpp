@@ -20,7 +20,7 @@ using Box = Eigen::AlignedBox2d;
 class Marks {
  public:
   Marks(cairo_t* cairo, const View& view) : cairo_(cairo), view_(view), bottom_(view.height - margin) {
-    // Cairo's own letters: fonts differ from machine to machine, and finding one takes longer than a picture.
+    // Cairo's built-in font: others differ between machines, and finding one takes longer than a picture.
     cairo_select_font_face(cairo, "@cairo:", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
     cairo_set_font_size(cairo, text_size);
   }
@@ -48,7 +48,7 @@ class Marks {
     taken_.push_back(box);
   }
 
-  /// The text's left end and foot are at x, y.
+  /// Writes a text whose baseline starts at x, y.
   void write(const std::string& text, double x, double y, const Colour& colour) {
     cairo_set_source_rgb(cairo_, colour[0], colour[1], colour[2]);
     cairo_move_to(cairo_, x, y);
@@ -63,17 +63,17 @@ class Marks {
   cairo_t* cairo_;
   const View& view_;
   double bottom_;
-  std::vector<Box> taken_;  ///< Where there is something to read.
+  std::vector<Box> taken_;  ///< Areas with text or marks, which labels must not overlap.
 };
 
-/// What Cairo's letters can show, and Cairo does not refuse.
+/// Replaces characters that Cairo's built-in font does not have by '?'.
 std::string readable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return text;
 }
 
-// Red, green and blue, as in RViz and CloudCompare; those that point at the viewer are drawn last.
+// The colours are those of RViz and CloudCompare. Axes that point at the viewer are drawn last.
 void Marks::draw_axes() {
   constexpr Colour colours[3] = {{0.95f, 0.35f, 0.35f}, {0.45f, 0.85f, 0.4f}, {0.42f, 0.6f, 1.0f}};
   const double reach = axis_length + 13, x = margin + axis_length, y = bottom_ - axis_length;
@@ -93,7 +93,7 @@ void Marks::draw_axes() {
   taken_.emplace_back(Eigen::Vector2d(x - reach, y - reach), Eigen::Vector2d(x + reach, y + reach));
 }
 
-// The greatest of 1, 2 and 5 times a power of ten that is at most this.
+// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `most`.
 double round_length(double most) {
   const double power = std::pow(10.0, std::floor(std::log10(most)));
   for (const double digit : {5.0, 2.0}) {
@@ -106,7 +106,7 @@ void Marks::draw_scale(const std::string& unit) {
   constexpr double longest = 180, tick = 5, x = margin + 2 * axis_length + 46;
   const double length = round_length(longest / view_.scale);
   const double pixels = length * view_.scale;
-  if (!(pixels > 1) || !(pixels <= longest * 1.01)) return;  // of a scene beyond what can be written
+  if (!(pixels > 1) || !(pixels <= longest * 1.01)) return;  // scene size outside the range of doubles
   line(x, bottom_ - tick, x, bottom_);
   cairo_line_to(cairo_, x + pixels, bottom_);
   cairo_line_to(cairo_, x + pixels, bottom_ - tick);
@@ -124,7 +124,7 @@ void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& s
   double x = margin, y = margin, widest = 0;
   for (const auto& [method, number] : styles.colour_of) {
     if (method >= methods.size()) continue;
-    if (y > bottom_ - mark_room) {  // a further column
+    if (y > bottom_ - mark_room) {  // begin a new column
       x += sample + 24 + widest;
       y = margin, widest = 0;
     }
@@ -141,7 +141,7 @@ void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& s
 
 void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
   const Box frame(Eigen::Vector2d(0, 0), Eigen::Vector2d(view_.width, view_.height));
-  // Above the middle of what lies on top; from above, there is no top to be seen.
+  // A label is above the volume's highest point; in a view from above, above its upper edge in the picture.
   const Eigen::Vector3d& rise = view_.sky.dot(view_.toward) > 0.9 ? view_.up : view_.sky;
   for (const PictureVolume& entry : volumes) {
     if (entry.label.empty() || empty(entry.volume)) continue;

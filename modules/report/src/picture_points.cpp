@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points as small discs in a depth buffer of twice the picture's resolution, then shaded by their neighbours'
-// depth (eye-dome lighting, Boucheny 2009) and averaged down. Cairo would need minutes for what this does in
-// 0.1 s.
+// Draws points as small discs in a depth buffer of twice the picture's resolution, shades them by their
+// neighbours' depth (eye-dome lighting, Boucheny 2009) and averages the samples of each pixel. Cairo would
+// need minutes for the same points, this takes 0.1 s.
 
 #include "picture_parts.h"
 
@@ -16,7 +16,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr int samples = 2;  // along each side of a pixel
+constexpr int samples = 2;  // per pixel in each direction
 constexpr float no_depth = std::numeric_limits<float>::infinity();
 
 constexpr Colour background_top{0.035f, 0.047f, 0.078f};
@@ -28,7 +28,7 @@ Colour mix(const Colour& a, const Colour& b, float t) {
   return {a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t};
 }
 
-/// Low is blue, high is warm.
+/// Returns the colour for a relative height from 0 (blue) to 1 (orange).
 Colour height_colour(float t) {
   constexpr Colour stops[] = {{0.24f, 0.36f, 0.68f},
                               {0.17f, 0.62f, 0.74f},
@@ -79,10 +79,10 @@ void splat(Raster& raster, const Eigen::Vector3d& at, const Offsets& offsets, co
   }
 }
 
-/// How much light reaches a sample: less where its neighbours stand before it.
+/// Returns the brightness of a sample, 0 to 1: lower if neighbours are closer to the viewer.
 float eye_dome(const Raster& raster, int x, int y) {
   constexpr int step = 3;
-  constexpr float reach = 40;  // samples: a step in depth beyond which it gets no darker
+  constexpr float reach = 40;  // maximum depth difference that counts, in samples
   constexpr int around[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
   const float here = raster.depth[static_cast<std::size_t>(y) * raster.width + x];
   float covered = 0;

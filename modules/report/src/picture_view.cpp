@@ -14,19 +14,20 @@ namespace pcl_bv {
 namespace {
 
 constexpr double degree = 0.017453292519943295;
-// The height of the eye is that of an isometric drawing. Its azimuth is not 45 degrees: streets run along x
-// or y in most clouds, and would go straight into a corner of the picture, which is wider than high.
+// Direction of the viewer in ViewFrom::iso. The elevation is that of an isometric drawing. The azimuth is not
+// that of a diagonal: in most clouds streets run along x or y, and would run diagonally through the picture,
+// which is wider than high.
 constexpr double elevation = 35 * degree;
 constexpr double azimuth = -114 * degree;
-constexpr double margin_part = 0.04;  // of each side
+constexpr double margin_part = 0.04;  // margin at each side, relative to the picture's size
 
-/// The interval [low, high] along one axis that something covers.
+/// The interval [low, high] along one axis.
 struct Interval {
   double low = 0, high = 0;
 };
 
-/// From the lowest of the lows to the highest of the highs, leaving out the most extreme `cut` of either.
-/// Nothing covers from infinity to minus infinity.
+/// Returns the interval from the lowest `low` to the highest `high` of all parts, ignoring the `cut` most
+/// extreme values of each. Without parts returns [infinity, -infinity].
 Interval span(std::vector<Interval>& parts, std::size_t cut) {
   if (parts.empty()) return {INFINITY, -INFINITY};
   Interval result;
@@ -39,9 +40,9 @@ Interval span(std::vector<Interval>& parts, std::size_t cut) {
   return result;
 }
 
-/// A sample of the drawn points that matter for the frame: those in clusters if there are labels, else all.
+/// Returns a sample of the points that determine the frame: points in clusters if there are labels, else all.
 std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
-  constexpr std::size_t enough = 100000;  // stand for any number of points
+  constexpr std::size_t enough = 100000;  // maximum size of the sample
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < picture.points.count; i += picture.points.count / enough + 1) {
     const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
@@ -51,7 +52,7 @@ std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
   return points;
 }
 
-/// What points cover, but for one in `extreme` at either end.
+/// Returns the interval of the points along the axis, without one of `extreme` points at either end.
 Interval central(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
                  std::size_t extreme) {
   std::vector<Interval> parts;
@@ -61,8 +62,8 @@ Interval central(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector
   return span(parts, parts.size() / extreme);
 }
 
-/// The same for volumes that are not empty. Of a street's hundred objects the few farthest would make all
-/// others small.
+/// Returns the interval of the non-empty volumes, without a sixteenth of them at either end: a few distant
+/// objects would make all others small.
 Interval central(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
   std::vector<Interval> parts;
   for (const auto& [volume, colour, label, method] : volumes) {
@@ -87,7 +88,8 @@ View oriented(const Picture& picture) {
   return view;
 }
 
-/// What of a picture's side is kept around so many pixels of content.
+/// Returns the cropped length of a picture's side: `content` pixels and the margins for marks, at least
+/// `least` and at most `side`.
 int cropped(int side, double content, int least) {
   return std::min(side, std::max(least, static_cast<int>(std::min<double>(side, content)) + 2 * mark_room));
 }

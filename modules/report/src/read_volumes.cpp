@@ -17,7 +17,7 @@ using Json = JsonFromOutside;
   throw std::invalid_argument(what);
 }
 
-// "radius: three numbers are wanted, not [1,2]"
+// Throws an error such as "radius: three numbers are wanted, not [1,2]".
 [[noreturn]] void refuse(const char* key, const char* wanted, const Json& value) {
   refuse(std::string(key) + ": " + wanted + ", not " + shown(value));
 }
@@ -111,10 +111,10 @@ AnyVolume read_shape(const Json& json) {
   refuse(shown(name) + " is no shape");
 }
 
-// Where an entry stands: "clusters[0].volumes[2]".
+// The path of an entry, such as "clusters[0].volumes[2]".
 struct Place {
-  const Place* above;
-  std::string key;  // empty: a number in a list
+  const Place* above;  // path of the parent, null for the top level
+  std::string key;     // empty for an entry of a list, which has a number
   std::size_t number = 0;
 
   std::string text() const {
@@ -138,13 +138,14 @@ void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
   volumes.push_back(std::move(volume));
 }
 
-// What an entry that should be a volume is instead.
+// Throws the error for an entry that should be a volume but is not.
 [[noreturn]] void refuse_entry(const Json& entry, const Place& place) {
   refuse(place.text() + ": is no volume: " + (entry.is_object() ? "it has no \"shape\"" : shown(entry)));
 }
 
-// Each entry of a list or group that is called "volumes", or has a volume, must be a volume: one that was skipped
-// without a word would be a fault of safety. Numbers and texts beside named volumes may say what they like.
+// Appends all volumes in a JSON value. Entries that may have been meant as volumes must be volumes or contain
+// some, since skipping a volume silently would be unsafe. These are all entries of a list or object "volumes"
+// and of a list with a volume, and all objects next to a volume in an object. Other values there are ignored.
 Found collect(const Json& json, const Place* place, std::vector<AnyVolume>& volumes) {
   if (json.is_object() && json.contains("shape")) {
     try {
@@ -180,8 +181,8 @@ Found collect(const Json& json, const Place* place, std::vector<AnyVolume>& volu
 
 std::vector<AnyVolume> volumes_in(std::string_view text) {
   std::vector<AnyVolume> volumes;
-  std::optional<std::size_t> without;  // where the first value without volumes begins
-  bool bare = false;                   // whether some value is a volume: then all are
+  std::optional<std::size_t> without;  // position of the first value without volumes
+  bool bare = false;                   // a value of the text is itself a volume: then all must be volumes
   const auto refuse_value = [&](std::size_t at, const std::string& what) {
     std::size_t end = 0;
     next_json_value(text, end);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reports as JSON. Numbers are written by std::to_chars, which alone promises the fewest digits that read
+// Writes reports as JSON. Numbers are written by std::to_chars, which guarantees the fewest digits that read
 // back exactly.
 
 #include <cmath>
@@ -85,7 +85,7 @@ void add_field(const PointField& field, JsonText& json) {
   json.add("size", field.size).add("count", field.count).end('}');
 }
 
-/// What there is none of is left out.
+/// Leaves out the box of an empty cloud and an unknown spacing.
 void add_info(const CloudInfo& info, JsonText& json) {
   json.key("info").begin('{');
   if (!info.box.empty()) add_numbers(info.box, json);
@@ -97,7 +97,7 @@ void add_info(const CloudInfo& info, JsonText& json) {
   json.end(']').end('}');
 }
 
-/// Microseconds are all that a clock reading is worth.
+/// Rounds to microseconds, the useful precision of the clock.
 double microseconds_exact(double seconds) {
   return std::round(seconds * 1e6) / 1e6;
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// How numbers, method names and upright boxes are written in all report formats.
 #pragma once
 
 #include <charconv>
@@ -14,7 +15,7 @@
 
 namespace pcl_bv {
 
-/// Appends the fewest digits that read back as exactly this double; never -0. Throws std::domain_error if it
+/// Appends the fewest digits that read back as exactly this double; 0 for -0. Throws std::domain_error if it
 /// is not finite.
 inline void append_shortest(double value, std::string& text) {
   if (!std::isfinite(value)) throw std::domain_error("a volume has a number that is not finite");
@@ -28,13 +29,14 @@ inline std::string shortest(double value) {
   return text;
 }
 
-/// The method; of `best` also the shape that it has chosen: "best (obb)".
+/// Returns the method's name; for `best` with the shape that it chose, such as "best (obb)".
 inline std::string shown_method(const VolumeEntry& entry) {
   if (entry.method != "best" || empty(entry.volume)) return entry.method;
   return entry.method + " (" + std::string(shape_name(entry.volume)) + ')';
 }
 
-/// The box of an upright method, which has a length, a width, a height and a yaw; else, or if empty, null.
+/// Returns the box of an upright method (with length, width, height and yaw); null for other methods and for
+/// an empty box.
 inline const Obb* upright_box(const VolumeEntry& entry) {
   const Obb* const box = std::get_if<Obb>(&entry.volume);
   if (box == nullptr || box->empty()) return nullptr;

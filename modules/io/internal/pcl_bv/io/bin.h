@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reader of sweeps without a header: KITTI's, nuScenes', and those of all who write theirs in the same way.
+// Reader of .bin sweeps, which have no header: the format of KITTI and nuScenes.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,18 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads a .bin file: records of `fields` little-endian float32, from 3 to 32, which become the fields x, y,
-/// z, intensity, ring, field6, field7 and so on; 0 means 5 for names that end in .pcd.bin (nuScenes), else 4
-/// (KITTI).
+/// Reads a .bin file: each point is `fields` (3 to 32) little-endian float32. The values become the fields x,
+/// y, z, intensity, ring, field6, field7 and so on. 0 means 5 fields for names that end in .pcd.bin
+/// (nuScenes) and 4 for all others (KITTI).
 ///
-/// The format cannot say how many there are. With 0, the file is held against what scans are like: points
-/// that follow one another are near one another, so values differ least from those one record on. Where that
-/// holds clearly of another number of floats, or where most values are no coordinates (NaN, beyond 1e7, or
-/// smaller than 1e-20 but not 0), the file is refused, with the number to try.
+/// The file does not state its number of fields. With `fields` 0, the number is checked for plausibility:
+/// successive points of a scan are close to each other, so each value should differ little from the value one
+/// record later. The file is refused if another number of fields fits clearly better (the error names this
+/// number), or if most values are not coordinates (NaN, above 1e7, or below 1e-20 but not 0).
 ///
-/// Throws IoError, naming the reason, for that and for a file that is missing, unreadable, empty or of a size
-/// that is no multiple of a record ("truncated"); std::invalid_argument for another number of fields.
+/// Throws IoError with the reason for an implausible number of fields and for a file that is missing,
+/// unreadable, empty or of a size that is not a multiple of a record ("truncated"). Throws
+/// std::invalid_argument if `fields` is neither 0 nor from 3 to 32.
 RawCloud read_bin(const std::filesystem::path& path, std::size_t fields = 0);
 
 }  // namespace pcl_bv

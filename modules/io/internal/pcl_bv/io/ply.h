@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reader of the Polygon File Format (Stanford), version 1.0, as far as it holds points.
+// Reader of the points of the Polygon File Format (Stanford), version 1.0.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Reads the element `vertex` of a .ply file: ascii, binary_little_endian or binary_big_endian, elements and
-/// properties in any order. x, y and z (or X, Y and Z) may be of any type. Every property that is no list
-/// becomes a field, in the order of the file, with its values (little-endian); lists and other elements are
-/// left out. The cloud has height 1 and no viewpoint.
+/// Reads the element `vertex` of a .ply file: ascii, binary_little_endian or binary_big_endian, with elements
+/// and properties in any order. x, y and z (or X, Y and Z) may be of any type. Every property except lists
+/// becomes a field, in the order of the file, with little-endian values. Lists and other elements are left
+/// out. The cloud has height 1 and the identity as viewpoint.
 ///
-/// Sizes in the header, which may have up to 1 MiB, are held against the size of the file before anything is
-/// allocated. What comes after the vertices is not looked at, except that an ascii file without further
-/// elements must end there, and that more vertices of a binary one are noted. Numbers in ascii are read as
-/// read_pcd() does, threads used and errors thrown as there.
+/// The header may have up to 1 MiB. Its sizes are checked against the size of the file before anything is
+/// allocated. Data after the vertices is ignored, with two exceptions for files without further elements:
+/// further rows of an ascii file are an error, and further vertices of a binary file are reported in
+/// RawCloud::note. Numbers, threads and errors are as in read_pcd().
 RawCloud read_ply(const std::filesystem::path& path, const ParallelPolicy& policy = Serial{});
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Building and extending clouds for the writers: labels beside the input's own fields, generated points.
+// Creates and edits clouds: clouds from coordinates, an additional label field, integer fields as numbers.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,26 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A cloud of width n and height 1 with the float32 fields x, y, z, from n triples "x y z", kept to the bit.
-/// Throws std::invalid_argument if the number of floats is no multiple of three.
+/// Returns a cloud of width n and height 1 with the float32 fields x, y, z, copied bit for bit from n triples
+/// x y z. Throws std::invalid_argument if the number of floats is not a multiple of three.
 RawCloud make_cloud(const std::vector<float>& xyz);
 
-/// Gives every point a uint32 `name`: in the place of the field of that name, whatever its type was, else at
-/// the end of the record. All other fields keep their values and order.
+/// Sets the uint32 field `name` of every point. It replaces an existing field of this name, whatever its
+/// type, or is appended to the record. All other fields keep their values and order.
 ///
-/// Throws std::invalid_argument if there is not one value per point, or if the name is empty, holds white
-/// space, is "_" (padding) or that of a coordinate (x, y, z, X, Y, Z).
+/// Throws std::invalid_argument if there is not one value per point, or if the name is empty, contains white
+/// space, or is "_" (padding) or a coordinate (x, y, z, X, Y, Z).
 void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<std::uint32_t>& values);
 
-/// The values of an integer field, of one element a point, one for each point; where fields share the name,
-/// of the first. Throws std::runtime_error if there is no such field (the message lists those there are), if
-/// it is floating point or has several elements, if it is unsigned and of 8 bytes, or if values of it could
-/// not be read.
+/// Returns the values of an integer field, one per point. If several fields have this name, the first is
+/// used. Throws std::runtime_error if there is no such field (the message lists the existing fields), if it
+/// is floating point, has several elements per point, is unsigned with 8 bytes, or is in `unread_fields`.
 std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view name);
 
-/// Brings `packed_xyz` in line with `data`, as every reader does last: filled if fields x, y and z that
-/// xyz() can view exist but do not lie side by side in that order as one floating-point type, else empty.
-/// Throws IoError for integers beyond 2^53.
+/// Recomputes `packed_xyz` from `data`; call it after changing `data` or `fields`, as every reader does.
+/// `packed_xyz` is filled if xyz() needs a copy: if the fields x, y and z exist with one element each but are
+/// not adjacent in this order as one floating-point type. Otherwise it is empty. Throws IoError for integers
+/// above 2^53 in magnitude.
 void update_packed_xyz(RawCloud& cloud);
 
 }  // namespace pcl_bv

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The only way in for JSON that somebody else wrote. nlohmann's objects are maps here: with keys in the order
-// of the text each new key would be compared with all before it.
+// Parses untrusted JSON; all such text must come through here. Objects are nlohmann's default sorted maps:
+// ordered_json would compare each new key with all keys before it, which is quadratic.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace pcl_bv {
 
 using JsonFromOutside = nlohmann::json;
 
-/// The next value of a text of any number of them; nothing at its end. Throws IoError, which names line and
-/// column, for what is no JSON and for values nested more than kMaxJsonDepth deep.
+/// Parses the next value of a text that contains any number of JSON values; returns nullopt at its end.
+/// Throws IoError with line and column for invalid JSON and for values nested more than kMaxJsonDepth deep.
 inline std::optional<JsonFromOutside> read_next_json(std::string_view text, std::size_t& at) {
   const std::string_view value = next_json_value(text, at);
   if (value.empty()) return std::nullopt;
@@ -32,7 +32,7 @@ inline std::optional<JsonFromOutside> read_next_json(std::string_view text, std:
   }
 }
 
-/// A text that is one value.
+/// Parses a text that must be exactly one JSON value. Throws IoError.
 inline JsonFromOutside read_json(std::string_view text) {
   std::size_t at = 0;
   std::optional<JsonFromOutside> value = read_next_json(text, at);
@@ -41,14 +41,15 @@ inline JsonFromOutside read_json(std::string_view text) {
   return *std::move(value);
 }
 
-/// The member of this name. Throws std::invalid_argument where there is none.
+/// Returns the object's member of this name. Throws std::invalid_argument if there is none.
 inline const JsonFromOutside& member(const JsonFromOutside& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (found == object.end()) throw std::invalid_argument(std::string("has no \"") + key + '"');
   return *found;
 }
 
-/// A value in a message: its first 40 characters, of a long list or group only its length.
+/// Returns a value as text for an error message: its first 40 characters, or only the length of an array or
+/// object that is long or nested.
 inline std::string shown(const JsonFromOutside& value) {
   constexpr std::size_t few = 8;
   const auto is_long = [](const JsonFromOutside& part) { return part.is_structured() || part.is_string(); };

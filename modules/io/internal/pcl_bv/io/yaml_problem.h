@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Error messages for exceptions of yaml-cpp.
 #pragma once
 
 #include <yaml-cpp/depthguard.h>
@@ -10,8 +11,8 @@
 
 namespace pcl_bv {
 
-/// What yaml-cpp found wrong, in our words: "line 2: is no YAML: ... (column 7)". It stops at 500 levels
-/// itself, which its stack has room for.
+/// Returns the message for an error of yaml-cpp: "line 2: is no YAML: ... (column 7)". yaml-cpp itself
+/// refuses nesting deeper than 500 levels, before its recursion can overflow the stack.
 inline std::string yaml_problem(const YAML::Exception& error) {
   const YAML::Mark& at = error.mark;
   std::string what = "a key or a value is of another kind than is wanted";

@@ -8,9 +8,9 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// The definition of a type of types.h or results.h that has a name ("std_msgs/msg/Header"), as recordings
-/// hold it (encoding "ros2msg"): its .msg text, then that of each type it is made of after a line of 80 '='
-/// and "MSG: package/Type". Throws std::invalid_argument for another name.
+/// Returns the definition of a type of types.h or results.h ("std_msgs/msg/Header") in the encoding "ros2msg"
+/// of recordings: its .msg text, then the .msg text of each type that it uses, each after a line of 80 '='
+/// and a line "MSG: package/Type". Throws std::invalid_argument for unknown types.
 std::string schema_of(std::string_view type);
 
 }  // namespace pcl_bv

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a share of a cloud contributes to volumes around all of it, as a file that travels between machines.
+// Files of partial results: the contribution of a part of a cloud (a share) to the volumes of the whole
+// cloud, to be merged on one machine.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,49 +20,50 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A Partial, of which cloud it is, and of which of its points. The cloud is numbered through all its inputs
-/// in their order, and each share has its points by their numbers there: so neither the order of merging nor
-/// the number of shares changes a bit.
+/// A Partial with the identity of its cloud and the indices of its points. Points are numbered over all
+/// inputs of the cloud in their order, and each share keeps these numbers. So the result is the same, bit for
+/// bit, for any number of shares and any order of merging.
 struct PartialFile {
-  /// Of a cloud without inputs.
-  static constexpr std::uint64_t kNoInputs = 0xcbf29ce484222325;  // of FNV-1a
+  /// Value of `inputs_hash` for a cloud without inputs: the offset basis of FNV-1a.
+  static constexpr std::uint64_t kNoInputs = 0xcbf29ce484222325;
 
-  std::uint64_t inputs_hash = kNoInputs;  ///< See add_input().
-  std::size_t inputs = 0;                 ///< Files of the whole cloud.
-  std::size_t cloud_points = 0;           ///< Of the whole cloud, valid or not.
-  std::optional<Eigen::Vector3d> origin;  ///< What was subtracted from all coordinates, if something was.
-  std::string filter;                     ///< Which points were dropped: a text that is only compared.
-  Counts counts;  ///< Of this share: range and inside, which `partial` takes for invalid.
-  /// Numbers of the points: from .first to before .second, ascending and neither empty nor adjacent.
+  std::uint64_t inputs_hash = kNoInputs;  ///< FNV-1a hash of the inputs' names and sizes; see add_input().
+  std::size_t inputs = 0;                 ///< Number of input files of the whole cloud.
+  std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.
+  std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
+  std::string filter;                     ///< Describes the filters for points; only compared.
+  Counts counts;                          ///< Dropped points of this share: only `range` and `inside`.
+  /// Points of this share as ranges [first, second) of numbers, ascending, neither empty nor adjacent.
   std::vector<std::pair<std::size_t, std::size_t>> shares;
-  Partial partial;
+  Partial partial;  ///< The partial results. Dropped points are treated as invalid.
 
-  /// The next input of the cloud: its name without folders, and its points.
+  /// Adds the next input of the cloud: its name without folders, and its number of points.
   void add_input(std::string_view name, std::size_t points);
 
-  /// Adds a share: associative and commutative. Throws std::invalid_argument, and changes nothing, if it is
-  /// of another cloud, origin, filter or type of coordinates, or if a point is in both.
+  /// Merges another share into this one; associative and commutative. Throws std::invalid_argument and
+  /// changes nothing if its cloud, origin, filter or type of coordinates differs, or if both have the same
+  /// point.
   void merge(const PartialFile& other);
 
-  /// Whether all points of the cloud are here.
+  /// Returns whether all points of the cloud are in this share.
   bool is_whole() const;
 
-  /// "points 100 to 200, 300 to 350 of 400": which points are not here.
+  /// Returns which points are missing in this share, such as "points 100 to 200, 300 to 350 of 400".
   std::string missing() const;
 };
 
-/// A line that names the format and its version, a line of JSON that says what it is of, the bytes of the
-/// Partial, and a CRC-32 of all before.
+/// Returns the content of a file: a line with the format and its version, a line of JSON with all members
+/// except `partial`, the bytes of the Partial, and a CRC-32 of all preceding bytes.
 std::string partial_file_content(const PartialFile& file);
 
-/// Throws IoError, saying what is wrong, for anything but what partial_file_content() gave: a file that was
-/// cut or changed, is of another version, or is none.
+/// Parses the content of a file. Throws IoError with the reason if the content is cut, changed, of another
+/// version or of another format.
 PartialFile parse_partial_file(std::string_view content);
 
-/// Atomically, as all outputs. Throws IoError.
+/// Writes a file atomically; creates missing folders. Throws IoError.
 void write_partial_file(const std::filesystem::path& path, const PartialFile& file);
 
-/// Throws IoError. Files of more than 1 GiB are refused.
+/// Reads a file. Throws IoError; also for files of more than 1 GiB.
 PartialFile read_partial_file(const std::filesystem::path& path);
 
 }  // namespace pcl_bv

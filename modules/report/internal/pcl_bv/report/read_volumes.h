@@ -11,13 +11,14 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// All volumes of a file that pcd_bv or bv_stream has written as JSON, or of one by hand: whatever objects in
-/// it have a "shape", with the numbers of report_json(), at any depth up to 64, one document or one a line.
-/// Volumes with "empty": true are left out; the others come out bit by bit as they were.
+/// Reads all volumes of a JSON file written by pcd_bv, bv_stream or by hand: all objects with a member
+/// "shape" and the numbers of report_json(), at a nesting of up to 64. The file has one JSON value or
+/// several, such as one per line. Volumes with "empty": true are left out; all others are equal to the
+/// written ones bit for bit.
 ///
-/// Throws IoError, which names the entry ("clusters[0].volumes[2]"), for a file that cannot be read, has more
-/// than 1 GiB, is no JSON, or has no shape at all; for a shape without its numbers or whose fit failed; and
-/// for an entry that is no volume among volumes or in a list called "volumes".
+/// Throws IoError, which names the entry ("clusters[0].volumes[2]"), if the file cannot be read, has more
+/// than 1 GiB, is not valid JSON or has no volumes; if a shape lacks its numbers or its fit failed; and if an
+/// entry next to volumes, or in a list "volumes", is not a volume.
 std::vector<AnyVolume> read_volumes(const std::filesystem::path& file);
 
 }  // namespace pcl_bv
