@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/volumes/kdop.h"
 
 namespace pcl_bv::volumes_internal {
@@ -21,7 +22,7 @@ struct Polytope {
   std::vector<Eigen::Vector3d> vertices;  ///< Empty if the slabs have no point in common.
   std::vector<Face> faces;                ///< Counter-clockwise seen from outside.
   double volume = 0;
-  Eigen::Vector3d centroid;  ///< Relative to the origin.
+  Eigen::Vector3d centroid = Eigen::Vector3d::Constant(kNan);  ///< Relative to the origin; NaN without vertices.
 };
 
 /// The size of a polytope and its first moment.

@@ -87,8 +87,8 @@ class Kdop {
   /// Returns the surface area in squared units. Both sides of a flat k-DOP count. 0 if empty.
   double surface_area() const;
 
-  /// Returns the centre of mass of the polytope; if flat, that of the polygon, segment or point. NaN if
-  /// empty.
+  /// Returns the centre of mass of the polytope; if flat, that of the polygon, segment or point. NaN if empty or
+  /// if the slabs have no point in common.
   Eigen::Vector3d center() const;
 
   /// Returns a corner that is farthest along `direction` (any length). NaN if empty. Dual simplex method,
