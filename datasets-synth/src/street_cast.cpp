@@ -84,7 +84,7 @@ double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
   for (const Box3& pocket : part.pockets) {
     if (!holds(pocket, entry)) continue;
     const double end = clip_box(ray, pocket).exit;
-    // A pocket at the solid's edge may contain the whole chord: the ray then passes the solid.
+    // A pocket at the solid's edge may contain the whole chord: the ray then passes through.
     if (end >= span.exit) return infinity;
     return end;
   }

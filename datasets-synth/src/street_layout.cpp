@@ -30,8 +30,8 @@ struct Row {
 
 // Objects of different rows are at least 0.7 m apart in y, whatever the random sizes, so that clustering with
 // a tolerance of 0.5 m never joins two objects. Half widths in metres: cars 1.02 and hedges 0.42 including
-// their yaw, posts 0.3, people 0.34, trees 1.5, houses 4.6 including their bays. The slots of the sensor's
-// lane stay at least 8 m ahead of and behind the sensor.
+// their yaw, posts 0.3, people 0.34, trees 1.5, houses 4.6 including their bays. The cars in the sensor's
+// lane have their centres at least 8 m ahead of or behind the sensor.
 // clang-format off
 constexpr std::array rows{
     //                     spacing shift jitter  side  share  speed    tilted

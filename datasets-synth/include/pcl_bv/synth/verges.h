@@ -68,8 +68,8 @@ VergesFrame make_verges_frame(const VergesOptions& options, std::size_t frame);
 /// first few thousand frames.
 VergesFrame make_verges_truth(const VergesOptions& options, std::size_t frame);
 
-/// Returns the height of the ground at (x, y) in the fixed frame, metres, without its roughness of up to 5
-/// cm. `frame` selects the section of the road: (x, y) must be within 100 m of the sensor's position in that
+/// Returns the height of the ground at (x, y) in the fixed frame, metres, without the roughness (up to 4 cm).
+/// `frame` selects the section of the road: (x, y) must be within 100 m of the sensor's position in that
 /// frame.
 double verges_ground_height(std::uint64_t seed, std::size_t frame, double x, double y);
 
