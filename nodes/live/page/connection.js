@@ -14,7 +14,8 @@ const FIRST_PAUSE_MS = 500;
 const LONGEST_PAUSE_MS = 5000;
 
 export class Connection {
-  // `on`: callbacks frame(frame), opened(), lost(), status(level, message), parameters(list, id), error(text).
+  // `on`: callbacks frame(frame), opened(), lost(), status(level, message), parameters(list, id) and
+  // error(text).
   constructor(url, on) {
     this.url = url;
     this.on = on;
