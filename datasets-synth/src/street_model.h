@@ -24,7 +24,7 @@ struct Part {
   Box3 bounds;
   std::vector<Plane> planes;
   std::vector<Box3> pockets;  ///< Boxes cut out of the solid: windows, wheel arches.
-  double free_path = 0;       ///< Mean path length of a ray inside leaves, metres. 0: opaque.
+  double free_path = 0;       ///< Mean path length of a ray inside foliage, metres. 0: opaque.
   double loss = 0;            ///< Probability that a hit gives no return (glass).
 };
 

@@ -16,8 +16,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-inline constexpr std::array<double, 3> shape_center{1, 2, 3};
-inline constexpr std::array<double, 3> box_half_extents{2, 1, 0.5};
+inline constexpr std::array<double, 3> shape_center{1, 2, 3};        ///< Centre of all shapes.
+inline constexpr std::array<double, 3> box_half_extents{2, 1, 0.5};  ///< Half side lengths of make_box().
 
 /// Returns points uniform on the surface of the sphere of radius 1.
 SynthCloud make_sphere(std::size_t points, std::uint64_t seed);

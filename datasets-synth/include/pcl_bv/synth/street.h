@@ -23,7 +23,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-inline constexpr std::size_t street_beams = 64;
+inline constexpr std::size_t street_beams = 64;       ///< Number of beams of an HDL-64E.
 inline constexpr double street_sensor_height = 1.73;  ///< Metres above the road.
 inline constexpr double street_slope = 0.05;          ///< Rise of the ground per metre along +x.
 inline constexpr double street_curb_height = 0.12;    ///< Metres from the road up to the sidewalks.

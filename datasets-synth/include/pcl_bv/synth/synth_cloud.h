@@ -23,7 +23,7 @@ struct SynthCloud {
   std::vector<std::uint32_t> kind;        ///< 1 + the StreetObjectKind; 0: no object. Rural road only.
   std::size_t height = 1;                 ///< Number of rows (row-major order): the beams of a sweep.
 
-  std::size_t size() const { return xyz.size() / 3; }
+  std::size_t size() const { return xyz.size() / 3; }  ///< Number of points.
 };
 
 /// Converts to a RawCloud for writing to a file: float32 fields `x`, `y`, `z` and, for labels that are not
