@@ -69,7 +69,7 @@ using Request = std::variant<Subscribe, Unsubscribe, GetParameters, SetParameter
 /// settings' values.
 inline constexpr std::size_t kMaxNames = 100;     ///< Settings, channels or subscriptions; about 30 exist.
 inline constexpr std::size_t kMaxIdLength = 200;  ///< Bytes.
-inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status' message.
+inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status message.
 
 /// Parses any text. Invalid requests and requests over the limits give Unknown.
 Request parse_request(const std::string& text);

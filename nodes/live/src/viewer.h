@@ -78,7 +78,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   std::uint64_t dropped_ = 0;
   bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;
   bool counts_ = true;                                  // in `readers` of the subscribed channels
-  std::map<std::size_t, std::uint32_t> subscriptions_;  // by channel
+  std::map<std::size_t, std::uint32_t> subscriptions_;  // channel id -> subscription id
   RateLimit requests_{kMostRequestsASecond}, request_bytes_{kMostRequestBytesASecond};
 };
 
