@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command pcd_bv_mpi: pcd_bv over the ranks of MPI.
+// The command pcd_bv_mpi: pcd_bv distributed over MPI ranks.
 
 #include <exception>
 #include <functional>
@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
   using namespace pcl_bv;
   return run_command("pcd_bv_mpi", [&]() -> int {
     WhenInterrupted interrupted;
-    const Interruption interruption([&] { interrupted(); });  // before MPI has threads
+    const Interruption interruption([&] { interrupted(); });  // before MPI starts its threads
     Ranks ranks(&argc, &argv);
     std::string reason;
     try {
