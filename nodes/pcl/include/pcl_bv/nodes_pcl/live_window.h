@@ -45,6 +45,7 @@ class LiveWindow {
     return !window_.wasStopped();
   }
 
+  /// Returns the PCLVisualizer, for further settings.
   pcl::visualization::PCLVisualizer& window() { return window_; }
 
  private:
