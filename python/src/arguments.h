@@ -60,8 +60,7 @@ std::vector<const Method*> methods_of(py::handle names, bool& one);
 ParallelPolicy policy_of(py::handle threads);
 Execution execution_of(py::handle threads, py::handle isa);
 
-/// A rigid motion from a 4 x 4 matrix: a rotation that is orthonormal to 1e-6, a translation, last row 0 0 0
-/// 1.
+/// A rigid motion from a 4 x 4 matrix with the last row 0 0 0 1. The rotation must be orthonormal to 1e-6.
 Eigen::Isometry3d isometry(py::handle matrix, const char* name);
 
 /// Returns an object's text for error messages: its repr(), at most 60 characters, or its type if repr()

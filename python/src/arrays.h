@@ -27,9 +27,9 @@ struct PointArray {
 /// - any other object that numpy.asarray() converts to one of these arrays. Whole numbers of lists, up to
 ///   2^53, become float64. An empty list has no points.
 ///
-/// The points are not copied if x, y, z are adjacent and the rows have any positive distance. These are
-/// copied: arrays in Fortran order, backward or overlapping rows, x, y, z that are not adjacent, integers,
-/// the other byte order, and masked arrays, whose masked numbers become NaN.
+/// The points are not copied if x, y, z are adjacent and the rows are any positive distance apart. Copied are
+/// arrays in Fortran order, with backward or overlapping rows, with x, y, z that are not adjacent, of
+/// integers, with the other byte order, and masked arrays, whose masked numbers become NaN.
 ///
 /// Raises a TypeError for other types of numbers, a ValueError for other shapes. If there are fewer rows than
 /// columns, each column is probably a point: 256 or more columns raise a ValueError, 17 to 255 columns in 3

@@ -53,7 +53,7 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
     RawCloud cloud = clouds.load(number);
     remarks = clouds.remarks();
     return cloud;
-  } catch (const IoError& error) {  // the warnings may tell why: damage
+  } catch (const IoError& error) {  // add the warnings: damage may be the reason
     std::string text = error.what();
     for (const std::string& remark : clouds.remarks())
       text.append("; ").append(remark);
@@ -102,7 +102,7 @@ py::list volumes_in(py::handle file) {
   return list;
 }
 
-/// A frame of a source, which owns its points.
+/// A frame of a source. It owns its points.
 struct FrameObject {
   Frame frame;
 };

@@ -130,7 +130,7 @@ class RegionVolumes {
   std::vector<std::vector<AnyVolume>> volumes_;  // of each region; empty: the region has a file
 };
 
-/// Parses a dict. Removes "Pipeline: line 1: " from error messages, which has no meaning for a dict.
+/// Parses a dict. Removes "Pipeline: line 1: " from error messages, because a dict has no lines.
 StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
   try {
     RegionVolumes regions(settings);

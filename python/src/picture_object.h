@@ -20,7 +20,7 @@ struct PictureObject {
   std::shared_ptr<const ResultObject> result{};  ///< The result that the picture shows, or null.
   PointArray points{};                           ///< The points, if there is no result.
   std::vector<std::uint32_t> labels{};
-  Picture picture{};  ///< Has views of the members above.
+  Picture picture{};  ///< Refers to the members above.
 
   py::bytes png() const;
   std::string svg() const;

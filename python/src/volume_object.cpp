@@ -11,7 +11,7 @@
 namespace pcl_bv::python {
 namespace {
 
-/// Returns a copy of the text that is never freed, because EstimationResult::reason does not own its text.
+/// Returns a view of a copy that is never freed, because EstimationResult::reason does not own its text.
 std::string_view kept_text(const std::string& text) {
   static std::mutex mutex;
   static std::set<std::string>* const texts = new std::set<std::string>;
