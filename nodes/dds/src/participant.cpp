@@ -150,7 +150,7 @@ Participant::Participant() {
 std::shared_ptr<Participant> Participant::shared() {
   static std::mutex mutex;
   static std::weak_ptr<Participant> existing;
-  const auto remove = [](const Participant* last) {  // never during the creation of the next one
+  const auto remove = [](const Participant* last) {  // never while another one is created
     const std::lock_guard lock(mutex);
     delete last;
   };
