@@ -23,7 +23,7 @@ std::string_view without_port(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
-// Rejects texts with a zero byte: Asio would parse only the part before it and ignore the rest.
+// Parses a numeric address. Rejects texts with a zero byte: Asio would ignore the part after the zero byte.
 std::optional<boost::asio::ip::address> address_of(std::string_view host) {
   boost::system::error_code error;
   const auto address = boost::asio::ip::make_address(std::string(host), error);

@@ -80,7 +80,7 @@ class Hub {
   /// Closes the connections of all viewers after sending their queued messages.
   void finish();
 
-  /// Stores a warning for take_remarks(), unless it equals the previous one. Any thread may call both.
+  /// Stores a warning for take_remarks(), unless it equals the previous one. Any thread may call these two.
   void remark(const std::string& line);
   std::vector<std::string> take_remarks();
 
