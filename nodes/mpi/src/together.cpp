@@ -142,7 +142,7 @@ Failure Attempt::read_own_points() {
   return agreed(ranks_, failure);
 }
 
-// Merges along a binary tree of the ranks. MPI_Reduce does not fit, because it needs parts of equal length.
+// Merges along a binary tree of the ranks, without MPI_Reduce, which needs parts of equal length.
 void Attempt::merge() {
   for (std::size_t step = 1; step < ranks_.size(); step *= 2) {
     if (ranks_.rank() % (2 * step) == step) {
