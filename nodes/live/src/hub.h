@@ -51,7 +51,7 @@ class RateLimit {
 class Hub {
  public:
   static constexpr std::size_t kMostChangesASecond =
-      50;  ///< Requests to change settings, of all viewers together. Each takes up to 1 ms.
+      50;                                          ///< Of settings, by all viewers together; up to 1 ms each.
   static constexpr std::size_t kMostRemarks = 10;  ///< Maximum number of warnings stored for take_remarks().
 
   explicit Hub(std::string session) : session_(std::move(session)) {}
