@@ -9,12 +9,12 @@
 namespace pcl_bv {
 namespace {
 
-/// Metres; the stations of the cabin along the car are fractions of its length, forward of the middle.
+/// Lengths in metres. The x positions of the cabin are fractions of the car's length, forward of its middle.
 struct CarShape {
   double length, width, height;
   double belt;                                      // height at which body and cabin meet
-  double screen_base, roof_front, roof_rear, rear;  // of the cabin, front to rear
-  double taper;                                     // of the cabin's sides, metres inward per metre up
+  double screen_base, roof_front, roof_rear, rear;  // x positions of the cabin, front to rear
+  double taper;                                     // inward slope of the cabin's sides, metres per metre up
 };
 
 constexpr std::array shapes{

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rays are cut by convex solids in the frame of the object: an interval of ranges per solid.
+// Intersects rays with convex solids in the object's frame: each solid gives one interval of ranges.
 #include "street_cast.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The ranges of a ray inside a convex solid; none if enter >= exit.
+/// The interval of ranges in which a ray is inside a convex solid; empty if enter >= exit.
 struct Span {
   double enter = 0;
   double exit = infinity;
@@ -26,7 +26,7 @@ struct LocalRay {
   Vec3 at(double range) const { return origin + range * direction; }
 };
 
-/// Keeps of the span what is inside the half-space where speed * range <= room.
+/// Clips the span to the ranges with speed * range <= room, the part of the ray inside a half-space.
 void clip(Span& span, double speed, double room) {
   if (speed > 0) {
     span.exit = std::min(span.exit, room / speed);
@@ -57,7 +57,7 @@ Span clip_planes(const LocalRay& ray, const std::vector<Plane>& planes) {
   return span;
 }
 
-/// In the frame where the ellipsoid is the unit ball: |origin + range direction|^2 = 1.
+/// Solves |origin + range direction|^2 = 1 in the frame in which the ellipsoid is the unit ball.
 Span clip_ellipsoid(const LocalRay& ray, const Box3& bounds) {
   const Vec3 center = 0.5 * (bounds.lo + bounds.hi);
   const Vec3 radii = 0.5 * (bounds.hi - bounds.lo);
@@ -72,7 +72,7 @@ Span clip_ellipsoid(const LocalRay& ray, const Box3& bounds) {
   return {std::max(0.0, (-b - root) / a), (-b + root) / a};
 }
 
-/// Range at which the ray ends in the part, or infinity.
+/// Returns the range at which the part stops the ray, or infinity.
 double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
   const Span span = part.planes.empty() ? clip_ellipsoid(ray, part.bounds) : clip_planes(ray, part.planes);
   if (span.empty()) return infinity;
@@ -84,7 +84,7 @@ double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
   for (const Box3& pocket : part.pockets) {
     if (!holds(pocket, entry)) continue;
     const double end = clip_box(ray, pocket).exit;
-    // A ray may leave the solid through a pocket at its edge: then it goes on.
+    // A pocket at the solid's edge may contain the whole chord: the ray then passes through.
     if (end >= span.exit) return infinity;
     return end;
   }
@@ -117,7 +117,7 @@ double cast_ground(const Ray& ray) {
     if (!on_road(sidewalk)) nearest = sidewalk;
     if (on_road(road)) nearest = std::min(nearest, road);
   }
-  // A curb is met from the road: at its y, between the heights of road and sidewalk.
+  // The ray hits a curb face if its height at the curb's y is between road and sidewalk.
   const double curb = (d.y > 0 ? street_curb_left : street_curb_right) / d.y;
   const double height = street_sensor_height - sinking * curb;
   if (height >= 0 && height <= street_curb_height) nearest = std::min(nearest, curb);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The specimens of the street but for its cars: houses, plants, posts and people.
+// Models of houses, plants, posts and people.
 #include "street_model.h"
 
 #include "street_parts.h"
@@ -9,7 +9,8 @@
 namespace pcl_bv {
 namespace {
 
-/// Leaves in blobs around a vertical axis, within `radius` of it and between the heights.
+/// Adds ellipsoids of leaves around the vertical axis, within `radius` of the axis and between the heights
+/// `bottom` and `top`.
 void add_leaves(std::vector<Part>& parts, SplitMix64& random, double radius, double bottom, double top) {
   const double middle = 0.5 * (bottom + top);
   const double half_height = 0.5 * (top - bottom);
@@ -25,7 +26,7 @@ void add_leaves(std::vector<Part>& parts, SplitMix64& random, double radius, dou
   }
 }
 
-/// A row of window pockets in the front (high y) of a house.
+/// Adds a row of window pockets to the front (the face of maximum y) of a house.
 void add_windows(Part& house, double bottom, double spacing) {
   const double half_length = house.bounds.hi.x;
   const double front = house.bounds.hi.y;
@@ -63,7 +64,7 @@ Model make_sign_post(SplitMix64& random) {
 
 Model make_house(SplitMix64& random) {
   const double half_length = random.uniform(4.5, 6.2);
-  const double front = 4;  // stays on the building line, whatever the depth
+  const double front = 4;  // the same for all houses, so that the fronts are in line
   const double back = front - random.uniform(8, 10);
   const double eaves = random.uniform(5, 6.5);
   const double ridge = eaves + 2.5;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How the convex solids of the street are built.
+// Construction of convex solids.
 #include "street_parts.h"
 
 #include <algorithm>

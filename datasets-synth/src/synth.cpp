@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of scenes and the reader of their names.
+// The table of scenes and the parsers of their names.
 #include "pcl_bv/synth/synth.h"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ std::uint64_t whole_number(std::string_view what, std::string_view text, std::ui
   return value;
 }
 
-/// The parts of NAME[:count_name[:SEED]].
+/// Splits NAME[:COUNT[:SEED]] at the colons. `count_name` names COUNT in the error message.
 std::vector<std::string_view> split_spec(std::string_view text, std::string_view count_name) {
   std::vector<std::string_view> parts = split(text);
   if (parts.size() > 3) {

@@ -24,7 +24,7 @@ constexpr double kRadians = std::numbers::pi / 180;
 
 struct Sensor {
   std::size_t beams, columns;
-  double height, pitch, roll;  // metres, degrees; nose down, left side down
+  double height, pitch, roll;  // metres; degrees, positive nose down; degrees, positive left side down
 };
 
 Sensor sensor_of(std::size_t beams) {
@@ -43,6 +43,7 @@ Sensor sensor_of(std::size_t beams) {
   }
 }
 
+// Elevation of a beam, degrees.
 double elevation_of(std::size_t beams, std::size_t row) {
   const auto i = static_cast<double>(row);
   if (beams == 16) return 15 - 2 * i;
@@ -62,7 +63,7 @@ Vec3 ray_of(const Sensor& sensor, std::size_t row, std::size_t column) {
           std::sin(elevation)};
 }
 
-/// Where the sensor is, in the fixed frame.
+/// Pose of the sensor in the fixed frame.
 struct Mount {
   Vec3 place, forward, left, up;
 
@@ -109,8 +110,9 @@ struct Return {
   What what = What::nothing;
 };
 
-// Blades of grass end a ray before it comes to the ground; a mirrored one goes on below it.
-// `above(range)`: the ray's height above the ground there.
+// Adds noise, missing returns and false returns to a hit. Grass may stop a ray before the ground (`sinking`:
+// the ray's descent, metres per metre of range; above(range): the ray's height above the ground). A reflected
+// ray returns from below the ground.
 template <typename Above>
 Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double sinking, Above above) {
   SplitMix64 random(ray.key);
@@ -123,7 +125,7 @@ Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, doub
   if (grass > 0 && random.uniform() < kGrown) {
     const double blade = grass * random.uniform(0.2, 1);
     double back = std::min(blade / std::max(sinking, 0.02), 1.5);
-    // Where the ground falls away towards the sensor, as into a ditch, no blade is so high.
+    // Where the ground falls towards the sensor, as in a ditch, the ray may be above the grass at this range.
     while (back > 0.01 && above(hit.range - back) > grass)
       back *= 0.5;
     return {hit.range - back + noise, What::grass};
@@ -196,7 +198,7 @@ struct Sweep {
 namespace verges {
 namespace {
 
-/// All of a frame but its cloud, and what rays need to make that.
+/// The ground truth of a frame, and the sensor, world and objects for casting its rays.
 struct Scene {
   Scene(const VergesOptions& options, std::size_t frame)
       : sensor(sensor_of(options.beams)),

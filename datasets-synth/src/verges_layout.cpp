@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The road as a table of rows: each row repeats one kind of object along it, without end.
+// The rural road as a table of rows: each row repeats one kind of object along the infinite road.
 #include "verges_layout.h"
 
 #include <algorithm>
@@ -14,18 +14,18 @@ namespace {
 
 enum class Motion : std::uint8_t { stands, moves, as_sensor };
 
-/// Slots `spacing` apart along the road, `share` of them taken.
+/// A row of slots along the road. Each slot has a group of objects with probability `share`.
 struct Row {
   Model (*make)(SplitMix64& random);
-  double spacing;  // metres
-  double jitter;   // of an object in its slot, metres forward or backward
+  double spacing;  // distance between two slots, metres
+  double jitter;   // largest random offset of a group in its slot, metres forward or backward
   double left;     // metres left of the middle of the road
-  double share;
+  double share;    // probability that a slot has a group
   Motion motion;
-  double speed;   // m/s forward, where it moves
-  bool tilted;    // stands square on the ground instead of upright
-  bool on_ditch;  // may stand where a ditch is
-  int most;       // in a group
+  double speed;   // m/s forward, if `motion` is `moves`
+  bool tilted;    // the object's up axis is normal to the ground instead of vertical
+  bool on_ditch;  // allowed where the roadside is a ditch
+  int most;       // maximum number of objects in a group
 };
 
 using enum Motion;
@@ -57,19 +57,20 @@ constexpr std::array rows{
 };
 // clang-format on
 
-constexpr std::size_t kMembers = 4;  // ids of a slot
-constexpr double kReach = 130;       // metres
+constexpr std::size_t kMembers = 4;  // ids per slot
+constexpr double kReach = 130;       // metres of road, ahead and behind, with objects
 
-// 0, -1, 1, -2, 2, ... to 0, 1, 2, 3, 4, ...
+// Maps 0, -1, 1, -2, 2, ... to 0, 1, 2, 3, 4, ...
 std::uint64_t zigzag(std::int64_t i) {
   return i >= 0 ? 2 * static_cast<std::uint64_t>(i) : 2 * static_cast<std::uint64_t>(-(i + 1)) + 1;
 }
 
+// Distance that the row's slots have moved along the road, metres.
 double way_of(const Row& row, std::uint64_t seed, double seconds) {
   return row.motion == stands ? 0 : row.motion == moves ? row.speed * seconds : driven(seed, seconds);
 }
 
-// Upright things stand on the lowest ground below them.
+// Lowest ground height below an upright object: the height of its base.
 double lowest(const World& world, const PlacedObject& object) {
   const Box3& bounds = object.model.bounds;
   const double half = std::min(6.0, std::max(bounds.hi.x, bounds.hi.y));
@@ -152,7 +153,7 @@ std::vector<VergesPlaced> place_verges(const World& world, std::uint64_t seed, d
     const auto first = static_cast<std::int64_t>(std::floor((here - kReach - origin) / rows[row].spacing));
     const auto last = static_cast<std::int64_t>(std::ceil((here + kReach - origin) / rows[row].spacing));
     for (std::int64_t slot = first; slot <= last; ++slot) {
-      // The sensor's own car is at the beginning of its lane.
+      // The car that carries the sensor takes the slots near 0: this row moves with it.
       if (rows[row].motion == as_sensor &&
           std::abs((static_cast<double>(slot) + 0.5) * rows[row].spacing) < 12)
         continue;

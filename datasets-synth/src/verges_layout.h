@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the objects beside and on the road are, in the fixed frame.
+// Positions of the objects on and beside the rural road, in the fixed frame.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,15 @@
 namespace pcl_bv::verges {
 
 struct VergesPlaced {
-  PlacedObject object;  ///< In the fixed frame, and so its velocity.
+  PlacedObject object;  ///< Pose and velocity in the fixed frame.
   double yaw_rate = 0;  ///< rad/s
 };
 
-/// Those within 130 m of the sensor's car, by ascending id.
+/// Returns the objects up to about 130 m along the road from the sensor's car, by ascending id.
 std::vector<VergesPlaced> place_verges(const World& world, std::uint64_t seed, double seconds);
 
-/// The place and axes of something on the road: forward along it, up as the ground.
+/// Returns position and axes of an object on the road, without a model. The forward axis is along the road,
+/// or opposite if `backward`. The up axis is the ground's normal if `tilted`, otherwise vertical.
 PlacedObject on_road(const World& world, const RoadPlace& place, bool backward, bool tilted);
 
 inline constexpr double own_lane = -1.75;  ///< Metres left of the middle of the road.

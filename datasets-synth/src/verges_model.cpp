@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The specimens that only the verges have.
+// Models that only the rural road has.
 #include "street_model.h"
 #include "street_parts.h"
 
@@ -26,7 +26,7 @@ Model make_low_wall(SplitMix64& random) {
   return assemble(StreetObjectKind::wall, {box({{-half_length, -0.15, 0}, {half_length, 0.15, height}})});
 }
 
-// Its crown begins over the roofs of cars and reaches as far as the road.
+// A tree whose crown begins above the roofs of cars and extends over the road.
 Model make_avenue_tree(SplitMix64& random) {
   const double bottom = random.uniform(3.2, 4), top = bottom + random.uniform(3, 5);
   const double middle = 0.5 * (bottom + top), half = 0.5 * (top - bottom);
@@ -40,7 +40,7 @@ Model make_avenue_tree(SplitMix64& random) {
   return assemble(StreetObjectKind::tree, std::move(parts));
 }
 
-// Over the road and its ditches; y is across the road.
+// A bridge over the road and its ditches. y is the direction across the road.
 Model make_bridge(SplitMix64& random) {
   const double soffit = random.uniform(4.6, 5.2), half_width = random.uniform(2, 4);
   return assemble(StreetObjectKind::bridge,

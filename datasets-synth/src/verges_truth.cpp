@@ -15,7 +15,7 @@ namespace {
 
 void append(std::string& text, double value) {
   std::array<char, 32> digits{};
-  // Without the sign of a zero.
+  // Write -0.0 as 0.
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value == 0 ? 0.0 : value).ptr;
   text.append(digits.data(), end);
 }

@@ -14,26 +14,28 @@ namespace {
 
 constexpr double kBend = 60;          // metres from one bend of the road to the next
 constexpr double kCurvature = 0.045;  // 1/m: 30 degrees a second at 11.6 m/s
-constexpr double kClothoid = 4;       // metres over which a bend begins and ends
-constexpr double kSample = 0.25;      // metres
-constexpr double kRoadReach = 200;    // metres of road on either side
-constexpr double kStretch = 40;       // metres of road with the same side
-constexpr double kBlend = 3;          // metres over which sides change
-constexpr double kKerb = 4;           // metres from the middle
+constexpr double kClothoid = 4;       // metres over which the curvature of a bend rises and falls
+constexpr double kSample = 0.25;      // metres between two samples of the road
+constexpr double kRoadReach = 200;    // metres of sampled road, ahead and behind
+constexpr double kStretch = 40;       // metres of road with the same Side
+constexpr double kBlend = 3;          // metres over which one Side changes to the next
+constexpr double kKerb = 4;           // metres from the middle of the road
 constexpr double kKerbHeight = 0.12;  // metres
 constexpr double kDitchMiddle = 7, kDitchHalfWidth = 1.3;
 
-// Numbers that depend on a place only.
+// A number uniform in [0, 1) that depends only on the seed, the purpose `what` and the index `place`.
 double number(std::uint64_t seed, std::uint64_t what, std::int64_t place) {
   return SplitMix64({seed, what, static_cast<std::uint64_t>(place)}).uniform();
 }
 
-// Headings between bends alternate, so that the road keeps its direction and never meets itself.
+// Heading after a bend, radians. Headings alternate between left and right, so that the road keeps its mean
+// direction and never crosses itself.
 double heading_after(std::uint64_t seed, std::int64_t bend) {
   const double size = 0.35 + 0.23 * number(seed, 1, bend);
   return bend % 2 == 0 ? size : -size;
 }
 
+// Smoothstep: 3 t^2 - 2 t^3 for t clamped to [0, 1].
 double smooth(double t) {
   const double u = std::clamp(t, 0.0, 1.0);
   return u * u * (3 - 2 * u);
@@ -50,7 +52,7 @@ double Road::curvature(std::uint64_t seed, double along) {
   return shape <= 0 ? 0 : std::copysign(kCurvature * shape, turn);
 }
 
-// From the beginning of the road on, so that every frame has the same one.
+// Integrates the curvature from a fixed start, so that the road is the same in every frame.
 Road::Road(std::uint64_t seed, double around) {
   double heading = heading_after(seed, -1 - static_cast<std::int64_t>(kRoadReach / kBend) - 1);
   const double origin = -kBend * (std::floor(kRoadReach / kBend) + 1);
@@ -103,7 +105,8 @@ RoadPlace Road::place_of(double x, double y, double guess, int steps) const {
   return {along, (y - middle.y) * std::cos(angle) - (x - middle.x) * std::sin(angle)};
 }
 
-// Rounds of 20 s: faster for 4 s, on for 9 s, slower for 3 s, a stand for 2 s in every other round.
+// Cycles of 18 s: 4 s acceleration, 9 s at constant speed, 3 s braking, then 2 s at standstill (even cycles)
+// or at 3 m/s (odd cycles).
 double driven(std::uint64_t seed, double seconds) {
   constexpr double kRound = 18;
   double way = 0;
@@ -139,7 +142,8 @@ double World::side_profile(Side side, std::uint64_t key, double away) const {
   return t < 1 ? -0.5 * depth * (1 + std::cos(std::numbers::pi * t)) : 0;
 }
 
-// Across the road: it falls by 2 % to both sides, then what is beside it.
+// Height profile across the road: a camber of 2 % down to both sides, then the profile of the roadside,
+// blended with that of the previous stretch over the first kBlend metres.
 double World::profile(double along, double left) const {
   const double away = std::abs(left);
   const double camber = -0.02 * std::min(away, kKerb);
@@ -151,7 +155,7 @@ double World::profile(double along, double left) const {
         .next();
   };
   const double own = side_profile(side_of(along, left > 0), key(stretch), away);
-  const double blend = 1 - smooth(into / kBlend);  // of the stretch before
+  const double blend = 1 - smooth(into / kBlend);  // weight of the previous stretch
   if (blend == 0) return camber + own;
   const double last = side_profile(side_of(along - kBlend, left > 0), key(stretch - 1), away);
   return camber + own + blend * (last - own);
@@ -179,7 +183,7 @@ double World::roughness(const RoadPlace& place) const {
   return paved ? 0.003 : away < 8 ? 0.02 : 0.04;
 }
 
-// Kept short on the first metre, high in and behind ditches.
+// Short up to 5.5 m from the middle of the road, high in and behind ditches.
 double World::grass(const RoadPlace& place) const {
   const double away = std::abs(place.left);
   const Side side = side_of(place.along, place.left > 0);
@@ -189,13 +193,13 @@ double World::grass(const RoadPlace& place) const {
 
 namespace {
 
-constexpr double kCell = 0.25;  // metres
-constexpr double kHalf = 104;   // metres from the sensor to the edge
+constexpr double kCell = 0.25;  // metres between two grid nodes
+constexpr double kHalf = 104;   // metres from the sensor to the edge of the grid
 constexpr auto kSide = static_cast<std::size_t>(2 * kHalf / kCell);
 
 }  // namespace
 
-// Nodes of the grid are where they are in the fixed frame, so that roughness stays from frame to frame.
+// Grid nodes are at multiples of kCell in the fixed frame, so that the roughness is the same in every frame.
 Terrain::Terrain(const World& world, std::uint64_t seed, double x, double y)
     : x_(std::floor((x - kHalf) / kCell) * kCell), y_(std::floor((y - kHalf) / kCell) * kCell) {
   heights_.resize(kSide * kSide);
@@ -206,7 +210,7 @@ Terrain::Terrain(const World& world, std::uint64_t seed, double x, double y)
     RoadPlace place{world.road.guess(at), 0};
     for (std::size_t k = 0; k < kSide; ++k) {
       const double across = y_ + kCell * static_cast<double>(k);
-      place = world.road.place_of(at, across, place.along, 2);  // the last one is 0.25 m away
+      place = world.road.place_of(at, across, place.along, 2);  // 2 steps: the guess is only 0.25 m away
       const auto column =
           static_cast<std::uint64_t>(static_cast<std::int64_t>(left) + static_cast<std::int64_t>(i));
       const auto row =
@@ -236,7 +240,9 @@ double Terrain::grass(double x, double y) const {
   return grass_[static_cast<std::size_t>(u) * kSide + static_cast<std::size_t>(v)];
 }
 
-// No ground but the banks of ditches is steeper than 1: so far a ray may go without a look.
+// Marches along the ray, then bisects. The slope of the ground is at most 1 except on the banks of ditches,
+// so the ray's height decreases by at most `speed` per metre of range: a step of clearance / speed misses no
+// ground.
 double Terrain::cast(Vec3 origin, Vec3 direction) const {
   const double level = std::hypot(direction.x, direction.y);
   const double speed = 1.0 * level + std::abs(direction.z);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The road, the ground beside it, and how the sensor's car drives.
+// The rural road, the ground beside it, and the motion of the sensor's car.
 #pragma once
 
 #include <array>
@@ -14,27 +14,30 @@
 
 namespace pcl_bv::verges {
 
-/// A place along the road and to the left of its middle, metres.
+/// Road coordinates: distance along the road and distance left of its middle, metres.
 struct RoadPlace {
   double along, left;
 };
 
-/// What is beside the road, in stretches of 40 m for each side.
+/// Profile of the roadside. Each side of the road has one profile per stretch of 40 m.
 enum class Side : std::uint8_t { kerb, ditch, verge };
 
-/// The middle of the road as a curve, from 200 m behind a place to 200 m ahead of it.
+/// The road's middle as a curve, sampled from 200 m before to 200 m after the distance `around`.
 class Road {
  public:
   Road(std::uint64_t seed, double around);
 
-  Vec3 at(double along) const;         ///< Its z is 0.
-  double heading(double along) const;  ///< Radians left of +x; at most 0.6 either way.
+  Vec3 at(double along) const;         ///< Point of the middle, with z = 0.
+  double heading(double along) const;  ///< Radians left of +x, -0.6 to 0.6.
 
-  /// Of a point within 100 m of the place, by the nearest point of the middle. `guess`: where to look first.
+  /// Returns the road coordinates of a point within 100 m of the road's middle, by an iterative search for
+  /// the nearest point of the middle. `guess`: initial distance along the road.
   RoadPlace place_of(double x, double y, double guess, int steps = 4) const;
+
+  /// Returns the distance along the road of the first sample beyond `x`: a guess for place_of().
   double guess(double x) const;
 
-  static double curvature(std::uint64_t seed, double along);
+  static double curvature(std::uint64_t seed, double along);  ///< 1/m, positive to the left.
 
  private:
   struct Sample {
@@ -44,48 +47,48 @@ class Road {
   std::vector<Sample> samples_;
 };
 
-/// How far the sensor's car has come, metres, after some seconds.
+/// Returns the distance that the sensor's car has driven after `seconds`, metres.
 double driven(std::uint64_t seed, double seconds);
 
 class World {
  public:
-  /// For places within 100 m of the road there.
+  /// The world around the distance `along`, for points within 100 m of the road there.
   World(std::uint64_t seed, double along);
 
   Road road;
 
   Side side_of(double along, bool left) const;
 
-  /// Height of the ground, smooth.
+  /// Height of the ground without its roughness, metres.
   double height(double x, double y) const;
   double height(double x, double y, const RoadPlace& place) const;
 
-  /// Unit normal of the ground, over about a metre.
+  /// Unit normal of the ground, by differences over 1.2 m.
   Vec3 normal(double x, double y) const;
 
-  /// Of a place: standard deviation of its roughness, and height of its grass (0: none), metres.
-  double roughness(const RoadPlace& place) const;
-  double grass(const RoadPlace& place) const;
+  double roughness(const RoadPlace& place) const;  ///< Largest deviation from height(), metres.
+  double grass(const RoadPlace& place) const;      ///< Height of the grass, metres; 0: none.
 
  private:
   double profile(double along, double left) const;
   double side_profile(Side side, std::uint64_t key, double away) const;
 
   std::uint64_t seed_;
-  std::array<double, 3> phases_{};  // of the hills
+  std::array<double, 3> phases_{};  // phases of the hills' sine waves
 };
 
-/// Heights of the ground about the sensor with its roughness, and rays against it.
+/// Grid of the ground heights around the sensor, including roughness, with ray casting.
 class Terrain {
  public:
   Terrain(const World& world, std::uint64_t seed, double x, double y);
 
+  /// Height of the ground, interpolated bilinearly, metres. Outside the grid: -infinity.
   double height(double x, double y) const;
 
-  /// Range at which the ray meets the ground; infinity if never within 100 m.
+  /// Range at which the ray hits the ground, metres; infinity if it does not within 100 m.
   double cast(Vec3 origin, Vec3 direction) const;
 
-  /// Grass there, metres; 0: none.
+  /// Height of the grass, metres; 0: none or outside the grid.
   double grass(double x, double y) const;
 
  private:

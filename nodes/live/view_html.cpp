@@ -31,7 +31,7 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-// The page is HTML around it, which ends a script at the first "</script".
+// Escapes '<', because HTML ends a script element at the first "</script", even inside a JSON string.
 std::string in_html(std::string json) {
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
     json.replace(at, 1, "\\u003c");
@@ -43,7 +43,8 @@ class PagePoints {
   PagePoints(const Frame& frame, const std::vector<std::uint32_t>& labels, const Eigen::Vector3d& origin)
       : frame_(frame), labels_(labels), origin_(origin) {}
 
-  /// Evenly chosen among all, which may be read from a file.
+  /// Adds at most `most_points` points, chosen evenly by index. Reads the cloud in chunks: it may be in a
+  /// file.
   void add_all(std::size_t most_points) {
     const std::size_t count = frame_.points.count, wanted = std::min(count, most_points);
     std::size_t number = 0;

@@ -12,12 +12,13 @@ bool is_real(const py::dtype& type) {
   return type.kind() == 'f' && (type.itemsize() == 4 || type.itemsize() == 8);
 }
 
-/// Of numpy's marks '=' (this machine's), '|' (of one byte), '<' and '>'.
+/// Whether the type has this machine's byte order. numpy's marks are '=' (this machine's), '|' (one byte),
+/// '<', '>'.
 bool is_native(const py::dtype& type) {
   return type.byteorder() == '=' || type.byteorder() == '|';
 }
 
-/// What to do with numbers of this type, if they are an array's.
+/// Advice for the error message about an array with numbers of this type; "" for none.
 std::string advice_for(const py::dtype& type) {
   if (type.kind() == 'c') return ": give array.real";
   if (type.kind() == 'f' || type.kind() == 'i' || type.kind() == 'u' || type.kind() == 'O')
@@ -44,8 +45,9 @@ std::string shape_of(const py::array& array) {
                         (one ? ": for one point give [point]" : ""));
 }
 
-/// Of rows of points and the numbers of each point: refuses and warns where they may be the other way round,
-/// as in nuScenes' (4, N). Points have 3 to a dozen numbers.
+/// Detects arrays with one point per column, as nuScenes' (4, N): a point usually has 3 to 12 numbers. If
+/// there are fewer rows than columns, refuses 256 or more columns, and warns about 17 to 255 columns in 3 to
+/// 8 rows.
 void check_layout(const char* name, const py::array& array) {
   const py::ssize_t columns = array.shape(array.ndim() - 1),
                     rows = array.size() / std::max<py::ssize_t>(columns, 1);
@@ -59,14 +61,14 @@ void check_layout(const char* name, const py::array& array) {
   if (first >= 3 && first <= 8) warn(std::string(name) + ": " + said);
 }
 
-/// numpy.asarray(). A TypeError with the argument's name if it is no array.
+/// Calls numpy.asarray(). Raises a TypeError with the argument's name if that fails.
 py::array from_any(py::handle object, const char* name) {
   py::array array = py::reinterpret_steal<py::array>(
       py::detail::npy_api::get().PyArray_FromAny_(object.ptr(), nullptr, 0, 0, 0, nullptr));
   if (array) return array;
   py::error_already_set error;
-  if (!error.matches(PyExc_Exception)) throw error;  // a Ctrl-C
-  // Why a tensor on a graphics card is no array, or rows of unequal length are none.
+  if (!error.matches(PyExc_Exception)) throw error;  // a KeyboardInterrupt
+  // numpy's reason, such as a tensor in GPU memory or rows of unequal length.
   const std::string reason = py::str(error.value()).cast<std::string>();
   throw py::type_error(std::string(name) + ": an array is wanted, not " + shown(object) +
                        (reason.empty() ? "" : ": " + reason));
@@ -79,18 +81,20 @@ py::array without_mask(const py::array& array, const char* name) {
   return array.attr("filled")(std::nan(""));
 }
 
-/// Numbers of a list have no type that says what they are for: those that a double holds are taken.
+/// Converts whole numbers of a list to float64: unlike an array, a list has no type that the user has chosen.
+/// Refuses numbers beyond 2^53.
 py::array from_list(const py::array& array, py::handle object, const char* name) {
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u') return array;
-  const py::int_ limit(std::int64_t{1} << 53);  // as Python's numbers: numpy compares in float64
+  const py::int_ limit(std::int64_t{1} << 53);  // Python integers: numpy would compare in float64
   const auto value_of = [&](const char* which) { return py::int_(array.attr(which)()); };
   const bool exact = array.size() == 0 || (value_of("max") <= limit && value_of("min") >= -limit);
   if (!exact) refuse_value(name, "whole numbers beyond 2^53, which no float64 holds: " + shown(object));
   return array.attr("astype")("f8");
 }
 
-/// A table with columns x, y and z, as pandas makes it, is seen by their names.
+/// Returns the columns x, y and z of a table with named columns, such as a pandas.DataFrame. Returns any
+/// other object unchanged.
 py::object columns_xyz(py::handle object, const char* name) {
   if (py::isinstance<py::array>(object) || PyList_Check(object.ptr()) || PyTuple_Check(object.ptr()) ||
       !py::hasattr(object, "columns"))
@@ -108,7 +112,7 @@ py::object columns_xyz(py::handle object, const char* name) {
   return object[wanted];
 }
 
-/// `columns` doubles or floats in each row, packed.
+/// Points of a packed array (N, 3) of floats or doubles.
 PointArray packed(py::array array) {
   PointArray points;
   const auto count = static_cast<std::size_t>(array.shape(0));
@@ -124,7 +128,7 @@ PointArray copied(const py::array& rows) {
   return packed(py::array_t<double, py::array::c_style | py::array::forcecast>(xyz));
 }
 
-/// Of (N, 3 or more).
+/// Points of an array (N, 3 or more): a view if possible, otherwise a copy.
 PointArray rows_of(const py::array& array) {
   const py::dtype type = array.dtype();
   const auto size = static_cast<std::size_t>(type.itemsize());
@@ -143,14 +147,14 @@ PointArray rows_of(const py::array& array) {
   return points;
 }
 
-/// The type of a field and where it is in its record.
+/// A field of a record, with its offset in bytes.
 struct Field {
   std::string name;
   py::dtype type;
   py::ssize_t offset;
 };
 
-/// In upper case where there is none in lower case, as in files.
+/// Finds a field by its lower-case name or, if there is none, by its upper-case name, as for files.
 Field field_of(const py::dtype& record, const char* field, const char* name) {
   const py::object fields = record.attr("fields");
   const std::string upper(1, static_cast<char>(field[0] - 'a' + 'A'));
@@ -161,12 +165,12 @@ Field field_of(const py::dtype& record, const char* field, const char* name) {
   return {in_record, py::dtype::from_args(found[0]), found[1].cast<py::ssize_t>()};
 }
 
-/// Whether float32 holds all its numbers.
+/// Whether float32 represents all numbers of the type exactly.
 bool fits_float32(const py::dtype& type) {
   return type.kind() == 'f' ? type.itemsize() == 4 : type.itemsize() <= 2;
 }
 
-/// Of records in one row.
+/// Points of a one-dimensional array of records: a view if possible, otherwise a copy.
 PointArray records_of(const py::array& array, const char* name) {
   const py::dtype record = array.dtype();
   const Field x = field_of(record, "x", name), y = field_of(record, "y", name),
@@ -190,7 +194,7 @@ PointArray records_of(const py::array& array, const char* name) {
     for (py::ssize_t k = 0; k < 3; ++k) {
       const Field* const fields[] = {&x, &y, &z};
       const py::object column =
-          array[py::str(fields[k]->name)].attr("astype")(xyz.dtype());  // a masked one stays so
+          array[py::str(fields[k]->name)].attr("astype")(xyz.dtype());  // a masked column stays masked
       xyz[py::make_tuple(py::ellipsis(), k)] = without_mask(column, name);
     }
     return packed(xyz);
@@ -208,7 +212,7 @@ PointArray records_of(const py::array& array, const char* name) {
 }  // namespace
 
 bool is_masked(py::handle object) {
-  if (Py_TYPE(object.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;  // as nearly always
+  if (Py_TYPE(object.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;  // the usual case
   return py::isinstance<py::array>(object) &&
          py::module_::import("numpy.ma").attr("isMaskedArray")(object).cast<bool>();
 }

@@ -17,7 +17,7 @@ struct Fitted {
   EstimationResult result;
 };
 
-/// Of one view: as many as there are methods.
+/// Fits all methods to one view. `fitted` has one element per method.
 void fit_all(const PointView& view, const std::vector<const Method*>& among, const Execution& execution,
              const MethodOptions& options, Fitted* fitted) {
   Supports supports;
@@ -30,7 +30,7 @@ py::object python_of(Fitted&& fitted, const Method* method) {
   return to_python(std::move(fitted.volume), method, fitted.result);
 }
 
-/// A volume, or a list of them.
+/// Returns a volume if `one` is true, otherwise a list of volumes.
 py::object python_of(Fitted* fitted, const std::vector<const Method*>& among, bool one) {
   if (one) return python_of(std::move(*fitted), among.front());
   py::list list(among.size());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds in parts, and masks of points against volumes.
+// Partial results of clouds in parts, and masks of the points inside volumes.
 
 #include "pcl_bv/fitting/partial.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results out: pictures, and files by their extension.
+// Output: pictures, and files in the format of their extension.
 
 #include "bind.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace py::literals;
 
-/// Volumes with the colours of their labels, or of their methods where there is one label.
+/// Adds volumes, coloured by label or, if all have the same label, by method.
 void add_volumes(const std::vector<NumberedVolume>& volumes, Picture& picture) {
   const auto several = [&](const NumberedVolume& v) { return v.number != volumes.front().number; };
   const bool labelled = std::any_of(volumes.begin(), volumes.end(), several);
@@ -54,7 +54,7 @@ PictureObject show(py::handle points, py::handle volumes, py::handle labels, py:
   return object;
 }
 
-/// Volumes by label, as a report has them.
+/// Returns the volumes as clusters of a report, one for each label.
 std::vector<ClusterEntry> entries_of_volumes(py::handle volumes) {
   std::vector<ClusterEntry> entries;
   for (const NumberedVolume& each : volumes_of(volumes, "what")) {

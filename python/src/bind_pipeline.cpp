@@ -15,7 +15,7 @@ namespace {
 
 using namespace py::literals;
 
-/// Several threads may call: frames are processed one after another.
+/// A pipeline that several threads may call: frames are processed one after another.
 class PipelineObject {
  public:
   explicit PipelineObject(PipelineConfig config) : pipeline_(std::move(config)) {}

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clouds in: files, recordings, generated ones.
+// Input: clouds from files, recordings and generators.
 
 #include <chrono>
 #include <mutex>
@@ -23,7 +23,8 @@ namespace {
 
 using namespace py::literals;
 
-/// FileNotFoundError where there is nothing, for all that reads; else the error's own, with the file's name.
+/// Calls read(). If it throws IoError, raises FileNotFoundError if the file does not exist; otherwise throws
+/// the error with the file's name in its message.
 template <typename Read>
 auto reading(const std::string& name, const Read& read) {
   try {
@@ -41,7 +42,7 @@ auto reading(const std::string& name, const Read& read) {
   }
 }
 
-/// What was noticed about an input and not refused, as a UserWarning.
+/// Issues a note about an input, if there is one, as a UserWarning.
 void warn_of(const std::string& name, const std::string& note) {
   if (!note.empty()) warn(name + ": " + note);
 }
@@ -53,7 +54,7 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
     RawCloud cloud = clouds.load(number);
     remarks = clouds.remarks();
     return cloud;
-  } catch (const IoError& error) {  // damage is why the cloud is not there
+  } catch (const IoError& error) {  // add the warnings: damage may be the reason
     std::string text = error.what();
     for (const std::string& remark : clouds.remarks())
       text.append("; ").append(remark);
@@ -61,7 +62,7 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
   }
 }
 
-/// `remarks`: what was noticed of a recording.
+/// Sets `remarks` to the warnings about a recording.
 RawCloud load_cloud(const std::string& name, const std::string& topic, std::size_t number,
                     std::size_t bin_fields, const ParallelPolicy& policy, std::vector<std::string>& remarks) {
   if (name.rfind("synth:", 0) == 0) return to_raw_cloud(make_synth(parse_synth(name.substr(6))));
@@ -102,7 +103,7 @@ py::list volumes_in(py::handle file) {
   return list;
 }
 
-/// A frame of a source, in its own memory.
+/// A frame of a source. It owns its points.
 struct FrameObject {
   Frame frame;
 };
@@ -122,7 +123,8 @@ class FramesObject {
   FramesObject(const std::string& name, const ReplayOptions& options)
       : name_(name), source_(open_source(name, options)) {}
 
-  /// Nothing at the end. Lets Ctrl-C through while nothing comes. What was noticed is a UserWarning.
+  /// Returns the next frame, or nothing at the end. While waiting for a frame, checks for Ctrl-C every 100
+  /// ms. Issues the source's warnings as UserWarnings.
   std::optional<Frame> next() {
     for (;;) {
       Frame frame;

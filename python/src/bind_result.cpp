@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a pipeline found in a frame.
+// The result of a pipeline for one frame.
 
 #include "bind.h"
 #include "clusters_object.h"
@@ -42,7 +42,8 @@ py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
   throw py::key_error(std::string(method->name) + " was not asked for");
 }
 
-/// Point numbers; all that is valid and was kept, where the pipeline did not have to tell points apart.
+/// Returns the indices of the cluster's points. Computes them from the labels if the pipeline has made no
+/// index list, because all valid points that passed the filter are one cluster.
 py::object indices_of(const ClusterObject& cluster) {
   const FrameResult& result = cluster.of->result;
   if (!result.clusters.indices.empty() || result.clusters.cluster_size(cluster.id) == 0)
@@ -97,7 +98,7 @@ py::dict times_of(const Shared& self) {
                   "track"_a = ms.track, "total"_a = ms.total);
 }
 
-/// label_none and label_ground are -1 and -2 as int32.
+/// Returns the labels as int32, in which label_none and label_ground are -1 and -2.
 py::object labels_array(const Shared& self) {
   std::vector<std::uint32_t> labels;
   {
@@ -215,7 +216,7 @@ shows the same with at most 50000 points; write('x.html', result) makes the file
 '<!DOCTYPE html>'
 )";
 
-// Of 20 bytes each in the notebook's file.
+// Each point takes 22 bytes in the notebook's file.
 constexpr std::size_t kMostPointsOfACell = 50'000;
 
 std::string in_a_notebook(const std::string& page) {

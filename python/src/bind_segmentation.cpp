@@ -20,7 +20,8 @@ std::size_t size_or_unlimited(py::handle value, const char* name) {
   return value.is_none() ? std::numeric_limits<std::size_t>::max() : whole_number(value, name, {1, kNoLimit});
 }
 
-/// What a dict says of one class, over what is said of the others.
+/// Returns the settings of one class: those in the dict, and `others` for the settings that are not in the
+/// dict.
 ClassSettings class_settings(std::int64_t value, py::handle said, const ClusterSettings& others) {
   ClassSettings own{value, others};
   if (!py::isinstance<py::dict>(said))
@@ -84,7 +85,8 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
   return clusters;
 }
 
-/// What FrameWarnings says of a frame with this ground alone, in the words of ground()'s arguments.
+/// Issues the warnings of FrameWarnings about a frame with this ground and nothing else. Removes "ground."
+/// from the names of settings, so that they are the names of ground()'s arguments.
 void warn_of_ground(const PointView& points, const GroundConfig& config, const GroundObject& found) {
   PipelineConfig pipeline = whole_cloud_config();
   pipeline.ground = config;
@@ -175,7 +177,7 @@ py::dict statistics_of(py::handle points, py::handle threads) {
 py::object cluster_at(const py::object& self, py::handle index) {
   if (PyIndex_Check(index.ptr()) == 0) refuse_type("index", "a whole number", index);
   const Py_ssize_t i =
-      PyNumber_AsSsize_t(index.ptr(), nullptr);  // the ends of its range for what is beyond them
+      PyNumber_AsSsize_t(index.ptr(), nullptr);  // clamped to the range of Py_ssize_t
   if (i == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
   const auto& found = self.cast<const ClustersObject&>().found;
   const auto size = static_cast<std::int64_t>(found.size());

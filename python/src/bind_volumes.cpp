@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What all volumes can be asked.
+// The properties and methods that all volumes have.
 
 #include "bind.h"
 #include "pcl_bv/trees/region_mask.h"
@@ -13,7 +13,7 @@ namespace {
 using namespace py::literals;
 using Self = const VolumeObject&;
 
-/// Whether the argument is one point, and not rows of them.
+/// Whether the argument is a single point instead of rows of points.
 bool is_one_point(py::handle object) {
   if (py::isinstance<py::array>(object)) {
     const auto array = py::reinterpret_borrow<py::array>(object);
@@ -21,10 +21,10 @@ bool is_one_point(py::handle object) {
   }
   return (PyTuple_Check(object.ptr()) || PyList_Check(object.ptr())) && PySequence_Size(object.ptr()) == 3 &&
          PyNumber_Check(py::object(object[py::int_(0)]).ptr()) != 0 &&
-         !py::hasattr(object[py::int_(0)], "__len__");  // as arrays have
+         !py::hasattr(object[py::int_(0)], "__len__");  // an element with a length is a row
 }
 
-/// Three numbers, also such as are not finite.
+/// Three numbers, which may be NaN or infinite.
 Eigen::Vector3d point_of(py::handle object) {
   const py::array_t<double> numbers = doubles(object, "points");
   if (numbers.size() != 3) refuse_value("points", "three numbers are wanted, not " + shown(object));
@@ -62,7 +62,7 @@ py::object ray(Self self, py::handle origin, py::handle direction) {
   return py::make_tuple(found->enter, found->exit);
 }
 
-/// Vertices, and faces as lists of their numbers.
+/// Returns the vertices, and a list with the vertex indices of each face.
 py::tuple mesh_of(Self self) {
   Mesh found;
   {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Dicts become YAML's text, so that the reader of configuration files judges both.
+// Converts dicts to YAML, so that the parser of configuration files checks both.
 
 #include "config_dict.h"
 
@@ -29,8 +29,8 @@ std::string quoted(const std::string& text) {
   return yaml + '"';
 }
 
-constexpr int max_depth = 16;                // settings nest 4 deep; what holds itself has no end
-constexpr std::size_t max_values = 100'000;  // and what holds itself twice has 2^16 values
+constexpr int max_depth = 16;                // settings nest 4 deep; a list that contains itself never ends
+constexpr std::size_t max_values = 100'000;  // 16 nested lists that each hold the next twice: 2^16 values
 
 struct Walk {
   int depth = 0;
@@ -73,7 +73,7 @@ std::string yaml_of_any(py::handle value, const std::string& key, Walk& walk) {
   if (py::isinstance<py::list>(value)) return yaml_list(py::reinterpret_borrow<py::list>(value), key, walk);
   if (py::isinstance<py::tuple>(value)) return yaml_list(py::reinterpret_borrow<py::tuple>(value), key, walk);
   if (py::hasattr(value, "tolist"))
-    return yaml_of(value.attr("tolist")(), key, walk);  // numpy's arrays and numbers
+    return yaml_of(value.attr("tolist")(), key, walk);  // numpy arrays and scalars
   if (py::hasattr(value, "__fspath__")) return quoted(path(value, key.c_str()).string());
   refuse_type(key.c_str(), "a number, a text, a list or a dict", value);
 }
@@ -88,7 +88,8 @@ std::string yaml_of(py::handle value, const std::string& key, Walk& walk) {
   return yaml;
 }
 
-/// Regions by volumes, which no file can say: taken out of the settings, and a name left in their place.
+/// Regions that are given by volumes, which YAML cannot express. The constructor removes the volumes from the
+/// settings and leaves a file name in their place; put_into() adds them to the parsed configuration.
 class RegionVolumes {
  public:
   explicit RegionVolumes(const py::dict& settings) : settings_(settings) {
@@ -126,10 +127,10 @@ class RegionVolumes {
 
  private:
   py::dict settings_;
-  std::vector<std::vector<AnyVolume>> volumes_;  // of each region in turn; none: it has a file
+  std::vector<std::vector<AnyVolume>> volumes_;  // of each region; empty: the region has a file
 };
 
-/// Without "Pipeline: line 1: ", which means nothing to who gave a dict.
+/// Parses a dict. Removes "Pipeline: line 1: " from error messages, because a dict has no lines.
 StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
   try {
     RegionVolumes regions(settings);
@@ -158,7 +159,7 @@ StreamConfig read_config(py::handle config, const StreamConfig& defaults) {
   return read_stream_config(path(config, "config"), defaults);
 }
 
-// A value as Python has it, such that read_dict() takes it back.
+// Converts a setting's value to a Python object that read_dict() accepts.
 py::object python_value(bool value) {
   return py::bool_(value);
 }

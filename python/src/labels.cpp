@@ -10,7 +10,8 @@
 namespace pcl_bv::python {
 namespace {
 
-/// Stable. Labels that are not much greater than there are points, as those of clusters, are counted: O(n).
+/// Sorts point indices by label, stably. Counting sort in O(n) if all labels are less than the number of
+/// points, as those of clusters are; otherwise O(n log n).
 void sort_by_label(const std::vector<std::int64_t>& of, std::vector<std::int32_t>& numbers) {
   const auto label_of = [&](std::int32_t i) { return of[static_cast<std::size_t>(i)]; };
   std::int64_t greatest = -1;

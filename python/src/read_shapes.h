@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes from the arguments of their constructors, and what these are documented to be.
+// Functions that construct volumes from Python arguments, and the docstrings of the volumes' classes.
 #pragma once
 
 #include "precompiled.h"

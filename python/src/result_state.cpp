@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The frame's array goes with the result: its picture is of those points.
+// The state includes the frame's points, because a result's picture shows them.
 
 #include "result_state.h"
 
@@ -58,7 +58,8 @@ std::optional<TrackEntry> track(py::handle state) {
   return entry;
 }
 
-/// Of those that were wanted an object, which keeps what the fit said; None of the others.
+/// Returns a list with an object for each requested volume, including the result of its fit, and None for the
+/// others.
 py::list volumes(const FrameResult& result) {
   py::list list(result.volumes.size());
   for (std::size_t i = 0; i < result.volumes.size(); ++i) {
@@ -72,7 +73,7 @@ py::list volumes(const FrameResult& result) {
   return list;
 }
 
-/// The numbers of a result hang together; those of a state may not.
+/// Throws if the numbers of an unpickled result contradict each other.
 void require_sound(const FrameResult& result, std::size_t points) {
   const Clusters& c = result.clusters;
   const auto in_cloud = [&](const std::vector<std::int32_t>& list) {
@@ -105,7 +106,8 @@ void take_volumes(const py::list& state, FrameResult& result) {
   }
 }
 
-/// What the filter kept, also where the pipeline made no list of it: then all of that is one cluster.
+/// Returns the indices of the points that passed the filter. If the pipeline has made no index list, these
+/// are the points of cluster 0.
 std::vector<std::int32_t> kept(const ResultObject& self) {
   if (!self.result.filtered) return self.result.kept;
   const std::vector<std::uint32_t> labels = labels_of(self.frame(), self.result);

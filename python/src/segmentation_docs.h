@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Docstrings of the functions and classes for segmentation.
 #pragma once
 
 namespace pcl_bv::python {

@@ -11,7 +11,7 @@
 namespace pcl_bv::python {
 namespace {
 
-/// The text, kept for the life of the process: EstimationResult::reason points to one that is never freed.
+/// Returns a view of a copy that is never freed, because EstimationResult::reason does not own its text.
 std::string_view kept_text(const std::string& text) {
   static std::mutex mutex;
   static std::set<std::string>* const texts = new std::set<std::string>;
@@ -178,7 +178,7 @@ void set_fit_state(py::handle given, VolumeObject& volume) {
   volume.fit.used = whole_number(state[3], "used", {0, kNoLimit});
   volume.fit.dropped = whole_number(state[4], "dropped", {0, kNoLimit});
   const std::string reason = text(state[5], "reason");
-  constexpr std::size_t longest = 200;  // reasons are never freed
+  constexpr std::size_t longest = 200;  // a limit, because reasons are never freed
   if (reason.size() > longest) refuse_value("reason", "is longer than 200 bytes");
   volume.fit.reason = kept_text(reason);
 }

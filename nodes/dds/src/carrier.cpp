@@ -18,8 +18,8 @@ namespace {
 
 constexpr dds_duration_t kPatience = DDS_MSECS(10);
 
-// What rosbag2 and `ros2 topic info` of Iron and later know a type's definition by (REP 2011): of Humble's and later
-// definitions.
+// RIHS01 hash of a type's definition (REP 2011), by which rosbag2 and `ros2 topic info` of Iron and later
+// identify the type. Hashes of the definitions of Humble and later. Empty for other types.
 std::string_view hash_of(const std::string& type) {
   static const std::map<std::string_view, std::string_view> hashes{
       {"sensor_msgs/msg/PointCloud2", "9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"},
@@ -68,7 +68,7 @@ class Carrier final : public MessageCarrier {
     if (sample == nullptr) throw std::bad_alloc();
     std::memcpy(sample->bytes.get(), cdr.data(), cdr.size());
     std::memset(sample->bytes.get() + cdr.size(), 0, padding);
-    sample->bytes[3] |= static_cast<std::byte>(padding);  // as DDSI-RTPS 2.3 says it
+    sample->bytes[3] |= static_cast<std::byte>(padding);  // padding's size (DDSI-RTPS 2.3)
     sample->timestamp.v = dds_time();
     const dds_return_t status = dds_writecdr(to.writer.get(), sample);
     if (status == DDS_RETCODE_TIMEOUT) {
@@ -88,7 +88,7 @@ class Carrier final : public MessageCarrier {
     return all;
   }
 
-  // Those who read what was sent last have a second to take it.
+  // Waits at most 1 s in total for the readers to acknowledge the last messages.
   void close() override {
     const dds_time_t until = dds_time() + DDS_SECS(1);
     for (const Topic& topic : topics_)
@@ -100,7 +100,7 @@ class Carrier final : public MessageCarrier {
   struct Topic {
     std::string name;
     const ddsi_sertype* type;
-    Entity topic, writer;  // the writer goes first
+    Entity topic, writer;  // the writer is destroyed before its topic
     std::uint64_t late = 0;
   };
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Creation of the module's receivers and carriers.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,7 @@
 
 namespace pcl_bv::dds {
 
-/// As Middleware says.
+/// The implementations of Middleware::receiver() and Middleware::carrier().
 std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic, const std::string& type);
 std::unique_ptr<MessageCarrier> make_carrier();
 

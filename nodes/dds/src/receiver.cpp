@@ -21,7 +21,7 @@ struct Loan {
   void operator()(ddsi_serdata* sample) const { ddsi_serdata_unref(sample); }
 };
 
-// Every driver's QoS fits: best effort also reads from writers that are reliable.
+// Compatible with the QoS of every driver: a best-effort reader also matches reliable writers.
 Qos reader_qos() {
   Qos qos = make_qos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
@@ -30,7 +30,8 @@ Qos reader_qos() {
   return qos;
 }
 
-// Linux gives a socket what is asked for up to this.
+// Returns a warning if Linux limits a socket's receive buffer (rmem_max) to less than kWantedBuffer,
+// otherwise "".
 std::string small_buffers() {
   long most = kWantedBuffer;
   std::ifstream("/proc/sys/net/core/rmem_max") >> most;
@@ -83,14 +84,14 @@ class Receiver final : public MessageReceiver {
       dds_sample_info_t info;
       if (dds_takecdr(reader_.get(), &sample, 1, &info, DDS_ANY_STATE) <= 0) return false;
       std::shared_ptr<ddsi_serdata> owner(sample, Loan());
-      if (!info.valid_data) continue;  // a writer has gone
+      if (!info.valid_data) continue;  // a writer has left
       const CdrSample& cdr = *static_cast<const CdrSample*>(sample);
       message = {cdr.bytes.get(), cdr.size, std::move(owner), info.source_timestamp};
       return true;
     }
   }
 
-  // Fragments that did not come, or a network that was full.
+  // Reports messages lost because of missing fragments or an overloaded network.
   void note_losses(std::vector<std::string>& all) {
     dds_sample_lost_status_t lost{};
     if (dds_get_sample_lost_status(reader_.get(), &lost) < 0 || lost.total_count_change == 0) return;
@@ -98,7 +99,7 @@ class Receiver final : public MessageReceiver {
                   std::to_string(lost.total_count) + " so far");
   }
 
-  // Those who publish another type on this topic, or with other QoS.
+  // Reports publishers on this topic with another type or with incompatible QoS.
   void note_others(std::vector<std::string>& all) {
     look_again_ = Clock::now() + std::chrono::seconds(1);
     void* samples[32] = {};

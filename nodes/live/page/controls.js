@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The mouse (or one finger) on the scene: drag, wheel and click.
+// Controls the camera with the mouse or one finger: drag, wheel and click.
 
 const CLICK_PIXELS = 4; // a press that moves less is a click
-const LINE_PIXELS = 16; // of wheels that count in lines
+const LINE_PIXELS = 16; // pixels per line, for wheels that report lines
 
-// `on`: functions moved(), click(px, py) in pixels of the canvas, grabbed() for a pan.
+// `on`: callbacks moved(), click(px, py) in pixels of the canvas, and grabbed() at each step of a pan.
 export function controlCamera(canvas, camera, on) {
   let press = null;
   const place = (event) => {

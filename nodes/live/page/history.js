@@ -1,24 +1,25 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The last frames, for stepping back: as many as fit into 64 MB. While paused none is added, so that none is lost
-// that one may want to see; only a step beyond the newest takes the next frame that comes.
+// The last frames for stepping back, as many as fit into 64 MB. While paused, arriving frames are not stored,
+// so that no stored frame has to be removed. A step forward from the newest frame stores the next one that
+// arrives.
 
 const MOST_BYTES = 64e6;
 
-// JSON takes about three times its text as objects.
+// Parsed JSON takes about three times the memory of its text.
 const bytesOf = (frame) => (frame.points?.bytes.byteLength ?? 0) + 3 * (frame.size ?? 0);
 
 export class History {
   constructor() {
     this.frames = [];
     this.bytes = 0;
-    this.place = -1; // of the frame shown
+    this.place = -1; // index of the frame that is shown
     this.paused = false;
     this.wantsNext = false;
   }
 
-  // The frame to show now, or null: it is paused.
+  // Stores a frame. Returns the frame to show, or null while paused.
   arrive(frame) {
     if (this.paused && !this.wantsNext) return null;
     this.wantsNext = false;
@@ -34,7 +35,7 @@ export class History {
     this.wantsNext = false;
   }
 
-  // The frame one step on (1) or back (-1), or null: there is none, or none yet.
+  // Pauses and steps forward (1) or back (-1). Returns the frame to show, or null if there is none (yet).
   step(by) {
     this.paused = true;
     if (by > 0 && this.place === this.frames.length - 1) {

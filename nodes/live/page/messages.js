@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Messages as bytes: CDR of sensor_msgs/msg/PointCloud2, and the points inside a static page.
-// Points are {bytes, count, stride, intensity, origin}: `bytes` goes to WebGL as it came, x y z float32 first, then
-// the label uint32 and, if `intensity`, an intensity float32; coordinates are relative to `origin`.
+// Parses messages: CDR of sensor_msgs/msg/PointCloud2, JSON of frames, and the frame inside a static page.
+// Points are {bytes, count, stride, intensity, origin}. `bytes` is passed to WebGL unchanged: for each point
+// x, y, z as float32, the label as uint32 and, if `intensity` is true, the intensity as float32. Coordinates
+// are relative to `origin`.
 
 const FLOAT32 = 7;
 const UINT32 = 6;
 
-// Reads little-endian CDR; alignment counts from behind the four bytes that say so.
+// Reads little-endian CDR. Alignment is relative to the end of the encapsulation header (four bytes).
 class CdrReader {
   constructor(view) {
     this.view = view;
@@ -39,7 +40,7 @@ class CdrReader {
 
 export function readPointCloud2(view) {
   const reader = new CdrReader(view);
-  reader.u32(); // stamp: the message's header says it, too
+  reader.u32(); // stamp: also in the header of the WebSocket message
   reader.u32();
   reader.text();
   const count = reader.u32() * reader.u32();
@@ -59,12 +60,12 @@ export function readPointCloud2(view) {
   return { bytes, count, stride, intensity: has("intensity", 16, FLOAT32), origin: [0, 0, 0] };
 }
 
-// Browsers before 2025 lack fromBase64(), which takes a tenth of the time.
+// fromBase64() takes a tenth of the time, but browsers before 2025 lack it.
 function bytesOfBase64(text) {
   return Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
 }
 
-// What `<script id="data">` holds, as a frame; null in a live page.
+// Parses the frame in `<script id="data">`. Returns null in a live page.
 export function readStaticFrame(element) {
   if (!element) return null;
   const data = JSON.parse(element.textContent);
@@ -81,7 +82,8 @@ export function readStaticFrame(element) {
   };
 }
 
-// A frame of the live page from a line of JSON. Its time has more digits than a number keeps: it stays text.
+// Parses a frame from a line of JSON. The stamp stays text, because it has more digits than a number can
+// hold.
 export function readFrame(view) {
   const text = new TextDecoder().decode(view);
   const report = JSON.parse(text);
@@ -89,7 +91,8 @@ export function readFrame(view) {
   return { report, stamp: /"stamp_ns":\s*(-?\d+)/.exec(text)?.[1] ?? "", points: null, size: text.length };
 }
 
-// A sample of points spread over the cloud: at most `most` of them, each [x, y, z, intensity], finite ones only.
+// Returns a sample of at most `most` points, evenly spaced by index, each [x, y, z, intensity]. Skips points
+// that are not finite.
 export function samplePoints({ bytes, count, stride, intensity }, most) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const step = Math.max(1, Math.ceil(count / most));

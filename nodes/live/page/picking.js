@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which volume a ray meets. Each test gives [entry, exit] along the ray or null; volumes are taken larger by `pad`,
-// a few pixels, so that flat and small ones can be met, too.
+// Finds the volume that a ray hits. Each test returns [entry, exit] along the ray or null. Volumes are
+// inflated by `pad`, a few pixels, so that flat and small volumes can be hit.
 import { isDrawable, SHAPES } from "./shapes.js";
 import { add, cross, dot, norm, scale, sub, unit } from "./vectors.js";
 
-// Of half spaces n.p <= d with unit n; p counts from the ray's start.
+// Intersects a ray with half-spaces n.p <= d; n is a unit vector, p is relative to the ray's start.
 function throughPlanes(planes, direction, pad) {
   let [entry, exit] = [-Infinity, Infinity];
   for (const { n, d } of planes) {
@@ -23,7 +23,7 @@ function throughPlanes(planes, direction, pad) {
   return entry <= exit ? [entry, exit] : null;
 }
 
-// Both solutions of a t^2 + 2 b t + c <= 0.
+// Returns the interval of t with a t^2 + 2 b t + c <= 0, or null.
 function quadratic(a, b, c) {
   const root = b * b - a * c;
   if (root < 0 || a <= 0) return null;
@@ -40,7 +40,7 @@ function throughEllipsoid(center, axes, radii, direction) {
   return quadratic(dot(way, way), dot(way, start), dot(start, start) - 1);
 }
 
-// A cylinder without ends; along its axis everything or nothing is inside.
+// Intersects a ray with an infinite cylinder. A ray parallel to the axis is completely inside or outside.
 function throughTube(center, axis, radius, direction) {
   const [way, start] = [cross(direction, axis), cross(scale(center, -1), axis)];
   const room = dot(start, start) - radius * radius;
@@ -56,7 +56,7 @@ function both(a, b) {
   return entry <= exit ? [entry, exit] : null;
 }
 
-// The convex hull of several intervals.
+// Returns the smallest interval that contains all intervals, or null if all are null.
 function union(parts) {
   const met = parts.filter(Boolean);
   return met.length === 0 ? null : [Math.min(...met.map((p) => p[0])), Math.max(...met.map((p) => p[1]))];
@@ -68,7 +68,7 @@ function throughCylinder(center, axis, radius, half, direction, pad) {
     throughPlanes(slab(axis, middle - half, middle + half), direction, pad));
 }
 
-// Tests by shape: volume, start of the ray (absolute), its direction, pad.
+// Tests by shape. Arguments: volume, start of the ray in absolute coordinates, direction of the ray, pad.
 const TESTS = {
   aabb: (v, from, way, pad) =>
     throughPlanes([0, 1, 2].flatMap((k) => {
@@ -105,8 +105,9 @@ const TESTS = {
   },
 };
 
-// The cluster that a ray meets first; of volumes that it passes at one time the smallest. `from` is absolute,
-// `padAt(distance)` the pad at a distance. Null: none.
+// Returns the cluster whose volume the ray hits first. If the ray enters other volumes before it leaves the
+// first one, the smallest of all these volumes is chosen. Returns null if the ray hits no volume. `from` is
+// in absolute coordinates, padAt(distance) is the pad at a distance from the eye.
 export function pickCluster(clusters, hidden, from, direction, padAt) {
   const met = [];
   for (const cluster of clusters) {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Times of the stages, frames per second and drops over the last 200 frames.
+// Plots of the stages' times, the frame rate and the dropped frames over the last 200 frames.
 import { byId, fixed } from "./elements.js";
 import { THEMES } from "./palette.js";
 import { quantile } from "./vectors.js";
 
 const MOST_FRAMES = 200;
-// The parts of `total`, in their order; to decode is no part of it.
+// The stages that `total` consists of, in order. Decoding is not included.
 const STAGES = [
   ["filter", "#3fa7d6"], ["ground", "#b08a3e"], ["cluster", "#4cae6a"], ["fit", "#e0894a"], ["track", "#a77bd8"],
 ];
@@ -24,7 +24,7 @@ export class Plots {
     }));
   }
 
-  // Frames that never came show as a gap in `seq`.
+  // A gap in `seq` counts as dropped frames.
   add(report, now) {
     const gap = this.lastSeq !== null && report.seq > this.lastSeq + 1 ? report.seq - this.lastSeq - 1 : 0;
     const dropped = gap + (report.error ? 1 : 0);
@@ -34,7 +34,7 @@ export class Plots {
     if (this.frames.length > MOST_FRAMES) this.frames.shift();
   }
 
-  // Numbers of a new connection begin anew.
+  // A new connection may begin with any `seq`.
   restart() {
     this.lastSeq = null;
   }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// WebGL2 by hand: the points of a frame as they came, lines and faces of a batch. Throws where there is no WebGL2.
+// Draws with WebGL2: the points of a frame in their original layout, and the lines and faces of batches.
+// Throws if the browser has no WebGL2.
 import { LINE_BYTES, LINE_CORNERS, VERTEX_BYTES } from "./batch.js";
 import { THEMES } from "./palette.js";
 import { FACE_FRAGMENT, FACE_VERTEX, LINE_FRAGMENT, LINE_VERTEX, POINT_FRAGMENT, POINT_VERTEX } from "./shaders.js";
@@ -41,7 +42,7 @@ export class Renderer {
     this.setUp();
   }
 
-  // Also after the browser took the context away and gave it back.
+  // Creates all WebGL objects: at the start, and again after the browser has restored a lost context.
   setUp() {
     const gl = this.gl;
     this.pointProgram = new Program(gl, POINT_VERTEX, POINT_FRAGMENT);
@@ -61,7 +62,7 @@ export class Renderer {
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  // Buffers of one batch.
+  // Creates the buffers of one batch.
   newLayer() {
     const gl = this.gl;
     const layer = { lines: 0, indices: 0, buffers: [0, 1, 2].map(() => gl.createBuffer()) };
@@ -89,7 +90,7 @@ export class Renderer {
     this.gl.vertexAttribPointer(index, size, type, normalised, stride, offset);
   }
 
-  // Two triangles for each line: indices that all lines share.
+  // Enlarges the index buffer that all layers share: two triangles for each line.
   reserveLines(lines) {
     if (lines <= this.reserved) return;
     this.reserved = 2 ** Math.ceil(Math.log2(lines));
@@ -102,7 +103,7 @@ export class Renderer {
     this.gl.bufferData(this.gl.ELEMENT_ARRAY_BUFFER, indices, this.gl.STATIC_DRAW);
   }
 
-  // `points` as in messages.js, or null.
+  // `points`: as described in messages.js, or null.
   setPoints(points) {
     this.points = points;
     if (!points) return;
@@ -118,7 +119,7 @@ export class Renderer {
     gl.bindVertexArray(null);
   }
 
-  // The colour of each object's points, by its number in the frame.
+  // Sets the colours of the objects' points. The index of a colour is the label of the points.
   setObjectColours(colours) {
     const gl = this.gl;
     const rows = Math.max(1, Math.ceil(colours.length / COLOURS_WIDE));
@@ -146,7 +147,7 @@ export class Renderer {
     gl.bindVertexArray(null);
   }
 
-  // `look`: {theme, mode, range, pointSize, lineWidth, origin, faces, grid}; sizes in pixels of the screen.
+  // `look`: {theme, mode, range, pointSize, lineWidth, origin, faces, grid}; sizes in device pixels.
   draw(camera, look) {
     const gl = this.gl;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);

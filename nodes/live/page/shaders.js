@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Shaders. Lines are rectangles of a width in pixels whose sides fade over one pixel; faces are more opaque where one
-// looks along them, so that round volumes have an outline.
+// Shaders. Lines are rectangles with a width in pixels; their sides fade over one pixel. Faces are more
+// opaque at grazing view angles, so that round volumes have an outline.
 
 export const POINT_VERTEX = `#version 300 es
 precision highp float;

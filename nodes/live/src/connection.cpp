@@ -16,7 +16,7 @@ using Error = boost::system::error_code;
 
 constexpr std::chrono::seconds kPatience{10};
 
-// The page is whole: it needs nothing from anywhere but its own WebSocket.
+// Content security policy: the page loads no other resources and connects only to its own server.
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
     "connect-src 'self'; "
@@ -99,7 +99,7 @@ void Connection::reply(Response response) {
   response.set(http::field::server, "pcl_bv");
   response.keep_alive(false);
   response.prepare_payload();
-  if (parser_.get().method() == http::verb::head) response.body().clear();  // its length stays
+  if (parser_.get().method() == http::verb::head) response.body().clear();  // the header Content-Length stays
   response_ = std::make_shared<Response>(std::move(response));
   stream_.expires_after(kPatience);
   http::async_write(stream_, *response_, [self = shared_from_this()](Error error, std::size_t) {

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// So that plots can be made of its numbers.
+// JSON schema of a frame's report. Foxglove needs it to plot the numbers.
 constexpr const char* kFrameSchema = R"({"title":"pcl_bv.Frame","type":"object","properties":{
 "schema":{"type":"integer"},"seq":{"type":"integer"},"stamp_ns":{"type":"integer"},"frame_id":{"type":"string"},
 "file":{"type":"string"},"error":{"type":"string"},"points":{"type":"integer"},

@@ -22,7 +22,7 @@ std::string now_as_text() {
   return std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
-// Signals are for the threads of the program.
+// Starts a thread that blocks all signals, so that the program's own threads handle them.
 template <class Run>
 std::thread thread_without_signals(Run&& run) {
   sigset_t all, before;
@@ -73,7 +73,7 @@ void Server::accept() {
     if (!error && connections_ < Connection::kMostConnections)
       std::make_shared<Connection>(std::move(socket), hub_, address_, connections_)->start();
     if (!error) return accept();
-    // Out of files, mostly: those who are there go on, others wait.
+    // Usually out of file descriptors: keep the existing connections and accept again after 100 ms.
     const auto pause = std::make_shared<boost::asio::steady_timer>(io_, std::chrono::milliseconds(100));
     pause->async_wait([this, pause](const Error&) {
       if (acceptor_.is_open()) accept();
@@ -137,7 +137,7 @@ void Server::close() {
     hub_.finish();
     work_.reset();
   });
-  // A viewer that does not read keeps nobody waiting for long.
+  // Wait at most 1 s for viewers that do not read.
   if (ended_.get_future().wait_for(std::chrono::seconds(1)) == std::future_status::timeout) io_.stop();
   thread_.join();
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The server of the middleware "ws".
 #pragma once
 
 #include <atomic>
@@ -17,11 +18,11 @@
 
 namespace pcl_bv::live {
 
-/// Viewers on one port, in a thread of its own: who sends waits for nobody.
+/// Serves all viewers on one port in a thread of its own, so that send() never waits for a viewer.
 class Server final : public MessageCarrier {
  public:
-  /// Throws std::invalid_argument for what parse_address() does not know, IoError where nobody can listen
-  /// there.
+  /// Listens at `place`, [HOST:]PORT. Throws std::invalid_argument as parse_address() does, IoError if the
+  /// port cannot be opened.
   explicit Server(const std::string& place);
   ~Server() override;
   Server(const Server&) = delete;
@@ -48,7 +49,7 @@ class Server final : public MessageCarrier {
   boost::asio::ip::tcp::acceptor acceptor_{io_};
   Hub hub_;
   int connections_ = 0;
-  std::atomic<std::size_t> waiting_bytes_{0};  // of messages on their way to the server's thread
+  std::atomic<std::size_t> waiting_bytes_{0};  // of the messages queued for the server's thread
   std::atomic<std::uint64_t> lost_{0};
   std::vector<std::shared_ptr<Channel>> channels_;
   std::promise<void> ended_;

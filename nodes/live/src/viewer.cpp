@@ -14,7 +14,7 @@ namespace websocket = boost::beast::websocket;
 using Error = boost::system::error_code;
 
 void Viewer::start(const HttpRequest& request, const std::string& subprotocol) {
-  boost::beast::get_lowest_layer(ws_).expires_never();  // from here on the WebSocket has timers of its own
+  boost::beast::get_lowest_layer(ws_).expires_never();  // the WebSocket has its own timeouts
   ws_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), std::chrono::seconds(30), true});
   ws_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
     response.set(boost::beast::http::field::sec_websocket_protocol, subprotocol);
@@ -143,7 +143,7 @@ void Viewer::close(websocket::close_code code) {
   ws_.async_close(code, [self = shared_from_this()](const Error&) { self->end(); });
 }
 
-// Whatever still waits in the background ends with an error, and then the last reference goes.
+// Pending asynchronous operations end with an error and release their references to the viewer.
 void Viewer::end() {
   if (!std::exchange(open_, false)) return;
   closing_ = true;
@@ -151,7 +151,7 @@ void Viewer::end() {
   subscriptions_.clear();
   boost::beast::get_lowest_layer(ws_).cancel();
   asio::post(ws_.get_executor(), [self = shared_from_this()] {
-    self->hub_.leave(self);  // not while the hub goes through its viewers
+    self->hub_.leave(self);  // posted, because the hub may be iterating over its viewers now
     boost::beast::get_lowest_layer(self->ws_).close();
   });
 }

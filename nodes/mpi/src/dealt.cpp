@@ -20,7 +20,8 @@ std::size_t size_of_input(const Job& job) {
   return unknown ? 1 : std::max<std::size_t>(1, bytes);
 }
 
-// The rank of each job: each next smaller one goes to the rank with the fewest bytes.
+// Returns the rank of each job. In order of descending file size, each job goes to the rank that has the
+// fewest bytes so far.
 std::vector<std::size_t> deal(const std::vector<Job>& jobs, std::size_t ranks) {
   std::vector<std::size_t> sizes, order(jobs.size()), owner(jobs.size()), load(ranks);
   for (const Job& job : jobs)
@@ -35,7 +36,7 @@ std::vector<std::size_t> deal(const std::vector<Job>& jobs, std::size_t ranks) {
   return owner;
 }
 
-// As the first rank sees the files, which may grow meanwhile.
+// Returns the ranks that the first rank has computed: other ranks may see other file sizes if a file grows.
 std::vector<std::size_t> agreed_owners(Ranks& ranks, const std::vector<Job>& jobs) {
   std::ostringstream text;
   if (ranks.first()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Inputs that have nothing to do with one another, dealt out as work.
+// Distributes independent inputs over the ranks.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,8 @@
 
 namespace pcl_bv {
 
-/// What the first rank does when a signal ends the run.
+/// The action that the first rank takes when a signal ends the run. Any thread may call both member
+/// functions.
 class WhenInterrupted {
  public:
   void set(std::function<void()> finish) {
@@ -32,8 +33,9 @@ class WhenInterrupted {
   std::function<void()> finish_;
 };
 
-/// Processes all jobs, the largest files first to whoever has least; the first rank writes the results in the
-/// order of the jobs. The status counts on the first rank only.
+/// Collective call: processes all jobs. In order of descending file size, each job goes to the rank that has
+/// the fewest bytes so far. The first rank writes the results in the order of the jobs and returns the status
+/// of the run; the other ranks return Status::done.
 Status process_dealt(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
                      WhenInterrupted& interrupted);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command pcd_bv_mpi: pcd_bv over the ranks of MPI.
+// The command pcd_bv_mpi: pcd_bv distributed over MPI ranks.
 
 #include <exception>
 #include <functional>
@@ -20,8 +20,9 @@
 namespace pcl_bv {
 namespace {
 
-/// Does what every rank does to the same end, unless one finds the use wrong: then none goes on, and the
-/// first rank says why.
+/// Collective call: calls work(), which gives the same result on every rank. The first rank prints its
+/// warnings. If work() throws UsageError on any rank, all ranks return false and the first rank prints the
+/// reason.
 bool all_do(Ranks& ranks, const std::function<void()>& work) {
   std::string problem;
   {
@@ -61,7 +62,7 @@ Status process_together(Ranks& ranks, const Job& job, const Options& options, Wh
   outcome.report.file = job.input;
   try {
     outcome.status = fit_together(ranks, *job.tiles, options, outcome.report);
-  } catch (const IoError& error) {  // of all ranks
+  } catch (const IoError& error) {  // thrown on all ranks
     outcome.report.error = error.what();
     outcome.status = Status::failed;
   }
@@ -92,7 +93,7 @@ int run(Ranks& ranks, int argc, char** argv, WhenInterrupted& interrupted) {
   if (!understood) return static_cast<int>(Status::misuse);
   if (const auto* text = std::get_if<std::string>(&asked)) return ranks.first() ? print(*text) : 0;
   Options options = std::get<Options>(asked);
-  if (!options.threads_given) options.pipeline.threads = 1;  // as many ranks as processors are the rule
+  if (!options.threads_given) options.pipeline.threads = 1;  // usually there is one rank per processor
   if (ranks.broadcast(names_of(inputs)) != names_of(inputs))
     throw IoError("sees other inputs than rank 0: all ranks need the same files at the same paths");
   std::shared_ptr<Tiles> tiles;
@@ -113,7 +114,7 @@ int main(int argc, char** argv) {
   using namespace pcl_bv;
   return run_command("pcd_bv_mpi", [&]() -> int {
     WhenInterrupted interrupted;
-    const Interruption interruption([&] { interrupted(); });  // before MPI has threads
+    const Interruption interruption([&] { interrupted(); });  // before MPI starts its threads
     Ranks ranks(&argc, &argv);
     std::string reason;
     try {
@@ -125,6 +126,6 @@ int main(int argc, char** argv) {
       reason = error.what();
     }
     say("rank " + std::to_string(ranks.rank()) + ": " + reason);
-    Ranks::abort();  // the others may wait for this one
+    Ranks::abort();  // the other ranks may be waiting for this rank
   });
 }

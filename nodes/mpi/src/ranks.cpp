@@ -53,7 +53,7 @@ Ranks::~Ranks() {
 
 void Ranks::abort() {
   MPI_Abort(MPI_COMM_WORLD, 1);
-  std::abort();  // unless MPI has ended it
+  std::abort();  // in case MPI_Abort() returns
 }
 
 std::string Ranks::broadcast(const std::string& text, std::size_t from) {

@@ -27,14 +27,16 @@ namespace {
 
 using Failure = std::optional<TileFailure>;
 
+// A query of the smallest-sphere solver (FarthestPoints), as bytes in a message.
 struct Question {
   DistanceCenter center;
   double limit;
 };
 
-// Ends the solver when a rank cannot answer.
+// Thrown to end the solver when a rank cannot read its points.
 struct NoAnswer {};
 
+// Whether the method is fitted by rounds of queries to all ranks.
 bool in_rounds(const Method& method, const Tiles& tiles) {
   return method.name == "sphere-exact" && tiles.xyz().count > Partial::kAllKept;
 }
@@ -45,8 +47,8 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-/// The cloud as it is now, from its points to its volumes; each step ends with what all ranks know of
-/// failures.
+/// One attempt to fit the volumes to the tiles that are not left out. All ranks execute the same steps. A
+/// step that may fail returns the failure, the same on all ranks.
 class Attempt {
  public:
   Attempt(Ranks& ranks, const Tiles& tiles, const Options& options)
@@ -58,12 +60,12 @@ class Attempt {
   }
 
   Failure run();
-  Report report() const;  ///< Of the first rank.
+  Report report() const;  ///< On the first rank only.
   std::size_t rounds() const { return rounds_; }
-  double worked() const { return worked_; }  ///< Seconds of processors, without those of waiting for others.
+  double worked() const { return worked_; }  ///< CPU time of this rank without waiting for others, seconds.
 
  private:
-  /// What a rank does on its own.
+  /// Runs a part of a step that needs no other rank, and adds its CPU time to worked().
   template <typename Work>
   Failure work(const Work& own) {
     const double begin = processor_seconds();
@@ -80,7 +82,7 @@ class Attempt {
   Failure check();
   bool answer(const Question& question, Failure& failure, OctantPoints& found);
 
-  /// The rank that fits this method to all points, if it is one that needs them.
+  /// Returns the rank that fits the method to all points, or nothing if the method does not need all points.
   std::optional<std::size_t> owner(std::size_t method) const {
     if (!methods_[method]->needs_all_points) return std::nullopt;
     return method % ranks_.size();
@@ -94,14 +96,15 @@ class Attempt {
   std::vector<const Method*> methods_;
   std::optional<Eigen::Vector3d> origin_;
   std::optional<SharePoints> points_;
-  PartialFile merged_;  // on the first rank of all; on all ranks, if they check
+  PartialFile merged_;  // after merge(): of all points on the first rank and, with --check, on every rank
   std::vector<Fitted> fitted_;
   std::vector<std::size_t> outside_;
   std::size_t rounds_ = 0;
   double worked_ = 0;
 };
 
-// The box of all is exact, and so is where its middle lies.
+// The origin is the middle of the box of all points, rounded to whole numbers. The box is exact, so the
+// origin does not depend on the number of ranks.
 Failure Attempt::find_origin() {
   origin_ = options_.origin.at;
   if (!options_.origin.asked || origin_) return std::nullopt;
@@ -139,7 +142,7 @@ Failure Attempt::read_own_points() {
   return agreed(ranks_, failure);
 }
 
-// In pairs, and pairs of pairs: MPI_Reduce wants parts of one length.
+// Merges along a binary tree of the ranks, without MPI_Reduce, which needs parts of equal length.
 void Attempt::merge() {
   for (std::size_t step = 1; step < ranks_.size(); step *= 2) {
     if (ranks_.rank() % (2 * step) == step) {
@@ -179,7 +182,8 @@ bool Attempt::answer(const Question& question, Failure& failure, OctantPoints& f
   return !ranks_.farthest(own, now.has_value(), found);
 }
 
-// The first rank asks, an empty question ends it.
+// The solver runs on the first rank and broadcasts its queries. Each rank answers for its own points. An
+// empty query ends the rounds.
 Failure Attempt::fit_in_rounds(Fitted& fitted) {
   Failure failure;
   OctantPoints found;
@@ -242,7 +246,8 @@ Report Attempt::report() const {
   return report;
 }
 
-/// With --timings, what the run cost: the work of all ranks, and the greatest memory of any.
+/// Prints the cost of the run (--timings): CPU time and messages of all ranks together, and the maximum
+/// memory of a rank.
 void say_costs(Ranks& ranks, double seconds, double worked, std::size_t rounds) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

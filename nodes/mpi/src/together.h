@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One cloud over all ranks.
+// Fits volumes to one cloud that is distributed over all ranks.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,15 @@
 
 namespace pcl_bv {
 
-/// Fits each method to all points: those that partial results serve, to what all ranks have merged; the
-/// smallest sphere by rounds of questions; those that need all points on a rank each, which passes over all.
-/// An input that fails on any rank is left out by all of them, and the cloud is begun again without it. The
-/// first rank gets the report, without a file, and the status; it throws IoError if no input can be read, as
-/// all do.
+/// Collective call: fits each method to the points of all tiles.
+///
+/// - Methods that Partial::serves() are fitted to the merged partial results of all ranks. Exception:
+///   `sphere-exact` of more than Partial::kAllKept points runs in rounds of queries to all ranks.
+/// - Each method that needs all points is fitted on one rank, which reads all points.
+///
+/// If an input fails on any rank, all ranks leave it out and start again without it. `report` and the
+/// returned status are meaningful on the first rank only. Throws IoError on all ranks if no input can be
+/// read.
 Status fit_together(Ranks& ranks, Tiles& tiles, const Options& options, Report& report);
 
 }  // namespace pcl_bv

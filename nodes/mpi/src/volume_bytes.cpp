@@ -24,7 +24,7 @@ struct Fixed {
 };
 static_assert(std::is_trivially_copyable_v<Fixed>);
 
-// Reasons are texts that are never freed.
+// Returns a view of a copy that is never freed, because EstimationResult::reason does not own its text.
 std::string_view kept(const std::string& reason) {
   static std::set<std::string> reasons;
   return reason.empty() ? std::string_view() : *reasons.insert(reason).first;

@@ -77,7 +77,7 @@ void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
   runner_->push(std::move(frame));
 }
 
-// Messages are handed over, so that nodelets in the same manager get them without a copy.
+// Publishes shared pointers, so that nodelets in the same manager receive the messages without a copy.
 void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
   if (!frame.note.empty()) ROS_WARN_STREAM_THROTTLE(60, name_ << ": " << frame.note);
   if (labels_.getNumSubscribers() > 0) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Random numbers with a named algorithm, since the distributions of the standard library differ between
+// A random number generator with fixed algorithms: the distributions of <random> differ between standard
 // libraries.
 #pragma once
 
@@ -12,22 +12,24 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// SplitMix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014).
 ///
-/// Keys are hashed into the starting state, so that streams of their own cost nothing: the numbers of
-/// `SplitMix64({seed, frame, ray})` do not depend on what any other ray has drawn.
+/// A list of keys is hashed into the initial state, so each list has its own independent stream: the numbers
+/// of `SplitMix64({seed, frame, ray})` do not depend on how many numbers the other rays draw.
 class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
   explicit SplitMix64(std::initializer_list<std::uint64_t> keys);
 
+  /// Returns the next 64 random bits.
   std::uint64_t next();
 
-  /// Uniform in [0, 1), a multiple of 2^-53.
+  /// Returns a number uniform in [0, 1), a multiple of 2^-53.
   double uniform();
 
-  /// Uniform in [low, high]; `high` itself only by rounding.
+  /// Returns a number uniform in [low, high). Rounding may yield `high`.
   double uniform(double low, double high);
 
-  /// Normal with mean 0 and variance 1, by the cosine half of Box and Muller 1958. At most 8.6 in magnitude.
+  /// Returns a standard normal number (mean 0, variance 1), by the cosine formula of Box and Muller 1958.
+  /// Its magnitude is at most 8.6.
   double normal();
 
  private:

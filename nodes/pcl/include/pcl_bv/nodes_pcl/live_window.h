@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Volumes in a window, frame by frame.
+// A window that shows the volumes of the last frame.
 #pragma once
 
 #include <pcl/visualization/pcl_visualizer.h>
@@ -14,11 +14,9 @@
 
 namespace pcl_bv {
 
-/// A PCLVisualizer that shows the volumes of the last frame as wires, in colours by track or cluster.
+/// A PCLVisualizer that shows the volumes of the last frame as wireframes, coloured by track or cluster.
 ///
-/// show() may be called from the runner's thread: it only keeps a copy. spin_once() draws it and must be
-/// called, again and again, from the thread that made the window. Needs a display: without one, VTK as Debian
-/// builds it ends the process.
+/// Needs a display: without one, VTK as built by Debian ends the process.
 class LiveWindow {
  public:
   explicit LiveWindow(const std::string& title = "pcl_bv") : window_(title) {
@@ -26,6 +24,7 @@ class LiveWindow {
     window_.addCoordinateSystem(1);
   }
 
+  /// Stores a copy of the volumes for the next spin_once(). Any thread may call it, such as the runner's.
   void show(const FrameResult& result) {
     const std::lock_guard lock(mutex_);
     volumes_ = result.volumes;
@@ -38,13 +37,15 @@ class LiveWindow {
     fresh_ = true;
   }
 
-  /// False once the user has closed the window.
+  /// Draws the volumes and handles the window's events for `milliseconds`. Must be called repeatedly from the
+  /// thread that has created the window. Returns false once the user has closed the window.
   bool spin_once(int milliseconds = 10) {
     draw();
     window_.spinOnce(milliseconds);
     return !window_.wasStopped();
   }
 
+  /// Returns the PCLVisualizer, for further settings.
   pcl::visualization::PCLVisualizer& window() { return window_; }
 
  private:
