@@ -123,6 +123,9 @@ function(pcl_bv_test_options target)
   endif()
   if(PCL_BV_SANITIZE) # false alarms of g++ 12 with its instrumentation
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    # The tests' own arithmetic is not what is tested: with its checks volume_tree_test.cpp takes 14.5 s to compile
+    # instead of 9.2.
+    target_compile_options(${target} PRIVATE -fno-sanitize=undefined)
   endif()
   target_compile_definitions(${target} PRIVATE PCL_BV_BIN_DIR="${PROJECT_BINARY_DIR}/bin"
                                                $<$<BOOL:${CMAKE_CROSSCOMPILING}>:PCL_BV_EMULATED>)
