@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the table of sinks names.
+// The functions that open the sinks of the table in sink_kinds.cpp.
 #pragma once
 
 #include "pcl_bv/nodes/frame_sink.h"
