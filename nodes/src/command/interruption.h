@@ -12,7 +12,7 @@
 
 namespace pcl_bv {
 
-/// Handles SIGINT, SIGTERM and SIGHUP while it lives: they are blocked, and a thread waits for them.
+/// Handles SIGINT, SIGTERM and SIGHUP while this object lives: they are blocked, and a thread waits for them.
 ///
 /// On the first signal, the thread calls `finish`, removes temporary files and ends the process with status
 /// 128 + signal. With `told`, it sets that flag instead, and the work must end by itself. A second signal

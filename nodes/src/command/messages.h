@@ -23,7 +23,8 @@ void complain(std::string_view problem);
 /// Warns that subfolders of a folder are not read, if there are any.
 void say_what_is_skipped(const std::string& folder, std::size_t subfolders);
 
-/// Stores the complaints of its thread in `kept` while it lives, to be printed later. Must not be nested.
+/// While this object lives, complaints of its thread are stored in `kept`, to be printed later. Must not be
+/// nested.
 class HeldComplaints {
  public:
   HeldComplaints();

@@ -37,7 +37,7 @@ using WriteEarly = std::function<bool(std::string& text)>;
 /// report of this error, unless its beginning is already written. Other inputs are not affected.
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write = {});
 
-/// The same for a whole job: WriteJobEarly also prints the messages of the job, and do_job() processes it.
+/// As WriteEarly and result_of(), for a whole job: do_job() processes it and also returns its messages.
 using WriteJobEarly = std::function<bool(std::vector<std::string>& complaints, std::string& text)>;
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline,
               const WriteJobEarly& write = {});

@@ -55,7 +55,7 @@ class Tiles final : public PointSource {
   /// `threads` is the number of threads that load at the same time; it determines how many tiles stay open.
   Tiles(std::vector<Job> jobs, std::vector<TileHeader> headers, std::size_t threads);
 
-  /// Returns a view of all points. It is valid while this object lives and until leave_out().
+  /// Returns a view of all points. It is valid until leave_out() and while this object lives.
   PointView xyz() const { return view_of(*this, offsets_.back(), scalar_); }
 
   const std::vector<Job>& jobs() const { return jobs_; }

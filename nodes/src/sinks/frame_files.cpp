@@ -25,7 +25,7 @@ const SinkDescription& with_folder(const SinkDescription& description) {
   return description;
 }
 
-// frame000012.vtp
+// Returns a file name such as frame000012.vtp.
 std::string numbered(const char* stem, const Frame& frame, std::string_view extension) {
   std::string number = std::to_string(frame.header.number);
   number.insert(0, 6 - std::min<std::size_t>(number.size(), 6), '0');

@@ -20,8 +20,8 @@ namespace {
 // points there.
 constexpr double kMostFar = 0.2;
 
-// Share of ground below which the up direction is doubted. Streets have 30 % to 60 % ground, cluttered ones
-// 13 %.
+// Share of ground below which another up direction is searched. Streets have 30 % to 60 % ground, cluttered
+// ones 13 %.
 constexpr double kLittleGround = 0.15;
 
 struct Found {

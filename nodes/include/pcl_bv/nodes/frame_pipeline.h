@@ -38,9 +38,9 @@ class FramePipeline {
   /// frame without a valid point gives no clusters, or one empty cluster if cluster.tolerance is 0;
   /// `result.counts` tells why points were dropped. Must not be called by several threads at the same time.
   ///
-  /// Throws std::length_error for more than 2^31 - 1 points. Throws std::invalid_argument if ground removal
-  /// or clustering is enabled and the points come from a PointSource, or if cluster.class_field is set and
-  /// the frame has no classes.
+  /// Throws std::length_error if index lists are needed for more than 2^31 - 1 points. Throws
+  /// std::invalid_argument if ground removal or clustering is enabled and the points come from a PointSource,
+  /// or if cluster.class_field is set and the frame has no classes.
   void process(const Frame& frame, FrameResult& result);
 
   /// Allocates the memory for frames of `points` points, so that the first frame takes about as long as the

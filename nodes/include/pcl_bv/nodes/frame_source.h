@@ -63,7 +63,7 @@ struct ReplayOptions {
   ///
   /// Files: the time in the name, read as by stamp_in_name(), but with one interpretation for all files of a
   /// folder. An interpretation whose stamps ascend is preferred; it may read fractions as whole milli-,
-  /// micro- or nanoseconds without leading zeros. If none ascends, take_remarks() returns a warning. A name
+  /// micro- or nanoseconds without leading zeros. If there is none, take_remarks() returns a warning. A name
   /// without a time gives a FrameError. Messages: the stamp of the header or, if that is 0, the time of
   /// recording.
   bool from_name = false;

@@ -14,8 +14,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// longer than the one before. Never allocates.
 class LatencyHistogram {
  public:
-  /// Adds a duration in milliseconds. Durations below 1 us or above 1000 s count in the first or last bin,
-  /// but max() is exact. Negative durations and NaN count as 0.
+  /// Adds a duration in milliseconds. Durations below 1 us or above 1000 s go into the first or last bin,
+  /// but max() is exact. Negative durations and NaN are treated as 0.
   void add(double milliseconds);
 
   std::uint64_t count() const { return count_; }

@@ -13,7 +13,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Which messages a sink sends.
 struct MessageTopics {
-  std::string prefix = "/bv";  ///< Of "/objects", "/markers", "/scene", "/points" and "/frames".
+  std::string prefix = "/bv";  ///< Put before "/objects", "/markers", "/scene", "/points" and "/frames".
   bool points = false;         ///< Labelled clouds on "/points".
   bool scene = true;           ///< foxglove_msgs/msg/SceneUpdate on "/scene".
   /// Each frame, also lost ones, as a line of the sink `jsonl` on "/frames"; for viewers.

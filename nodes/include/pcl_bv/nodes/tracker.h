@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Multi-object tracking: assigns the objects of a frame to the objects of earlier frames.
+// Multi-object tracking: data association of objects from frame to frame.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 ///
 /// A track gets its id with its detection number TrackConfig::birth. It is deleted after TrackConfig::death
 /// frames without a detection. A frame in which the track is occluded (its expected centre is inside the box
-/// of another object) counts as a quarter of a frame. The id survives such gaps.
+/// of another object) is counted as a quarter of a frame. The id survives such gaps.
 class Tracker {
  public:
   /// The track to which a box is assigned.
