@@ -161,8 +161,8 @@ void refuse_with(const CommandLine& line, const char* option, std::initializer_l
   }
 }
 
-// Throws UsageError for options that cannot work if several inputs are one cloud (labels, clusters, ground and
-// size limits), and for more options if only partial results are made or merged.
+// Throws UsageError for options that cannot work if several inputs are one cloud (labels, clusters, ground
+// and size limits), and for more options if only partial results are made or merged.
 void refuse_for_one_cloud(const CommandLine& line, const Options& options) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";

@@ -23,7 +23,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Volumes by which points are dropped, such as a robot's own links or a region to crop to.
 struct RegionConfig {
   std::filesystem::path file;  ///< Read by read_volumes() if `volumes` is empty.
-  bool keep = false;           ///< Drop points outside all regions with `keep`; otherwise points inside.
+  bool keep = false;           ///< true: drop points outside all such regions; false: drop points inside.
   double padding = 0;  ///< Inflation of the volumes in every direction, metres (trees/region_mask.h).
   std::vector<AnyVolume> volumes{};
 };
