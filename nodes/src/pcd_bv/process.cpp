@@ -37,7 +37,7 @@ class Stopwatch {
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
   }
 
-  /// The same without a restart.
+  /// Seconds since then, without a restart.
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
   }

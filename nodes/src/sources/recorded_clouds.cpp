@@ -35,8 +35,8 @@ std::string clouds_of(const std::vector<RecordedTopic>& topics) {
   return list;
 }
 
-// Lists topics with their types, which a user needs to convert them: "/points
-// (livox_ros_driver2/msg/CustomMsg)".
+// Lists topics with their types, which a user needs to convert them:
+// "/points (livox_ros_driver2/msg/CustomMsg)".
 std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
   std::string list;
   for (const RecordedTopic& topic : topics) {

@@ -19,8 +19,8 @@ class TrackClock {
  public:
   /// Returns the time of the next frame, nanoseconds; it begins at the first stamp. It never decreases, and
   /// one step is at most two seconds.
-  /// Returns where the last step came from.
   std::int64_t at(std::int64_t stamp_ns, std::int64_t recorded_ns);
+  /// Returns where the last step came from.
   TrackTime source() const { return source_; }
 
  private:
