@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a configuration says of each class of points, looked up.
+// Cluster settings and methods of each class of points, from a configuration.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,25 @@
 
 namespace pcl_bv {
 
+/// The cluster settings and methods of a configuration, resolved for each class.
 class ClassRules {
  public:
   ClassRules() = default;
   explicit ClassRules(const PipelineConfig& config);
 
+  /// Returns the settings for classes without settings of their own.
   const ClusterSettings& others() const { return others_; }
+  /// Returns the settings of each class that has its own.
   const std::vector<ClassSettings>& own() const { return own_; }
 
-  /// Of the volumes of objects of this class; nullopt: where points have no classes.
+  /// Returns the methods for objects of this class; nullopt means that points have no classes.
   const std::vector<const Method*>& methods_of(std::optional<std::int64_t> value) const;
 
  private:
   ClusterSettings others_;
   std::vector<ClassSettings> own_;
   std::vector<const Method*> other_methods_;
-  std::vector<std::vector<const Method*>> own_methods_;  // as `own_`
+  std::vector<std::vector<const Method*>> own_methods_;  // in the order of `own_`
 };
 
 }  // namespace pcl_bv

@@ -62,11 +62,11 @@ bool PointFilter::keeps_all() const {
   return min2_ == 0 && max2_ == std::numeric_limits<double>::infinity() && !boxed_ && !dropped_ && !cropped_;
 }
 
-// Calls take(i, valid, kept) for each point, by its distance and the own vehicle: two values without a
-// branch.
+// Calls take(i, valid, kept) for each point. `kept` depends on the distance and the box of the own vehicle,
+// not on regions. The comparison of distances has no branch.
 template <typename T, typename Take>
 void PointFilter::each_distance(const PointView& points, const Take& take) const {
-  const double min2 = min2_, max2 = max2_;  // not read again after each store
+  const double min2 = min2_, max2 = max2_;  // local copies: members would be read again after each store
   for (std::size_t i = 0; i < points.count; ++i) {
     T p[3];
     load_point(points, i, p);
@@ -75,7 +75,8 @@ void PointFilter::each_distance(const PointView& points, const Take& take) const
     // The squares of finite floats are finite in double: one comparison instead of three.
     const bool valid =
         sizeof(T) == 4 ? distance2 < std::numeric_limits<double>::infinity() : is_valid({x, y, z});
-    bool in_range = (distance2 >= min2) & (distance2 <= max2);  // no branch: dead beams come at random
+    // No branch: beams without a return come at random.
+    bool in_range = (distance2 >= min2) & (distance2 <= max2);
     if (boxed_) {
       in_range = in_range && !(x >= low_.x() && x <= high_.x() && y >= low_.y() && y <= high_.y() &&
                                z >= low_.z() && z <= high_.z());

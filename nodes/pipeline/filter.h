@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The filter stage: which points enter the pipeline.
 #pragma once
 
 #include <cstdint>
@@ -18,38 +19,38 @@
 
 namespace pcl_bv {
 
-/// Why a point is dropped.
+/// Whether a point is kept, or why it is dropped.
 enum class Verdict : std::uint8_t { kept, nonfinite, range, inside };
 
-/// Memory that calls share.
+/// Memory that calls reuse.
 struct FilterScratch {
   std::vector<Verdict> verdicts;
   std::vector<std::uint8_t> inside;
 };
 
-/// Points that one thread takes.
+/// The part of the points that one thread filters.
 struct FilterPart {
-  std::size_t begin, end;  ///< In the view.
+  std::size_t begin, end;  ///< Range of points in the view.
   std::size_t kept;
   Counts counts;
   FilterScratch scratch;
 };
 
-/// A configured filter. Const calls may run side by side.
+/// A configured filter. Const member functions may be called concurrently.
 class PointFilter {
  public:
-  /// Reads the files of regions without volumes; throws IoError for one that cannot be read.
+  /// Reads the files of regions that have no volumes. Throws IoError if a file cannot be read.
   PointFilter(const FilterConfig& config, UsableIsa isa);
 
   /// Whether all finite points are kept.
   bool keeps_all() const;
 
-  /// Judges points in memory, one verdict each. The square of a float is exact in double and the sum of three
-  /// is rounded twice: a point is judged by its true distance to within 2e-16 of it.
+  /// Computes the verdict of each point in memory. The square of a float is exact in double and the sum of
+  /// three is rounded twice, so the relative error of a distance is below 2e-16.
   void judge(const PointView& points, FilterScratch& scratch) const;
 
-  /// Replaces `kept` with the numbers of the points of the view that are kept, in its order; counts the
-  /// others. Throws std::length_error beyond 2^31 - 1 points.
+  /// Replaces `kept` by the numbers of the points that are kept, in the order of the view, and adds the
+  /// others to `counts`. Throws std::length_error for more than 2^31 - 1 points.
   void select(const PointView& points, const ParallelPolicy& policy, std::vector<std::int32_t>& kept,
               Parts<FilterPart>& parts, Counts& counts) const;
 
@@ -63,26 +64,26 @@ class PointFilter {
 
   double min2_, max2_;
   bool boxed_;
-  Eigen::Vector3d low_, high_;  // of the own vehicle
+  Eigen::Vector3d low_, high_;  // box of the own vehicle
   std::optional<RegionMask> dropped_, cropped_;
   UsableIsa isa_;
 };
 
-/// Adds up the reasons.
+/// Adds the number of points with each verdict to `counts`.
 void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts);
 
-/// The points of a view that is too big for lists; those that the filter drops are not valid (NaN).
+/// The filtered points of a view that is too large for index lists; dropped points become NaN.
 class FilteredPoints final : public PointSource {
  public:
-  /// Keeps the view, whose points are not of an index list, and their owner.
+  /// Stores the view, which must not have an index list, and the owner of its points.
   FilteredPoints(const PointView& points, std::shared_ptr<const void> owner,
                  std::shared_ptr<const PointFilter> filter)
       : points_(points), owner_(std::move(owner)), filter_(std::move(filter)) {}
 
-  /// What is dropped, by reason: a pass over all points.
+  /// Counts the dropped points by reason, in one pass over all points.
   Counts count(const ParallelPolicy& policy) const;
 
-  /// Points have the numbers that they have in the view.
+  /// Loaded points keep their numbers in the view.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
  private:
@@ -91,9 +92,9 @@ class FilteredPoints final : public PointSource {
   std::shared_ptr<const PointFilter> filter_;
 };
 
-/// Points of a cloud in memory by their numbers, which are known to be right.
+/// Returns the points of a cloud in memory that have these numbers. The numbers are not checked.
 inline PointView subset(PointView cloud, const std::int32_t* numbers, std::size_t count) {
-  // A slice counts from its cloud's first point, but begins elsewhere.
+  // Numbers count from the first point of the cloud, but the data of a slice begin at its own first point.
   const bool moved = cloud.indices == nullptr && cloud.order == PointOrder::records && cloud.data != nullptr;
   if (moved) cloud.data -= cloud.stride * cloud.first;
   cloud.first = 0;

@@ -35,16 +35,16 @@ class Watch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// A configuration, checked and looked up.
+// A valid configuration and what is derived from it.
 struct Prepared {
   PipelineConfig config;
   std::vector<const Method*> methods;
   ClassRules rules;
   MethodOptions options;
   std::shared_ptr<const PointFilter> filter;
-  Execution execution{Serial{}, Isa::scalar};  // until the configuration's set is known
-  bool tells_apart = false;                    // ground or clusters
-  bool looks = false;                          // at points before volumes are fitted
+  Execution execution{Serial{}, Isa::scalar};  // replaced by the configured instruction set
+  bool tells_apart = false;                    // ground removal or clustering is enabled
+  bool looks = false;                          // some stage reads the points before the fits
 };
 
 std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
@@ -92,8 +92,8 @@ struct FramePipeline::State {
   TrackedVolumes tracks;
 };
 
-// A big cloud that is only filtered goes the same way, to the same bits, whether it is in memory or in a
-// file: it is filtered as it comes past.
+// A large cloud that is only filtered is filtered chunk by chunk whenever it is loaded. This holds for clouds
+// in memory and in files, so that both give the same bits.
 PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PointView& cloud = frame.points;
   result.kept.clear();
@@ -110,7 +110,7 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
   return result.kept_points(cloud);
 }
 
-// The settings' place is believed, the source's if the points lie around it.
+// Uses ground.sensor without a check, but Frame::sensor only if the points lie around it.
 void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PipelineConfig& config = now.config;
   result.sensor = {};
@@ -143,7 +143,7 @@ PointView FramePipeline::State::remove_ground(const Prepared& now, const PointVi
   return subset(points, result.ground.rest);
 }
 
-// All points as one object, if their number is allowed.
+// Makes all points one object, if the number of points is allowed.
 void take_all(const ClusterConfig& config, const PointView& points, FrameResult& result) {
   const Counts& counts = result.counts;
   const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;
@@ -176,7 +176,8 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     class_clusterer.extract(points, *frame.classes, now.rules.others(), now.rules.own(), result.clusters,
                             result.class_of, now.execution.parallel);
   }
-  // A million clusters of four points took 550 MB to be found, 300 MB are for their volumes.
+  // Frees the memory of the clustering before the fits: for a million clusters of four points, finding them
+  // takes 550 MB, and their volumes take 300 MB.
   constexpr std::size_t many = 250'000;
   if (result.clusters.size() >= many) {
     clusterer = EuclideanClusterer();
@@ -215,7 +216,7 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   };
   for_each_view(views, now.execution, std::cref(fit_cluster));
   if (now.looks) return;
-  result.counts.nonfinite = result.results.front().dropped;  // nobody has looked at the points before
+  result.counts.nonfinite = result.results.front().dropped;  // no earlier stage has counted them
   result.clusters.offsets.back() = result.results.front().used;
 }
 
@@ -260,7 +261,8 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   result.ms.fit = watch.lap();
   result.tracks.clear();
   result.track_time = TrackTime::stamps;
-  const bool nothing = result.clusters.size() == 1 && result.clusters.cluster_size(0) == 0;  // has no place
+  // An empty cluster has no position to track.
+  const bool nothing = result.clusters.size() == 1 && result.clusters.cluster_size(0) == 0;
   if (now->config.track.enabled && nothing) result.tracks.resize(result.clusters.size());
   if (now->config.track.enabled && !nothing) {
     state_->tracks.update(now->config.track, state_->views, frame, result);
@@ -273,7 +275,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
 
 void FramePipeline::reserve(std::size_t points, FrameResult& result) {
   const Frame frame = made_sweep(points, state_->current()->config);
-  for (int pass = 0; pass < 2; ++pass)  // tracks are born in one and met again in the other
+  for (int pass = 0; pass < 2; ++pass)  // the first pass creates tracks, the second one updates them
     process(frame, result);
   state_->tracks = TrackedVolumes();
 }

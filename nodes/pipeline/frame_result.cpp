@@ -44,7 +44,7 @@ std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& resu
       label[static_cast<std::size_t>(clusters.indices[i])] = static_cast<std::uint32_t>(id);
   }
   if (!clusters.indices.empty() || clusters.size() == 0) return label;
-  const PointView all = result.points_of(0, cloud);  // without a list
+  const PointView all = result.points_of(0, cloud);  // the cluster has no index list
   for (std::size_t chunk = 0; chunk < chunk_count(all.count); ++chunk) {
     const LoadedPoints loaded = load_chunk(all, chunk);
     const PointView& part = loaded.view();
@@ -163,7 +163,7 @@ Picture picture_of(const Frame& frame, const FrameResult& result, const std::vec
   picture.points = ground ? subset(frame.points, result.ground.rest) : result.kept_points(frame.points);
   if (clusters) picture.labels = labels.data();
   for (std::size_t id = 0; id < result.clusters.size(); ++id) {
-    std::string label = clusters ? std::to_string(id) : "";  // at the first volume that is one
+    std::string label = clusters ? std::to_string(id) : "";  // shown at the first volume that is not empty
     for (std::uint32_t m = 0; m < result.methods.size(); ++m) {
       const AnyVolume& volume = result.volume(id, m);
       const std::uint32_t colour = clusters ? static_cast<std::uint32_t>(id) : m;

@@ -16,16 +16,18 @@
 namespace pcl_bv {
 namespace {
 
-// Above: a sensor on a motorway may have a tenth of its points beyond 100 m.
+// Smallest share of points beyond 100 m that gives a warning. A sensor on a motorway may have a tenth of its
+// points there.
 constexpr double kMostFar = 0.2;
 
-// Below: streets have 30 % to 60 % ground, cluttered ones 13 %.
+// Share of ground below which another up direction is searched. Streets have 30 % to 60 % ground, cluttered
+// ones 13 %.
 constexpr double kLittleGround = 0.15;
 
 struct Found {
   const Frame& frame;
   const FrameResult& result;
-  bool& searched;  // whether little ground was once a reason to search another up direction
+  bool& searched;  // whether another up direction was searched because of little ground
 
   const PipelineConfig& config() const { return *result.config; }
   bool zones() const { return config().ground.method == GroundMethod::zones; }
@@ -64,7 +66,7 @@ std::string ground_found(const Found& f) {
 std::string little_ground(const Found& f) {
   const double share = f.ground_share();
   if (f.config().ground.method == GroundMethod::none || share == 0 || share >= kLittleGround) return {};
-  // A cluttered stream has little ground in every frame, and a search costs milliseconds.
+  // Search only once: a cluttered stream has little ground in every frame, and a search takes milliseconds.
   if (std::exchange(f.searched, true)) return {};
   const auto other = f.other_up();
   if (!other) return {};

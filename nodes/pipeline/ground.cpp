@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a configuration leaves open is what the method's own settings say.
+// Settings that the configuration does not give keep the defaults of the method.
 
 #include "ground.h"
 

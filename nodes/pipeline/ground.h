@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Taking the ground away, by the method that a configuration names.
+// Ground removal by the configured method.
 #pragma once
 
 #include "pcl_bv/nodes/pipeline_config.h"
@@ -9,14 +9,15 @@
 
 namespace pcl_bv {
 
-/// Fewer points say nothing about settings.
+/// Clouds with fewer points give no warnings about settings.
 inline constexpr std::size_t kFewPoints = 100;
 
-/// One plane's settings as the configuration says.
+/// Returns the settings of split_ground() for one plane.
 GroundPlaneSettings plane_settings(const GroundConfig& config);
 
-/// Replaces `split`; without a method nothing is ground and nothing is listed. Zones begin at `sensor`; its
-/// height is ignored if that place is estimated. Reuses what `zones` holds.
+/// Splits the points by the configured method and replaces `split`. With GroundMethod::none, both lists are
+/// empty. Zones are centred at `sensor`; the configured sensor height is ignored if that position is
+/// estimated. Reuses the memory of `zones`.
 void split_ground(const PointView& points, const GroundConfig& config, const SensorPlace& sensor,
                   const ParallelPolicy& policy, GroundZones& zones, GroundSplit& split);
 

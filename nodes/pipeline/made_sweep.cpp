@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Not datasets-synth: casting rays would take longer than the frames that it is made for.
+// Does not use datasets-synth: casting rays would take longer than processing the frames.
 
 #include "made_sweep.h"
 
@@ -15,7 +15,7 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::size_t object_count = 100;
-constexpr double golden_angle = 2.399963229728653;  // radians: no direction is left out
+constexpr double golden_angle = 2.399963229728653;  // radians; directions become evenly spread
 
 struct Upright {
   double x, y, height;
@@ -26,7 +26,8 @@ Upright place_on_ground(std::size_t i, double share, double sensor_height) {
   return {distance * std::cos(angle), distance * std::sin(angle), -sensor_height};
 }
 
-// Points of an object lie along a space-filling sequence, so nearer than 0.5 m from 30 of them on.
+// The points of an object follow a low-discrepancy sequence: from 30 points on, neighbours are nearer than
+// 0.5 m.
 Upright place_on_object(std::size_t i, double sensor_height) {
   const auto object = static_cast<double>(i % object_count), n = static_cast<double>(i / object_count);
   const double distance = 6 + object / 3, angle = golden_angle * object;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A synthetic sweep for FramePipeline::reserve().
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,8 @@
 
 namespace pcl_bv {
 
-/// A sweep of `points` points as the settings expect it: half on level ground around the sensor, half on a
-/// hundred objects of two metres on it. All points are in class 0.
+/// Returns a sweep of `points` points that fits the settings: half of them on level ground around the sensor,
+/// half on a hundred objects, two metres wide, on that ground. All points have class 0.
 Frame made_sweep(std::size_t points, const PipelineConfig& config);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a frame's volumes owe to those of the last one.
+// Updates the tracks and makes the boxes of a frame consistent with those of earlier frames.
 
 #include "tracked_volumes.h"
 
@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
 
-// Tracks do not depend on what volumes are asked for.
+// Returns the axis-aligned box of a cluster, whichever volumes are requested: tracks do not depend on the
+// request.
 Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const Aabb* const box = std::get_if<Aabb>(&result.volume(cluster, m));
@@ -45,9 +46,10 @@ void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, const Trac
   }
 }
 
-// A difference of stamps after one that did not advance is not trusted either. Steps are cut to two seconds,
-// and the start is at most half of the largest number: the sum of all steps must not overflow where a driver
-// writes 0 now and then. The tracker treats all steps above one second alike.
+// After a stamp that did not advance, the next difference of stamps is not trusted either. The sum of all
+// steps must not overflow if a driver sometimes writes 0: steps are limited to two seconds, and the start to
+// half of the largest number. The limit is harmless, since the tracker treats all steps above one second
+// alike.
 std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
   const auto passed = [](std::int64_t from, std::int64_t to) {
     std::int64_t nanoseconds = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tracks of a frame's clusters, and boxes that do not flip from one frame to the next.
+// Tracks of a frame's clusters, and oriented boxes whose axes do not flip from one frame to the next.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,14 @@
 
 namespace pcl_bv {
 
-/// The time of tracks: that of the stamps where they advance. Drivers write the same stamp into every
-/// message, or set their clock back.
+/// The time of the tracks: the stamps if they advance, otherwise the recording times. Some drivers write the
+/// same stamp into every message or set their clock back.
 class TrackClock {
  public:
-  /// Nanoseconds from the first stamp on, never less than before; a step is two seconds at most.
+  /// Returns the time of the next frame, nanoseconds; it begins at the first stamp. It never decreases, and
+  /// one step is at most two seconds.
   std::int64_t at(std::int64_t stamp_ns, std::int64_t recorded_ns);
+  /// Returns where the last step came from.
   TrackTime source() const { return source_; }
 
  private:
@@ -27,15 +29,16 @@ class TrackClock {
   TrackTime source_ = TrackTime::stamps;
 };
 
+/// The tracker of a stream and the filters of its boxes.
 class TrackedVolumes {
  public:
-  /// Fills result.tracks, and names the axes of each oriented box as those of the same object's last one; if
-  /// asked for, oriented boxes are steadied.
-  /// `clusters`: the points of each.
+  /// Fills result.tracks and gives the axes of each oriented box the order and directions of the object's
+  /// last box. If requested, smooths the yaw of upright boxes and grows their sizes. `clusters` holds the
+  /// points of each cluster.
   void update(const TrackConfig& config, const std::vector<PointView>& clusters, const Frame& frame,
               FrameResult& result);
 
-  /// Forgets all tracks, but not which ids were given.
+  /// Deletes all tracks. Their ids are still not reused.
   void reset() {
     tracker_.reset();
     clock_ = TrackClock();
@@ -49,8 +52,8 @@ class TrackedVolumes {
   TrackClock clock_;
   std::vector<Aabb> boxes_;
   std::vector<Tracker::Assignment> assignments_;
-  std::vector<const Method*> methods_;  // of filters_
-  std::vector<BoxFilter> filters_;      // slot by slot, by method
+  std::vector<const Method*> methods_;  // methods that filters_ is for
+  std::vector<BoxFilter> filters_;      // filter of method m of track slot s: s * methods_.size() + m
 };
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Classes by logarithm.
+// Bins of equal width in the logarithm of the duration.
 
 #include "pcl_bv/nodes/latency.h"
 
@@ -17,7 +17,7 @@ constexpr double kGrowth = 1.01;
 }  // namespace
 
 void LatencyHistogram::add(double milliseconds) {
-  if (!(milliseconds >= 0)) milliseconds = 0;  // NaN, too
+  if (!(milliseconds >= 0)) milliseconds = 0;  // also NaN
   milliseconds = std::min(milliseconds, 1e15);
   const double steps = std::log(std::max(milliseconds, kLeast) / kLeast) / std::log(kGrowth);
   ++classes_[std::min(static_cast<std::size_t>(std::ceil(steps)), kClasses - 1)];

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The program's folder, and that of this library, where it is one of its own.
+// Returns the folder of the program and that of this library, if it is a shared library.
 std::array<fs::path, 2> folders() {
   std::error_code unknown;
   Dl_info info{};

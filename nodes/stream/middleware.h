@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What carries messages: recordings, viewers, and modules that are only loaded where they are used.
+// Interfaces for sending and receiving messages: recordings, viewers and networks. Network modules are loaded
+// at first use.
 #pragma once
 
 #include <chrono>
@@ -15,33 +16,35 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// A topic and the type of its messages.
 struct MessageTopic {
   std::string name;              ///< "/bv/objects".
   std::string type;              ///< "vision_msgs/msg/Detection3DArray".
-  std::string encoding = "cdr";  ///< Or "json", of carriers for viewers.
+  std::string encoding = "cdr";  ///< "cdr", or "json" for viewers.
 };
 
-/// Called by one thread.
+/// Sends the messages of several topics. Called by one thread.
 class MessageCarrier {
  public:
   virtual ~MessageCarrier() = default;
 
-  /// Once for each topic, before its first message; its number from here on.
+  /// Announces a topic; called once, before its first message. Returns the topic's number for the other
+  /// calls.
   virtual std::size_t add_topic(const MessageTopic& topic) = 0;
 
-  /// Whether somebody would get the next message; what nobody wants is not made.
+  /// Returns whether anybody would receive the next message of a topic. If not, the message is not made.
   virtual bool wanted(std::size_t /*topic*/) const { return true; }
 
-  /// A message, as plain CDR with its encapsulation or as a text; throws as FrameSink::write().
+  /// Sends a message: plain CDR with its encapsulation header, or JSON text. Throws as FrameSink::write().
   virtual void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) = 0;
 
-  /// The settings in force from here on, as to_yaml() writes them.
+  /// Announces the settings that apply from now on, as written by to_yaml().
   virtual void settings(const std::string& /*yaml*/, std::int64_t /*stamp_ns*/) {}
 
   /// As FrameSink::offer().
   virtual void offer(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
-  /// Something that people should know now: a line.
+  /// Shows a line to the people who watch.
   virtual void notice(const std::string& /*line*/) {}
 
   /// As FrameSink::take_remarks().
@@ -51,45 +54,52 @@ class MessageCarrier {
   virtual void close() {}
 };
 
+/// A message and the time of its sending.
 struct ReceivedMessage {
-  const std::byte* data = nullptr;  ///< Plain CDR with its encapsulation.
+  const std::byte* data = nullptr;  ///< Plain CDR with its encapsulation header.
   std::size_t size = 0;
-  std::shared_ptr<const void> owner;  ///< Keeps the bytes.
-  std::int64_t sent_ns = 0;  ///< When it was sent, nanoseconds of the sender's system time.
+  std::shared_ptr<const void> owner;  ///< Keeps the bytes alive.
+  std::int64_t sent_ns = 0;  ///< Time of sending, nanoseconds of the sender's system clock.
 };
 
-/// Of one topic. Called by one thread.
+/// Receives the messages of one topic. Called by one thread.
 class MessageReceiver {
  public:
   virtual ~MessageReceiver() = default;
 
-  /// The next message if it comes within `patience`. Which are lost if it is not called often enough is the
-  /// receiver's choice, and is said in its remarks.
+  /// Waits at most `patience` for the next message. Returns false if none came. If the caller is too slow,
+  /// the receiver decides which messages are lost and reports losses by take_remarks().
   virtual bool next(ReceivedMessage& message, std::chrono::milliseconds patience) = 0;
 
   /// As FrameSource::take_remarks().
   virtual std::vector<std::string> take_remarks() { return {}; }
 };
 
+/// A kind of transport, implemented by a module that middleware() loads.
 class Middleware {
  public:
   virtual ~Middleware() = default;
 
-  /// Of a topic ("/points") with messages of a type ("sensor_msgs/msg/PointCloud2"). Throws IoError where the network
-  /// cannot be used, std::invalid_argument for what is no name of a topic and for bad values in the environment.
+  /// Subscribes to a topic ("/points") with messages of a type ("sensor_msgs/msg/PointCloud2"). Throws
+  /// IoError if the network cannot be used, and std::invalid_argument for an invalid topic name or an invalid
+  /// value of an environment variable.
   virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) = 0;
 
-  /// `place` says where, to those that have to be told ("localhost:8765"). Throws as receiver().
+  /// Creates a carrier. `place` is the address for modules that need one ("localhost:8765"). Throws as
+  /// receiver().
   virtual std::unique_ptr<MessageCarrier> carrier(const std::string& place) = 0;
 };
 
-/// "dds": ROS 2's topics by Eclipse Cyclone DDS; docs/ros.md says what of the environment it heeds. "ws": WebSockets for
-/// Foxglove's viewers and our page, a carrier only; docs/live.md. Loaded from
-/// pcl_bv/pcl_bv_NAME.so in the folder of libraries beside the program or beside this library, and never unloaded. Throws
-/// IoError where it is not installed or of another version.
+/// Returns the module with this name and loads it at its first use. It is never unloaded.
+///
+/// "dds": ROS 2 topics by Eclipse Cyclone DDS; docs/ros.md lists the environment variables that it uses.
+/// "ws": WebSockets for the viewers of Foxglove and for our page; only a carrier; docs/live.md. The module is
+/// the file pcl_bv/pcl_bv_NAME.so in the library folder next to the program or next to this library. Throws
+/// IoError if it is not installed or has another version.
 Middleware& middleware(const std::string& name);
 
-/// What a module has, as `extern "C"`: its version, that of the library, and itself.
+/// Functions that a module exports as `extern "C"`: its version, which must equal that of the library, and
+/// its instance.
 using MiddlewareVersion = const char* (*)();
 using MiddlewareInstance = Middleware* (*)();
 inline constexpr const char* kMiddlewareVersion = "pcl_bv_middleware_version";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The statistics of a stream, for those who watch it.
+// The statistics of a stream as JSON.
 
 #include <nlohmann/json.hpp>
 
@@ -46,7 +46,7 @@ std::string stats_json(const RunnerStats& stats) {
   if (stats.callback_errors > 0) json["callback_errors"] = stats.callback_errors;
   for (const auto& [name, times] : stats.sinks)
     json["ms"]["sinks"][name] = to_json(times);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may be any bytes
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // sink names may be invalid UTF-8
 }
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One mutex, two conditions, one worker.
+// One worker thread, one mutex, two condition variables.
 
 #include "pcl_bv/nodes/stream_runner.h"
 
@@ -31,7 +31,7 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-// What an exception said, if there was one.
+// Returns the message of an exception that `what` throws, or nullopt if it throws none.
 template <typename Do>
 std::optional<std::string> problem_of(Do&& what) {
   try {
@@ -52,7 +52,7 @@ struct StreamRunner::State {
     Clock::time_point since;
   };
   struct Lost {
-    Frame frame;  // without its cloud
+    Frame frame;  // without its points
     Loss loss;
     std::string reason;
   };
@@ -80,7 +80,7 @@ struct StreamRunner::State {
 
   mutable std::mutex mutex;
   mutable std::condition_variable arrived, room;
-  std::deque<Waiting> frames;  // these and what is lost: in the order of their numbers
+  std::deque<Waiting> frames;  // `frames` and `losses` are both sorted by frame number
   std::deque<Lost> losses;
   std::uint64_t next_number = 0;
   std::size_t lost_while_ending = 0;
@@ -88,13 +88,13 @@ struct StreamRunner::State {
   Clock::time_point last_arrival = Clock::now();
   RunnerStats stats;
 
-  FrameResult result;  // of the worker only
+  FrameResult result;  // used by the worker thread only
   std::thread worker;
   std::thread::id worker_id;
   std::mutex join_mutex;
 };
 
-// Callbacks that no frame depends on.
+// Runs a callback whose exceptions drop no frame.
 template <typename Do>
 void StreamRunner::State::guarded(Do&& callback) {
   if (!problem_of(callback)) return;
@@ -102,7 +102,7 @@ void StreamRunner::State::guarded(Do&& callback) {
   ++stats.callback_errors;
 }
 
-// Waits for something to do, and says so once if it takes too long.
+// Waits for a frame, a lost frame or the end. Calls on_silence once if this takes longer than watchdog_s.
 void StreamRunner::State::watch(std::unique_lock<std::mutex>& lock) {
   const auto something = [this] { return ending || !frames.empty() || !losses.empty(); };
   if (config.watchdog_s <= 0) return arrived.wait(lock, something);
@@ -121,7 +121,7 @@ void StreamRunner::State::watch(std::unique_lock<std::mutex>& lock) {
   }
 }
 
-// What comes next; nothing at the end.
+// Returns the next frame or lost frame by number, or monostate at the end.
 StreamRunner::State::Task StreamRunner::State::take() {
   std::unique_lock lock(mutex);
   working = false;
@@ -186,7 +186,7 @@ void StreamRunner::State::run() {
     worker_id = std::this_thread::get_id();
   }
   for (;;) {
-    const Task task = take();  // its cloud is not kept until the next one comes
+    const Task task = take();  // declared here: its points are freed before the wait for the next one
     if (const auto* waiting = std::get_if<Waiting>(&task)) {
       work_on(*waiting);
     } else if (const auto* lost = std::get_if<Lost>(&task)) {
@@ -197,7 +197,7 @@ void StreamRunner::State::run() {
   }
 }
 
-// All below with the lock.
+// came(), count() and lose() require that the mutex is locked.
 void StreamRunner::State::came() {
   ++stats.frames.in;
   last_arrival = Clock::now();
@@ -211,7 +211,7 @@ void StreamRunner::State::count(Loss loss) {
                          : totals.dropped_error);
 }
 
-// The cloud stays with the caller, who frees it without the lock.
+// Copies only the header and the file name. The caller frees the points after unlocking the mutex.
 void StreamRunner::State::lose(const Frame& frame, Loss loss, std::string reason) {
   count(loss);
   if (ended || losses.size() >= kMostUntold || (ending && ++lost_while_ending > kMostUntold)) return;
@@ -246,7 +246,7 @@ bool StreamRunner::push(Frame frame) {
           "StreamRunner::push: a frame of points without an owner, which keeps them");
   State& s = *state_;
   if (frame.taken == Clock::time_point()) frame.taken = Clock::now();
-  State::Waiting oldest;  // freed without the lock
+  State::Waiting oldest;  // declared before `lock`: freed after unlocking
   std::unique_lock lock(s.mutex);
   s.came();
   const bool block = s.config.policy == QueuePolicy::block;
@@ -298,7 +298,7 @@ void StreamRunner::stop(End end) {
   }
   s.arrived.notify_all();
   s.room.notify_all();
-  if (from_callback) return;  // it ends after the callback
+  if (from_callback) return;  // a thread cannot join itself; it ends after the callback
   const std::lock_guard joining(s.join_mutex);
   if (s.worker.joinable()) s.worker.join();
 }

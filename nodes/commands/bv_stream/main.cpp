@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   return run_command("bv_stream", [&] {
     const auto asked = parse_stream_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&asked)) return print(*text);
-    std::atomic<bool> interrupted{false};  // what waits is done all the same
+    std::atomic<bool> interrupted{false};  // set by a signal; queued frames are still processed
     const Interruption interruption(interrupted);
     return stream(std::get<StreamOptions>(asked), interrupted);
   });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The options of bv_stream and their help. Flags override the file.
+// The options of bv_stream and their help. Options override the configuration file.
 
 #include "options.h"
 
@@ -65,7 +65,7 @@ double number(const char* option, std::string_view text, double least, double mo
   refuse_value(option, text, std::string("is not ") + wanted);
 }
 
-// Refuses to write over what is read, and two outputs into one file.
+// Throws UsageError if an output would overwrite an input or another output.
 void claim_outputs(const StreamOptions& options, const std::string& config) {
   OutputClaims claims;
   claims.add_input(options.source);
@@ -88,7 +88,7 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
     if (sink.kind->live) continue;
     const std::string_view files = sink.kind->files;
     claims.claim(files.empty() ? sink.place : sink.place / ("frame000000" + std::string(files)));
-    if (files == ".pcd") claims.refuse_input(sink.place);  // its clouds would be read for the source's
+    if (files == ".pcd") claims.refuse_input(sink.place);  // its clouds would be read as those of the source
   }
   if (options.stats) claims.claim(*options.stats);
 }

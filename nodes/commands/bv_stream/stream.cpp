@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One thread reads and waits for each frame's time, the runner's one works and writes.
+// The main thread reads frames and waits until each is due; the thread of the runner processes and writes.
 
 #include "stream.h"
 
@@ -29,7 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::chrono::milliseconds kPatience{50};  // until a signal is heeded
+constexpr std::chrono::milliseconds kPatience{50};  // longest time until a signal is noticed
 
 class Progress {
  public:
@@ -42,11 +42,11 @@ class Progress {
   }
 
  private:
-  // Where results go to the terminal, too, they would be mixed.
+  // Not shown if results go to the terminal, too: they would mix.
   const bool terminal_ = errors_go_to_a_terminal() && isatty(STDOUT_FILENO) == 0;
 };
 
-// One line.
+// Prints counters and latencies as one line.
 void report(const RunnerStats& stats) {
   const FrameTotals& f = stats.frames;
   const auto count = [](std::uint64_t n, const char* what) { return std::to_string(n) + what; };
@@ -57,7 +57,7 @@ void report(const RunnerStats& stats) {
       count(f.dropped_age, " age, ") + count(f.dropped_error, " error; ") + latency);
 }
 
-// What the reading thread does until the source ends, a signal comes, or nobody takes results any more.
+// Reads frames until the source ends, a signal comes, or no sink takes results any more.
 class Reader {
  public:
   Reader(const StreamOptions& options, StreamRunner& runner, const SinkGroup& sinks,
@@ -74,7 +74,7 @@ class Reader {
         say_remarks(source);
         if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
-        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it takes its time, too
+        if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it advances the schedule, too
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
         runner_.report_unreadable({}, std::string("the source ends: ") + error.what());
@@ -93,7 +93,7 @@ class Reader {
       complain(options_.source + ": " + remark);
   }
 
-  // Asked again and again while nothing comes, so it is also when to report.
+  // Returns whether to go on. It is called again and again, so it also prints the periodic reports.
   bool wanted() {
     if (options_.report_seconds > 0 && Seconds(Clock::now() - reported_).count() >= options_.report_seconds) {
       reported_ = Clock::now();
@@ -117,13 +117,15 @@ class Reader {
 
   bool paced() const { return options_.rate == Rate::fixed || options_.rate == Rate::recorded; }
 
-  // Reading the next file takes a core and caches from the frame in work, as no live sensor does.
+  // Waits until the frame is processed or the next one is due. Reading the next file would take a core and
+  // caches from the processing, which a live sensor does not do.
   void leave_the_worker_alone(Clock::time_point until) {
     while (wanted() && Clock::now() < until && !runner_.wait_idle(std::min(until, Clock::now() + kPatience)))
       ;
   }
 
-  // A clock cannot count beyond some centuries. Stamps that go back cost no time.
+  // Returns when a frame is due. Stamps that go back add no time. The sum is limited, since a clock cannot
+  // count beyond some centuries.
   Clock::time_point due(const Frame& frame) {
     step_ = 1 / options_.replay.rate_hz;
     if (options_.rate == Rate::recorded)
@@ -148,7 +150,7 @@ class Reader {
   double seconds_ = 0, step_ = 0;
 };
 
-// Errors have had their lines.
+// Prints dropped frames and frames without a pose. Errors have been printed before.
 void say_what_is_missing(const FrameTotals& frames, std::uint64_t without_pose) {
   const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age;
   const std::string all = " of " + std::to_string(frames.in) + " frames";
@@ -164,7 +166,7 @@ std::string named(const Frame& frame, const std::string& what) {
   return file + "frame " + std::to_string(frame.header.seq) + ": " + what;
 }
 
-// Of a sensor of 64 beams.
+// Points of one sweep of a sensor with 64 beams.
 constexpr std::size_t points_of_a_sweep = 131'072;
 
 StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, const std::string& range_from,
@@ -178,7 +180,8 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
     last_note = frame.note;
     for (std::string& warning : warnings.take(frame, result))
       complain(named(frame, with_options(std::move(warning))));
-    const std::string range = range_remark(result, range_from);  // its numbers differ from frame to frame
+    // Only its presence is compared: its numbers differ from frame to frame.
+    const std::string range = range_remark(result, range_from);
     if (!range.empty() && !out_of_range) complain(named(frame, range));
     out_of_range = !range.empty();
     progress.show(frame.header.seq, result.clusters.size(), result.ms.total);
@@ -210,7 +213,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   config.policy = resolved(config.policy, options.rate != Rate::max);
   FrameResult reserved;
   if (options.rate != Rate::max)
-    pipeline.reserve(points_of_a_sweep, reserved);  // else the first frame waits for it
+    pipeline.reserve(points_of_a_sweep, reserved);  // at maximum rate, this would only delay the first frame
   StreamRunner runner(callbacks_of(pipeline, sinks, options.range_from, progress), config,
                       std::move(reserved));
   Reader reader(options, runner, sinks, interrupted);
@@ -221,7 +224,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   RunnerStats stats = runner.stats();
   stats.sinks = sinks.times();
   say_what_is_missing(stats.frames, reader.without_pose);
-  if (errors_go_to_a_terminal()) report(stats);  // scripts want a silent end
+  if (errors_go_to_a_terminal()) report(stats);  // no report in scripts
   const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
   try {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Copying of coordinates.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,8 @@
 
 namespace pcl_bv {
 
-/// The coordinates of points in memory, one after another, as `scalar`: as doubles, or as floats if they are.
+/// Copies the coordinates of points in memory to `to`, without gaps, as `scalar`. float32 is possible for
+/// float32 points only.
 inline void copy_points(const PointView& points, ScalarType scalar, std::byte* to) {
   const auto copy = [&](auto example, const auto& load) {
     decltype(example) xyz[3];

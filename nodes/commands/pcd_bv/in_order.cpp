@@ -16,7 +16,7 @@
 namespace pcl_bv {
 
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write) {
-  constexpr std::size_t many = std::size_t{4} << 20;  // bytes that wait for their turn without harm
+  constexpr std::size_t many = std::size_t{4} << 20;  // bytes; a shorter text may wait in memory for its turn
   Result result;
   result.status = outcome.status;
   result.points = outcome.report.error ? 0 : outcome.report.points;
@@ -154,7 +154,7 @@ void InOrder::write(Result& result) {
   failed_ += result.status == Status::failed ? 1 : 0;
   points_ += result.points;
   progress_.show(written_ + 1, points_);
-  // What else was asked for is done all the same.
+  // Without readers, the work goes on only for files and checks.
   if (reports_ != Reports::wanted && !writes_files(options_) && !options_.check) stopped_ = true;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results that come in any order, written in the order of the inputs.
+// Writes results in the order of the inputs, in whichever order they come.
 #pragma once
 
 #include <chrono>
@@ -20,28 +20,29 @@
 
 namespace pcl_bv {
 
-/// What is left of a job once it is done.
+/// The result of a finished job.
 struct Result {
-  std::string text;             ///< What is not written yet.
-  bool partly_written = false;  ///< A first part has been written.
+  std::string text;             ///< The part that is not written yet.
+  bool partly_written = false;  ///< The first part has been written.
   std::vector<std::string> complaints;
   std::size_t points = 0;
   Status status = Status::done;
 };
 
-/// Writes a long text before it is whole, and empties it; or leaves it as it is.
+/// Writes the beginning of a long text, empties the text and returns true; or leaves it unchanged and returns
+/// false.
 using WriteEarly = std::function<bool(std::string& text)>;
 
-/// The outcome as text. A report that cannot be written (too great for the memory, most likely) becomes one
-/// that says so, unless its beginning is written; the other inputs are still done.
+/// Returns the outcome as text. A report that cannot be written, most likely for lack of memory, becomes a
+/// report of this error, unless its beginning is already written. Other inputs are not affected.
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write = {});
 
-/// The same of a job, with what it complains of.
+/// As WriteEarly and result_of(), for a whole job: do_job() processes it and also returns its messages.
 using WriteJobEarly = std::function<bool(std::vector<std::string>& complaints, std::string& text)>;
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline,
               const WriteJobEarly& write = {});
 
-/// A bar on standard error, if it was asked for and that is a terminal.
+/// A progress bar on standard error. It is shown only if requested and if standard error is a terminal.
 class Progress {
  public:
   Progress(bool asked, std::size_t files);
@@ -49,7 +50,7 @@ class Progress {
   void show(std::size_t files_done, std::size_t points) const;
   void erase() const;
 
-  /// Since construction.
+  /// Seconds since construction.
   double seconds() const;
 
  private:
@@ -58,28 +59,29 @@ class Progress {
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// Hands out jobs and takes their results, in any order, to write them in the order of the jobs.
+/// Hands out jobs, takes their results in any order and writes them in the order of the jobs.
 class InOrder {
  public:
   InOrder(const Options& options, std::size_t jobs, std::size_t workers);
 
-  /// The next job, or none if there is none or nobody wants more. Waits where too many results would wait for
-  /// a slow job before them.
+  /// Returns the next job, or nullopt if there is none or the work was stopped. Waits while too many results
+  /// wait for an earlier, slow job.
   std::optional<std::size_t> next();
 
+  /// Takes the result of a job and writes all results whose turn it is.
   void take(std::size_t job, Result result);
 
-  /// If it is the job's turn: says the complaints and writes the text, as far as there are some, and clears
-  /// both. So a report of a million clusters is never whole in memory.
+  /// If it is the job's turn, prints the messages, writes the text, clears both and returns true; otherwise
+  /// returns false. Therefore a report of a million clusters is never whole in memory.
   bool write_early(std::size_t job, std::vector<std::string>& complaints, std::string& text);
 
-  /// Ends the work of all workers.
+  /// Makes all workers stop after their current job.
   void stop();
 
-  /// After the last result.
+  /// Completes the output after the last result. Returns the status of all jobs.
   Status finish();
 
-  /// Ends the writing after the report that is begun, and makes whole what is written: the file, the array.
+  /// Stops after the report that is being written and completes the output: the file or the JSON array.
   void interrupt();
 
  private:
@@ -96,10 +98,10 @@ class InOrder {
   const std::size_t jobs_, ahead_;
   std::mutex mutex_;
   std::condition_variable written_one_;
-  std::map<std::size_t, Result> waiting_;  ///< For the results before them.
+  std::map<std::size_t, Result> waiting_;  ///< Results that wait for earlier ones.
   std::size_t next_ = 0, written_ = 0;
   bool stopped_ = false;
-  bool partly_written_ = false;  ///< A first part of report `written_` has been written.
+  bool partly_written_ = false;  ///< The first part of report `written_` has been written.
   Status status_ = Status::done;
   std::size_t failed_ = 0, points_ = 0;
   ReportWriter writer_;

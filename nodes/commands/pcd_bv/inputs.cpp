@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The clouds that the arguments name.
+// Turns the arguments into jobs.
 
 #include "inputs.h"
 
@@ -35,7 +35,7 @@ void complain_of(RecordedClouds& clouds, const std::string& file) {
     complain(std::string(file).append(": ").append(remark));
 }
 
-// Much of what is damaged is only found while clouds are read.
+// Reports damage after each cloud, since much of it is only found while clouds are read.
 RawCloud load_recorded(const Job& job) {
   const std::string file = job.input.substr(0, job.input.rfind('#'));
   try {
@@ -87,7 +87,7 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   }
 }
 
-// A folder's files, whatever they are called; their order does not matter.
+// Returns all files of a folder, whatever their names; their order does not matter.
 std::vector<Job> expand_partials(const std::string& argument) {
   if (!is_folder(argument)) return {{argument}};
   std::vector<Job> jobs;
@@ -101,7 +101,7 @@ std::vector<Job> expand_partials(const std::string& argument) {
   return jobs;
 }
 
-// All inputs as one job.
+// Makes one job of all inputs.
 Job joined(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
   Job job;
   job.input = kTogether;
@@ -157,7 +157,7 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
     if (given.has_extension() || is_device(given)) return given;
     refuse_value(option, given.string(), std::string("has no suffix such as ") + extension);
   };
-  // A folder gets what its name ends in.
+  // The extension of the target selects the format, also for a folder.
   const bool svg = options.image && lower_case_extension(*options.image) == ".svg";
   const char* image_extension = svg ? ".svg" : ".png";
   const bool vtp = options.mesh && mesh_format(*options.mesh) == MeshFormat::vtp;

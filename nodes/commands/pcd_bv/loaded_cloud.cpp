@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Generated clouds are always held.
+// Generated clouds are always in memory.
 
 #include "loaded_cloud.h"
 
@@ -12,7 +12,7 @@
 namespace pcl_bv {
 namespace {
 
-// What is said of many inputs as if they were one.
+// Returns the header of a tiled cloud, as if it were one file.
 RawCloud header_of(const PointView& points) {
   RawCloud cloud;
   cloud.width = points.count;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The cloud of a job: in memory, or left in its file where nothing needs all points at a time.
+// The cloud of a job: in memory, or in its file if nothing needs all points at once.
 #pragma once
 
 #include <memory>
@@ -13,23 +13,23 @@ namespace pcl_bv {
 
 class LoadedCloud {
  public:
-  /// `hold`: whether it has to be in memory; then the policy says on which threads it is read. Throws what
-  /// load_cloud() throws, and TileError for a job of tiles, which are held only if they are few. What
-  /// `origin` asks for is subtracted from the points of xyz().
+  /// With `hold`, the cloud is read into memory by the threads of the policy; a tiled cloud is held in memory
+  /// only if it has at most kChunkPoints points. The origin, if requested, is subtracted from the points of
+  /// xyz(). Throws as load_cloud(), and TileError for a tiled cloud.
   LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy, const OriginOption& origin);
 
-  /// Fields, size and viewpoint; the points only if it is held.
+  /// Returns fields, size and viewpoint; the points only if the cloud is in memory.
   const RawCloud& cloud() const { return file_ ? file_->header() : held_; }
 
   PointView xyz() const { return xyz_; }
 
-  /// What was subtracted, if that was asked for.
+  /// Returns the origin that was subtracted, if one was requested.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
-  /// Throws IoError if it was left in files and one of those has been changed.
+  /// Throws IoError if the cloud is not in memory and one of its files has been changed.
   void require_unchanged() const;
 
-  /// To be changed by its last user.
+  /// Gives the cloud away to its last user.
   RawCloud take() { return std::move(held_); }
 
  private:
@@ -38,10 +38,10 @@ class LoadedCloud {
   std::unique_ptr<CloudFile> file_;
   std::shared_ptr<const Tiles> tiles_;
   RawCloud held_;
-  PointView xyz_;  // of one of these, or of one of those below
+  PointView xyz_;  // refers to one of the members around it
   std::optional<Eigen::Vector3d> origin_;
   std::unique_ptr<PointSource> shifted_;
-  std::vector<std::byte> unshifted_, near_;  // points of tiles and shifted ones, if they are in memory
+  std::vector<std::byte> unshifted_, near_;  // tiles' points and shifted points, if in memory
 };
 
 }  // namespace pcl_bv

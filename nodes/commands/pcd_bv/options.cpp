@@ -45,7 +45,7 @@ const char* name_of(PcdBvCommand command) {
   return command == PcdBvCommand::alone ? "pcd_bv" : "pcd_bv_mpi";
 }
 
-/// The command line as texts, before the values are looked at.
+/// The values of the command line as texts, before they are parsed.
 struct Texts {
   std::vector<std::string> inputs;
   std::string format, output, labels, mesh, image, view, view_html, bin_fields, topic, origin, partial, part;
@@ -84,13 +84,14 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.flag("--progress", texts.progress, "Show how far it is, where standard error is a terminal");
 }
 
-// The command line refuses empty names.
+// An empty name means that the option is absent: the command line rejects empty names.
 std::optional<std::filesystem::path> path_or_none(const std::string& name) {
   if (name.empty()) return std::nullopt;
   return name;
 }
 
-/// A file's extension must be one of these; a name without one may be a folder's.
+/// Throws UsageError unless the file has one of these extensions. A name without an extension may be a
+/// folder.
 void require_extension(const char* option, const std::string& name,
                        std::initializer_list<std::string_view> known) {
   const std::string extension = lower_case_extension(name);
@@ -160,7 +161,8 @@ void refuse_with(const CommandLine& line, const char* option, std::initializer_l
   }
 }
 
-// What one cloud in many inputs cannot be told apart by, and what files of partial results do not know.
+// Throws UsageError for options that cannot work if several inputs are one cloud (labels, clusters, ground
+// and size limits), and for more options if only partial results are made or merged.
 void refuse_for_one_cloud(const CommandLine& line, const Options& options) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";

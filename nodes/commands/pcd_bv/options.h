@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The command line of pcd_bv, checked whole before any work begins.
+// The command line of pcd_bv. It is checked completely before any work begins.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace pcl_bv {
 
 enum class OutputFormat { text, json, jsonl, csv };
 
-/// What is subtracted from all coordinates before anything else.
+/// The origin that is subtracted from all coordinates first.
 struct OriginOption {
   bool asked = false;
-  std::optional<Eigen::Vector3d> at{};  ///< If not given: the middle of each cloud, in whole numbers.
+  std::optional<Eigen::Vector3d> at{};  ///< If not given: the centre of each cloud, in whole numbers.
 };
 
 /// One of `count` shares of a cloud, by its number from 0 on.
@@ -32,20 +32,20 @@ struct ShareOption {
 
 struct Options {
   std::vector<std::string> inputs;
-  std::size_t bin_fields = 0;  ///< As read_cloud() takes it.
-  std::string topic;           ///< Of recordings.
+  std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
+  std::string topic;           ///< Topic of recordings.
   OriginOption origin;
   PipelineConfig pipeline;
-  std::string range_from;   ///< As SettingOptions::config() says it.
-  std::string config_file;  ///< Of --config, empty without it.
+  std::string range_from;   ///< Where the range was set, see SettingOptions::config().
+  std::string config_file;  ///< File of --config; empty without it.
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image, view_html;
   ViewFrom view = ViewFrom::iso;
   bool together = false;  ///< All inputs are one cloud; also set by --partial without --merge.
   bool merge = false;     ///< Inputs are files of partial results.
-  std::optional<std::filesystem::path> partial;  ///< Write partial results there, and no volumes.
-  ShareOption share;                             ///< Of which of the cloud's points they are.
-  bool threads_given = false;                    ///< On the command line.
+  std::optional<std::filesystem::path> partial;  ///< File for partial results; then no volumes are written.
+  ShareOption share;                             ///< The share of points that the partial results cover.
+  bool threads_given = false;                    ///< Whether --threads was given.
   bool check = false;
   bool info = false;
   bool timings = false;
@@ -54,7 +54,7 @@ struct Options {
   bool clusters() const { return pipeline.cluster.tolerance > 0; }
 };
 
-/// Whether files are asked for beside the report.
+/// Whether files other than the report are requested.
 inline bool writes_files(const Options& options) {
   return options.labels || options.mesh || options.image || options.view_html;
 }
@@ -62,11 +62,11 @@ inline bool writes_files(const Options& options) {
 /// The commands that share these options.
 enum class PcdBvCommand {
   alone,
-  ranks  ///< pcd_bv_mpi, which has no use for files of partial results.
+  ranks  ///< pcd_bv_mpi, which has no options for files of partial results.
 };
 
-/// What the command line asks for: work, or (--help, --version, --print-config) only a text on
-/// standard output. Throws UsageError.
+/// Parses the command line. Returns the options, or a text to be printed on standard output (--help,
+/// --version, --print-config). Throws UsageError.
 std::variant<Options, std::string> parse_options(int argc, const char* const* argv,
                                                  PcdBvCommand command = PcdBvCommand::alone);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where reports go.
+// Writes reports.
 
 #include "output.h"
 
@@ -62,7 +62,7 @@ bool ReportWriter::finish() {
 
 bool ReportWriter::write(std::string&& text) {
   if (!file_) return write_standard_output(text);
-  constexpr std::size_t worth_a_piece = 1 << 16;  // bytes; less is appended
+  constexpr std::size_t worth_a_piece = 1 << 16;  // bytes; shorter texts are appended to the last piece
   if (!pending_.empty() && pending_.back().size() + text.size() < worth_a_piece) {
     pending_.back() += text;
   } else if (!text.empty()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where reports go: standard output as they come, or one file at the end.
+// Writes reports: to standard output as they come, or to one file at the end.
 #pragma once
 
 #include <filesystem>
@@ -15,19 +15,20 @@
 namespace pcl_bv {
 
 /// Renders one report without the separators between reports, so that several can be rendered at a time.
-/// `take` gets the text in pieces that are not empty. It gets none for a failed input if the format does not
-/// show those.
+/// `take` gets the text in pieces, none of them empty. It gets no piece for a failed input if the format does
+/// not show failed inputs.
 void render(const Report& report, const ClusterSource& clusters, OutputFormat format, const TextSink& take);
 
-/// Writes rendered reports. All member functions return false if nobody reads any more and throw IoError.
+/// Writes rendered reports. The member functions return false if standard output has no reader any more. They
+/// throw IoError.
 class ReportWriter {
  public:
   ReportWriter(OutputFormat format, std::optional<std::filesystem::path> file);
 
-  /// A piece of a report: the first one, or one that goes on.
+  /// Adds a piece of a report; `goes_on` is false for its first piece.
   bool add(std::string&& piece, bool goes_on);
 
-  /// To be called after the last report; makes the file.
+  /// Completes the output after the last report; creates the file.
   bool finish();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One input from file to report.
+// Processes one input, from the file to the report.
 
 #include "process.h"
 
@@ -37,7 +37,7 @@ class Stopwatch {
     return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
   }
 
-  /// The same without beginning anew.
+  /// Seconds since then, without a restart.
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
   }
@@ -46,7 +46,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// If asked, verifies all volumes of all clusters whose fits have not failed.
+/// If requested, counts the points outside of each volume whose fit has not failed.
 void check(const PointView& cloud, const FrameResult& result, const Options& options,
            std::vector<std::size_t>& outside) {
   if (!options.check) return;
@@ -59,7 +59,7 @@ void check(const PointView& cloud, const FrameResult& result, const Options& opt
   }
 }
 
-/// Runs `write`, which makes the file `path`, and its folder before.
+/// Creates the folder of `path` and runs `write`, which creates the file. Reports errors.
 template <typename Write>
 Status write_file(const std::filesystem::path& path, const Write& write) {
   try {
@@ -74,7 +74,7 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
   return Status::failed;
 }
 
-/// The files that were asked for beside the report. The labels are written into the cloud's own records.
+/// Writes the requested files other than the report. The labels are written into the records of the cloud.
 Status write_files(const Job& job, const Options& options, const Frame& frame, const Outcome& outcome,
                    LoadedCloud& loaded) {
   const FrameResult& result = *outcome.result;
@@ -107,7 +107,7 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
   return status;
 }
 
-/// What a user would want to know before believing the results.
+/// Returns what a user should know before trusting the results.
 std::vector<std::string> remarks(const Frame& frame, const FrameResult& result, const Options& options) {
   std::vector<std::string> said;
   const std::string range = range_remark(result, options.range_from);
@@ -164,7 +164,8 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   return worse(checked, write_files(job, options, frame, outcome, loaded));
 }
 
-/// One cloud in many inputs. One that fails is left out, and the cloud is begun again without it.
+/// Processes a cloud that is tiled over several inputs. If an input fails, it is excluded and the cloud is
+/// processed again without it.
 Status process_tiles(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
   const Stopwatch watch;
   if (options.progress && errors_go_to_a_terminal()) {
@@ -190,11 +191,11 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
   }
 }
 
-/// Partial results to volumes.
+/// Makes volumes from partial results.
 Status process_partials(const Job& job, const Options& options, Report& report) {
   Stopwatch watch;
   const std::optional<PartialFile> all = merge_files(job.partials);
-  if (!all) {  // each that cannot be has had its line
+  if (!all) {  // each file that cannot be merged has been reported
     report.error = "not all of the partial results can be merged";
     return Status::failed;
   }
@@ -281,7 +282,7 @@ Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters) {
 std::string coarse_remark(const Aabb& box, ScalarType scalar) {
   const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
   const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
-  // A centimetre, and not only because the cloud is large.
+  // Steps of a centimetre or more that the distance from the origin causes, not the size of the cloud.
   const bool coarse =
       scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm();
   if (!coarse) return {};

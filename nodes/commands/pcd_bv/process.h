@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Inputs from file to report: one, and all over the cores.
+// Processes inputs from the file to the report: one input, or all of them on all cores.
 #pragma once
 
 #include <memory>
@@ -16,40 +16,44 @@
 
 namespace pcl_bv {
 
+/// The outcome of a job.
 struct Outcome {
-  Report report;  ///< Its clusters are empty where there is a result: they are made one by one from that.
+  Report report;  ///< Without clusters if `result` is set: clusters() makes them one by one.
   Status status = Status::done;
   std::shared_ptr<const FrameResult> result;
-  std::vector<std::size_t> outside;  ///< For each of the result's volumes, if it was asked.
+  /// For each volume of the result, if requested: the number of points outside.
+  std::vector<std::size_t> outside;
 
-  /// What is reported. Views this.
+  /// Return what is reported. The source refers to this object.
   ClusterSource clusters() const;
   std::vector<ClusterEntry> entries() const;
 };
 
-/// Loads, segments, fits, verifies, and writes the labels, the mesh and the picture. Never throws for what
-/// the input or a file does: problems go to standard error and into the status, a failed input into
-/// `report.error` too.
+/// Processes a job: loads, segments, fits, verifies, and writes the labels, the mesh, the picture and the
+/// page. Does not throw for problems with inputs or files. These go to standard error and into the status,
+/// and for a failed input also into `report.error`.
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
-/// Complains of fits that failed and of points that were found outside: the status for that.
+/// Reports failed fits and points outside of volumes on standard error. Returns the resulting status.
 Status say_what_is_wrong(const Report& report);
 Status say_what_is_wrong(const std::string& file, const ClusterSource& clusters);
 
-/// The job's mesh, if there is to be one.
+/// Writes the mesh of the job, if it is requested.
 Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters);
 
-/// A warning if floats of such magnitude are too coarse for points in this box; else nothing.
+/// Returns a warning if float32 coordinates are too coarse for a box at this distance from the origin,
+/// otherwise an empty text.
 std::string coarse_remark(const Aabb& box, ScalarType scalar);
 
-/// What the methods are told.
+/// Returns the options of the methods.
 MethodOptions method_options(const Options& options);
 
-/// Processes all jobs and writes their reports; what is written and said comes in the order of the jobs,
-/// whatever the number of threads. At least as many jobs as threads are spread over the threads, each job
-/// serial; fewer are done one after another, each with all threads. A job that fails stops no other; when
-/// nobody reads the reports any more the work ends without complaint, unless it makes files or checks. With
-/// several jobs a summary ends on standard error.
+/// Processes all jobs. Writes reports and messages in the order of the jobs, for any number of threads.
+///
+/// If there are at least as many jobs as threads, each job runs in one thread; otherwise the jobs run one
+/// after another, each with all threads. A failed job does not stop the others. If nobody reads the reports
+/// any more, the work ends without an error, unless it also writes files or checks volumes. With several
+/// jobs, a summary on standard error comes last.
 Status process_all(const std::vector<Job>& jobs, const Options& options);
 
 }  // namespace pcl_bv

@@ -24,7 +24,8 @@ std::uint64_t hash_of_file(const std::filesystem::path& path) {
   return hash.inputs_hash;
 }
 
-// The same text for shares that drop the same points, wherever their files of regions lie.
+// Returns a text that is equal for shares that drop the same points. The names of region files do not matter,
+// only their content.
 std::string filter_text(const FilterConfig& filter) {
   std::string text = to_text(filter.range_min) + ':' + to_text(filter.range_max);
   if (filter.own_box_min)
@@ -73,7 +74,7 @@ void add_share(const SharePoints& points, const PointRange& range, const Executi
   if (range.first == range.second) return;
   file.shares = {range};
   file.counts = points.counts();
-  file.counts.nonfinite = 0;  // those are what is left of the invalid ones
+  file.counts.nonfinite = 0;  // set_volume() computes it from the invalid points
   file.partial = Partial(points.view(), 0, execution);
 }
 
@@ -152,7 +153,7 @@ Status make_partial_file(const Job& job, const Options& options) {
     const std::optional<PartialFile> merged = merge_files(job.partials);
     return merged ? write_or_say_why(*options.partial, *merged) : Status::failed;
   }
-  // A share that lacks an input would be one of another cloud.
+  // A share without one of the inputs would belong to another cloud.
   if (say_what_is_left_out(*job.tiles) != Status::done) return Status::failed;
   const Execution execution = execution_of(options);
   PartialFile file = describe_cloud(*job.tiles, options.origin.at, options);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One cloud in many inputs by shares, which become partial results, which become volumes.
+// Partial results for shares of a cloud in several inputs, and volumes from merged partial results.
 #pragma once
 
 #include <memory>
@@ -21,16 +21,17 @@ namespace pcl_bv {
 
 Execution execution_of(const Options& options);
 
-/// Points of tiles less an origin and filtered: a view, and what it stands on. Not to be moved.
+/// The points of a share relative to an origin and filtered: a view and its sources. Cannot be copied or
+/// moved.
 class SharePoints {
  public:
-  /// Of the points with these numbers. What the filter drops is counted in a pass of its own.
+  /// `range` holds the numbers of the points. The filter counts the dropped points in a separate pass.
   SharePoints(const Tiles& tiles, const PointRange& range, const std::optional<Eigen::Vector3d>& origin,
               const Options& options);
   SharePoints(const SharePoints&) = delete;
   SharePoints& operator=(const SharePoints&) = delete;
 
-  const PointView& view() const { return filtered_.points; }  ///< Numbered as the cloud is.
+  const PointView& view() const { return filtered_.points; }  ///< Points have the numbers of the whole cloud.
   const Counts& counts() const { return filtered_.counts; }
 
  private:
@@ -38,31 +39,31 @@ class SharePoints {
   FilteredView filtered_;
 };
 
-/// What all shares of the cloud say of it: nothing of any share yet.
+/// Returns what all shares of a cloud have in common; it contains no share yet.
 PartialFile describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,
                            const Options& options);
 
-/// Adds the points of a share, with these numbers.
+/// Adds the points of a share; `range` holds their numbers.
 void add_share(const SharePoints& points, const PointRange& range, const Execution& execution,
                PartialFile& file);
 
-/// The files' results together. A file that cannot be read or does not belong to the others is complained of,
-/// and then there is none.
+/// Merges the results of the files. Reports each file that cannot be read or does not belong to the others;
+/// then returns nullopt.
 std::optional<PartialFile> merge_files(const std::vector<std::string>& files);
 
-/// A report on the whole cloud, with a place for the volume of each method.
+/// Returns a report of the whole cloud with an empty entry for the volume of each method.
 Report report_of(const PartialFile& whole, const std::vector<const Method*>& methods);
 
-/// What the fit of a method gave. Of results of the same points all are the same, but for the reason.
+/// Sets entry `place` of the report to the result of a fit. The counts are equal for all methods.
 void set_volume(std::size_t place, const EstimationResult& result, AnyVolume volume, Report& report);
 
-/// The job of --partial: to make that file, of inputs or of files that are merged.
+/// Writes the file of --partial, from inputs or from files of partial results.
 Status make_partial_file(const Job& job, const Options& options);
 
-/// Complains of every input that is left out: failed if there is one.
+/// Reports every excluded input. Returns Status::failed if there is one.
 Status say_what_is_left_out(const Tiles& tiles);
 
-/// Says what was noticed about the others.
+/// Reports the notes of the other inputs.
 void say_notes(const Tiles& tiles);
 
 }  // namespace pcl_bv

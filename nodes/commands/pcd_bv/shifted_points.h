@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// Points relative to an origin.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +13,7 @@
 
 namespace pcl_bv {
 
-/// The points of a view, which are not of an index list, less an origin: differences, rounded to double.
+/// The points of a view minus an origin, rounded to double. The view must not have an index list.
 class ShiftedPoints final : public PointSource {
  public:
   ShiftedPoints(const PointView& points, const Eigen::Vector3d& origin) : points_(points), origin_(origin) {}
@@ -24,10 +25,10 @@ class ShiftedPoints final : public PointSource {
   Eigen::Vector3d origin_;
 };
 
-/// The middle of the points' box in whole numbers; 0 without a valid point.
+/// Returns the centre of the points' box, rounded to whole numbers; 0 without a valid point.
 Eigen::Vector3d whole_origin(const PointView& points, const ParallelPolicy& policy);
 
-/// All points of a view, one after another in its type.
+/// Returns a copy of all points of a view without gaps, in the scalar type of the view.
 std::vector<std::byte> packed_copy(const PointView& points);
 
 }  // namespace pcl_bv

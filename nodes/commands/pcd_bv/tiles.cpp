@@ -16,14 +16,14 @@
 namespace pcl_bv {
 namespace {
 
-// Between two calls of on_loaded.
+// Points between two calls of on_loaded.
 constexpr std::size_t kStep = std::size_t{1} << 22;
 
 bool is_file(const Job& job) {
   return !job.recording && !is_synth(job.input);
 }
 
-// What `work` gives; what it throws, but for a lack of memory, as the tile's error.
+// Returns the result of `work`. Its exceptions become a TileError, except for a lack of memory.
 template <typename Work>
 auto of_tile(std::size_t tile, const Work& work) {
   try {
@@ -39,7 +39,7 @@ auto of_tile(std::size_t tile, const Work& work) {
 
 struct Tiles::Opened {
   std::unique_ptr<CloudFile> file;
-  RawCloud cloud;  // if there is no file
+  RawCloud cloud;  // used if `file` is null
   PointView xyz;
 };
 
@@ -47,7 +47,7 @@ struct Tiles::Slot {
   explicit Slot(std::size_t number) : tile(number) {}
   const std::size_t tile;
   std::mutex mutex;
-  std::shared_ptr<const Opened> opened;  // by the first that needs it, while the others wait
+  std::shared_ptr<const Opened> opened;  // set by the first thread that needs it, while others wait
 };
 
 TileHeader describe_tile(const Job& job) {
@@ -190,7 +190,7 @@ PointView Tiles::load(std::size_t first, std::size_t count, std::vector<std::byt
   for (std::size_t done = 0; done < count; ++tile) {
     const std::size_t from = first + done - offsets_[tile];
     const std::size_t n = std::min(count - done, headers_[tile].points - from);
-    if (n == 0) continue;  // an empty one, or one that is left out
+    if (n == 0) continue;  // an empty or excluded tile
     of_tile(tile, [&] {
       copy(tile, from, n, buffer.data() + done * step);
       return 0;

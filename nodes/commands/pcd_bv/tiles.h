@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Many inputs as one cloud: numbered through in their order, none of it held.
+// A cloud tiled over several inputs. Its points are numbered through all inputs and loaded when needed.
 #pragma once
 
 #include <atomic>
@@ -21,19 +21,20 @@
 
 namespace pcl_bv {
 
-/// One of the inputs, without its points.
+/// One input (tile) without its points.
 struct TileHeader {
   std::size_t points = 0;
   ScalarType scalar = ScalarType::float32;
-  bool by_position = false;            ///< As CloudHeader has it.
-  std::optional<std::string> error{};  ///< Why it is left out; then there are no points.
-  std::string note{};                  ///< As RawCloud has it, as far as the header says.
+  bool by_position = false;            ///< Parts can be read by position (CloudHeader); not if small.
+  std::optional<std::string> error{};  ///< Why it is excluded; then it has no points.
+  std::string note{};                  ///< As in RawCloud, as far as the header tells.
 };
 
-/// Reads no points of files; generated clouds and those of recordings are made, counted and dropped.
+/// Describes an input without reading the points of a file. Clouds that are generated or recorded are loaded,
+/// counted and dropped.
 TileHeader describe_tile(const Job& job);
 
-/// What reading one of the inputs threw.
+/// An error while reading one of the inputs.
 class TileError : public IoError {
  public:
   TileError(std::size_t tile, const std::string& reason) : IoError(reason), tile_(tile) {}
@@ -43,42 +44,43 @@ class TileError : public IoError {
   std::size_t tile_;
 };
 
-/// Numbers of points, from .first to before .second.
+/// A range of point numbers: .first is included, .second is not.
 using PointRange = std::pair<std::size_t, std::size_t>;
 
-/// Files that can be read by position are; of the others (ascii, compressed, .ply, .las, and small ones) each
-/// pass reads all and holds few at a time. If one has doubles, all are read as doubles.
+/// The points of all inputs. Files that can be read by position are read in parts. All other inputs (ascii,
+/// compressed, .ply, .las, and small ones) are read completely in each pass, and few of them are held at a
+/// time. If one input has float64 coordinates, all are read as float64.
 class Tiles final : public PointSource {
  public:
-  /// `threads`: how many may load at a time, so how many tiles are kept open.
+  /// `threads` is the number of threads that load at the same time; it determines how many tiles stay open.
   Tiles(std::vector<Job> jobs, std::vector<TileHeader> headers, std::size_t threads);
 
-  /// All points. Dies with this object, and changes where a tile is left out.
+  /// Returns a view of all points. It is valid until leave_out() and while this object lives.
   PointView xyz() const { return view_of(*this, offsets_.back(), scalar_); }
 
   const std::vector<Job>& jobs() const { return jobs_; }
   const TileHeader& header(std::size_t tile) const { return headers_[tile]; }
 
-  /// Inputs that are not left out.
+  /// Returns the number of inputs that are not excluded.
   std::size_t used() const;
 
-  /// What was noticed about an input so far, as RawCloud::note.
+  /// Returns the warnings about an input so far, as in RawCloud::note.
   std::string note(std::size_t tile) const;
 
-  /// From here on its points are not of the cloud; those behind it have lesser numbers.
+  /// Excludes an input from the cloud. The points after it are renumbered.
   void leave_out(std::size_t tile, const std::string& reason);
 
-  /// Of `shares` of about as many points each, which cover the cloud, the one with this number. They begin
-  /// where chunks of a file do, or where an input does that can only be read from its beginning.
+  /// Returns one of `shares` shares, which cover the cloud and have about as many points each. A share begins
+  /// at a chunk of a file that can be read by position, or at the beginning of another input.
   PointRange share(std::size_t number, std::size_t shares) const;
 
-  /// Throws TileError, also for a file that is not what it was when it was first opened.
+  /// Throws TileError if an input cannot be read or has changed since it was first opened.
   PointView load(std::size_t first, std::size_t count, std::vector<std::byte>& buffer) const override;
 
   /// Throws TileError if a file that was read has been changed since.
   void require_unchanged() const;
 
-  /// Called with the number of points loaded so far, now and then, by any thread.
+  /// Called from time to time, by any thread, with the number of points loaded so far.
   std::function<void(std::size_t points)> on_loaded;
 
  private:
@@ -100,14 +102,14 @@ class Tiles final : public PointSource {
 
   std::vector<Job> jobs_;
   std::vector<TileHeader> headers_;
-  std::vector<std::size_t> offsets_;  // of each input, and the number of all points
+  std::vector<std::size_t> offsets_;  // first point of each input, then the number of all points
   ScalarType scalar_ = ScalarType::float32;
   std::size_t most_open_;
 
   mutable std::mutex mutex_;
-  mutable std::list<std::shared_ptr<Slot>> open_;  // the one asked for last comes first
+  mutable std::list<std::shared_ptr<Slot>> open_;  // most recently used first
   mutable std::vector<Identity> identities_;       // of each input that has been opened
-  mutable std::vector<std::string> notes_;         // of each input that is read whole
+  mutable std::vector<std::string> notes_;         // of each input that has been read completely
   mutable std::atomic<std::size_t> loaded_ = 0;
 };
 

@@ -22,8 +22,9 @@ std::string version_text(const std::string& command) {
   return text + '\n';
 }
 
-// CLI11 would give an option without a value ("--output= scan.pcd") the next argument, an input: it gets a
-// value of no characters of its own. In the order that CLI11 takes, the last one first.
+// Returns the arguments in the order that CLI11 expects: the last one first. An option with an empty value
+// ("--output= scan.pcd") gets an empty argument; otherwise CLI11 would take the next argument, an input, as
+// its value.
 std::vector<std::string> last_first(const CLI::App& app, int argc, const char* const* argv) {
   const auto inputs = std::find(argv, argv + argc, std::string_view("--")) - argv;
   std::vector<std::string> arguments;
@@ -41,7 +42,7 @@ std::vector<std::string> last_first(const CLI::App& app, int argc, const char* c
   return arguments;
 }
 
-// "--loop --track": the value was forgotten, and CLI11 takes the next option for it.
+// Rejects "--loop --track": the value is missing, and CLI11 would take the next option as the value.
 void refuse_options_as_values(const CLI::App& app, int argc, const char* const* argv) {
   const auto option_of = [&](std::string_view argument) -> const CLI::Option* {
     return argument.starts_with("--") && argument.size() > 2 ? app.get_option_no_throw(std::string(argument))
@@ -92,7 +93,8 @@ void CommandLine::option(const char* name, std::string& value, const char* type,
 void CommandLine::option(const char* name, std::vector<std::string>& values, const char* type,
                          const std::string& help) {
   CLI::Option* const option = app_->add_option(name, values, help)->type_name(type);
-  if (name[0] == '-') option->allow_extra_args(false);  // one at a time: what follows may be an input
+  // One value per option: the next argument may be an input.
+  if (name[0] == '-') option->allow_extra_args(false);
 }
 
 void CommandLine::flag(const char* name, bool& value, const std::string& help) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A thread that waits, not a handler: a handler may not take locks, remove files by name or write JSON.
+// Uses a waiting thread instead of a signal handler: a handler must not lock, remove files by name or write
+// JSON.
 
 #include "interruption.h"
 
@@ -16,7 +17,7 @@
 namespace pcl_bv {
 namespace {
 
-// Ends the watcher when there is nothing left to watch.
+// The signal that ends the watching thread.
 int farewell() {
   return SIGRTMIN;
 }
@@ -58,7 +59,7 @@ void Interruption::watch() const {
   do {
     sigwait(&awaited_, &signal);
     if (signal == farewell() && told_ != nullptr) return;
-  } while (signal == farewell());  // what finishes ends the process
+  } while (signal == farewell());  // begin_to_finish() ends the process
   end_with(signal);
 }
 
@@ -66,14 +67,14 @@ void Interruption::begin_to_finish(int signal) const {
   const auto finish = [this, signal] {
     try {
       finish_();
-    } catch (...) {  // the process ends all the same
+    } catch (...) {  // ignored: the process ends anyway
     }
     end_with(signal);
   };
   try {
     std::thread(finish).detach();
   } catch (const std::system_error&) {
-    finish();  // no more threads: then no second signal is heard
+    finish();  // no more threads: a second signal has no effect
   }
 }
 

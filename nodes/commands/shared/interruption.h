@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A command that is told to end: SIGINT, SIGTERM and SIGHUP.
+// Handles SIGINT, SIGTERM and SIGHUP.
 #pragma once
 
 #include <atomic>
@@ -12,18 +12,20 @@
 
 namespace pcl_bv {
 
-/// While it lives, these signals are blocked, and a thread waits for them. The first one makes it call
-/// `finish`, remove temporary files and end the process with status 128 + signal; or it sets `told`, for work
-/// that then comes to an end of its own. A second one ends the process at once, in the same way. Signals that
-/// the caller has ignored (nohup) stay ignored.
+/// Handles SIGINT, SIGTERM and SIGHUP while this object lives: they are blocked, and a thread waits for them.
 ///
-/// To be made by the main thread before there are others, which inherit what is blocked.
+/// On the first signal, the thread calls `finish`, removes temporary files and ends the process with status
+/// 128 + signal. With `told`, it sets that flag instead, and the work must end by itself. A second signal
+/// removes temporary files and ends the process at once, with status 128 + signal. Signals that the caller
+/// has ignored (nohup) stay ignored.
+///
+/// Create it in the main thread before any other thread, since threads inherit the blocked signals.
 class Interruption {
  public:
   explicit Interruption(std::function<void()> finish) : finish_(std::move(finish)) { start(); }
   explicit Interruption(std::atomic<bool>& told) : told_(&told) { start(); }
 
-  /// Does not return if a signal has made it finish: the process ends in it.
+  /// Does not return if a signal has started `finish`: the process ends while it waits.
   ~Interruption();
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;

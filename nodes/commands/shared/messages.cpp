@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each line is one write: lines of several threads never mix.
+// Each line is one system call: lines of several threads never mix.
 
 #include "messages.h"
 
@@ -20,7 +20,7 @@ std::string command;
 std::string shown;  // the status line, if there is one
 thread_local HeldComplaints* holder = nullptr;
 
-// What cannot be said on standard error cannot be said at all.
+// Errors are ignored, since there is no other place to report them.
 void write_error(std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = ::write(STDERR_FILENO, text.data(), text.size());
@@ -29,7 +29,7 @@ void write_error(std::string_view text) {
   }
 }
 
-// Spaces serve terminals of every kind.
+// Overwrites the line with spaces, which works on terminals of every kind.
 std::string erasure() {
   return shown.empty() ? "" : '\r' + std::string(shown.size(), ' ') + '\r';
 }
@@ -77,7 +77,7 @@ bool errors_go_to_a_terminal() {
 void show_status_line(std::string_view line) {
   const std::lock_guard lock(mutex);
   const std::string before = erasure();
-  shown = line.substr(0, terminal_width() - 1);  // in the last column some terminals begin a new line
+  shown = line.substr(0, terminal_width() - 1);  // some terminals begin a new line after the last column
   write_error(before + shown);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Standard error, which all of a process shares: whole lines of problems, and one line that comes and goes.
+// Messages on standard error, for all threads of a process: whole lines, and one status line.
 #pragma once
 
 #include <string>
@@ -10,20 +10,21 @@
 
 namespace pcl_bv {
 
-/// What every line begins with; before anything is said.
+/// Sets the name with which every line begins. Must be called before the first message.
 void name_command(std::string_view command);
 
-/// One line on standard error, "<command>: text", whole whatever other threads say; control characters become
-/// question marks, so that a file's name can neither break the line nor steer a terminal.
+/// Prints one line on standard error: "<command>: text". Lines of several threads do not mix. Control
+/// characters become question marks, so that a file name can neither break the line nor control a terminal.
 void say(std::string_view text);
 
-/// Says it too, or, where the thread holds its complaints, keeps it.
+/// Prints a problem as say() does, or stores it while the thread has a HeldComplaints.
 void complain(std::string_view problem);
 
-/// Complains of a folder's subfolders, whose clouds are not looked for.
+/// Warns that subfolders of a folder are not read, if there are any.
 void say_what_is_skipped(const std::string& folder, std::size_t subfolders);
 
-/// While it lives, what its thread complains of is kept, to be said in its turn. Not to be nested.
+/// While this object lives, complaints of its thread are stored in `kept`, to be printed later. Must not be
+/// nested.
 class HeldComplaints {
  public:
   HeldComplaints();
@@ -37,11 +38,11 @@ class HeldComplaints {
 /// Whether standard error is a terminal.
 bool errors_go_to_a_terminal();
 
-/// Shows `line` as the last one of the terminal, in place of the one shown before, cut to the terminal's
-/// width; complaints appear above it. Only for terminals.
+/// Shows `line` in the last line of the terminal, cut to the terminal's width. Replaces the previous status
+/// line; messages appear above it. Only for terminals.
 void show_status_line(std::string_view line);
 
-/// Takes the line away, if there is one.
+/// Erases the status line, if there is one.
 void erase_status_line();
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// No output replaces an input or another output.
+// Compares files by their canonical paths.
 
 #include "output_claims.h"
 

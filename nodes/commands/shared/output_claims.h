@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// No output replaces an input or another output.
+// Ensures that no output overwrites an input or another output.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace pcl_bv {
 
-/// Whether this is a terminal, a pipe, /dev/null or the like: what many results may go to.
+/// Returns whether this is a terminal, a pipe, /dev/null or similar: several results may go there.
 bool is_device(const std::filesystem::path& file);
 
-/// Files by what they are, whatever links and detours lead to them.
+/// The inputs and outputs of a command. Files are compared by canonical path, so links do not matter.
 class OutputClaims {
  public:
   void add_input(const std::filesystem::path& file);
@@ -20,7 +20,7 @@ class OutputClaims {
   /// Throws UsageError if the file or folder is an input.
   void refuse_input(const std::filesystem::path& output) const;
 
-  /// The same, and if the file is claimed already and no device.
+  /// Registers an output. Throws UsageError if it is an input, or if it is already registered and no device.
   void claim(const std::filesystem::path& output);
 
  private:

@@ -20,13 +20,13 @@ std::string shown_default(const Setting& setting, const std::string& value) {
   return value.empty() || value == "null" ? std::string(setting.unset) : value;
 }
 
-// Tracks and queues are of streams only.
+// Only streams have options for tracks and queues.
 bool has_option(const Setting& setting, bool stream) {
   const std::string_view stage = setting.key.substr(0, setting.key.find('.'));
   return !setting.option.empty() && (stream || (stage != "track" && stage != "runner"));
 }
 
-// The command line may name a method again; a file may not.
+// Removes repeated methods. The command line may repeat a method; a file may not.
 void keep_first_mentions(std::vector<std::string>& methods) {
   std::vector<std::string> once;
   for (std::string& name : methods) {
@@ -41,7 +41,7 @@ std::pair<double, double> range_of(const StreamConfig& config) {
   return {config.pipeline.filter.range_min, config.pipeline.filter.range_max};
 }
 
-// --cluster TOL:PER_METRE
+// The option --cluster takes TOL or TOL:PER_METRE.
 constexpr std::string_view kTolerance = "cluster.tolerance";
 
 std::string own_part(const Setting& setting, const std::string& text) {
@@ -62,7 +62,7 @@ std::string with_options(std::string text) {
   const auto replace = [&](std::string_view key, std::string_view option) {
     const std::size_t at = text.find(key);
     if (at == std::string::npos || text.find('_', at + key.size()) == at + key.size())
-      return;  // a longer key
+      return;  // part of a longer key
     text.replace(at, key.size(), option);
   };
   const PipelineConfig any;

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Standard output as what it may be: a pipe whose reader leaves, a full disk, or closed from the start.
+// Handles a standard output whose reader has gone, whose disk is full, or that is closed from the start.
 #pragma once
 
 #include <string_view>
 
 namespace pcl_bv {
 
-/// To be called before anything is opened. A closed pipe becomes an error of write(), seen where it happens,
-/// and no file of ours gets the number of a standard stream that the caller has closed.
+/// Must be called before any file is opened. Afterwards, write() reports a closed pipe as an error, and no
+/// file gets the descriptor of a standard stream that the caller has closed.
 void prepare_standard_streams();
 
-/// Writes to standard output; false if nobody reads any more. Throws IoError for any other failure.
+/// Writes to standard output. Returns false if nobody reads it any more. Throws IoError for any other
+/// failure.
 bool write_standard_output(std::string_view text);
 
 }  // namespace pcl_bv

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Texts of the command line to values.
-
 #include "values.h"
 
 #include "pipeline/config/words.h"

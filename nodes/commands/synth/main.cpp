@@ -54,7 +54,7 @@ std::string frame_name(std::size_t frame) {
   return std::string(10 - digits.size(), '0') + digits + ".pcd";
 }
 
-/// Runs write(), which writes to `path`; what hinders it gets that name.
+/// Runs write(), which writes to `path`, and adds the path to the messages of its exceptions.
 template <typename Write>
 void naming(const std::filesystem::path& path, Write write) {
   try {

@@ -79,7 +79,7 @@ std::vector<std::string> lines(const Problems& problems) {
   return texts;
 }
 
-// Notes what is wrong with each setting that it visits.
+// Returns a visitor that adds the problem of each visited setting to `problems`.
 auto checker(std::vector<ConfigProblem>& problems) {
   return [&](const Setting& setting, const auto& value) {
     std::string problem = problem_of(setting, value);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Settings that change nothing beside the others, which a user would otherwise search for in the results.
+// Finds settings that have no effect in combination with the others; otherwise a user would search for their
+// effect in the results.
 
 #include <algorithm>
 #include <limits>

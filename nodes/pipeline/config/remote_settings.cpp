@@ -47,7 +47,7 @@ constexpr const char* kind_of() {
   return "text";
 }
 
-// The unit of a choice lists it: "drop, keep, split".
+// Settings with choices list them as their unit: "drop, keep, split".
 Json choices_in(const std::string& unit) {
   Json choices = Json::array();
   std::istringstream words(unit);
@@ -96,7 +96,7 @@ Json json_of(const std::optional<Value>& value) {
   return value ? json_of(*value) : Json("null");
 }
 
-// As a configuration file would have it.
+// Returns the value in the syntax of the configuration file.
 std::string text_of(const JsonFromOutside& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.dump(-1, ' ', false, JsonFromOutside::error_handler_t::replace);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// The fields of list elements in the configuration: regions and classes.
 #pragma once
 
 #include <concepts>
@@ -10,11 +11,11 @@
 
 namespace pcl_bv {
 
-/// What lists of the configuration are of.
+/// Element types of the lists in the configuration.
 template <typename T>
 concept ConfigRow = std::same_as<T, RegionConfig> || std::same_as<T, ClassConfig>;
 
-/// Rows in messages.
+/// How messages name a row.
 struct RowWords {
   const char *one, *many, *example;
 };
@@ -25,7 +26,7 @@ constexpr RowWords row_words() {
   return {"a class", "classes", "{value: 4, tolerance: 0.5}"};
 }
 
-/// As visit_stream() does for settings, for the fields of a row.
+/// Calls visit(setting, value) for each field of a row, as visit_stream() does for settings.
 template <typename Row, typename Visit>
 void visit_row(Row& row, Visit&& visit) {
   using S = Setting;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every setting once: its key, what it is, its unit and what is allowed. Configuration files, the commands'
-// options and the parameters of other systems are walks over this list.
+// The list of all settings: key, description, unit and allowed values. Configuration files, command-line
+// options and the parameters of other systems are made by visiting this list.
 #pragma once
 
 #include <cstddef>
@@ -19,26 +19,28 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 inline constexpr double kFinite = std::numeric_limits<double>::max();
 
-/// What numbers are allowed: from `least` (itself only if `closed`) to `most`, which may be kNoLimit.
+/// Allowed numbers: from `least` (excluded unless `closed`) to `most`, which may be kNoLimit.
 struct NumberRange {
   double least = 0;
   double most = kFinite;
   bool closed = true;
-  bool as_float = false;  ///< What is not 0, but is 0 as a float, which points are, is not allowed.
+  bool as_float = false;  ///< Positive numbers that become 0 as float32, the type of points, are not allowed.
 };
 
+/// The description of a setting.
 struct Setting {
   std::string_view key;                      ///< With its stage: "filter.range_min".
-  std::string_view unit;                     ///< "m", or what may be chosen, or what a special value means.
-  std::string_view about;                    ///< For those who choose the value.
-  NumberRange range{};                       ///< Of numbers.
-  std::string_view unset{};                  ///< What null, or an empty list, means.
-  std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M", for those that commands have.
+  std::string_view unit;                     ///< "m", the choices, or the meaning of a special value.
+  std::string_view about;                    ///< Help text.
+  NumberRange range{};                       ///< Allowed numbers.
+  std::string_view unset{};                  ///< Meaning of null or of an empty list.
+  std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M"; empty without an option.
 };
 
-/// Calls visit(setting, value) for each: `value` is a bool, double, std::size_t, std::optional of one of the
-/// latter two or of a point, Eigen::Vector3d (a direction), std::string (the instruction set), a list of them
-/// (methods) or of rows (regions, classes), or one of the enums, and const if the configuration is.
+/// Calls visit(setting, value) for each setting of a pipeline. `value` refers to the setting's field, const
+/// if the configuration is. Its type is one of: bool, double, std::size_t, std::string (the instruction set),
+/// Eigen::Vector3d (a direction), std::optional of a double, std::size_t, point or FieldName, a std::vector
+/// of std::string (methods), RegionConfig or ClassConfig, or an enum.
 // clang-format off: a table
 template <typename Pipeline, typename Visit>
 void visit_pipeline(Pipeline& c, Visit&& visit) {
@@ -194,6 +196,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
   visit(S{"isa", "", "Instruction set, of those that --version lists", {}, {}, "--isa", "NAME"}, c.isa);
 }
 
+/// The same for all settings of a stream: those of its pipeline and of its runner.
 template <typename Stream, typename Visit>
 void visit_stream(Stream& c, Visit&& visit) {
   using S = Setting;
@@ -213,14 +216,15 @@ void visit_stream(Stream& c, Visit&& visit) {
 }
 // clang-format on
 
-/// A value as a text: the fewest digits that read back exactly; "null" and "unlimited" where there is none.
+/// Return a value as text: numbers with the fewest digits that read back exactly, "null" for a missing value,
+/// "unlimited" for a missing limit.
 std::string to_text(bool value);
 std::string to_text(double value);
 std::string to_text(std::size_t value);
 std::string to_text(const Eigen::Vector3d& direction);
 std::string to_text(const std::string& name);
-std::string to_text(const std::vector<std::string>& names);  ///< Separated by ", ".
-/// As the setting's unit shows them, without [] and what is not said.
+std::string to_text(const std::vector<std::string>& names);  ///< Joined by ", ".
+/// Rows in the syntax of the setting's unit, without [] and without unset fields.
 std::string to_text(const std::vector<RegionConfig>& regions);
 std::string to_text(const std::vector<ClassConfig>& classes);
 std::string to_text(GroundMethod method);
@@ -234,17 +238,17 @@ std::string to_text(const std::optional<T>& value) {
   return value ? to_text(*value) : "null";
 }
 
-/// The other way round. Throw std::invalid_argument, "'far' is not a number", for anything else; what a
-/// number may be is left to problem_of().
+/// Parse a value; the inverse of to_text(). Throw std::invalid_argument for any other text: "'far' is not a
+/// number". Ranges are checked by problem_of(), not here.
 void read_text(std::string_view text, bool& value);
 void read_text(std::string_view text, double& value);
 void read_text(std::string_view text, std::size_t& value);
 void read_text(std::string_view text, Eigen::Vector3d& direction);
 void read_text(std::string_view text, std::string& name);
 void read_text(std::string_view text,
-               std::vector<std::string>& names);  ///< `all` stands for methods_of_all().
-void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One of that file's name.
-void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One of that value.
+               std::vector<std::string>& names);  ///< `all` means methods_of_all().
+void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One with this file name.
+void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One with this value.
 void read_text(std::string_view text, GroundMethod& method);
 void read_text(std::string_view text, Oversized& rule);
 void read_text(std::string_view text, FieldName& field);
@@ -257,7 +261,7 @@ void read_text(std::string_view text, std::optional<T>& value) {
   if (text != "null") read_text(text, value.emplace());
 }
 
-/// What is wrong with a value, as "-1 is not at least 0"; nothing if it is allowed.
+/// Return why a value is not allowed, such as "-1 is not at least 0"; empty if it is allowed.
 std::string problem_of(const Setting& setting, double value);
 std::string problem_of(const Setting& setting, std::size_t value);
 std::string problem_of(const Setting& setting, const Eigen::Vector3d& direction);

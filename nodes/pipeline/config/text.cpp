@@ -51,7 +51,7 @@ std::vector<std::string_view> parts_of(std::string_view text) {
   return parts;
 }
 
-// As YAML quotes names, of any characters.
+// Quotes a name as YAML does; it may contain any characters.
 std::string in_quotes(const std::string& name) {
   constexpr char digits[] = "0123456789abcdef";
   std::string text = "\"";
@@ -65,7 +65,7 @@ std::string in_quotes(const std::string& name) {
   return text + '"';
 }
 
-// A field of a row; nothing if nothing is said.
+// The text of a field of a row; empty if the field is unset.
 template <typename T>
 std::string text_of_field(const T& value) {
   return to_text(value);

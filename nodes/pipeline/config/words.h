@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A whole text as one of a list of names, or as one number.
+// Parses a text as one of several names or as one number.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@ namespace pcl_bv {
 template <typename Choice, std::size_t n>
 using Names = std::array<std::pair<std::string_view, Choice>, n>;
 
-/// Throws std::invalid_argument, which lists the names, for any other.
+/// Returns the value of the name that equals the text. Throws std::invalid_argument, which lists the names,
+/// if there is none.
 template <typename Choice, std::size_t n>
 Choice read_name(const Names<Choice, n>& names, std::string_view text) {
   std::string known;
@@ -27,7 +28,7 @@ Choice read_name(const Names<Choice, n>& names, std::string_view text) {
   throw std::invalid_argument("'" + std::string(text) + "' is not one of " + known);
 }
 
-/// As a number; false if it is none, or out of range.
+/// Parses the whole text as a number. Returns false if it is not a number or out of range.
 template <typename Number>
 bool read_whole_text(std::string_view text, Number& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

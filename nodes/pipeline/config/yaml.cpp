@@ -18,14 +18,14 @@
 namespace pcl_bv {
 namespace {
 
-// Where a key stands in the file, from 1; 0: nowhere.
+// Line numbers of keys in the file, from 1; 0 means nowhere.
 using Lines = std::map<std::string, int>;
 
 [[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
   throw ConfigError(name + (line > 0 ? ": line " + std::to_string(line) : "") + ": " + what);
 }
 
-// Names are listed by the error itself.
+// Returns the unit of a number for errors. Errors of other types list the allowed names themselves.
 template <typename T>
 std::string in_unit(const Setting& setting) {
   constexpr bool number = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>> ||
@@ -63,14 +63,14 @@ class Reader {
     }
   }
 
-  // After all fields: what is left is unknown.
+  // Called after all settings have been visited: rejects keys that no setting has taken.
   void finish() const {
     for (const auto& [key, line_number] : maps_) {
       if (sections_.count(key) == 0)
         fail(name_, line_number, "unknown key '" + key + "', or one that holds no others");
     }
     for (const auto& [key, node] : nodes_) {
-      if (node.IsNull() && sections_.count(key) > 0) continue;  // a stage of which nothing is said
+      if (node.IsNull() && sections_.count(key) > 0) continue;  // an empty stage
       if (lines_.count(key) == 0) fail(name_, line(node), "unknown key '" + key + "'");
     }
   }
@@ -132,7 +132,7 @@ class Reader {
     fail(name_, line(node), what);
   }
 
-  // The key's node, marked as known.
+  // Returns the node of a key, or null, and marks the key as known.
   const YAML::Node* take(const std::string& key) {
     if (key.find('.') != std::string::npos) sections_.insert(key.substr(0, key.find('.')));
     const auto found = nodes_.find(key);
@@ -146,10 +146,10 @@ class Reader {
     read_setting(setting, node.IsNull() ? "null" : scalar(node), value);
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, double& value) {
-    if (!YAML::convert<double>::decode(node, value)) refuse(node, "a number");  // .inf, too
+    if (!YAML::convert<double>::decode(node, value)) refuse(node, "a number");  // accepts .inf, too
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, bool& value) {
-    if (!YAML::convert<bool>::decode(node, value)) refuse(node, "true or false");  // yes and no, too
+    if (!YAML::convert<bool>::decode(node, value)) refuse(node, "true or false");  // accepts yes and no, too
   }
   static void read(const Setting& setting, const YAML::Node& node, std::optional<double>& value) {
     value.reset();

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// With room for more: a sequence that is seen again has more rows than it had.
+// Reserves more than needed: the second pass over a sequence has more rows than the first, and must not
+// allocate.
 template <typename T>
 void refill(std::vector<T>& values, std::size_t count, T value) {
   if (values.capacity() < count) values.reserve(4 * count);
@@ -59,7 +60,7 @@ void SparseAssignment::reach(std::size_t row, std::size_t column, double cost) {
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
-// Dijkstra's search from a row to the nearest column that nobody has; prices keep later distances above 0.
+// Dijkstra's search from a row to the nearest free column. The prices keep all later distances non-negative.
 void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair>& pairs) {
   heap_.clear();
   touched_.clear();
@@ -71,7 +72,7 @@ void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair
       reach(at, pairs[p].column, pairs[p].cost);
     reach(at, columns_ + at, alone_);
     Reached next;
-    do {  // some were reached again on a shorter way
+    do {  // skip entries of columns that were reached on a shorter path
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
       next = heap_.back();
       heap_.pop_back();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Who belongs to whom at the least cost.
+// Assignment of rows to columns at minimum total cost.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +10,24 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A row and a column that may be joined, at a finite cost of 0 or more.
+/// A row and a column that may be assigned to each other. The cost is finite and at least 0.
 struct AssignmentPair {
   std::size_t row = 0, column = 0;
   double cost = 0;
 };
 
-/// The exact least sum of costs where each row gets a column or pays `alone` (Kuhn 1955), by shortest
-/// augmenting paths (Jonker and Volgenant 1987) over the pairs there are: a path goes no farther than its
-/// group of pairs, so groups that do not touch cost nothing to each other. Reuse keeps the capacity.
+/// Solves the sparse assignment problem exactly (Kuhn 1955): each row gets a column or pays `alone`, and the
+/// sum of costs is minimal. Uses shortest augmenting paths (Jonker and Volgenant 1987). A path stays within
+/// one connected group of pairs, so separate groups do not slow each other down. Reuse keeps the capacity.
 class SparseAssignment {
  public:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  /// `pairs` in ascending order of rows, each pair once. Same input, same result, ties included.
-  /// O(rows * group * log(group)) at worst.
+  /// Computes the assignment. `pairs` must be sorted by row and hold each pair once. The result is
+  /// deterministic, also for ties. At worst O(rows * group * log(group)) for groups of `group` pairs.
   void solve(std::size_t rows, std::size_t columns, const std::vector<AssignmentPair>& pairs, double alone);
 
-  /// Of each row, its column or none.
+  /// Returns the column of each row, or none.
   const std::vector<std::size_t>& columns() const { return column_of_; }
 
  private:
@@ -35,7 +35,7 @@ class SparseAssignment {
   void reach(std::size_t row, std::size_t column, double distance);
 
   using Reached = std::pair<double, std::size_t>;  // distance, column
-  std::size_t columns_ = 0;                        // real ones; the others are each row's own
+  std::size_t columns_ = 0;                        // real ones; column columns_ + r: row r stays alone
   double alone_ = 0;
   std::vector<std::size_t> first_, column_of_, row_of_, from_, touched_;
   std::vector<double> matched_cost_, price_, distance_, cost_from_;

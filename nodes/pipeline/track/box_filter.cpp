@@ -13,14 +13,14 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kForget = 0.9;         // a frame
-constexpr double kSurer = 2;            // frames
-constexpr double kTurnsForget = 0.5;    // a frame, of what moves and may turn
-constexpr double kStandsForget = 0.97;  // a frame, of what stands
-constexpr double kStep = 0.15;          // metres a frame by which sizes grow
-constexpr std::size_t kFree = 5;        // sightings that may be larger by any step
+constexpr double kForget = 0.9;         // decay of the votes for the front, per frame
+constexpr double kSurer = 2;            // votes by which another front must lead
+constexpr double kTurnsForget = 0.5;    // decay of the mean yaw per frame, if the object moves
+constexpr double kStandsForget = 0.97;  // decay of the mean yaw per frame, if it is static
+constexpr double kStep = 0.15;          // metres per frame; largest growth of a size
+constexpr std::size_t kFree = 5;        // first detections, whose sizes may grow by any step
 
-// Of axis 0, turned by quarters about axis 2.
+// Rotates axes 0 and 1 about axis 2 by quarters of a turn: axis 1 becomes axis 0, and so on.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, int quarters) {
   Eigen::Matrix3d result = axes;
   for (int i = 0; i < quarters; ++i) {
@@ -31,7 +31,7 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, int quarters) {
   return result;
 }
 
-// Turned by an angle about axis 2, which keeps its bits.
+// Rotates the axes about axis 2 by an angle. Axis 2 keeps its bits.
 Eigen::Matrix3d about_third(const Eigen::Matrix3d& axes, double angle) {
   Eigen::Matrix3d from_third;
   from_third << axes.col(2), std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1), axes.col(1);
@@ -41,7 +41,8 @@ Eigen::Matrix3d about_third(const Eigen::Matrix3d& axes, double angle) {
   return result;
 }
 
-// The slabs between which all valid points lie, a little wider than the rounding of what is compared.
+// Finds the slabs that contain all valid points, widened by slightly more than the rounding error of the
+// comparisons.
 void slabs_of(const PointView& points, const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin,
               Eigen::Vector3d& low, Eigen::Vector3d& high) {
   double farthest = 0;
@@ -102,13 +103,14 @@ double BoxFilter::smoothed_yaw(const Obb& box, const BoxSighting& sighting) {
       Obb(box.center(), orthonormal_axes(sighting.sensor.linear() * box.axes()), box.half_extents()).yaw();
   if (!sighting.merged) {
     const double forget = sighting.moving ? kTurnsForget : kStandsForget;
-    // The longer a side, the better its direction is seen.
+    // Longer sides have more weight, since their direction is more accurate.
     const double weight = box.half_extents().head<2>().maxCoeff();
     cosine_ = forget * cosine_ + weight * std::cos(4 * yaw);
     sine_ = forget * sine_ + weight * std::sin(4 * yaw);
   }
   if (cosine_ == 0 && sine_ == 0) return 0;
-  return std::remainder(std::atan2(sine_, cosine_) / 4 - yaw, std::acos(0.0));  // by how much it is turned
+  // The rotation to apply, radians.
+  return std::remainder(std::atan2(sine_, cosine_) / 4 - yaw, std::acos(0.0));
 }
 
 double BoxFilter::grown(std::size_t axis, double seen, bool merged) {
@@ -131,7 +133,7 @@ Obb BoxFilter::steady(const Obb& box, const PointView& points, const BoxSighting
   Eigen::Matrix3d axes = box.axes();
   if (smooth) {
     axes = about_third(axes, smoothed_yaw(box, sighting));
-    axes_ = sighting.sensor.linear() * axes;  // names are kept by the turn that does not jitter
+    axes_ = sighting.sensor.linear() * axes;  // face() then follows the smoothed axes
   }
   Eigen::Vector3d low, high;
   slabs_of(points, axes, box.center(), low, high);
@@ -140,7 +142,8 @@ Obb BoxFilter::steady(const Obb& box, const PointView& points, const BoxSighting
     const double more =
         grown(static_cast<std::size_t>(i), high[i] - low[i], sighting.merged) - (high[i] - low[i]);
     const double sensor = -axes.col(i).dot(box.center());
-    const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;  // inside: nobody knows which end
+    // A sensor inside the box: grow on both sides.
+    const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;
     high[i] += above * more;
     low[i] -= (1 - above) * more;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Boxes of a track: a front that stays in front, and on request a turn and sizes that do not jitter.
+// Filters the boxes of a track: the front axis stays the same; on request, yaw and sizes are smoothed.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,34 +13,38 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// What is known of the object in this frame.
+/// The state of the object in this frame.
 struct BoxSighting {
-  Pose sensor = Pose::Identity();                      // in a fixed frame
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // over the ground, in the sensor's axes
+  Pose sensor = Pose::Identity();                      // pose in a fixed frame
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // over the ground, along the sensor's axes, m/s
   bool moving = false;
   bool merged = false;     // Tracker::Assignment::merged
   bool separated = false;  // Tracker::Assignment::separated
 };
 
-/// The boxes of one object by one method, in the sensor's frame. Boxes of methods that are not upright only
-/// keep the names of their axes.
+/// Filters the boxes of one object by one method, in the sensor's frame. If the method is not upright, only
+/// the order and directions of the axes are kept consistent.
 class BoxFilter {
  public:
-  /// `upright`: whether axis 2 of every box is up, as Obb::upright() leaves it.
+  /// `upright`: whether axis 2 of every box points up, as Obb::upright() makes it.
   explicit BoxFilter(bool upright = true) : upright_(upright) {}
 
-  /// The same box, its axes named as those of the last one were, as seen in the fixed frame. Of a moving
-  /// object, axis 0 comes to point where it goes: once that has been said two frames more often than
-  /// anything else, older frames counting less. Empty boxes stay as they are.
+  /// Returns the same box with its axes in the order and directions of the last box, compared in the fixed
+  /// frame. Axis 0 of a moving object comes to point in the direction of motion: each frame votes for the
+  /// axis nearest to the velocity, older votes decay, and an axis with a lead of two votes becomes axis 0.
+  /// Empty boxes are returned unchanged.
   Obb face(const Obb& box, const BoxSighting& sighting);
 
-  /// A box of a face() around all the points. With `smooth` its turn is the mean over time in the fixed
-  /// frame, of angles modulo 90 degrees, so that it does not matter which side was taken for the longer one.
-  /// With `grow` its length and width are the largest that were seen, approached slowly, since a cluster that
-  /// is two objects for a frame is larger, too; what is not seen is added away from the sensor. A merged
-  /// cluster changes neither the mean turn nor the sizes; a separated one starts the sizes anew. The third
-  /// axis stays as it is. Every valid point is inside (Obb::contains()). Boxes that are empty or not upright
-  /// stay as they are. O(points).
+  /// Returns a smoothed box around all points; `box` must come from face().
+  ///
+  /// With `smooth`, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90 degrees,
+  /// so it does not matter which side was taken as the longer one. With `grow`, length and width approach the
+  /// largest ones seen. They do so slowly, since a cluster that contains two objects for one frame is larger,
+  /// too. The added part lies on the side away from the sensor. A merged cluster changes neither the mean yaw
+  /// nor the sizes; a separated one restarts the sizes.
+  ///
+  /// The third axis is unchanged. Every valid point is inside (Obb::contains()). Boxes that are empty or not
+  /// upright are returned unchanged. O(points).
   Obb steady(const Obb& box, const PointView& points, const BoxSighting& sighting, bool smooth, bool grow);
 
  private:
@@ -49,9 +53,9 @@ class BoxFilter {
 
   bool upright_;
   bool known_ = false;
-  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // in the fixed frame
-  std::array<double, 4> said_{};                        // that the front is axis 0, 1, -0, -1
-  double cosine_ = 0, sine_ = 0;                        // sums over time, of four times the yaw
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // of the last box, in the fixed frame
+  std::array<double, 4> said_{};                        // votes for axis 0, 1, -0, -1 as the front
+  double cosine_ = 0, sine_ = 0;                        // weighted sums over time for four times the yaw
   std::array<double, 2> sizes_{};
   std::size_t seen_ = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// A grid for finding boxes near a position.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +14,10 @@
 
 namespace pcl_bv {
 
-/// Boxes by where their centres are, seen along z: squares of a side. Reuse keeps the capacity.
+/// A grid in x and y that finds boxes by their centres. Reuse keeps the capacity.
 class BoxGrid {
  public:
-  /// Replaces what was there. O(n log n).
+  /// Replaces the content by these boxes, in square cells of `side` metres. O(n log n).
   void fill(const std::vector<Aabb>& boxes, double side) {
     side_ = side;
     cells_.clear();
@@ -27,12 +28,13 @@ class BoxGrid {
     std::sort(cells_.begin(), cells_.end());
   }
 
-  /// Calls visit(number) for boxes around a place: all whose centres are within a side of it, and some others
-  /// that are at most two away.
+  /// Calls visit(index) for boxes near a position: for all whose centres are within one side length of it in
+  /// x and y, and for some that are up to two side lengths away.
   template <typename Visit>
   void visit_near(const Eigen::Vector3d& place, const Visit& visit) const {
     const double x = square(place.x()), y = square(place.y());
-    for (const double beside : {-1.0, 0.0, 1.0}) {  // counted: beyond 2^53 a double no longer grows by 1
+    // A counted loop: beyond 2^53, adding 1 does not change a double.
+    for (const double beside : {-1.0, 0.0, 1.0}) {
       const double column = x + beside;
       if (beside != 0 && column == x) continue;
       auto cell = std::lower_bound(cells_.begin(), cells_.end(), Cell{column, y - 1, 0});

@@ -9,9 +9,9 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kReach = 4;     // metres between frames, 40 m/s at 10 Hz
+constexpr double kReach = 4;     // metres per frame: 40 m/s at 10 Hz
 constexpr double kAgree = 0.35;  // metres; centres of partial views jump by decimetres
-constexpr double kLargest = 6;   // metres; the centre of a longer wall is where the view of it ends
+constexpr double kLargest = 6;   // metres; the centre of a longer wall depends on where its view ends
 constexpr std::size_t kFewest = 6;
 constexpr double kBin = 0.5;
 constexpr int kBins = 17;  // 2 kReach / kBin + 1
@@ -52,7 +52,7 @@ void EgoMotion::match(const std::vector<Aabb>& expected, const std::vector<Aabb>
   }
 }
 
-// Nearest partners, then the rigid motion of least squares between them, in the plane.
+// Pairs nearest neighbours, then computes the rigid planar motion between them by least squares.
 std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen,
                               PlanarMotion& motion, double radius) {
   match(expected, seen, motion, radius);
@@ -76,7 +76,7 @@ std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vect
   return pairs_.size();
 }
 
-// The shift that most pairs vote for; motion.yaw is given.
+// Finds the shift that most pairs vote for, for a given motion.yaw.
 void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, PlanarMotion& motion) {
   const auto bin = [](int x, int y) {
     return std::size_t{kBins} * static_cast<std::size_t>(y) + static_cast<std::size_t>(x);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How the sensor moved, from what stood still.
+// Estimates the planar motion of the sensor from static boxes.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// A turn about z and a shift in the plane: p becomes turn(yaw) p + shift.
+/// A rotation about z and a shift in the plane: p becomes rotation(yaw) p + shift. Radians and metres.
 struct PlanarMotion {
   double yaw = 0;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
@@ -29,13 +29,15 @@ struct PlanarMotion {
   }
 };
 
-/// Finds the motion that takes most of the expected boxes to boxes that were seen. Reuse keeps the capacity.
+/// Finds the motion that maps most of the expected boxes to measured boxes. Reuse keeps the capacity.
 class EgoMotion {
  public:
-  /// `expected` and `seen` in the sensor's frame. The result takes expected boxes to seen ones: first the
-  /// nearest from `guess` (trimmed least squares in ever smaller radii); where most find no partner, from
-  /// the shift that most pairs vote for, for a few turns. False, and the motion stays what it was, unless at
-  /// least six pairs and three tenths of the boxes that could have a partner agree to 0.35 m.
+  /// Finds the motion that maps the `expected` boxes to the `seen` ones, both in the sensor's frame.
+  ///
+  /// Starts from `guess` and alternates between nearest neighbours and least squares in ever smaller radii.
+  /// Only boxes shorter than 6 m take part. If less than 40 % of the expected ones find a partner, the search
+  /// also starts from the shifts that most pairs vote for, at five yaw angles. Returns false and leaves
+  /// `motion` unchanged unless at least six pairs and 30 % of the expected boxes agree to 0.35 m.
   bool estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen, const PlanarMotion& guess,
                 PlanarMotion& motion);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where an object is and how fast, and how well both are known (Kalman 1960).
+// Kalman filter of position and velocity along three axes (Kalman 1960).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,13 +10,13 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Place and velocity along one axis, in metres and m/s, and their covariance.
+/// Position and velocity along one axis, metres and m/s, with their covariance.
 struct AxisFilter {
   double place = 0, velocity = 0;
   double place_variance = 1, covariance = 0, velocity_variance = 1;
 
-  /// Constant velocity, which a white acceleration of `density` (m^2/s^3) changes: many small steps are one
-  /// large one, so stamps a millisecond apart do no harm.
+  /// Constant velocity with a white-noise acceleration of spectral density `density` (m^2/s^3). Many small
+  /// steps equal one large step, so stamps a millisecond apart do no harm.
   void predict(double seconds, double density) {
     place += seconds * velocity;
     place_variance += seconds * (2 * covariance + seconds * (velocity_variance + seconds * density / 3));
@@ -24,8 +24,8 @@ struct AxisFilter {
     velocity_variance += seconds * density;
   }
 
-  /// A sighting `surprise` beyond where the object was expected. Joseph's form: sums of squares, which
-  /// rounding does not make negative.
+  /// Update by a measurement: `surprise` is the innovation, `variance` that of the measurement. The position
+  /// variance uses the Joseph form, a sum of squares, which rounding cannot make negative.
   void correct(double surprise, double variance) {
     const double all = place_variance + variance;
     const double to_place = place_variance / all, to_velocity = covariance / all, left = variance / all;
@@ -35,12 +35,13 @@ struct AxisFilter {
     place_variance = left * left * old_place + to_place * to_place * variance;
     covariance = left * (old_covariance - to_velocity * old_place) + to_place * to_velocity * variance;
     velocity_variance += to_velocity * (to_velocity * all - 2 * old_covariance);
-    // What is left of a velocity is never known better than its tie to the place allows.
+    // A lower bound keeps the covariance matrix positive definite.
     velocity_variance =
         std::max(velocity_variance, (1 + 1e-9) * covariance * covariance / place_variance + 1e-12);
   }
 
-  /// The second of two sightings, both of this variance, `seconds` apart: nothing else is known.
+  /// Initialisation by the second of two measurements, both of this variance and `seconds` apart. No prior is
+  /// used.
   void start(double surprise, double variance, double seconds) {
     place += surprise;
     velocity += surprise / seconds;
@@ -50,7 +51,7 @@ struct AxisFilter {
   }
 };
 
-/// The same along three axes that know nothing of each other.
+/// Three independent filters, one for each axis.
 struct MotionFilter {
   std::array<AxisFilter, 3> axes;
 

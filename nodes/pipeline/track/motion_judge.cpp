@@ -9,15 +9,16 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kWindow = 0.55;               // seconds looked back
-constexpr double kSpacing = 0.09;              // seconds between sightings that are kept
-constexpr double kSoonest = 0.15;              // seconds after which a sighting tells
-constexpr double kLeaves = 0.3;                // metres
-constexpr double kMoves = 0.7, kStands = 0.5;  // m/s
-constexpr double kSameWay = 0.25;              // of the greater square, what both halves have in common
+constexpr double kWindow = 0.55;               // seconds; the window that is evaluated
+constexpr double kSpacing = 0.09;              // seconds between stored measurements
+constexpr double kSoonest = 0.15;              // seconds; shortest time that allows a decision
+constexpr double kLeaves = 0.3;                // metres; smallest displacement of a moving object
+constexpr double kMoves = 0.7, kStands = 0.5;  // m/s; moving starts above kMoves and ends below kStands
+// Smallest dot product of the velocities of both halves, relative to the larger of their squares.
+constexpr double kSameWay = 0.25;
 
-// The least move of both faces, along the sensor's axes in the plane: what a part that came into view, or
-// went out of it, leaves.
+// Returns the smaller displacement of the two opposite faces along the sensor's x and y, or 0 if they move
+// apart or towards each other. A part that comes into or goes out of view moves one face only, hence gives 0.
 Eigen::Vector2d least_shift(const Eigen::Vector3d& way, const Eigen::Vector3d& before,
                             const Eigen::Vector3d& now) {
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();

@@ -9,19 +9,20 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kPlaceVariance = 0.1 * 0.1;  // of a face, m^2
-constexpr double kFirstSpeed = 8;             // m/s, standard deviation of what nothing is known of
-constexpr double kManoeuvre = 0.3;            // m^2/s^3: 1.7 m/s^2 for a tenth of a second
-constexpr double kTurning = 0.1;              // 1/s: turns of 57 degrees a second for a tenth of a second
-constexpr double kFastest = 60;               // m/s
-constexpr double kShortest = 0.03;            // seconds between two sightings that make a velocity
+constexpr double kPlaceVariance = 0.1 * 0.1;  // m^2; variance of a measured face
+constexpr double kFirstSpeed = 8;             // m/s; standard deviation of an unknown velocity
+constexpr double kManoeuvre = 0.3;            // m^2/s^3; noise of the acceleration: 1.7 m/s^2 for 0.1 s
+constexpr double kTurning = 0.1;              // 1/s; the same per squared speed: 57 degrees/s for 0.1 s
+constexpr double kFastest = 60;               // m/s; limit of the speed
+constexpr double kShortest = 0.03;            // seconds; smallest step that gives a first velocity
 
-// Of each axis, once turned: the diagonal of R diag(v) R^T.
+// Returns the variances along the axes after a rotation: the diagonal of R diag(v) R^T.
 Eigen::Vector3d turned(const Eigen::Matrix3d& turn, const Eigen::Vector3d& variances) {
   return turn.cwiseAbs2() * variances;
 }
 
-// From the centre's shift, where the size stays, to the least shift of the faces, where it changes by 0.25 m.
+// Returns the innovation: the shift of the centre if the size is unchanged, the smallest shift of the faces
+// if the size changes by 0.25 m or more, and a blend between.
 double surprise_of(const Change& change, int axis) {
   const double part = std::clamp((std::abs(change.size[axis]) - 0.05) / 0.2, 0.0, 1.0);
   return (1 - part) * change.centre[axis] + part * change.shift[axis];
@@ -48,7 +49,7 @@ void Track::start(const Aabb& box, const Pose& sensor) {
 
 void Track::predict(double seconds) {
   before = motion.place();
-  // What is faster turns harder: 12 m/s at 30 degrees a second are 6 m/s^2.
+  // Faster objects accelerate more in curves: 12 m/s at 30 degrees/s are 6 m/s^2.
   motion.predict(seconds, kManoeuvre + kTurning * motion.velocity().squaredNorm());
   unseen += seconds;
 }
@@ -99,8 +100,8 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
     low[i] += part * (seen_box.min()[i] - expected[i] - low[i]);
     high[i] += part * (seen_box.max()[i] - expected[i] - high[i]);
   }
-  // The place goes on as the box's centre: an offset from it would turn with the sensor, and the place would
-  // seem to move (a metre and a half off, 0.8 m/s at 30 degrees a second).
+  // Make the centre of the box the tracked position. A position off the centre would rotate with the sensor
+  // and seem to move (1.5 m off: 0.8 m/s at 30 degrees/s).
   const Eigen::Vector3d offset = (low + high) / 2, moved = turn * offset;
   for (int i = 0; i < 3; ++i)
     motion.axes[static_cast<std::size_t>(i)].place += moved[i];
@@ -155,7 +156,8 @@ TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& a
 
 double cost_of(const Track& track, const Aabb& box, double gate) {
   const Change change = track.change_to(box);
-  const Eigen::Vector3d variance = track.motion.place_variance();  // the sensor's turn is left out: a gate
+  // Not rotated into the sensor's axes: good enough for a gate.
+  const Eigen::Vector3d variance = track.motion.place_variance();
   const double slack = kPlaceVariance + gate * gate / 16, most = std::max(variance.x(), variance.y());
   double cost = 0;
   for (int i = 0; i < 3; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One object that is followed, and what a sighting says about it.
+// The state of one tracked object, its update, and the cost of assigning a box to it.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,48 +17,51 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// How a box differs from where and how large it was expected, along the sensor's axes, in metres.
+/// Difference between a box and the expected box of a track, along the sensor's axes, metres.
 struct Change {
   Eigen::Vector3d centre, size;
-  /// The least move of both faces: what a part that came into view, or went out of it, leaves.
+  /// The smaller displacement of the two opposite faces; 0 if they move apart or towards each other. A part
+  /// that comes into or goes out of view moves one face only, hence gives 0.
   Eigen::Vector3d shift;
 };
 
+/// One tracked object.
 struct Track {
   MotionFilter motion;  // in the fixed frame
   MotionJudge judge;
-  // Faces of the box from the place, along the sensor's axes.
+  // Faces of the box relative to the position, along the sensor's axes.
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
-  Eigen::Vector3d expected = Eigen::Vector3d::Zero();  // the place in the sensor's frame
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();    // the place at the last frame, in the fixed frame
-  double unseen = 0;                                   // seconds since the last sighting
+  Eigen::Vector3d expected = Eigen::Vector3d::Zero();  // position in the sensor's frame
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();    // position at the last frame, in the fixed frame
+  double unseen = 0;                                   // seconds since the last detection
   std::size_t seen = 0, missed = 0, hidden = 0, age = 0;
   double yaw = 0, yaw_variance = 1;
   bool alive = false, moving = false;
   std::optional<std::uint32_t> id;
-  std::optional<std::size_t> split_from;  // slot of the track inside whose expected box this one began
-  std::size_t seen_since_split = 0;       // sightings since then, or since it was last occluded
+  std::optional<std::size_t> split_from;  // slot of the track whose expected box held this track's first box
+  std::size_t seen_since_split = 0;       // detections since the split or the last occlusion
 
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
   void expect(const Pose& sensor);
-  /// Where it is in the sensor's frame if it stands, unless it is known to move. If standing tracks were
-  /// expected where their velocities lead, an error of the sensor's velocity would become theirs and stay for
-  /// good.
+  /// Returns the expected box in the sensor's frame. An object that is not known to move is assumed to be
+  /// static. If static tracks were predicted by their velocities, an error of the sensor's velocity would
+  /// pass into these velocities and stay there.
   Aabb standing_box(const Pose& sensor) const;
   Aabb expected_box() const { return {expected + low, expected + high}; }
   Change change_to(const Aabb& box) const;
   void correct(const Aabb& box, const Pose& sensor, double seconds);
 
-  /// `apparent`: velocity that standing points have in the sensor's frame; with `fixed`, all is told there.
+  /// Returns the reported state. `apparent` is the velocity of static points in the sensor's frame. With
+  /// `fixed`, the state is in the fixed frame, otherwise in the sensor's frame.
   TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent) const;
 
  private:
   void judge_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);
 };
 
-/// How unlikely it is that the box is the track's: squared standard deviations, `gate` being four of them for
-/// a track of which all is known.
+/// Returns how unlikely it is that the box belongs to the track, in squared standard deviations. `gate`, in
+/// metres, is four standard deviations of a track whose state is known exactly.
 double cost_of(const Track& track, const Aabb& box, double gate);
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which box is whose: what is expected, what is likely, and what costs least.
+// Tracking: predict the tracks, select plausible pairs, assign boxes at minimum cost, then update.
 
 #include "tracker.h"
 
@@ -16,9 +16,9 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kGateCost = 16;         // four standard deviations
-constexpr std::size_t kHiddenShare = 4;  // frames inside another's box that count as one without a sighting
-constexpr std::size_t kSeparate = 5;     // sightings in a row of what came out of a box that was two objects
+constexpr double kGateCost = 16;         // four standard deviations, squared
+constexpr std::size_t kHiddenShare = 4;  // occluded frames that count as one missed frame
+constexpr std::size_t kSeparate = 5;     // detections in a row that prove a split
 
 bool holds(const Aabb& box, const Eigen::Vector3d& place) {
   return (box.min().array() <= place.array()).all() && (place.array() <= box.max().array()).all();
@@ -29,7 +29,7 @@ Pose moved(const Pose& sensor, const PlanarMotion& motion) {
   step.linear() = Eigen::AngleAxisd(motion.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   step.translation() << motion.shift, 0;
   Pose next = sensor * step.inverse();
-  // Rounding must not add up over days.
+  // Rounding errors must not add up over days.
   next.linear() = Eigen::Quaterniond(next.linear()).normalized().toRotationMatrix();
   return next;
 }
@@ -52,21 +52,21 @@ struct Tracker::State {
   std::vector<std::size_t> free;
   std::vector<char> track_taken, box_taken;
   std::vector<Aabb> expected;
-  std::vector<Aabb> predicted;  // of each box: where its track was expected, before it was seen
+  std::vector<Aabb> predicted;  // for each box: the expected box of its track before the update
   std::vector<AssignmentPair> pairs;
   BoxGrid grid;
   SparseAssignment assignment;
   EgoMotion ego;
-  PlanarMotion step;  // of standing points in the sensor's frame, over step_seconds
+  PlanarMotion step;  // motion of static points in the sensor's frame within step_seconds
   double step_seconds = 0;
   Pose sensor = Pose::Identity();
-  bool posed = false;  // the frame is that of poses that were given
+  bool posed = false;  // tracks are in the frame of given poses
   std::int64_t last_stamp_ns = 0;
   bool started = false;
   std::uint32_t next_id = 0;
 };
 
-// How fast a standing point seems to go.
+// Returns the velocity of a static point at `place` relative to the sensor.
 Eigen::Vector3d Tracker::State::apparent(const Eigen::Vector3d& place) const {
   if (!(step_seconds > 0)) return Eigen::Vector3d::Zero();
   const Eigen::Vector2d now = place.head<2>(), before = step.inverse() * now;
@@ -86,7 +86,7 @@ void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes)
   PlanarMotion motion = guess;
   const bool found = ego.estimate(expected, boxes, guess, motion);
   sensor = moved(sensor, motion);
-  // Over a millisecond the noise of places is more than the way.
+  // Within less than 20 ms, the noise of positions exceeds the motion.
   if (!found || seconds < 0.02) return;
   step = motion;
   step_seconds = seconds;
@@ -95,7 +95,7 @@ void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes)
 void Tracker::State::move_sensor(double seconds, const std::vector<Aabb>& boxes,
                                  const std::optional<Pose>& pose) {
   if (!pose || !posed) find_sensor(seconds, boxes);
-  if (pose && !posed) {  // what was followed so far moves into the fixed frame
+  if (pose && !posed) {  // moves existing tracks into the fixed frame
     for (Track& track : tracks) {
       const Eigen::Matrix3d turn = pose->linear() * sensor.linear().transpose();
       const Eigen::Vector3d place =
@@ -142,7 +142,8 @@ void Tracker::State::join(double seconds, const std::vector<Aabb>& boxes,
   }
 }
 
-// A track whose place is inside the box of another is likely part of it, and comes back when they part.
+// Counts missed frames. A track whose expected centre is inside the box of another track is probably part of
+// that box; it continues when the objects separate.
 void Tracker::State::miss(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
     Track& track = tracks[t];
@@ -177,7 +178,7 @@ void Tracker::State::separate(std::vector<Assignment>& assignments) {
     Track& track = tracks[own.slot];
     if (!track.split_from || ++track.seen_since_split < kSeparate) continue;
     const Track& other = tracks[*track.split_from];
-    const bool lives = other.alive && other.age > track.age;  // a slot that is used again holds a younger one
+    const bool lives = other.alive && other.age > track.age;  // a reused slot holds a younger track
     const std::size_t box = lives ? assignment.columns()[*track.split_from] : SparseAssignment::none;
     if (box != SparseAssignment::none) assignments[box].separated = true;
     if (!lives || box != SparseAssignment::none) track.split_from.reset();
@@ -217,7 +218,8 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   s.started = true;
   s.last_stamp_ns = stamp_ns;
   assignments.assign(boxes.size(), Assignment());
-  // Room for what lives on while others come: a sequence that is seen again finds more tracks than it made.
+  // Spare capacity for tracks that stay active while new ones start: the second pass over a sequence has more
+  // tracks than the first, and must not allocate.
   if (s.tracks.capacity() < 2 * boxes.size()) s.tracks.reserve(4 * boxes.size());
   s.track_taken.reserve(s.tracks.capacity());
   s.free.reserve(s.tracks.capacity());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which object of this frame is which of the last one.
+// Multi-object tracking: data association of objects from frame to frame.
 #pragma once
 
 #include <cstddef>
@@ -17,28 +17,35 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Gives objects ids that stay while they are seen, and are never given twice.
+/// Gives objects ids that persist from frame to frame. An id is never reused.
 ///
-/// Each track is a place and a velocity with their covariance (Kalman 1960), in the fixed frame where the
-/// sensor's poses are known. Where they are not, the frame is one that follows from how the sensor moved
-/// between frames, in the plane of x and y, found from boxes that stood still; with fewer than six boxes that
-/// agree, the sensor is taken to go on as it did. A box may be a track's if the least shift of its faces and
-/// the change of its size are likely; a track known well is not farther than the gate from where it is
-/// expected. All pairs are joined at once, at the least sum of costs (Kuhn 1955). A track is born with its
-/// birth-th sighting and dies after `death` frames without one; frames in which its place is inside another
-/// object's box count a quarter. A gap does not cost it its id.
+/// A track has a position and a velocity with their covariance (Kalman 1960). They are in the fixed frame of
+/// the sensor poses if poses are given. Otherwise the tracker estimates the planar motion of the sensor (x,
+/// y, yaw) between frames from static boxes. If fewer than six boxes agree, it assumes that the sensor
+/// continues its last motion.
+///
+/// A box may belong to a track if the smallest displacement of its faces and its change of size are
+/// plausible; for a well-known track, the displacement is at most about TrackConfig::gate. All boxes are
+/// assigned jointly at minimum total cost (Kuhn 1955).
+///
+/// A track gets its id with its detection number TrackConfig::birth. It is deleted after TrackConfig::death
+/// frames without a detection. A frame in which the track is occluded (its expected centre is inside the box
+/// of another object) is counted as a quarter of a frame. The id survives such gaps.
 class Tracker {
  public:
-  /// A box's place in the tracker: stays while the track lives, and is used again afterwards.
+  /// The track to which a box is assigned.
   struct Assignment {
+    /// Index of the track. Constant while the track is active, reused after its deletion.
     std::size_t slot = 0;
-    bool fresh = false;                                  ///< The first sighting.
-    std::optional<TrackEntry> track{};                   ///< None until the track is born.
-    bool moving = false;                                 ///< As in TrackEntry, also before its birth.
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Over the ground, in the sensor's axes; m/s.
-    /// The box likely holds several objects: a born track without a box of its own is expected inside it.
+    bool fresh = false;                                  ///< First detection of the track.
+    std::optional<TrackEntry> track{};                   ///< None until the track has its id.
+    bool moving = false;                                 ///< As in TrackEntry, also without an id.
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Over the ground, along the sensor's axes, m/s.
+    /// The box probably contains several objects: the expected centre of a track that has an id but no box is
+    /// inside it.
     bool merged = false;
-    /// A track split from this box and was seen alone five times: earlier boxes held two objects. Set once.
+    /// Set once: a track that split off from this box was detected separately five times in a row, so earlier
+    /// boxes contained two objects.
     bool separated = false;
   };
 
@@ -47,16 +54,17 @@ class Tracker {
   Tracker(Tracker&&) noexcept;
   Tracker& operator=(Tracker&&) noexcept;
 
-  /// Replaces `assignments` by one for each box. `stamp_ns` is the time of the boxes, which are in the
-  /// sensor's frame, metres; where it does not advance (or by more than a second), tracks are expected where
-  /// they were. `pose`: of the sensor in a fixed frame. O(n log n), and the pairs within three gates.
+  /// Assigns a track to each box and replaces `assignments` by one entry per box. `boxes` are in the sensor's
+  /// frame, metres, measured at `stamp_ns`. If the time does not advance, or advances by more than a second,
+  /// tracks are expected at their last positions. `pose` is the pose of the sensor in a fixed frame. O(n log
+  /// n) plus the pairs of track and box within three gates.
   void update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, const TrackConfig& config,
               std::vector<Assignment>& assignments, const std::optional<Pose>& pose = std::nullopt);
 
-  /// Where the sensor was in the last update: the pose that was given, or the one found.
+  /// Returns the pose of the sensor at the last update: the given one or the estimated one.
   const Pose& sensor() const;
 
-  /// Forgets all tracks, but not which ids were given.
+  /// Deletes all tracks. Their ids are still not reused.
   void reset();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files for each frame: pictures, labelled clouds, and meshes with an index.
+// Sinks that write files for each frame: pictures, labelled clouds, and meshes with an index.
 
 #include <algorithm>
 #include <cstring>
@@ -25,7 +25,7 @@ const SinkDescription& with_folder(const SinkDescription& description) {
   return description;
 }
 
-// frame000012.vtp
+// Returns a file name such as frame000012.vtp.
 std::string numbered(const char* stem, const Frame& frame, std::string_view extension) {
   std::string number = std::to_string(frame.header.number);
   number.insert(0, 6 - std::min<std::size_t>(number.size(), 6), '0');
@@ -51,7 +51,7 @@ void write_image(const fs::path& file, const Frame& frame, const FrameResult& re
   write_picture(file, picture_of(frame, result, labels));
 }
 
-// x, y and z in their own type, and the label.
+// Writes x, y and z in their own type, and the label.
 void write_labels(const fs::path& file, const Frame& frame, const FrameResult& result) {
   const PointView& points = frame.points;
   const std::vector<std::uint32_t> labels = labels_of(frame, result);

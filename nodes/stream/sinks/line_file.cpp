@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Plain POSIX: nothing stays in a buffer of ours when a process is killed.
+// Plain POSIX without a buffer in this process: nothing that was written is lost when the process is killed.
 
 #include "line_file.h"
 
@@ -34,7 +34,7 @@ LineFile::~LineFile() {
   if (!made_.empty()) ::unlink(made_.c_str());
 }
 
-// What is no regular file, as a pipe, keeps what is in it.
+// Empties a regular file. Other files, such as pipes, keep their content: ftruncate() fails with EINVAL.
 void LineFile::begin() {
   if (std::exchange(begun_, true) || descriptor_ == STDOUT_FILENO) return;
   if (::ftruncate(descriptor_, 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Text that others may read while it grows.
+// A text file that others may read while it grows.
 #pragma once
 
 #include <sys/types.h>
@@ -14,8 +14,8 @@
 
 namespace pcl_bv {
 
-/// A new file, or "-" for standard output, that grows by one write() a time where the system takes it whole.
-/// What was there before is replaced by the first write() or by close(): without either, nothing has changed.
+/// A new file, or standard output for "-". Each write() is one write of the system, if the system takes it
+/// whole. The first write() or close() replaces the previous content; without either, the file is unchanged.
 class LineFile {
  public:
   /// Throws IoError if it cannot be opened.
@@ -24,11 +24,11 @@ class LineFile {
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Appends the text in place of the last call's tail, which ended the file until now, and its own tail.
-  /// Throws ClosedPipe (where SIGPIPE is ignored) and IoError.
+  /// Appends `text` and `tail`; overwrites the tail of the previous call, which ended the file until now.
+  /// Throws ClosedPipe (if SIGPIPE is ignored) and IoError.
   void write(std::string text, std::string_view tail = {});
 
-  /// Throws IoError if the system says so late that something was not written.
+  /// Closes the file. Throws IoError if the system reports only now that something was not written.
   void close();
 
  private:
@@ -36,7 +36,7 @@ class LineFile {
 
   int descriptor_;
   off_t tail_ = 0;
-  std::filesystem::path made_;  // the file, if it was not there before, until something is in it
+  std::filesystem::path made_;  // a file that was created here and is still empty; removed at the end
   bool begun_ = false;
 };
 

@@ -13,7 +13,7 @@
 namespace pcl_bv {
 namespace {
 
-// What rosbag2 notes of a topic: reliable, the last ten, nothing for those who come later.
+// The QoS that rosbag2 stores for a topic: reliable, the last ten messages, nothing for late subscribers.
 constexpr const char* kQos =
     "- history: 1\n  depth: 10\n  reliability: 1\n  durability: 2\n  deadline:\n    sec: 9223372036\n    "
     "nsec: "

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The guard around what others write.
+// Calls several sinks and isolates their failures.
 
 #include <algorithm>
 #include <chrono>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The outermost folder, or the file itself, that is not there yet.
+// Returns the outermost folder, or the file itself, that does not exist.
 fs::path first_missing(const fs::path& place) {
   std::error_code unknown;
   fs::path missing;
@@ -26,8 +26,8 @@ fs::path first_missing(const fs::path& place) {
   return missing;
 }
 
-// Folders from `place` up to `outermost` that are empty. Files are removed by the sink that made them: others
-// may write into the same folder.
+// Removes empty folders from `place` up to `outermost`. Files are removed by the sink that created them,
+// since several sinks may write into one folder.
 void remove_empty_folders(const fs::path& place, const fs::path& outermost) {
   std::error_code unknown;
   for (fs::path at = place;; at = at.parent_path()) {
@@ -40,8 +40,8 @@ void remove_empty_folders(const fs::path& place, const fs::path& outermost) {
 
 struct SinkGroup::Member {
   std::string name;
-  std::unique_ptr<FrameSink> sink;  // null once it is given up
-  std::uint64_t lacking = 0;        // frames
+  std::unique_ptr<FrameSink> sink;  // null after it was given up
+  std::uint64_t lacking = 0;        // number of frames that were not written
   std::string last_problem;
   mutable std::mutex mutex;
   LatencyHistogram ms;
@@ -51,7 +51,7 @@ SinkGroup::SinkGroup(std::function<void(const std::string&)> say) : say_(std::mo
   if (!say_) throw std::invalid_argument("SinkGroup: nobody to tell");
 }
 
-// Sinks that were opened in vain, because another one could not be, leave nothing.
+// If nothing was written, because another sink could not be opened, no file or folder is left behind.
 SinkGroup::~SinkGroup() {
   members_.clear();
   if (used_) return;
@@ -89,7 +89,7 @@ void SinkGroup::complain(Member& member, const std::string& problem) {
   if (problem != std::exchange(member.last_problem, problem)) say_(member.name + ": " + problem);
 }
 
-// False where nothing more can be written. A reader who goes away is no failure, and needs no word.
+// Returns false if nothing more can be written. A closed pipe is no failure and is not reported.
 template <typename Do>
 bool SinkGroup::attempt(Member& member, const Do& what) {
   try {
@@ -114,7 +114,7 @@ void SinkGroup::each(const Do& what) {
       member->lacking += member->lacking > 0;
     } else if (!attempt(*member, what)) {
       const std::uint64_t lacking = member->lacking;
-      attempt(*member, [](Member& m) { m.sink->close(); });  // what is written so far is made whole
+      attempt(*member, [](Member& m) { m.sink->close(); });  // completes the output so far
       member->lacking = lacking;
       member->sink = nullptr;
     }

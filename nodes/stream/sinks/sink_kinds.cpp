@@ -27,7 +27,7 @@ class FunctionSink : public FrameSink {
 
 }  // namespace
 
-// A labelled cloud is only made where somebody reads it; scenes are Foxglove's, who shows markers, too.
+// Labelled clouds are made only while somebody subscribes. Scenes are for Foxglove, which shows markers, too.
 std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
   MessageTopics topics;
   topics.prefix = description.place.string();

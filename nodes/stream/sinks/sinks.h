@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the table of sinks names.
+// The functions that open the sinks of the table in sink_kinds.cpp.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ std::unique_ptr<FrameSink> open_labels(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description);
 std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description);
 
-/// Recordings; none in a build without recordings.
+/// Returns the rows for recordings, none in a build without the component `recording`.
 std::vector<SinkKind> recording_sinks();
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each call in a thread of its own, which nobody has to wait for.
+// Each call of the function has a detached thread of its own, so that nothing has to wait for it.
 
 #include <future>
 #include <thread>
@@ -38,7 +38,8 @@ class FunctionSource : public FrameSource {
     bool more = false;
   };
 
-  std::shared_ptr<std::function<bool(Frame&)>> function_;  // also the thread's, which may outlive the source
+  // Shared with the thread, which may outlive the source.
+  std::shared_ptr<std::function<bool(Frame&)>> function_;
   std::future<Answer> answer_;
 };
 

@@ -11,10 +11,13 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Each message (sensor_msgs/msg/PointCloud2) as a frame, without a copy of its points where they can be read in it. What
-/// is no such message is a FrameError. A stamp of 0 becomes the time of sending. A frame's latency counts from when it
-/// came. Of the options it takes class_field, frame_id and poses by time. `name` is the file of its frames. Throws
-/// IoError for poses that cannot be read or that are not by time, std::invalid_argument without a receiver.
+/// Creates a source that turns each received message (sensor_msgs/msg/PointCloud2) into a frame.
+///
+/// Points are not copied if they can be read in place (points_in_place()). A header stamp of 0 is replaced by
+/// the time of sending. Latency is measured from the arrival of the message. `name` becomes Frame::file of
+/// every frame. Of `options`, only class_field, frame_id and poses by time (TUM) are used.
+/// FrameSource::next() throws FrameError for a message that is not a PointCloud2. This function throws
+/// IoError if the poses cannot be read or are not by time, and std::invalid_argument if `receiver` is null.
 std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver> receiver, const std::string& name,
                                                  const ReplayOptions& options = {});
 

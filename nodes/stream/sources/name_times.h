@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A time in a file's name can be written in many ways; one way serves all names of a folder.
+// Times in file names. Names use many formats; one format must fit all names of a folder.
 #pragma once
 
 #include <cstdint>
@@ -12,39 +12,39 @@
 
 namespace pcl_bv {
 
-/// How a name writes a time, the surest way first.
+/// The format of a time in a name, the most reliable first.
 enum class TimeKind : std::uint8_t {
   epoch,   ///< Since 1970: 1317384506.25, 1317384506_250000000, or a whole number of s, ms, us or ns.
   date,    ///< 20121214T142259.814212, 2024-03-21T12-59-59.900Z, 2024_03_21_12_59_59
   day,     ///< 12-59-59.900: hours, minutes, seconds
-  decimal  ///< 899.011149430: seconds since some beginning
+  decimal  ///< 899.011149430: seconds since an unknown start
 };
 inline constexpr TimeKind kTimeKinds[]{TimeKind::epoch, TimeKind::date, TimeKind::day, TimeKind::decimal};
 
-/// A time that stands in a name. What the digits behind the point mean depends on the other names.
+/// A time in a name. What its fraction means depends on the other names of the folder.
 struct WrittenTime {
   TimeKind kind = TimeKind::epoch;
   std::int64_t seconds = 0;
   std::string fraction{};
-  bool may_count = false;  ///< The fraction comes after a dash: it can also count frames.
+  bool may_count = false;  ///< The fraction follows a dash or underscore: it may be a frame number.
 };
 
-/// All times in a name without its extension, in their order.
+/// Returns all times in a name without its extension, in order.
 std::vector<WrittenTime> times_in(std::string_view stem);
 
-/// Nanoseconds, of a fraction of a second: "25" is a quarter.
+/// Returns the time in nanoseconds. The fraction is decimal: "25" is a quarter of a second.
 std::int64_t stamp_of(const WrittenTime& time);
 
-/// The stamps of all names, where one way of writing serves them all.
+/// The stamps of all names of a folder, read in one format.
 struct NameTimes {
   std::vector<std::int64_t> stamps;  ///< Nanoseconds; -1 for a name without a time.
-  bool sort = false;     ///< Names without leading or closing zeros are in no order of their times.
-  std::string remark{};  ///< That the times do not ascend; mostly empty.
+  bool sort = false;     ///< The order of the names is not that of their times: sort by time.
+  std::string remark{};  ///< Warning that the times do not ascend; usually empty.
 };
 
-/// Of names in their natural order: the way whose times ascend, if there is one. Fractions of different
-/// lengths are decimals (12.5 before 12.75) or whole milli-, micro- or nanoseconds without leading zeros,
-/// whichever fits.
+/// Returns the stamps of names given in their natural order, in the format whose times ascend, if there is
+/// one. Fractions of different lengths are decimals (12.5 before 12.75) or whole milli-, micro- or
+/// nanoseconds without leading zeros, whichever fits.
 NameTimes times_of_names(const std::vector<std::string>& stems);
 
 }  // namespace pcl_bv

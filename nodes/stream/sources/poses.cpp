@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Poses as KITTI and TUM write them.
+// Reads poses in the formats of KITTI and TUM.
 
 #include "sources.h"
 
@@ -20,7 +20,7 @@ constexpr std::int64_t kGreatestGap = 500'000'000;  // nanoseconds
 // long double holds today's times in seconds to the nanosecond.
 using Numbers = std::vector<long double>;
 
-// The numbers of a line; none if something else is in it.
+// Returns the numbers of a line; none if the line contains anything else.
 Numbers numbers_of(std::string_view line) {
   Numbers numbers;
   for (;;) {
@@ -41,7 +41,7 @@ Pose pose_of(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translat
   return pose;
 }
 
-// None where the numbers are no rotation, to the digits that files have.
+// Returns nullopt if the numbers are no rotation, within the precision that files have.
 std::optional<Pose> pose_of_rows(const Numbers& rows) {
   Eigen::Matrix<double, 3, 4> m;
   for (std::size_t i = 0; i < 12; ++i)
@@ -66,7 +66,7 @@ std::string text_of(const std::filesystem::path& file) {
   }
 }
 
-// What turns the sensor's coordinates into those of the camera whose poses KITTI gives.
+// Returns the transform from the sensor to the camera whose poses KITTI gives, if there is a calib.txt.
 std::optional<Pose> camera_beside(const std::filesystem::path& poses) {
   const std::filesystem::path file = poses.parent_path() / "calib.txt";
   std::error_code unknown;
@@ -119,7 +119,9 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
 
 std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
   if (poses_.empty()) return std::nullopt;
-  if (!by_stamp_) return poses_[number].second;
+  if (!by_stamp_) {  // a recording can have more clouds than its index says
+    return number < poses_.size() ? std::optional(poses_[number].second) : std::nullopt;
+  }
   const auto after =
       std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,
                        [](const auto& pose, std::int64_t stamp) { return pose.first < stamp; });

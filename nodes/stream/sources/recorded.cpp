@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The clouds of a recording.
+// Frames of the clouds in a recording.
 
 #include <cmath>
 
@@ -58,7 +58,7 @@ class Recorded final : public FrameSource {
   }
 
  private:
-  // An index knows; else all messages are passed over.
+  // Returns the number of clouds: from the index if there is one, otherwise by reading all messages.
   std::size_t count() {
     std::size_t messages = reader_->topics()[topic_].messages;
     if (messages > 0) return messages;

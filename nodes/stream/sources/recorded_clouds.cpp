@@ -36,7 +36,8 @@ std::string clouds_of(const std::vector<RecordedTopic>& topics) {
   return list;
 }
 
-// With what one must know to convert them: "/points (livox_ros_driver2/msg/CustomMsg)".
+// Lists topics with their types, which a user needs to convert them:
+// "/points (livox_ros_driver2/msg/CustomMsg)".
 std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
   std::string list;
   for (const RecordedTopic& topic : topics) {
@@ -86,23 +87,23 @@ void refuse_false_recording(const std::filesystem::path& file) {
   if (std::find(names.begin(), names.end(), lower_case_extension(file)) == names.end() ||
       std::filesystem::is_directory(file, unknown) || has_recorded_clouds(file))
     return;
-  static_cast<void>(InputFile(file));  // no such file, or an empty one, is the better reason
+  static_cast<void>(InputFile(file));  // throws for a missing or empty file, which is the better reason
   throw IoError(
       "is no recording that can be read: it does not begin as MCAP, a ROS 1 bag 2.0, SQLite or pcap does");
 }
 
-// Of the threads that take numbers in order, each but one may be late by some.
+// Number of skipped clouds that are stored. Threads that take numbers in order may be late by some clouds.
 constexpr std::size_t kMostPassedOver = 16;
 
 struct RecordedClouds::State {
   std::unique_ptr<RecordingReader> reader;
-  std::unique_ptr<VelodyneReader> packets;  // instead of it
+  std::unique_ptr<VelodyneReader> packets;  // used instead of `reader` for a packet capture
   std::size_t topic = 0;
-  std::size_t next = 0;  // number of the cloud that comes next
+  std::size_t next = 0;  // number of the next cloud in the file
   std::map<std::size_t, std::function<RawCloud()>> passed_over;  // by number: the cloud, or its error
-  std::string note;                                              // of the cloud before the next
-  std::map<std::size_t, std::string> notes;  // by number: those that differ from the one before
-  std::vector<std::string> taken;            // remarks
+  std::string note;                                              // of the last cloud that was read
+  std::map<std::size_t, std::string> notes;  // by number: notes that differ from the one before
+  std::vector<std::string> taken;            // remarks that take_remarks() has returned
   mutable std::mutex mutex;
 
   void rewind() {
@@ -115,7 +116,7 @@ struct RecordedClouds::State {
     note.clear();
   }
 
-  // Of the next cloud the bytes; false at the end.
+  // Reads the bytes of the next cloud. Returns false at the end.
   bool take() { return packets ? packets->next(sweep) : reader->next(message); }
 
   RawCloud cloud() const {
@@ -124,8 +125,8 @@ struct RecordedClouds::State {
     return raw_cloud_of(cloud_in({message.data, message.size, nullptr, ros1}));
   }
 
-  // The cloud that was taken, also counted if it throws. Which clouds get a note does not depend on the order
-  // in which they are loaded.
+  // Converts the cloud that take() has read, and counts it, also if this throws. Which clouds get a note does
+  // not depend on the order of loading.
   RawCloud noted_cloud() {
     const std::size_t number = next++;
     RawCloud made = cloud();
@@ -134,7 +135,7 @@ struct RecordedClouds::State {
     return made;
   }
 
-  // Stores the cloud that was taken.
+  // Stores the cloud that take() has read.
   void pass_over() {
     std::function<RawCloud()>& stored = passed_over[next];
     try {
@@ -202,7 +203,7 @@ std::vector<std::string> RecordedClouds::remarks() const {
   return state_->remarks();
 }
 
-// By their texts: what is read again is found damaged again.
+// Compares remarks by their texts, since damage is found again when a part is read again.
 std::vector<std::string> RecordedClouds::take_remarks() {
   const std::lock_guard lock(state_->mutex);
   std::vector<std::string> fresh;

@@ -16,42 +16,44 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct RecordedTopic;
 
-/// The place of the topic of this name, or, if it is empty, of the only one with sensor_msgs/msg/PointCloud2,
-/// in CDR or ROS 1's encoding. Throws std::invalid_argument, listing those that would do, if the topic is not
-/// there, has no clouds, or has to be named; IoError if no topic has clouds.
+/// Returns the index of the topic with this name or, if `name` is empty, of the only topic with clouds
+/// (sensor_msgs/msg/PointCloud2 in CDR or ROS 1 encoding). Throws std::invalid_argument, which lists the
+/// topics with clouds, if the named topic does not exist or has no clouds, or if no name is given and several
+/// topics have clouds. Throws IoError if no name is given and no topic has clouds.
 std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name);
 
-/// Whether there are clouds of a recording (open_recording()) or of a sensor's packets (VelodyneReader), by
-/// the first bytes.
+/// Returns whether the file is a recording (open_recording()) or a capture of a sensor's packets
+/// (VelodyneReader), by its first bytes.
 bool has_recorded_clouds(const std::filesystem::path& file);
 
-/// The clouds of a recording or of a capture of packets, by their numbers. May be asked by several threads at
-/// a time, one of which waits.
+/// The clouds of a recording or of a packet capture, accessed by number. Several threads may call it; one at
+/// a time proceeds.
 class RecordedClouds {
  public:
-  /// `topic`: of packets the address of a sensor. Throws as open_recording() and cloud_topic(), or
-  /// VelodyneReader, do.
+  /// `topic` is the topic of a recording, or the ADDRESS:PORT of a sensor in a packet capture. Throws as
+  /// open_recording() and cloud_topic(), or as VelodyneReader.
   RecordedClouds(const std::filesystem::path& file, const std::string& topic);
   ~RecordedClouds();
   RecordedClouds(const RecordedClouds&) = delete;
   RecordedClouds& operator=(const RecordedClouds&) = delete;
 
-  /// Without an index all of the file is read.
+  /// Returns the number of clouds. Reads the whole file if it has no index.
   std::size_t count();
 
-  /// With all fields. In the order of the numbers, or nearly, each is read once: the last 16 clouds that were
-  /// passed over are stored until they are loaded. Any other one before the last one requested means reading
-  /// from the beginning. Throws IoError if it is not there, MessageError if it is no cloud.
+  /// Loads a cloud with all its fields. If clouds are loaded in ascending order, or nearly so, the file is
+  /// read once: the last 16 skipped clouds are stored until they are loaded. Loading any other earlier cloud
+  /// reads the file again from the beginning. Throws IoError if there is no such cloud, and MessageError if
+  /// the message is not a cloud.
   RawCloud load(std::size_t number);
 
-  /// The note of a cloud that was loaded. Empty if the cloud before it has the same note, as all clouds of a
-  /// driver do.
+  /// Returns the note of a loaded cloud. Empty if the cloud before it has the same note, which is usual for
+  /// the clouds of one driver.
   std::string unsaid(std::size_t number) const;
 
-  /// What was damaged so far, a line each.
+  /// Returns a line for each damage found so far.
   std::vector<std::string> remarks() const;
 
-  /// Those of remarks() that were not taken before.
+  /// Returns the lines of remarks() that no earlier call has returned.
   std::vector<std::string> take_remarks();
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The table of sources: files of clouds, made frames, and topics.
+// The table of sources: files of clouds, synthetic frames, and topics.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::string_view kSynth = "synth:", kDds = "dds:";
 
-// Their times, and the files in the order of those where that of the names is another.
+// Returns the times of the files. Sorts the files by time if the order of names is another.
 NameTimes times_of(std::vector<std::filesystem::path>& files) {
   std::vector<std::string> stems;
   for (const std::filesystem::path& file : files)
@@ -78,7 +78,7 @@ Pose pose_of(const std::array<double, 12>& rows) {
   return pose;
 }
 
-// Its poses are known; those of a file, where one is given, take their place.
+// The sequence has poses of its own; a file of poses, if given, replaces them.
 std::unique_ptr<FrameSource> open_verges(const std::string& name, const ReplayOptions& options) {
   const VergesSequenceSpec spec = parse_verges_sequence(name.substr(kSynth.size()));
   const bool own_poses = options.poses.empty();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What recordings share.
+// What the sources share: poses, replays, and the functions that open sources.
 #pragma once
 
 #include <filesystem>
@@ -13,25 +13,27 @@
 
 namespace pcl_bv {
 
-/// The file of ReplayOptions::poses.
+/// Poses from the file of ReplayOptions::poses.
 class Poses {
  public:
   Poses() = default;
 
-  /// Throws IoError, naming the file and the line, for what it cannot read, and where frames are numbered and
-  /// there are not as many as `frames`, or nobody knows how many.
+  /// Throws IoError, naming the file and the line, for content that cannot be read. For poses by frame
+  /// number, it also throws if their number is not `frames`, or if `frames` is unknown (nullopt).
   Poses(const std::filesystem::path& file, std::optional<std::size_t> frames);
 
+  /// Returns the pose of a frame by its number or by its stamp, depending on the file; nullopt if there is
+  /// none.
   std::optional<Pose> at(std::size_t number, std::int64_t stamp_ns) const;
 
  private:
   bool by_stamp_ = false;
-  std::vector<std::pair<std::int64_t, Pose>> poses_;  // stamps rise
+  std::vector<std::pair<std::int64_t, Pose>> poses_;  // sorted by stamp
 };
 
-/// `length` frames, of these files if there are any, again and again: `load` fills in the cloud of the one at
-/// a place, and its owner, and throws if it cannot. `times` are the stamps where options.from_name asks for
-/// them.
+/// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
+/// empty. `load` fills in the cloud with index `place` and its owner, and throws if it cannot. `times` are
+/// the stamps if options.from_name is set.
 std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
                                          const ReplayOptions& options,
                                          std::function<void(std::size_t place, Frame&)> load,
@@ -39,11 +41,11 @@ std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::fi
 
 std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options);
 
-/// Packets and recordings; none in a build without recordings.
+/// Returns the rows for packets and recordings, none in a build without the component `recording`.
 std::vector<SourceKind> recording_kinds();
 
-/// Throws IoError for a file that is called a recording or a capture (.bag, .mcap, .db3, .pcap, .pcapng) and
-/// does not begin as one, and if it is not there or empty. Other names pass.
+/// Throws IoError if the file has the extension of a recording or capture (.bag, .mcap, .db3, .pcap, .pcapng)
+/// but not its first bytes, or if it is missing or empty. Other extensions pass.
 void refuse_false_recording(const std::filesystem::path& file);
 
 }  // namespace pcl_bv

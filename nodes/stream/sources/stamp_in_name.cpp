@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the times in the names of a folder mean.
+// Interprets the times in the file names of a folder.
 
 #include <algorithm>
 #include <functional>
@@ -26,7 +26,7 @@ std::vector<std::int64_t> decimal_stamps(const Times& times) {
   return stamps;
 }
 
-// Fractions that are whole milli-, micro- or nanoseconds, by the longest one.
+// Reads fractions as whole milli-, micro- or nanoseconds; the longest fraction decides which.
 std::vector<std::int64_t> unpadded_stamps(Times times) {
   std::size_t longest = 0;
   for (const WrittenTime& time : times)
@@ -37,7 +37,7 @@ std::vector<std::int64_t> unpadded_stamps(Times times) {
   return decimal_stamps(times);
 }
 
-// The longest step from one time to the next, in middling ones: sensors keep their pace.
+// Returns the longest time step divided by the median step. Sensors have even steps.
 double unevenness(std::vector<std::int64_t> stamps) {
   std::sort(stamps.begin(), stamps.end());
   std::vector<std::int64_t> steps;
@@ -47,8 +47,9 @@ double unevenness(std::vector<std::int64_t> stamps) {
   return static_cast<double>(steps.back()) / std::max(1.0, static_cast<double>(steps[steps.size() / 2]));
 }
 
-// Zeros decide where there are any: only what is padded begins with one, only what is not cut short ends in
-// one.
+// Returns whether fractions are whole numbers without leading zeros. Zeros decide if there are any: only a
+// padded fraction begins with a zero, and only one without removed zeros ends with a zero. Otherwise the
+// evenness of the steps decides.
 bool are_unpadded(const Times& times) {
   const auto any = [&](auto holds) { return std::any_of(times.begin(), times.end(), holds); };
   const std::size_t size = times.front().fraction.size();
@@ -65,7 +66,8 @@ bool are_unpadded(const Times& times) {
   return unpadded < decimal || (unpadded == decimal && nine);
 }
 
-// 20121214_142259_000017: the recording's beginning and a frame's number.
+// Returns whether fractions are frame numbers: 20121214_142259_000017 is the start of a recording and a
+// number.
 bool count_frames(const Times& times) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (!times[i].may_count || times[i].seconds != times[0].seconds || !times[i - 1].may_count ||
@@ -94,7 +96,7 @@ NameTimes meaning_of(const Times& times) {
   return meaning;
 }
 
-// The last time of this kind in each name, or the first one; empty if a name has none.
+// Returns the last (or first) time of this kind in each name; empty if a name has none.
 Times chosen(const std::vector<Times>& all, TimeKind kind, bool last) {
   Times times;
   const auto is_kind = [kind](const WrittenTime& time) { return time.kind == kind; };

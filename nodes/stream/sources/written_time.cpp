@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Times as recorders write them into file names.
+// Finds times in file names, in the formats that recorders write.
 
 #include <chrono>
 
@@ -17,7 +17,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Reads a name from its front.
+// Reads a name from left to right.
 class NameReader {
  public:
   NameReader(std::string_view text, std::size_t at) : text_(text), at_(at) {}
@@ -40,7 +40,7 @@ class NameReader {
     at_ += run.size();
     return run;
   }
-  // So many digits, and if `alone` no more; -1 if there are not.
+  // Reads a number of `count` digits; with `alone`, no further digit may follow. Returns -1 if there is none.
   int number(std::size_t count, bool alone) {
     const std::string_view run = digits();
     if (run.size() < count || (alone && run.size() > count)) return -1;
@@ -56,14 +56,14 @@ class NameReader {
   std::size_t at_;
 };
 
-// -1 if it is too great.
+// Returns -1 if the number is too large.
 std::int64_t whole(std::string_view digits) {
   std::int64_t value = 0;
   return read_whole_text(digits, value) ? value : -1;
 }
 
-// Hours, minutes and seconds, side by side or apart by the same character, and digits of a fraction; seconds
-// of the day, -1 for none.
+// Reads hours, minutes and seconds, which follow each other directly or are all separated by the same
+// character, and a fraction. Returns the seconds of the day, or -1 if there is no time.
 std::int64_t take_clock(NameReader& name, bool apart, WrittenTime& time) {
   const int hours = name.number(2, apart);
   const char between = name.here();
@@ -73,7 +73,7 @@ std::int64_t take_clock(NameReader& name, bool apart, WrittenTime& time) {
   const int seconds = name.number(2, apart);
   if (hours < 0 || hours > 23 || minutes < 0 || minutes > 59 || seconds < 0 || seconds > 60) return -1;
   NameReader behind = name;
-  time.fraction = behind.take_digits();  // of those that stand side by side
+  time.fraction = behind.take_digits();  // a fraction that follows the seconds directly
   if (time.fraction.empty() && behind.take(".,")) {
     time.fraction = behind.take_digits();
   } else if (time.fraction.empty() && behind.take("-_")) {
@@ -85,7 +85,7 @@ std::int64_t take_clock(NameReader& name, bool apart, WrittenTime& time) {
   return 3600 * hours + 60 * minutes + seconds;
 }
 
-// "+0800" and "+08:00" in seconds; 0 for anything else, which is UTC.
+// Reads "+0800" or "+08:00". Returns its seconds, or 0 (UTC) for anything else.
 std::int64_t take_zone(NameReader& name) {
   NameReader zone = name;
   if (!zone.take("+")) return 0;
@@ -101,7 +101,7 @@ std::optional<WrittenTime> take_date(NameReader& name) {
   NameReader at = name;
   const std::size_t run = at.digits().size();
   const bool joined =
-      run == 14 || run == 17 || run == 20 || run == 23;  // all in one, with 0 to 9 digits of a fraction
+      run == 14 || run == 17 || run == 20 || run == 23;  // 14 digits and a fraction of 0, 3, 6 or 9 digits
   const bool apart = run == 4;
   if (!joined && !apart && run != 8) return std::nullopt;
   const int year = at.number(4, apart);
@@ -126,7 +126,7 @@ std::optional<WrittenTime> take_date(NameReader& name) {
 std::optional<WrittenTime> take_clock_time(NameReader& name) {
   NameReader at = name;
   if (NameReader hours = name; hours.number(2, true) < 0 || hours.here() == '.')
-    return std::nullopt;  // a decimal
+    return std::nullopt;  // a decimal number
   WrittenTime time{TimeKind::day};
   time.seconds = take_clock(at, true, time);
   if (time.seconds < 0) return std::nullopt;
@@ -139,8 +139,8 @@ WrittenTime of_nanoseconds(std::int64_t stamp) {
   return {TimeKind::epoch, stamp / kSecond, std::string(9 - rest.size(), '0') + rest};
 }
 
-// Whole numbers: seconds of 2001 to 2033, milliseconds and microseconds of 2001 to 2262, where nanoseconds of
-// 64 bits end, and nanoseconds from 1e16 on. Others count frames.
+// Interprets a whole number as a time: seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262 (the
+// end of 64-bit nanoseconds), and nanoseconds from 1e16 on. Other numbers are frame numbers.
 std::optional<WrittenTime> epoch_of(std::int64_t value) {
   constexpr std::int64_t e9 = 1'000'000'000, e12 = 1000 * e9, e15 = 1000 * e12;
   if (value >= 10 * e15) return of_nanoseconds(value);
@@ -150,7 +150,7 @@ std::optional<WrittenTime> epoch_of(std::int64_t value) {
   return std::nullopt;
 }
 
-// A number, with a point or without.
+// Reads a number with or without a decimal point.
 std::optional<WrittenTime> take_number(NameReader& name) {
   constexpr std::int64_t since_2001 = 1'000'000'000, most = INT64_MAX / kSecond - 1;
   const std::int64_t value = whole(name.take_digits());

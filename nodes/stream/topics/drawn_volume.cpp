@@ -10,7 +10,8 @@
 namespace pcl_bv {
 namespace {
 
-// Apart from one another on dark and on light ground; the alpha shows the points inside.
+// Colours that differ from one another on dark and light backgrounds. They are translucent, so that the
+// points inside remain visible.
 constexpr std::array<float, 4> kColours[] = {{0.12F, 0.56F, 1, 0.5F},    {1, 0.5F, 0.05F, 0.5F},
                                              {0.17F, 0.7F, 0.17F, 0.5F}, {0.9F, 0.2F, 0.25F, 0.5F},
                                              {0.6F, 0.4F, 0.85F, 0.5F},  {0.75F, 0.6F, 0.1F, 0.5F},
@@ -26,16 +27,16 @@ DrawnVolume solid(DrawnVolume::Kind kind, const Eigen::Vector3d& center, const E
   return {kind, array_of(center), {turn.x(), turn.y(), turn.z(), turn.w()}, array_of(size), {}};
 }
 
-// From z to a unit axis; downwards by way of the opposite one, which is better conditioned. Eigen's
-// FromTwoVectors() has a singular value decomposition for opposite vectors: half of what this unit of the
-// library took to compile.
+// Returns the rotation from z to a unit axis. For a downward axis it goes by way of the opposite axis, which
+// is better conditioned. Eigen's FromTwoVectors() uses a singular value decomposition for opposite vectors,
+// which took half of this unit's compile time.
 Eigen::Quaterniond turn_to(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
   const Eigen::Quaterniond turn = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();
   return axis.z() < 0 ? turn * Eigen::Quaterniond(0, 1, 0, 0) : turn;
 }
 
-// The edges between faces, each once.
+// Returns the edges of the faces, each once.
 DrawnVolume wires(const Mesh& mesh) {
   DrawnVolume volume;
   volume.size = {1, 1, 1};

@@ -99,7 +99,7 @@ class MessageSink final : public FrameSink {
     }
   }
 
-  // As they are for the first frame, and again when they change.
+  // Sends the settings with the first frame and whenever they change.
   void note_settings(const FrameResult& result, std::int64_t stamp_ns) {
     if (noted_ == result.config) return;
     noted_ = result.config;

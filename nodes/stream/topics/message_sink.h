@@ -11,16 +11,20 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
+/// Which messages a sink sends.
 struct MessageTopics {
-  std::string prefix = "/bv";  ///< Before "/objects", "/markers", "/scene", "/points" and "/frames".
-  bool points = false;         ///< The clouds with labels.
-  bool scene = true;           ///< foxglove_msgs/msg/SceneUpdate.
-  bool frames = false;         ///< Each frame, lost ones too, as a line of the sink `jsonl`, on "/frames"; for viewers.
-  bool poses = true;           ///< Of the sensor in "map", where they are known, on "/tf".
+  std::string prefix = "/bv";  ///< Put before "/objects", "/markers", "/scene", "/points" and "/frames".
+  bool points = false;         ///< Labelled clouds on "/points".
+  bool scene = true;           ///< foxglove_msgs/msg/SceneUpdate on "/scene".
+  /// Each frame, also lost ones, as a line of the sink `jsonl` on "/frames"; for viewers.
+  bool frames = false;
+  bool poses = true;  ///< Poses of the sensor in "map", if known, on "/tf".
 };
 
-/// Sends objects (vision_msgs 4 Detection3DArray), markers (MarkerArray of Humble and later), what `topics` asks for, and
-/// "/diagnostics" once a second of the stream's time. A frame without a frame_id is in "lidar", since viewers need one.
+/// Creates a sink that sends objects (Detection3DArray of vision_msgs 4), markers (MarkerArray of ROS 2
+/// Humble and later), the messages enabled in `topics`, and "/diagnostics" once per second of stream time. A
+/// frame without a frame_id gets "lidar", since viewers need one. Throws std::invalid_argument if `carrier`
+/// is null.
 std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageCarrier> carrier, const MessageTopics& topics = {});
 
 }  // namespace pcl_bv

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results as the messages that recordings and viewers get beside objects and markers.
+// Results as scenes for recordings and viewers.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace pcl_bv {
 
-/// foxglove_msgs/SceneUpdate: an entity for each object, of all its volumes, with its number as a text and
-/// what is known of it as metadata. Each takes the place of the last of its id; those of `shown` that have
-/// ended are deleted.
+/// Fills a foxglove_msgs/SceneUpdate with an entity for each object. The entity has all volumes of the
+/// object, its id as text and its properties as metadata, and replaces the last entity with this id. Entities
+/// of `shown` that have ended are deleted.
 void fill_scene(const Frame& frame, const FrameResult& result, const std::vector<DrawnVolume>& volumes,
                 std::int64_t lifetime_ns, ShownObjects& shown, msg::SceneUpdate& scene);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What messages say of a stream as a whole, and of all its points.
+// Messages about a whole stream and about all points of a frame.
 
 #include <algorithm>
 #include <cstring>
