@@ -310,5 +310,15 @@ TEST_F(RecordedSource, AReaderOfCloudsSaysWhatReadsRecordings) {
   EXPECT_EQ(error_of([&] { refuse_false_recording(path_ / "gone.pcd"); }), "");
 }
 
+// An index may say fewer clouds than there are: poses are asked for beyond their end.
+TEST_F(RecordedSource, ACloudBeyondTheNumberedPosesHasNone) {
+  const std::filesystem::path poses = path_ / "poses.txt";
+  std::ofstream(poses) << "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 5 0 1 0 0 0 0 1 0\n";
+  const Poses two(poses, 2);
+  EXPECT_TRUE(two.at(1, 0).has_value());
+  EXPECT_FALSE(two.at(2, 0).has_value());
+  EXPECT_FALSE(two.at(std::size_t{1} << 60U, 0).has_value());
+}
+
 }  // namespace
 }  // namespace pcl_bv
