@@ -98,7 +98,7 @@ class Talk {
   }
 
  private:
-  std::unique_ptr<MessageCarrier> carrier_;
+  std::unique_ptr<MessageSender> carrier_;
   std::unique_ptr<MessageReceiver> markers_;
   std::size_t points_;
   std::vector<std::vector<std::byte>> clouds_;

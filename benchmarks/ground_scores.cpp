@@ -17,9 +17,9 @@
 namespace pcl_bv::bench {
 namespace {
 
-void add_frame(FramePipeline& pipeline, const VergesOptions& options, std::size_t number,
+void add_frame(FramePipeline& pipeline, const RuralRoadOptions& options, std::size_t number,
                std::vector<GroundScore>& scores) {
-  const VergesFrame made = make_verges_frame(options, number);
+  const RuralRoadFrame made = make_rural_road_frame(options, number);
   const SynthCloud& cloud = made.cloud;
   Frame frame;
   frame.points = PointView::of(cloud.xyz.data(), 3 * sizeof(float), cloud.size());
@@ -30,7 +30,7 @@ void add_frame(FramePipeline& pipeline, const VergesOptions& options, std::size_
   std::vector<std::uint8_t> found(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     range[i] = std::hypot(cloud.xyz[3 * i], cloud.xyz[3 * i + 1]);
-    found[i] = labels[i] == label_ground;
+    found[i] = labels[i] == kLabelGround;
   }
   for (GroundScore& score : scores)
     score.add({range, cloud.object, cloud.ground, cloud.vegetation, found});

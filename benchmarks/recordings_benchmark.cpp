@@ -96,7 +96,7 @@ void add_view() {
         [&] {
           msg::PointCloud2 cloud;
           read_cdr(message.data(), message.size(), cloud);
-          auto view = points_in_place(cloud);
+          auto view = view_points(cloud);
           if (!view) throw std::logic_error("no view");
           benchmark::DoNotOptimize(view);
         });

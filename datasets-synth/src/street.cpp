@@ -50,7 +50,7 @@ void record(const Ray& ray, Hit hit, bool ground, SynthCloud& cloud, std::size_t
 
 }  // namespace
 
-std::string_view name_of(StreetObjectKind kind) {
+std::string_view name_of(SynthObjectKind kind) {
   constexpr std::array<std::string_view, 9> names{"car",   "pedestrian", "pole",    "house", "wall",
                                                   "hedge", "tree",       "cyclist", "bridge"};
   return names[static_cast<std::size_t>(kind)];

@@ -93,7 +93,7 @@ Model make_car(SplitMix64& random) {
           {{axle - 0.36, std::min(inner, face), 0.25}, {axle + 0.36, std::max(inner, face), 0.68}});
     }
   }
-  return assemble(StreetObjectKind::car, std::move(parts));
+  return assemble(SynthObjectKind::car, std::move(parts));
 }
 
 }  // namespace pcl_bv

@@ -115,14 +115,14 @@ std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame) {
     const auto last = static_cast<std::int64_t>(std::ceil((reach - origin) / rows[row].spacing));
     for (std::int64_t slot = first; slot <= last; ++slot) {
       PlacedObject object = place(seed, seconds, row, slot);
-      if (object.id != 0 && nearest_distance(object) < street_max_range) objects.push_back(std::move(object));
+      if (object.id != 0 && min_range(object) < street_max_range) objects.push_back(std::move(object));
     }
   }
   std::sort(objects.begin(), objects.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return objects;
 }
 
-double nearest_distance(const PlacedObject& object) {
+double min_range(const PlacedObject& object) {
   const Vec3 sensor = object.to_local(Vec3{} - object.base);
   const Box3& bounds = object.model.bounds;
   const double x = std::max({bounds.lo.x - sensor.x, 0.0, sensor.x - bounds.hi.x});

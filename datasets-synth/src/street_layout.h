@@ -32,6 +32,6 @@ std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame);
 
 /// Returns the distance from the sensor to an object's box in the object's x-y plane: a lower bound on the
 /// range of the object's returns.
-double nearest_distance(const PlacedObject& object);
+double min_range(const PlacedObject& object);
 
 }  // namespace pcl_bv

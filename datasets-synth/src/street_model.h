@@ -29,7 +29,7 @@ struct Part {
 };
 
 struct Model {
-  StreetObjectKind kind;
+  SynthObjectKind kind;
   std::vector<Part> parts;
   Box3 bounds;
 };

@@ -68,7 +68,7 @@ void cut(Part& part, Vec3 normal, Vec3 point) {
   part.planes.push_back({unit, dot(unit, point)});
 }
 
-Model assemble(StreetObjectKind kind, std::vector<Part> parts) {
+Model assemble(SynthObjectKind kind, std::vector<Part> parts) {
   Box3 bounds = parts.at(0).bounds;
   for (const Part& part : parts)
     bounds = merged(bounds, part.bounds);

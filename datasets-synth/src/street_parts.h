@@ -36,6 +36,6 @@ Part leaves(Vec3 center, Vec3 radii);
 void cut(Part& part, Vec3 normal, Vec3 point);
 
 /// Combines the parts to one model, whose bounds are the union of the parts' bounds.
-Model assemble(StreetObjectKind kind, std::vector<Part> parts);
+Model assemble(SynthObjectKind kind, std::vector<Part> parts);
 
 }  // namespace pcl_bv

@@ -15,7 +15,7 @@ namespace {
 /// (below a bridge), these are all columns. Otherwise the azimuths of the box's corners bound the columns;
 /// each corner's azimuth is within pi of the azimuth of the box's middle.
 void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObject& object) {
-  const double nearest = nearest_distance(object);
+  const double nearest = min_range(object);
   if (nearest == 0) {
     for (auto& column : columns)
       column.push_back({0, &object});

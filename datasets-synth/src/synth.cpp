@@ -32,8 +32,8 @@ SynthCloud make_paper(std::size_t points, std::uint64_t seed) {
 }
 
 template <std::size_t beams>
-SynthCloud make_verges(std::size_t, std::uint64_t seed) {
-  return make_verges_frame({seed, beams}, 0).cloud;
+SynthCloud make_rural_road(std::size_t, std::uint64_t seed) {
+  return make_rural_road_frame({seed, beams}, 0).cloud;
 }
 
 constexpr std::array scenes{
@@ -53,10 +53,10 @@ constexpr std::array scenes{
     Scene{"paper-48485", 48'485, true, make_paper},
     Scene{"paper-100722", 100'722, true, make_paper},
     Scene{"paper-327323", 327'323, true, make_paper},
-    Scene{"verges", 128'000, true, make_verges<64>},
-    Scene{"verges-16", 28'800, true, make_verges<16>},
-    Scene{"verges-32", 57'600, true, make_verges<32>},
-    Scene{"verges-128", 230'400, true, make_verges<128>},
+    Scene{"verges", 128'000, true, make_rural_road<64>},
+    Scene{"verges-16", 28'800, true, make_rural_road<16>},
+    Scene{"verges-32", 57'600, true, make_rural_road<32>},
+    Scene{"verges-128", 230'400, true, make_rural_road<128>},
 };
 
 const Scene& find_scene(std::string_view name) {
@@ -132,17 +132,17 @@ std::string synth_names() {
   return names;
 }
 
-bool is_verges_sequence(std::string_view text) {
+bool is_rural_road_sequence(std::string_view text) {
   return text.substr(0, text.find(':')).starts_with(verges_sequence);
 }
 
-VergesSequenceSpec parse_verges_sequence(std::string_view text) {
+RuralRoadSequenceSpec parse_rural_road_sequence(std::string_view text) {
   const auto parts = split_spec(text, "FRAMES");
-  VergesSequenceSpec spec;
+  RuralRoadSequenceSpec spec;
   if (parts[0] != verges_sequence) {
     constexpr std::array<std::string_view, 4> sensors{"16", "32", "64", "128"};
     const std::string_view sensor =
-        is_verges_sequence(parts[0]) ? parts[0].substr(verges_sequence.size()) : std::string_view();
+        is_rural_road_sequence(parts[0]) ? parts[0].substr(verges_sequence.size()) : std::string_view();
     const auto known = std::find_if(sensors.begin(), sensors.end(), [sensor](std::string_view beams) {
       return sensor.starts_with('-') && sensor.substr(1) == beams;
     });

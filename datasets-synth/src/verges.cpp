@@ -19,7 +19,7 @@ namespace pcl_bv {
 namespace verges {
 namespace {
 
-constexpr double kDropped = 0.015, kReflected = 1.0 / 700, kGrown = 0.75;
+constexpr double kDropped = 0.015, kReflected = 1.0 / 700, kGrassProbability = 0.75;
 constexpr double kRadians = std::numbers::pi / 180;
 
 struct Sensor {
@@ -84,7 +84,7 @@ std::array<double, 3> to_array(Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-PlacedObject seen_from(const Mount& sensor, PlacedObject object) {
+PlacedObject in_sensor_frame(const Mount& sensor, PlacedObject object) {
   object.base = sensor.to_sensor(object.base - sensor.place);
   object.forward = sensor.to_sensor(object.forward);
   object.left = sensor.to_sensor(object.left);
@@ -92,7 +92,7 @@ PlacedObject seen_from(const Mount& sensor, PlacedObject object) {
   return object;
 }
 
-VergesObject truth_of(const PlacedObject& seen, const VergesPlaced& placed) {
+RuralRoadObject truth_of(const PlacedObject& seen, const PlacedRoadObject& placed) {
   const Box3& bounds = seen.model.bounds;
   return {seen.id,
           seen.model.kind,
@@ -122,7 +122,7 @@ Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, doub
   if (hit.range >= street_max_range || dropped) return {};
   if (!ground) return {hit.range + noise, What::object};
   if (luck < kReflected) return {hit.range * random.uniform(1.15, 1.6) + noise, What::reflection};
-  if (grass > 0 && random.uniform() < kGrown) {
+  if (grass > 0 && random.uniform() < kGrassProbability) {
     const double blade = grass * random.uniform(0.2, 1);
     double back = std::min(blade / std::max(sinking, 0.02), 1.5);
     // Where the ground falls towards the sensor, as in a ditch, the ray may be above the grass at this range.
@@ -200,15 +200,15 @@ namespace {
 
 /// The ground truth of a frame, and the sensor, world and objects for casting its rays.
 struct Scene {
-  Scene(const VergesOptions& options, std::size_t frame)
+  Scene(const RuralRoadOptions& options, std::size_t frame)
       : sensor(sensor_of(options.beams)),
         seconds(static_cast<double>(frame) * street_frame_seconds),
         along(driven(options.seed, seconds)),
         world(options.seed, along),
         at(mount(world, sensor, along)) {
-    for (const VergesPlaced& placed : place_verges(world, options.seed, seconds)) {
-      PlacedObject seen = seen_from(at, placed.object);
-      if (nearest_distance(seen) >= street_max_range) continue;
+    for (const PlacedRoadObject& placed : place_road_objects(world, options.seed, seconds)) {
+      PlacedObject seen = in_sensor_frame(at, placed.object);
+      if (min_range(seen) >= street_max_range) continue;
       result.objects.push_back(truth_of(seen, placed));
       objects.push_back(std::move(seen));
     }
@@ -221,13 +221,13 @@ struct Scene {
   World world;
   Mount at;
   std::vector<PlacedObject> objects;
-  VergesFrame result;
+  RuralRoadFrame result;
 };
 
 }  // namespace
 }  // namespace verges
 
-VergesFrame make_verges_frame(const VergesOptions& options, std::size_t frame) {
+RuralRoadFrame make_rural_road_frame(const RuralRoadOptions& options, std::size_t frame) {
   verges::Scene scene(options, frame);
   const verges::Terrain terrain(scene.world, options.seed, scene.at.place.x, scene.at.place.y);
   scene.result.cloud =
@@ -235,11 +235,11 @@ VergesFrame make_verges_frame(const VergesOptions& options, std::size_t frame) {
   return std::move(scene.result);
 }
 
-VergesFrame make_verges_truth(const VergesOptions& options, std::size_t frame) {
+RuralRoadFrame make_rural_road_truth(const RuralRoadOptions& options, std::size_t frame) {
   return verges::Scene(options, frame).result;
 }
 
-double verges_ground_height(std::uint64_t seed, std::size_t frame, double x, double y) {
+double rural_road_ground_height(std::uint64_t seed, std::size_t frame, double x, double y) {
   return verges::World(seed, verges::driven(seed, static_cast<double>(frame) * street_frame_seconds))
       .height(x, y);
 }

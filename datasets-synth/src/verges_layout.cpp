@@ -12,7 +12,7 @@
 namespace pcl_bv::verges {
 namespace {
 
-enum class Motion : std::uint8_t { stands, moves, as_sensor };
+enum class Motion : std::uint8_t { stands, moves, with_sensor_car };
 
 /// A row of slots along the road. Each slot has a group of objects with probability `share`.
 struct Row {
@@ -24,7 +24,7 @@ struct Row {
   Motion motion;
   double speed;   // m/s forward, if `motion` is `moves`
   bool tilted;    // the object's up axis is normal to the ground instead of vertical
-  bool on_ditch;  // allowed where the roadside is a ditch
+  bool allowed_on_ditch;  // allowed where the roadside is a ditch
   int most;       // maximum number of objects in a group
 };
 
@@ -33,7 +33,7 @@ using enum Motion;
 // clang-format off
 constexpr std::array rows{
     //                spacing jitter  left  share  motion    speed tilted ditch most
-    Row{make_car,           26,    3, -1.75,  0.6, as_sensor,  0,   true,  true, 1},
+    Row{make_car,           26,    3, -1.75,  0.6, with_sensor_car,  0,   true,  true, 1},
     Row{make_car,           22,    5,  1.75, 0.55, moves,     -9,   true,  true, 1},
     Row{make_cyclist,       31,    8,  -3.3,  0.5, moves,    4.5,   true,  true, 1},
     Row{make_cyclist,       37,    8,   3.3,  0.4, moves,   -5.5,   true,  true, 1},
@@ -58,7 +58,7 @@ constexpr std::array rows{
 // clang-format on
 
 constexpr std::size_t kMembers = 4;  // ids per slot
-constexpr double kReach = 130;       // metres of road, ahead and behind, with objects
+constexpr double kMaxObjectDistance = 130;       // metres of road, ahead and behind, with objects
 
 // Maps 0, -1, 1, -2, 2, ... to 0, 1, 2, 3, 4, ...
 std::uint64_t zigzag(std::int64_t i) {
@@ -66,7 +66,7 @@ std::uint64_t zigzag(std::int64_t i) {
 }
 
 // Distance that the row's slots have moved along the road, metres.
-double way_of(const Row& row, std::uint64_t seed, double seconds) {
+double travelled_distance(const Row& row, std::uint64_t seed, double seconds) {
   return row.motion == stands ? 0 : row.motion == moves ? row.speed * seconds : driven(seed, seconds);
 }
 
@@ -82,19 +82,19 @@ double lowest(const World& world, const PlacedObject& object) {
 }
 
 struct Place {
-  RoadPlace at;
+  RoadPosition at;
   bool backward;
 };
 
 PlacedObject stand(const World& world, const Row& row, const Place& place, const Model& model) {
   PlacedObject object = on_road(world, place.at, place.backward, row.tilted);
   object.model = model;
-  if (!row.tilted && model.kind != StreetObjectKind::bridge) object.base.z = lowest(world, object);
+  if (!row.tilted && model.kind != SynthObjectKind::bridge) object.base.z = lowest(world, object);
   return object;
 }
 
 void place_member(const World& world, std::uint64_t seed, double seconds, std::size_t row_number,
-                  std::int64_t slot, std::size_t member, std::vector<VergesPlaced>& placed) {
+                  std::int64_t slot, std::size_t member, std::vector<PlacedRoadObject>& placed) {
   const Row& row = rows[row_number];
   const auto group = static_cast<std::uint32_t>(zigzag(slot) * rows.size() + row_number);
   SplitMix64 random({seed, 11, group});
@@ -104,17 +104,17 @@ void place_member(const World& world, std::uint64_t seed, double seconds, std::s
   const double start =
       (static_cast<double>(slot) + 0.5) * row.spacing + random.uniform(-row.jitter, row.jitter);
   const double apart = random.uniform(0.6, 1);
-  if (!row.on_ditch && world.side_of(start, row.left > 0) == Side::ditch) return;
+  if (!row.allowed_on_ditch && world.roadside_at(start, row.left > 0) == Side::ditch) return;
   SplitMix64 own({seed, 12, group, member});
   const Model model = row.make(own);
   const bool backward = row.motion == stands ? row.left > 0 : row.speed < 0;
   const std::size_t row_of_two = member / 2;
   const double behind = static_cast<double>(row_of_two) * apart, beside = member % 2 == 0 ? 0 : 0.7;
   const auto at = [&](double time) {
-    const double along = start + way_of(row, seed, time) - behind;
+    const double along = start + travelled_distance(row, seed, time) - behind;
     return stand(world, row, {{along, row.left + (row.left < 0 ? -beside : beside)}, backward}, model);
   };
-  VergesPlaced result;
+  PlacedRoadObject result;
   result.object = at(seconds);
   result.object.id = static_cast<std::uint32_t>(1 + group * kMembers + member);
   if (row.motion != stands) {
@@ -131,7 +131,7 @@ void place_member(const World& world, std::uint64_t seed, double seconds, std::s
 
 }  // namespace
 
-PlacedObject on_road(const World& world, const RoadPlace& place, bool backward, bool tilted) {
+PlacedObject on_road(const World& world, const RoadPosition& place, bool backward, bool tilted) {
   const double heading = world.road.heading(place.along);
   const Vec3 middle = world.road.at(place.along);
   PlacedObject object;
@@ -145,16 +145,16 @@ PlacedObject on_road(const World& world, const RoadPlace& place, bool backward, 
   return object;
 }
 
-std::vector<VergesPlaced> place_verges(const World& world, std::uint64_t seed, double seconds) {
+std::vector<PlacedRoadObject> place_road_objects(const World& world, std::uint64_t seed, double seconds) {
   const double here = driven(seed, seconds);
-  std::vector<VergesPlaced> placed;
+  std::vector<PlacedRoadObject> placed;
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const double origin = way_of(rows[row], seed, seconds);
-    const auto first = static_cast<std::int64_t>(std::floor((here - kReach - origin) / rows[row].spacing));
-    const auto last = static_cast<std::int64_t>(std::ceil((here + kReach - origin) / rows[row].spacing));
+    const double origin = travelled_distance(rows[row], seed, seconds);
+    const auto first = static_cast<std::int64_t>(std::floor((here - kMaxObjectDistance - origin) / rows[row].spacing));
+    const auto last = static_cast<std::int64_t>(std::ceil((here + kMaxObjectDistance - origin) / rows[row].spacing));
     for (std::int64_t slot = first; slot <= last; ++slot) {
       // The car that carries the sensor takes the slots near 0: this row moves with it.
-      if (rows[row].motion == as_sensor &&
+      if (rows[row].motion == with_sensor_car &&
           std::abs((static_cast<double>(slot) + 0.5) * rows[row].spacing) < 12)
         continue;
       for (std::size_t member = 0; member < kMembers; ++member)

@@ -17,13 +17,13 @@ Model make_cyclist(SplitMix64& random) {
                           ellipsoid({0, -0.12, 0.65}, {0.14, 0.08, 0.42}),
                           ellipsoid({0.08, 0, s * 1.28}, {0.22, 0.2, s * 0.36}),
                           ellipsoid({0.22, 0, s * 1.7}, {0.11, 0.09, s * 0.13})};
-  return assemble(StreetObjectKind::cyclist, std::move(parts));
+  return assemble(SynthObjectKind::cyclist, std::move(parts));
 }
 
 Model make_low_wall(SplitMix64& random) {
   const double half_length = random.uniform(2.4, 3.3);
   const double height = random.uniform(0.4, 0.8);
-  return assemble(StreetObjectKind::wall, {box({{-half_length, -0.15, 0}, {half_length, 0.15, height}})});
+  return assemble(SynthObjectKind::wall, {box({{-half_length, -0.15, 0}, {half_length, 0.15, height}})});
 }
 
 // A tree whose crown begins above the roofs of cars and extends over the road.
@@ -37,13 +37,13 @@ Model make_avenue_tree(SplitMix64& random) {
         leaves({away * std::cos(angle), away * std::sin(angle), middle + half * random.uniform(-0.2, 0.2)},
                {1.6, 1.6, 0.8 * half}));
   }
-  return assemble(StreetObjectKind::tree, std::move(parts));
+  return assemble(SynthObjectKind::tree, std::move(parts));
 }
 
 // A bridge over the road and its ditches. y is the direction across the road.
 Model make_bridge(SplitMix64& random) {
   const double soffit = random.uniform(4.6, 5.2), half_width = random.uniform(2, 4);
-  return assemble(StreetObjectKind::bridge,
+  return assemble(SynthObjectKind::bridge,
                   {box({{-half_width, -13, soffit}, {half_width, 13, soffit + 0.9}}),
                    box({{-half_width, -13, -1}, {half_width, -10, soffit}}),
                    box({{-half_width, 10, -1}, {half_width, 13, soffit}})});

@@ -40,7 +40,7 @@ void append_field(std::string& text, std::string_view name, double value) {
   append(text, value);
 }
 
-void append_object(std::string& text, const VergesObject& object, std::size_t points) {
+void append_object(std::string& text, const RuralRoadObject& object, std::size_t points) {
   text.append("{\"id\":").append(std::to_string(object.id));
   text.append(",\"class\":\"").append(name_of(object.kind)).append("\"");
   append_field(text, "center", object.center);
@@ -61,13 +61,13 @@ void append_object(std::string& text, const VergesObject& object, std::size_t po
 
 }  // namespace
 
-std::string pose_line(const VergesFrame& frame) {
+std::string pose_line(const RuralRoadFrame& frame) {
   std::string text;
   append(text, frame.pose, " ");
   return text + '\n';
 }
 
-std::string truth_line(const VergesFrame& frame, std::size_t number) {
+std::string truth_line(const RuralRoadFrame& frame, std::size_t number) {
   std::map<std::uint32_t, std::size_t> points;
   for (const std::uint32_t id : frame.cloud.object)
     if (id != 0) ++points[id];
@@ -76,7 +76,7 @@ std::string truth_line(const VergesFrame& frame, std::size_t number) {
   append_field(text, "pose", frame.pose);
   text += ",\"objects\":[";
   bool first = true;
-  for (const VergesObject& object : frame.objects) {
+  for (const RuralRoadObject& object : frame.objects) {
     if (!first) text += ',';
     first = false;
     const auto seen = points.find(object.id);

@@ -16,7 +16,7 @@ constexpr double kBend = 60;          // metres from one bend of the road to the
 constexpr double kCurvature = 0.045;  // 1/m: 30 degrees a second at 11.6 m/s
 constexpr double kClothoid = 4;       // metres over which the curvature of a bend rises and falls
 constexpr double kSample = 0.25;      // metres between two samples of the road
-constexpr double kRoadReach = 200;    // metres of sampled road, ahead and behind
+constexpr double kRoadHalfLength = 200;    // metres of sampled road, ahead and behind
 constexpr double kStretch = 40;       // metres of road with the same Side
 constexpr double kBlend = 3;          // metres over which one Side changes to the next
 constexpr double kKerb = 4;           // metres from the middle of the road
@@ -54,11 +54,11 @@ double Road::curvature(std::uint64_t seed, double along) {
 
 // Integrates the curvature from a fixed start, so that the road is the same in every frame.
 Road::Road(std::uint64_t seed, double around) {
-  double heading = heading_after(seed, -1 - static_cast<std::int64_t>(kRoadReach / kBend) - 1);
-  const double origin = -kBend * (std::floor(kRoadReach / kBend) + 1);
-  begin_ = around - kRoadReach;
+  double heading = heading_after(seed, -1 - static_cast<std::int64_t>(kRoadHalfLength / kBend) - 1);
+  const double origin = -kBend * (std::floor(kRoadHalfLength / kBend) + 1);
+  begin_ = around - kRoadHalfLength;
   double x = origin, y = 0;
-  const auto steps = static_cast<std::int64_t>((around + kRoadReach - origin) / kSample);
+  const auto steps = static_cast<std::int64_t>((around + kRoadHalfLength - origin) / kSample);
   for (std::int64_t i = 0; i < steps; ++i) {
     const double along = origin + kSample * static_cast<double>(i);
     if (along >= begin_) {
@@ -93,7 +93,7 @@ double Road::guess(double x) const {
   return begin_ + kSample * static_cast<double>(after - samples_.begin());
 }
 
-RoadPlace Road::place_of(double x, double y, double guess, int steps) const {
+RoadPosition Road::road_position_of(double x, double y, double guess, int steps) const {
   double along = guess;
   for (int i = 0; i < steps; ++i) {
     const Vec3 middle = at(along);
@@ -129,7 +129,7 @@ World::World(std::uint64_t seed, double along) : road(seed, along), seed_(seed) 
     phases_[i] = 2 * std::numbers::pi * number(seed, 7, static_cast<std::int64_t>(i));
 }
 
-Side World::side_of(double along, bool left) const {
+Side World::roadside_at(double along, bool left) const {
   const auto stretch = static_cast<std::int64_t>(std::floor(along / kStretch));
   return static_cast<Side>(static_cast<int>(3 * number(seed_, left ? 3 : 4, stretch)));
 }
@@ -154,21 +154,21 @@ double World::profile(double along, double left) const {
     return SplitMix64({seed_, left > 0 ? 5U : 6U, static_cast<std::uint64_t>(static_cast<std::int64_t>(of))})
         .next();
   };
-  const double own = side_profile(side_of(along, left > 0), key(stretch), away);
+  const double own = side_profile(roadside_at(along, left > 0), key(stretch), away);
   const double blend = 1 - smooth(into / kBlend);  // weight of the previous stretch
   if (blend == 0) return camber + own;
-  const double last = side_profile(side_of(along - kBlend, left > 0), key(stretch - 1), away);
+  const double last = side_profile(roadside_at(along - kBlend, left > 0), key(stretch - 1), away);
   return camber + own + blend * (last - own);
 }
 
-double World::height(double x, double y, const RoadPlace& place) const {
+double World::height(double x, double y, const RoadPosition& place) const {
   const double hills = 4.2 * std::sin(x / 36 + phases_[0]) + 1.2 * std::sin(y / 25 + phases_[1]) +
                        0.35 * std::sin((x + y) / 13 + phases_[2]);
   return hills + profile(place.along, place.left);
 }
 
 double World::height(double x, double y) const {
-  return height(x, y, road.place_of(x, y, road.guess(x)));
+  return height(x, y, road.road_position_of(x, y, road.guess(x)));
 }
 
 Vec3 World::normal(double x, double y) const {
@@ -177,16 +177,16 @@ Vec3 World::normal(double x, double y) const {
       {(height(x - d, y) - height(x + d, y)) / (2 * d), (height(x, y - d) - height(x, y + d)) / (2 * d), 1});
 }
 
-double World::roughness(const RoadPlace& place) const {
+double World::roughness(const RoadPosition& place) const {
   const double away = std::abs(place.left);
-  const bool paved = away < kKerb || (away < 8 && side_of(place.along, place.left > 0) == Side::kerb);
+  const bool paved = away < kKerb || (away < 8 && roadside_at(place.along, place.left > 0) == Side::kerb);
   return paved ? 0.003 : away < 8 ? 0.02 : 0.04;
 }
 
 // Short up to 5.5 m from the middle of the road, high in and behind ditches.
-double World::grass(const RoadPlace& place) const {
+double World::grass(const RoadPosition& place) const {
   const double away = std::abs(place.left);
-  const Side side = side_of(place.along, place.left > 0);
+  const Side side = roadside_at(place.along, place.left > 0);
   if (away < kKerb + 0.2 || (away < 8 && side == Side::kerb)) return 0;
   return away < 5.5 ? 0.06 : side == Side::ditch ? 0.22 : 0.12;
 }
@@ -207,10 +207,10 @@ Terrain::Terrain(const World& world, std::uint64_t seed, double x, double y)
   const double left = std::round(x_ / kCell), low = std::round(y_ / kCell);
   for (std::size_t i = 0; i < kSide; ++i) {
     const double at = x_ + kCell * static_cast<double>(i);
-    RoadPlace place{world.road.guess(at), 0};
+    RoadPosition place{world.road.guess(at), 0};
     for (std::size_t k = 0; k < kSide; ++k) {
       const double across = y_ + kCell * static_cast<double>(k);
-      place = world.road.place_of(at, across, place.along, 2);  // 2 steps: the guess is only 0.25 m away
+      place = world.road.road_position_of(at, across, place.along, 2);  // 2 steps: the guess is only 0.25 m away
       const auto column =
           static_cast<std::uint64_t>(static_cast<std::int64_t>(left) + static_cast<std::int64_t>(i));
       const auto row =

@@ -15,7 +15,7 @@
 namespace pcl_bv::verges {
 
 /// Road coordinates: distance along the road and distance left of its middle, metres.
-struct RoadPlace {
+struct RoadPosition {
   double along, left;
 };
 
@@ -32,9 +32,9 @@ class Road {
 
   /// Returns the road coordinates of a point within 100 m of the road's middle, by an iterative search for
   /// the nearest point of the middle. `guess`: initial distance along the road.
-  RoadPlace place_of(double x, double y, double guess, int steps = 4) const;
+  RoadPosition road_position_of(double x, double y, double guess, int steps = 4) const;
 
-  /// Returns the distance along the road of the first sample beyond `x`: a guess for place_of().
+  /// Returns the distance along the road of the first sample beyond `x`: a guess for road_position_of().
   double guess(double x) const;
 
   static double curvature(std::uint64_t seed, double along);  ///< 1/m, positive to the left.
@@ -57,17 +57,17 @@ class World {
 
   Road road;
 
-  Side side_of(double along, bool left) const;
+  Side roadside_at(double along, bool left) const;
 
   /// Height of the ground without its roughness, metres.
   double height(double x, double y) const;
-  double height(double x, double y, const RoadPlace& place) const;
+  double height(double x, double y, const RoadPosition& place) const;
 
   /// Unit normal of the ground, by differences over 1.2 m.
   Vec3 normal(double x, double y) const;
 
-  double roughness(const RoadPlace& place) const;  ///< Largest deviation from height(), metres.
-  double grass(const RoadPlace& place) const;      ///< Height of the grass, metres; 0: none.
+  double roughness(const RoadPosition& place) const;  ///< Largest deviation from height(), metres.
+  double grass(const RoadPosition& place) const;      ///< Height of the grass, metres; 0: none.
 
  private:
   double profile(double along, double left) const;

@@ -32,7 +32,7 @@ std::string base64(const std::string& bytes) {
 }
 
 // Escapes '<', because HTML ends a script element at the first "</script", even inside a JSON string.
-std::string in_html(std::string json) {
+std::string escaped_for_script(std::string json) {
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
     json.replace(at, 1, "\\u003c");
   return json;
@@ -82,7 +82,7 @@ class PagePoints {
   Eigen::Vector3d origin_;
 };
 
-Eigen::Vector3d middle_of(const FrameResult& result) {
+Eigen::Vector3d centre_of_volumes(const FrameResult& result) {
   Aabb all;
   for (const AnyVolume& volume : result.volumes)
     if (!empty(volume)) all.merge(aabb(volume));
@@ -97,11 +97,11 @@ std::string list(const Eigen::Vector3d& v) {
 
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
                       const std::vector<std::uint32_t>& labels, std::size_t most_points) {
-  const Eigen::Vector3d origin = middle_of(result);
+  const Eigen::Vector3d origin = centre_of_volumes(result);
   PagePoints points(frame, labels, origin);
   points.add_all(most_points);
   const std::string data =
-      "<script id=\"data\" type=\"application/json\">{\"report\":" + in_html(report_json(report)) +
+      "<script id=\"data\" type=\"application/json\">{\"report\":" + escaped_for_script(report_json(report)) +
       ",\"origin\":" + list(origin) + ",\"shown\":" + std::to_string(points.shown) +
       ",\"of\":" + std::to_string(frame.points.count) + ",\"stride\":" + (frame.intensity ? "20" : "16") +
       ",\"up\":" + list(result.config->ground.up.normalized()) + ",\"points\":\"" + base64(points.bytes) +

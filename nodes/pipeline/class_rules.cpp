@@ -8,7 +8,7 @@ namespace {
 
 ClusterSettings settings_of(const ClusterConfig& config) {
   return {
-      static_cast<float>(config.tolerance),           config.least_size(), config.max_size, config.min_points,
+      static_cast<float>(config.tolerance),           config.effective_min_size(), config.max_size, config.min_points,
       static_cast<float>(config.tolerance_per_metre), config.oversized};
 }
 
@@ -23,18 +23,18 @@ ClassSettings settings_of(const ClassConfig& config, const ClusterSettings& othe
 }  // namespace
 
 ClassRules::ClassRules(const PipelineConfig& config)
-    : others_(settings_of(config.cluster)), other_methods_(config.methods_of(nullptr)) {
+    : others_(settings_of(config.cluster)), default_methods_(config.methods_of(nullptr)) {
   for (const ClassConfig& own : config.cluster.classes) {
     own_.push_back(settings_of(own, others_));
-    own_methods_.push_back(config.methods_of(&own));
+    class_methods_.push_back(config.methods_of(&own));
   }
 }
 
 const std::vector<const Method*>& ClassRules::methods_of(std::optional<std::int64_t> value) const {
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    if (own_[i].value == value) return own_methods_[i];
+    if (own_[i].value == value) return class_methods_[i];
   }
-  return other_methods_;
+  return default_methods_;
 }
 
 }  // namespace pcl_bv

@@ -31,8 +31,8 @@ class ClassRules {
  private:
   ClusterSettings others_;
   std::vector<ClassSettings> own_;
-  std::vector<const Method*> other_methods_;
-  std::vector<std::vector<const Method*>> own_methods_;  // in the order of `own_`
+  std::vector<const Method*> default_methods_;
+  std::vector<std::vector<const Method*>> class_methods_;  // in the order of `own_`
 };
 
 }  // namespace pcl_bv

@@ -51,7 +51,7 @@ void add(const Counts& part, Counts& all) {
 PointFilter::PointFilter(const FilterConfig& config, UsableIsa isa)
     : min2_(config.range_min * config.range_min),
       max2_(config.range_max * config.range_max),
-      boxed_(config.own_box_min.has_value()),
+      has_own_box_(config.own_box_min.has_value()),
       low_(config.own_box_min.value_or(Eigen::Vector3d::Zero())),
       high_(config.own_box_max.value_or(Eigen::Vector3d::Zero())),
       dropped_(mask_of(config.regions, false)),
@@ -59,7 +59,7 @@ PointFilter::PointFilter(const FilterConfig& config, UsableIsa isa)
       isa_(isa) {}
 
 bool PointFilter::keeps_all() const {
-  return min2_ == 0 && max2_ == std::numeric_limits<double>::infinity() && !boxed_ && !dropped_ && !cropped_;
+  return min2_ == 0 && max2_ == std::numeric_limits<double>::infinity() && !has_own_box_ && !dropped_ && !cropped_;
 }
 
 // Calls take(i, valid, kept) for each point. `kept` depends on the distance and the box of the own vehicle,
@@ -77,7 +77,7 @@ void PointFilter::each_distance(const PointView& points, const Take& take) const
         sizeof(T) == 4 ? distance2 < std::numeric_limits<double>::infinity() : is_valid({x, y, z});
     // No branch: beams without a return come at random.
     bool in_range = (distance2 >= min2) & (distance2 <= max2);
-    if (boxed_) {
+    if (has_own_box_) {
       in_range = in_range && !(x >= low_.x() && x <= high_.x() && y >= low_.y() && y <= high_.y() &&
                                z >= low_.z() && z <= high_.z());
     }

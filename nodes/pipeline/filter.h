@@ -63,7 +63,7 @@ class PointFilter {
   void drop(const PointView& points, const RegionMask& mask, bool inside, FilterScratch& scratch) const;
 
   double min2_, max2_;
-  bool boxed_;
+  bool has_own_box_;
   Eigen::Vector3d low_, high_;  // box of the own vehicle
   std::optional<RegionMask> dropped_, cropped_;
   UsableIsa isa_;

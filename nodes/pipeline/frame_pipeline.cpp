@@ -61,7 +61,7 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   prepared->execution.parallel = config.policy();
   prepared->filter = std::make_shared<PointFilter>(config.filter, prepared->execution.isa);
   prepared->looks = prepared->tells_apart || !prepared->filter->keeps_all() ||
-                    config.cluster.least_size() > 0 ||
+                    config.cluster.effective_min_size() > 0 ||
                     config.cluster.max_size < std::numeric_limits<std::size_t>::max();
   prepared->config = std::move(config);
   return prepared;
@@ -107,7 +107,7 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
   } else {
     now.filter->select(cloud, now.execution.parallel, result.kept, parts, result.counts);
   }
-  return result.kept_points(cloud);
+  return result.points_after_filter(cloud);
 }
 
 // Uses ground.sensor without a check, but Frame::sensor only if the points lie around it.
@@ -128,7 +128,7 @@ void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, 
     result.sensor = look(*config.ground.sensor);
     result.sensor.at = *config.ground.sensor;
   } else if (frame.sensor) {
-    const SensorPlace said = look(*frame.sensor);
+    const SensorPosition said = look(*frame.sensor);
     if (said.around) result.sensor = said;
   }
 }
@@ -144,13 +144,13 @@ PointView FramePipeline::State::remove_ground(const Prepared& now, const PointVi
 }
 
 // Makes all points one object, if the number of points is allowed.
-void take_all(const ClusterConfig& config, const PointView& points, FrameResult& result) {
+void make_one_cluster(const ClusterConfig& config, const PointView& points, FrameResult& result) {
   const Counts& counts = result.counts;
   const std::size_t valid = result.points - counts.nonfinite - counts.range - counts.inside - counts.ground;
   Clusters& all = result.clusters;
   all.indices.clear();
   all.offsets.assign(1, 0);
-  const bool small = valid < config.least_size();
+  const bool small = valid < config.effective_min_size();
   const bool large = valid > config.max_size && config.oversized != Oversized::keep;
   all.small_points = small ? valid : 0;
   all.large_points = large ? valid : 0;
@@ -166,7 +166,7 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
   const ClusterConfig& config = now.config.cluster;
   result.class_of.clear();
   if (config.tolerance == 0) {
-    take_all(config, points, result);
+    make_one_cluster(config, points, result);
   } else if (!config.class_field) {
     clusterer.extract(points, now.rules.others(), result.clusters, now.execution.parallel);
   } else {
@@ -186,7 +186,7 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
   result.counts.small = result.clusters.small_points;
   result.counts.large = result.clusters.large_points;
   result.counts.noise = result.clusters.noise_points;
-  result.counts.of_class = result.clusters.class_points;
+  result.counts.dropped_class = result.clusters.class_points;
 }
 
 void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, FrameResult& result) {
@@ -274,7 +274,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
 }
 
 void FramePipeline::reserve(std::size_t points, FrameResult& result) {
-  const Frame frame = made_sweep(points, state_->current()->config);
+  const Frame frame = synthetic_sweep(points, state_->current()->config);
   for (int pass = 0; pass < 2; ++pass)  // the first pass creates tracks, the second one updates them
     process(frame, result);
   state_->tracks = TrackedVolumes();

@@ -14,7 +14,7 @@
 
 namespace pcl_bv {
 
-PointView FrameResult::kept_points(const PointView& cloud) const {
+PointView FrameResult::points_after_filter(const PointView& cloud) const {
   if (counts.range + counts.inside == 0) return cloud;
   if (!filtered) return subset(cloud, kept);
   PointView view = view_of(*filtered, points, cloud.scalar);
@@ -25,7 +25,7 @@ PointView FrameResult::kept_points(const PointView& cloud) const {
 PointView FrameResult::points_of(std::size_t cluster, const PointView& cloud) const {
   const std::size_t size = clusters.cluster_size(cluster);
   if (size == 0) return cloud.slice(0, 0);
-  if (clusters.indices.empty()) return kept_points(cloud);
+  if (clusters.indices.empty()) return points_after_filter(cloud);
   return subset(cloud, clusters.cluster(cluster), size);
 }
 
@@ -34,9 +34,9 @@ std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& resu
   std::size_t size = cloud.first + cloud.count;
   if (const std::int32_t* numbers = cloud.indices; numbers != nullptr && cloud.count > 0)
     size = static_cast<std::size_t>(*std::max_element(numbers, numbers + cloud.count)) + 1;
-  std::vector<std::uint32_t> label(size, label_none);
+  std::vector<std::uint32_t> label(size, kLabelNone);
   for (const std::int32_t i : result.ground.ground)
-    label[static_cast<std::size_t>(i)] = label_ground;
+    label[static_cast<std::size_t>(i)] = kLabelGround;
   const Clusters& clusters = result.clusters;
   for (std::size_t id = 0; id < clusters.size(); ++id) {
     for (std::size_t i = clusters.offsets[id];
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& resu
   return label;
 }
 
-std::string ground_remark(const FrameResult& result) {
+std::string ground_warning(const FrameResult& result) {
   const GroundConfig& ground = result.config->ground;
   const Counts& counts = result.counts;
   const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
@@ -70,7 +70,7 @@ std::string ground_remark(const FrameResult& result) {
   return {};
 }
 
-std::string range_remark(const FrameResult& result, const std::string& from) {
+std::string range_warning(const FrameResult& result, const std::string& from) {
   const FilterConfig& filter = result.config->filter;
   const std::size_t finite = result.points - result.counts.nonfinite, out = result.counts.range;
   constexpr std::size_t few = 100;
@@ -79,7 +79,7 @@ std::string range_remark(const FrameResult& result, const std::string& from) {
          to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")";
 }
 
-std::string track_remark(const FrameResult& result) {
+std::string track_warning(const FrameResult& result) {
   switch (result.track_time) {
     case TrackTime::recorded:
       return "frame stamps do not advance: tracking uses the recording times";
@@ -111,7 +111,7 @@ void fill_entry(const FrameResult& result, std::size_t id, ClusterEntry& entry) 
 
 }  // namespace
 
-std::vector<ClusterEntry> entries_of(const FrameResult& result) {
+std::vector<ClusterEntry> cluster_entries(const FrameResult& result) {
   std::vector<ClusterEntry> entries(result.clusters.size());
   for (std::size_t id = 0; id < entries.size(); ++id)
     fill_entry(result, id, entries[id]);
@@ -138,7 +138,7 @@ FrameReport report_of_lost(const Frame& frame, const std::string& reason) {
 
 FrameReport report_of(const Frame& frame, const FrameResult& result) {
   FrameReport report = report_without_clusters(frame, result);
-  report.clusters = entries_of(result);
+  report.clusters = cluster_entries(result);
   return report;
 }
 
@@ -160,7 +160,7 @@ Picture picture_of(const Frame& frame, const FrameResult& result, const std::vec
   picture.up = result.config->ground.up;
   for (const Method* method : result.methods)
     picture.methods.emplace_back(method->name);
-  picture.points = ground ? subset(frame.points, result.ground.rest) : result.kept_points(frame.points);
+  picture.points = ground ? subset(frame.points, result.ground.rest) : result.points_after_filter(frame.points);
   if (clusters) picture.labels = labels.data();
   for (std::size_t id = 0; id < result.clusters.size(); ++id) {
     std::string label = clusters ? std::to_string(id) : "";  // shown at the first volume that is not empty

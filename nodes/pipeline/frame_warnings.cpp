@@ -53,7 +53,7 @@ std::string text_of(const Eigen::Vector3d& place) {
 }
 
 std::string ground_found(const Found& f) {
-  std::string text = ground_remark(f.result);
+  std::string text = ground_warning(f.result);
   if (text.empty() || f.result.counts.ground > 0) return text;
   if (const auto other = f.other_up()) {
     const std::string tried = "try ground.up";
@@ -107,12 +107,12 @@ std::string level_ground(const Found& f) {
          " m below the sensor, within 0.5 m: level ground is assumed there";
 }
 
-std::string stamps_stand(const Found& f) {
-  return track_remark(f.result);
+std::string stamps_do_not_advance(const Found& f) {
+  return track_warning(f.result);
 }
 
 constexpr std::string (*kKinds[])(const Found&) = {
-    ground_found, little_ground, sensor_elsewhere, origin_elsewhere, far_points, level_ground, stamps_stand};
+    ground_found, little_ground, sensor_elsewhere, origin_elsewhere, far_points, level_ground, stamps_do_not_advance};
 
 }  // namespace
 

@@ -24,7 +24,7 @@ GroundPlaneSettings plane_settings(const GroundConfig& config) {
   return settings_of<GroundPlaneSettings>(config);
 }
 
-void split_ground(const PointView& points, const GroundConfig& config, const SensorPlace& sensor,
+void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
                   const ParallelPolicy& policy, GroundZones& zones, GroundSplit& split) {
   split.found = false;
   split.ground.clear();

@@ -18,7 +18,7 @@ GroundPlaneSettings plane_settings(const GroundConfig& config);
 /// Splits the points by the configured method and replaces `split`. With GroundMethod::none, both lists are
 /// empty. Zones are centred at `sensor`; the configured sensor height is ignored if that position is
 /// estimated. Reuses the memory of `zones`.
-void split_ground(const PointView& points, const GroundConfig& config, const SensorPlace& sensor,
+void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
                   const ParallelPolicy& policy, GroundZones& zones, GroundSplit& split);
 
 }  // namespace pcl_bv

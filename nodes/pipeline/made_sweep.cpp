@@ -21,14 +21,14 @@ struct Upright {
   double x, y, height;
 };
 
-Upright place_on_ground(std::size_t i, double share, double sensor_height) {
+Upright point_on_ground(std::size_t i, double share, double sensor_height) {
   const double distance = 2 + 50 * share, angle = golden_angle * static_cast<double>(i);
   return {distance * std::cos(angle), distance * std::sin(angle), -sensor_height};
 }
 
 // The points of an object follow a low-discrepancy sequence: from 30 points on, neighbours are nearer than
 // 0.5 m.
-Upright place_on_object(std::size_t i, double sensor_height) {
+Upright point_on_object(std::size_t i, double sensor_height) {
   const auto object = static_cast<double>(i % object_count), n = static_cast<double>(i / object_count);
   const double distance = 6 + object / 3, angle = golden_angle * object;
   const double u = std::fmod(n * 0.7548776662466927, 1), v = std::fmod(n * 0.5698402909980532, 1);
@@ -37,7 +37,7 @@ Upright place_on_object(std::size_t i, double sensor_height) {
 
 }  // namespace
 
-Frame made_sweep(std::size_t points, const PipelineConfig& config) {
+Frame synthetic_sweep(std::size_t points, const PipelineConfig& config) {
   const Eigen::Vector3d up = up_direction(config.ground.up);
   const Eigen::Vector3d side = up.unitOrthogonal(), ahead = up.cross(side);
   const double sensor_height = config.ground.sensor_height.value_or(1.7);
@@ -46,7 +46,7 @@ Frame made_sweep(std::size_t points, const PipelineConfig& config) {
   for (std::size_t i = 0; i < points; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(points);
     const Upright at =
-        i % 2 == 0 ? place_on_ground(i, share, sensor_height) : place_on_object(i / 2, sensor_height);
+        i % 2 == 0 ? point_on_ground(i, share, sensor_height) : point_on_object(i / 2, sensor_height);
     const Eigen::Vector3d p = at.x * side + at.y * ahead + at.height * up;
     xyz->insert(xyz->end(),
                 {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});

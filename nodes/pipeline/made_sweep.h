@@ -13,6 +13,6 @@ namespace pcl_bv {
 
 /// Returns a sweep of `points` points that fits the settings: half of them on level ground around the sensor,
 /// half on a hundred objects, two metres wide, on that ground. All points have class 0.
-Frame made_sweep(std::size_t points, const PipelineConfig& config);
+Frame synthetic_sweep(std::size_t points, const PipelineConfig& config);
 
 }  // namespace pcl_bv

@@ -28,12 +28,12 @@ Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& poi
 
 }  // namespace
 
-void TrackedVolumes::keep_axes(const Tracker::Assignment& assignment, const TrackConfig& config,
+void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config,
                                std::size_t cluster, const PointView& points, FrameResult& result) {
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
   if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
   if (filters_.size() < first + methods) filters_.resize(first + methods);
-  const BoxSighting sighting{tracker_.sensor(), assignment.velocity, assignment.moving, assignment.merged,
+  const BoxState sighting{tracker_.sensor(), assignment.velocity, assignment.moving, assignment.merged,
                              assignment.separated};
   for (std::size_t m = 0; m < methods; ++m) {
     BoxFilter& filter = filters_[first + m];
@@ -89,7 +89,7 @@ void TrackedVolumes::update(const TrackConfig& config, const std::vector<PointVi
   result.track_time = clock_.source();
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     result.tracks.push_back(assignments_[i].track);
-    keep_axes(assignments_[i], config, i, clusters[i], result);
+    filter_boxes(assignments_[i], config, i, clusters[i], result);
   }
 }
 

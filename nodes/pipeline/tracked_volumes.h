@@ -45,7 +45,7 @@ class TrackedVolumes {
   }
 
  private:
-  void keep_axes(const Tracker::Assignment& assignment, const TrackConfig& config, std::size_t cluster,
+  void filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config, std::size_t cluster,
                  const PointView& points, FrameResult& result);
 
   Tracker tracker_;

@@ -24,9 +24,9 @@ struct MessageTopic {
 };
 
 /// Sends the messages of several topics. Called by one thread.
-class MessageCarrier {
+class MessageSender {
  public:
-  virtual ~MessageCarrier() = default;
+  virtual ~MessageSender() = default;
 
   /// Announces a topic; called once, before its first message. Returns the topic's number for the other
   /// calls.
@@ -47,8 +47,8 @@ class MessageCarrier {
   /// Shows a line to the people who watch.
   virtual void notice(const std::string& /*line*/) {}
 
-  /// As FrameSink::take_remarks().
-  virtual std::vector<std::string> take_remarks() { return {}; }
+  /// As FrameSink::take_warnings().
+  virtual std::vector<std::string> take_warnings() { return {}; }
 
   /// As FrameSink::close().
   virtual void close() {}
@@ -68,11 +68,11 @@ class MessageReceiver {
   virtual ~MessageReceiver() = default;
 
   /// Waits at most `patience` for the next message. Returns false if none came. If the caller is too slow,
-  /// the receiver decides which messages are lost and reports losses by take_remarks().
+  /// the receiver decides which messages are lost and reports losses by take_warnings().
   virtual bool next(ReceivedMessage& message, std::chrono::milliseconds patience) = 0;
 
-  /// As FrameSource::take_remarks().
-  virtual std::vector<std::string> take_remarks() { return {}; }
+  /// As FrameSource::take_warnings().
+  virtual std::vector<std::string> take_warnings() { return {}; }
 };
 
 /// A kind of transport, implemented by a module that middleware() loads.
@@ -87,7 +87,7 @@ class Middleware {
 
   /// Creates a carrier. `place` is the address for modules that need one ("localhost:8765"). Throws as
   /// receiver().
-  virtual std::unique_ptr<MessageCarrier> carrier(const std::string& place) = 0;
+  virtual std::unique_ptr<MessageSender> carrier(const std::string& place) = 0;
 };
 
 /// Returns the module with this name and loads it at its first use. It is never unloaded.

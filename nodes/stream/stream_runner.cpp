@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostUntold = 1000;
+constexpr std::size_t kMaxUnreported = 1000;
 
 double milliseconds(Clock::duration d) {
   return std::chrono::duration<double, std::milli>(d).count();
@@ -33,7 +33,7 @@ void require(bool holds, const std::string& what) {
 
 // Returns the message of an exception that `what` throws, or nullopt if it throws none.
 template <typename Do>
-std::optional<std::string> problem_of(Do&& what) {
+std::optional<std::string> exception_message(Do&& what) {
   try {
     what();
   } catch (const std::exception& error) {
@@ -84,7 +84,7 @@ struct StreamRunner::State {
   std::deque<Lost> losses;
   std::uint64_t next_number = 0;
   std::size_t lost_while_ending = 0;
-  bool ending = false, ended = false, working = false, silence_told = false;
+  bool ending = false, ended = false, working = false, silence_reported = false;
   Clock::time_point last_arrival = Clock::now();
   RunnerStats stats;
 
@@ -97,7 +97,7 @@ struct StreamRunner::State {
 // Runs a callback whose exceptions drop no frame.
 template <typename Do>
 void StreamRunner::State::guarded(Do&& callback) {
-  if (!problem_of(callback)) return;
+  if (!exception_message(callback)) return;
   const std::lock_guard lock(mutex);
   ++stats.callback_errors;
 }
@@ -109,10 +109,10 @@ void StreamRunner::State::watch(std::unique_lock<std::mutex>& lock) {
   const auto patience = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(std::min(config.watchdog_s, 1e6)));
   while (!something()) {
-    if (silence_told) {
+    if (silence_reported) {
       arrived.wait(lock, something);
     } else if (!arrived.wait_until(lock, last_arrival + patience, something)) {
-      silence_told = true;
+      silence_reported = true;
       const double silent = milliseconds(Clock::now() - last_arrival) / 1000;
       lock.unlock();
       if (callbacks.on_silence) guarded([&] { callbacks.on_silence(silent); });
@@ -156,7 +156,7 @@ void StreamRunner::State::tell(const Frame& frame, Loss loss, const std::string&
 }
 
 void StreamRunner::State::work_on(const Waiting& waiting) {
-  const auto problem = problem_of([&] {
+  const auto problem = exception_message([&] {
     callbacks.process(waiting.frame, result);
     callbacks.on_result(waiting.frame, result);
   });
@@ -201,7 +201,7 @@ void StreamRunner::State::run() {
 void StreamRunner::State::came() {
   ++stats.frames.in;
   last_arrival = Clock::now();
-  silence_told = false;
+  silence_reported = false;
 }
 
 void StreamRunner::State::count(Loss loss) {
@@ -214,7 +214,7 @@ void StreamRunner::State::count(Loss loss) {
 // Copies only the header and the file name. The caller frees the points after unlocking the mutex.
 void StreamRunner::State::lose(const Frame& frame, Loss loss, std::string reason) {
   count(loss);
-  if (ended || losses.size() >= kMostUntold || (ending && ++lost_while_ending > kMostUntold)) return;
+  if (ended || losses.size() >= kMaxUnreported || (ending && ++lost_while_ending > kMaxUnreported)) return;
   Lost lost{{}, loss, std::move(reason)};
   lost.frame.header = frame.header;
   lost.frame.file = frame.file;
@@ -271,7 +271,7 @@ void StreamRunner::report_unreadable(Frame frame, std::string reason) {
   State& s = *state_;
   std::unique_lock lock(s.mutex);
   s.came();
-  if (!s.in_worker()) s.room.wait(lock, [&s] { return s.ending || s.losses.size() < kMostUntold; });
+  if (!s.in_worker()) s.room.wait(lock, [&s] { return s.ending || s.losses.size() < kMaxUnreported; });
   frame.header.number = s.next_number++;
   s.lose(frame, Loss::error, std::move(reason));
 }

@@ -18,7 +18,7 @@ void clear_error() {
 
 }  // namespace
 
-void refuse_value(const char* name, const std::string& what) {
+void raise_value_error(const char* name, const std::string& what) {
   throw py::value_error(std::string(name) + ": " + what);
 }
 
@@ -30,7 +30,7 @@ void warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
-void refuse_type(const char* name, const std::string& wanted, py::handle value) {
+void raise_type_error(const char* name, const std::string& wanted, py::handle value) {
   throw py::type_error(std::string(name) + ": " + wanted + " is wanted, not " + shown(value));
 }
 
@@ -50,16 +50,16 @@ std::string shown(py::handle value) {
 }
 
 double number(py::handle value, const char* name, const NumberRange& range) {
-  if (PyBool_Check(value.ptr())) refuse_type(name, "a number", value);
+  if (PyBool_Check(value.ptr())) raise_type_error(name, "a number", value);
   const double read = PyFloat_AsDouble(value.ptr());
   if (read == -1 && PyErr_Occurred() != nullptr) {
     clear_error();
-    refuse_type(name, "a number", value);
+    raise_type_error(name, "a number", value);
   }
   Setting setting{name, "", ""};
   setting.range = range;
   const std::string problem = problem_of(setting, read);
-  if (!problem.empty()) refuse_value(name, problem);
+  if (!problem.empty()) raise_value_error(name, problem);
   return read;
 }
 
@@ -67,7 +67,7 @@ namespace {
 
 py::object whole_object(py::handle value, const char* name) {
   if (PyBool_Check(value.ptr()) || PyIndex_Check(value.ptr()) == 0)
-    refuse_type(name, "a whole number", value);
+    raise_type_error(name, "a whole number", value);
   py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   if (!whole) throw py::error_already_set();
   return whole;
@@ -80,7 +80,7 @@ std::int64_t signed_number(py::handle value, const char* name) {
   int overflow = 0;
   const long long read = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
   if (overflow != 0)
-    refuse_value(name,
+    raise_value_error(name,
                  shown(value) + " is not at least -9223372036854775808 and at most 9223372036854775807");
   return read;
 }
@@ -90,17 +90,17 @@ std::size_t whole_number(py::handle value, const char* name, const NumberRange& 
   const std::size_t read = PyLong_AsSize_t(whole.ptr());
   if (read == static_cast<std::size_t>(-1) && PyErr_Occurred() != nullptr) {
     clear_error();
-    refuse_value(name, shown(value) + " is not a whole number of at least 0 that fits 64 bits");
+    raise_value_error(name, shown(value) + " is not a whole number of at least 0 that fits 64 bits");
   }
   Setting setting{name, "", ""};
   setting.range = range;
   const std::string problem = problem_of(setting, read);
-  if (!problem.empty()) refuse_value(name, problem);
+  if (!problem.empty()) raise_value_error(name, problem);
   return read;
 }
 
 std::string text(py::handle value, const char* name) {
-  if (!PyUnicode_Check(value.ptr())) refuse_type(name, "a text", value);
+  if (!PyUnicode_Check(value.ptr())) raise_type_error(name, "a text", value);
   return value.cast<std::string>();
 }
 
@@ -108,7 +108,7 @@ std::filesystem::path path(py::handle value, const char* name) {
   const py::object path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
   if (!path) {
     clear_error();
-    refuse_type(name, "a path", value);
+    raise_type_error(name, "a path", value);
   }
   PyObject* bytes = nullptr;
   if (PyUnicode_FSConverter(path.ptr(), &bytes) == 0) throw py::error_already_set();
@@ -117,9 +117,9 @@ std::filesystem::path path(py::handle value, const char* name) {
 
 Eigen::Vector3d vector3(py::handle value, const char* name) {
   const auto numbers = doubles(value, name);
-  if (numbers.size() != 3) refuse_value(name, "three numbers are wanted, not " + shown(value));
+  if (numbers.size() != 3) raise_value_error(name, "three numbers are wanted, not " + shown(value));
   Eigen::Vector3d v(numbers.data()[0], numbers.data()[1], numbers.data()[2]);
-  if (!v.allFinite()) refuse_value(name, shown(value) + " is not finite");
+  if (!v.allFinite()) raise_value_error(name, shown(value) + " is not finite");
   return v;
 }
 
@@ -127,7 +127,7 @@ Eigen::Vector3d up_argument(py::handle value) {
   Eigen::Vector3d up =
       PyUnicode_Check(value.ptr()) ? word<Eigen::Vector3d>(value, "up") : vector3(value, "up");
   const std::string problem = problem_of(Setting{"up", "", ""}, up);
-  if (!problem.empty()) refuse_value("up", problem);
+  if (!problem.empty()) raise_value_error("up", problem);
   return up;
 }
 
@@ -137,14 +137,14 @@ const Method* method_of(py::handle name) {
       PyUnicode_Check(name.ptr()) ? PyUnicode_AsUTF8AndSize(name.ptr(), &size) : nullptr;
   if (characters == nullptr) {
     clear_error();
-    refuse_type("method", "a name or a list of names", name);
+    raise_type_error("method", "a name or a list of names", name);
   }
   const Method* const method = find_method({characters, static_cast<std::size_t>(size)});
   if (method != nullptr) return method;
   std::string known;
   for (const Method& each : methods())
     known.append(known.empty() ? "" : ", ").append(each.name);
-  refuse_value("method", shown(name) + " is not one of " + known + ", or all");
+  raise_value_error("method", shown(name) + " is not one of " + known + ", or all");
 }
 
 std::vector<const Method*> methods_of(py::handle names, bool& one) {
@@ -155,7 +155,7 @@ std::vector<const Method*> methods_of(py::handle names, bool& one) {
   if (one) return {method_of(names)};
   if (is_all(names)) return methods_of_all();
   if (!PyList_Check(names.ptr()) && !PyTuple_Check(names.ptr()))
-    refuse_type("method", "a name or a list of names", names);
+    raise_type_error("method", "a name or a list of names", names);
   std::vector<const Method*> found;
   for (const py::handle name : names) {
     if (is_all(name)) {
@@ -164,7 +164,7 @@ std::vector<const Method*> methods_of(py::handle names, bool& one) {
       found.push_back(method_of(name));
     }
   }
-  if (found.empty()) refuse_value("method", "the list has no names");
+  if (found.empty()) raise_value_error("method", "the list has no names");
   return found;
 }
 
@@ -181,7 +181,7 @@ Execution execution_of(py::handle threads, py::handle isa) {
   try {
     execution.isa = parse_isa(text(isa, "isa"));
   } catch (const std::invalid_argument& error) {
-    refuse_value("isa", error.what());
+    raise_value_error("isa", error.what());
   }
   return execution;
 }
@@ -189,13 +189,13 @@ Execution execution_of(py::handle threads, py::handle isa) {
 Eigen::Isometry3d isometry(py::handle matrix, const char* name) {
   const auto numbers = doubles(matrix, name);
   if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
-    refuse_value(name, "a matrix of 4 x 4 numbers is wanted, not " + shown(matrix));
+    raise_value_error(name, "a matrix of 4 x 4 numbers is wanted, not " + shown(matrix));
   const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   const Eigen::Matrix3d rotation = m.topLeftCorner<3, 3>();
   constexpr double most = 1e-6;  // allows poses in float; transformed volumes are inflated by the deviation
   if (!m.allFinite() || m.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || rotation.determinant() < 0 ||
       (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > most)
-    refuse_value(
+    raise_value_error(
         name, "a rotation (orthonormal to 1e-6) and a shift above 0 0 0 1 are wanted, not " + shown(matrix));
   Eigen::Isometry3d motion;
   motion.matrix() = m;

@@ -15,13 +15,13 @@ namespace pcl_bv::python {
 namespace py = pybind11;
 
 /// Raises a ValueError such as "threads: -1 is not at least 0".
-[[noreturn]] void refuse_value(const char* name, const std::string& what);
+[[noreturn]] void raise_value_error(const char* name, const std::string& what);
 
 /// Issues a UserWarning. Throws an exception if Python's warning filters turn warnings into errors.
 void warn(const std::string& text);
 
 /// Raises a TypeError such as "tolerance: a number is wanted, not 'near'".
-[[noreturn]] void refuse_type(const char* name, const std::string& wanted, py::handle value);
+[[noreturn]] void raise_type_error(const char* name, const std::string& wanted, py::handle value);
 
 double number(py::handle value, const char* name, const NumberRange& range);
 std::size_t whole_number(py::handle value, const char* name, const NumberRange& range);
@@ -41,7 +41,7 @@ T word(py::handle value, const char* name) {
   try {
     read_text(text(value, name), read);
   } catch (const std::invalid_argument& error) {
-    refuse_value(name, error.what());
+    raise_value_error(name, error.what());
   }
   return read;
 }

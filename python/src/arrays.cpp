@@ -57,12 +57,12 @@ void check_layout(const char* name, const py::array& array) {
                            std::to_string(columns) + " numbers: if each column is a point, give points" +
                            (array.ndim() == 2 ? ".T" : " with x, y, z in the last axis") +
                            ", if each row is, points[..., :3]";
-  if (columns >= 256) refuse_value(name, said);
+  if (columns >= 256) raise_value_error(name, said);
   if (first >= 3 && first <= 8) warn(std::string(name) + ": " + said);
 }
 
 /// Calls numpy.asarray(). Raises a TypeError with the argument's name if that fails.
-py::array from_any(py::handle object, const char* name) {
+py::array as_numpy_array(py::handle object, const char* name) {
   py::array array = py::reinterpret_steal<py::array>(
       py::detail::npy_api::get().PyArray_FromAny_(object.ptr(), nullptr, 0, 0, 0, nullptr));
   if (array) return array;
@@ -89,7 +89,7 @@ py::array from_list(const py::array& array, py::handle object, const char* name)
   const py::int_ limit(std::int64_t{1} << 53);  // Python integers: numpy would compare in float64
   const auto value_of = [&](const char* which) { return py::int_(array.attr(which)()); };
   const bool exact = array.size() == 0 || (value_of("max") <= limit && value_of("min") >= -limit);
-  if (!exact) refuse_value(name, "whole numbers beyond 2^53, which no float64 holds: " + shown(object));
+  if (!exact) raise_value_error(name, "whole numbers beyond 2^53, which no float64 holds: " + shown(object));
   return array.attr("astype")("f8");
 }
 
@@ -221,7 +221,7 @@ PointArray points_of(py::handle object, const char* name) {
   const bool is_array = py::isinstance<py::array>(object);
   const bool is_list = PyList_Check(object.ptr()) != 0 || PyTuple_Check(object.ptr()) != 0;
   py::array array =
-      is_array ? py::reinterpret_borrow<py::array>(object) : from_any(columns_xyz(object, name), name);
+      is_array ? py::reinterpret_borrow<py::array>(object) : as_numpy_array(columns_xyz(object, name), name);
   if (is_list) array = from_list(array, object, name);
   const py::dtype type = array.dtype();
   if (type.has_fields())
@@ -239,26 +239,26 @@ PointArray points_of(py::handle object, const char* name) {
 
 py::array_t<double> doubles(py::handle object, const char* name) {
   if (is_masked(object))
-    refuse_type(name, "an array without a mask, as array.filled(numpy.nan) gives it,", object);
-  const py::array given = from_any(object, name);
+    raise_type_error(name, "an array without a mask, as array.filled(numpy.nan) gives it,", object);
+  const py::array given = as_numpy_array(object, name);
   const char kind = given.dtype().kind();
-  if (kind != 'f' && kind != 'i' && kind != 'u') refuse_type(name, "an array of numbers", object);
+  if (kind != 'f' && kind != 'i' && kind != 'u') raise_type_error(name, "an array of numbers", object);
   return py::array_t<double, py::array::c_style | py::array::forcecast>(given);
 }
 
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count) {
   if (is_masked(object))
-    refuse_type(name, "integers without a mask, as array.filled(-1) gives them,", object);
-  const py::array given = from_any(object, name);
+    raise_type_error(name, "integers without a mask, as array.filled(-1) gives them,", object);
+  const py::array given = as_numpy_array(object, name);
   const char kind = given.dtype().kind();
   if (kind != 'i' && kind != 'u' && given.size() > 0)
     throw py::type_error(std::string(name) + ": integers are wanted, not " +
                          py::str(py::handle(given.dtype())).cast<std::string>());
   const py::int_ most(std::numeric_limits<std::int64_t>::max());
   if (kind == 'u' && given.itemsize() == 8 && given.size() > 0 && py::int_(given.attr("max")()) > most)
-    refuse_value(name, py::str(given.attr("max")()).cast<std::string>() + " is more than 2^63 - 1");
+    raise_value_error(name, py::str(given.attr("max")()).cast<std::string>() + " is more than 2^63 - 1");
   if (static_cast<std::size_t>(given.size()) != count)
-    refuse_value(name, std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
+    raise_value_error(name, std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
   const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(given);
   return {wide.data(), wide.data() + wide.size()};
 }
@@ -269,7 +269,7 @@ std::vector<std::uint32_t> point_labels(py::handle labels, std::size_t count) {
   std::vector<std::uint32_t> numbers;
   for (const std::int64_t label : integers(of, "labels", count)) {
     if (label < -2 || label > 4294967295)
-      refuse_value("labels", std::to_string(label) + " is not at least -2 and at most 4294967295");
+      raise_value_error("labels", std::to_string(label) + " is not at least -2 and at most 4294967295");
     numbers.push_back(static_cast<std::uint32_t>(label));
   }
   return numbers;

@@ -56,7 +56,7 @@ py::bytes bytes_of(const Partial& partial) {
 }
 
 Partial from_bytes(py::handle bytes) {
-  if (!PyBytes_Check(bytes.ptr())) refuse_type("bytes", "what to_bytes() gave", bytes);
+  if (!PyBytes_Check(bytes.ptr())) raise_type_error("bytes", "what to_bytes() gave", bytes);
   const std::string_view content = py::reinterpret_borrow<py::bytes>(bytes);
   return Partial::from_bytes(reinterpret_cast<const std::byte*>(content.data()), content.size());
 }
@@ -64,7 +64,7 @@ Partial from_bytes(py::handle bytes) {
 RegionMask make_mask(py::handle volumes, py::handle padding) {
   const double grown = number(padding, "padding", {0, 1e100});
   std::vector<Region> regions;
-  for (const NumberedVolume& each : volumes_of(volumes, "volumes"))
+  for (const LabelledVolume& each : volumes_of(volumes, "volumes"))
     regions.push_back({each.volume->value, grown});
   return RegionMask(regions);
 }
@@ -178,7 +178,7 @@ void bind_partial(py::module_& module) {
       .def(
           "merge",
           [](const Partial& a, py::handle other) {
-            if (!py::isinstance<Partial>(other)) refuse_type("other", "a Partial", other);
+            if (!py::isinstance<Partial>(other)) raise_type_error("other", "a Partial", other);
             return merged(a, other.cast<const Partial&>());
           },
           "other"_a, py::pos_only(), partial_merge_doc)
@@ -190,7 +190,7 @@ void bind_partial(py::module_& module) {
       .def("__repr__", [](const Partial& p) { return "Partial(of " + std::to_string(p.size()) + " points)"; })
       .def(py::pickle(
           [](const Partial& p) -> py::object { return bytes_of(p); },
-          [](const py::object& state) { return of_state("Partial", [&] { return from_bytes(state); }); }));
+          [](const py::object& state) { return restore_from_state("Partial", [&] { return from_bytes(state); }); }));
   py::class_<RegionMask>(module, "RegionMask", mask_doc)
       .def(py::init(&make_mask), "volumes"_a, "padding"_a = 0, init_doc(mask_doc).c_str())
       .def("contains", mark, "points"_a, py::kw_only(), "threads"_a = 1, mask_contains_doc);

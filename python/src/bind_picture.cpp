@@ -19,10 +19,10 @@ namespace {
 using namespace py::literals;
 
 /// Adds volumes, coloured by label or, if all have the same label, by method.
-void add_volumes(const std::vector<NumberedVolume>& volumes, Picture& picture) {
-  const auto several = [&](const NumberedVolume& v) { return v.number != volumes.front().number; };
+void add_volumes(const std::vector<LabelledVolume>& volumes, Picture& picture) {
+  const auto several = [&](const LabelledVolume& v) { return v.number != volumes.front().number; };
   const bool labelled = std::any_of(volumes.begin(), volumes.end(), several);
-  for (const NumberedVolume& each : volumes) {
+  for (const LabelledVolume& each : volumes) {
     const Method* const method = each.volume->method;
     const std::string name(method != nullptr ? method->name : shape_name(each.volume->value));
     const auto found = std::find(picture.methods.begin(), picture.methods.end(), name);
@@ -57,7 +57,7 @@ PictureObject show(py::handle points, py::handle volumes, py::handle labels, py:
 /// Returns the volumes as clusters of a report, one for each label.
 std::vector<ClusterEntry> entries_of_volumes(py::handle volumes) {
   std::vector<ClusterEntry> entries;
-  for (const NumberedVolume& each : volumes_of(volumes, "what")) {
+  for (const LabelledVolume& each : volumes_of(volumes, "what")) {
     const auto id = static_cast<std::size_t>(each.number);
     if (entries.empty() || entries.back().id != id) entries.emplace_back().id = id;
     ClusterEntry& entry = entries.back();
@@ -110,7 +110,7 @@ void write_anything(py::handle file, py::handle what, py::handle labels) {
   const std::filesystem::path place = path(file, "path");
   const std::string extension = lower_case_extension(place);
   if (extension == ".pcd") return write_cloud(place, what, labels);
-  if (!labels.is_none()) refuse_value("labels", "only a .pcd holds them, not " + shown(file));
+  if (!labels.is_none()) raise_value_error("labels", "only a .pcd holds them, not " + shown(file));
   if (extension == ".png" || extension == ".svg") {
     PictureObject of = py::isinstance<ResultObject>(what)
                            ? picture_of_result(what.cast<std::shared_ptr<ResultObject>>(), {})
@@ -121,7 +121,7 @@ void write_anything(py::handle file, py::handle what, py::handle labels) {
     return write_picture(place, of.picture);
   }
   if (extension == ".html") {
-    if (!py::isinstance<ResultObject>(what)) refuse_type("what", "a Result, for a .html file,", what);
+    if (!py::isinstance<ResultObject>(what)) raise_type_error("what", "a Result, for a .html file,", what);
     const auto result = what.cast<std::shared_ptr<ResultObject>>();
     return write_file_atomically(place, page_of_result(*result, kMostPointsOfAPage));
   }
@@ -130,7 +130,7 @@ void write_anything(py::handle file, py::handle what, py::handle labels) {
   if (extension == ".csv") return write_file_atomically(place, csv_text(found));
   const std::optional<MeshFormat> format = mesh_format(place);
   if (!format)
-    refuse_value("path",
+    raise_value_error("path",
                  "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
   const py::gil_scoped_release unlocked;
   write_volumes(place, found.clusters, *format);

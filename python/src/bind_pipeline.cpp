@@ -43,15 +43,15 @@ class PipelineObject {
   std::uint64_t next_ = 0;
 };
 
-void warn_of(const PipelineConfig& config) {
-  for (const std::string& line : config.without_effect())
+void warn_about_note(const PipelineConfig& config) {
+  for (const std::string& line : config.ineffective_settings())
     warn(line);
 }
 
 std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle preset,
                                               const py::kwargs& settings) {
   PipelineConfig read = config_of(config, preset, settings);
-  warn_of(read);
+  warn_about_note(read);
   return std::make_unique<PipelineObject>(std::move(read));
 }
 
@@ -81,7 +81,7 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
 
 void set_config(PipelineObject& self, py::handle config) {
   PipelineConfig read = config_of(config, py::none(), {});
-  warn_of(read);
+  warn_about_note(read);
   const py::gil_scoped_release unlocked;
   self.set_config(std::move(read));
 }

@@ -43,7 +43,7 @@ auto reading(const std::string& name, const Read& read) {
 }
 
 /// Issues a note about an input, if there is one, as a UserWarning.
-void warn_of(const std::string& name, const std::string& note) {
+void warn_about_note(const std::string& name, const std::string& note) {
   if (!note.empty()) warn(name + ": " + note);
 }
 
@@ -85,8 +85,8 @@ py::array read_points(py::handle file, py::handle topic, py::handle number, py::
     cloud = load_cloud(name, of, which, fields, policy, remarks);
   });
   for (const std::string& remark : remarks)
-    warn_of(name, remark);
-  warn_of(name, cloud->note);
+    warn_about_note(name, remark);
+  warn_about_note(name, cloud->note);
   return array_of_cloud(std::move(*cloud));
 }
 
@@ -134,11 +134,11 @@ class FramesObject {
         const py::gil_scoped_release unlocked;
         const std::lock_guard lock(mutex_);
         if (source_) what = source_->next(frame, std::chrono::milliseconds(100));
-        if (source_) remarks = source_->take_remarks();
+        if (source_) remarks = source_->take_warnings();
         if (what == Next::end) source_.reset();
       }
       for (const std::string& remark : remarks)
-        warn_of(name_, remark);
+        warn_about_note(name_, remark);
       if (what == Next::frame) return frame;
       if (what == Next::end) return {};
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -157,16 +157,16 @@ std::unique_ptr<FramesObject> open_frames(py::handle source, py::handle topic, p
   const std::string name = path(source, "source").string();
   ReplayOptions options;
   if (!topic.is_none()) options.topic = text(topic, "topic");
-  if (!rate.is_none()) options.rate_hz = number(rate, "rate", {kLeastRate, kGreatestRate});
+  if (!rate.is_none()) options.rate_hz = number(rate, "rate", {kMinRate, kMaxRate});
   if (!poses.is_none()) options.poses = path(poses, "poses");
   if (!class_field.is_none()) options.class_field = text(class_field, "class_field");
   if (!frame_id.is_none()) options.frame_id = text(frame_id, "frame_id");
   options.bin_fields = whole_number(bin_fields, "bin_fields", {0, 32});
   const std::string times = text(stamps, "stamps");
   if (times != "auto" && times != "rate" && times != "name")
-    refuse_value("stamps", "'" + times + "' is not one of auto, rate, name");
+    raise_value_error("stamps", "'" + times + "' is not one of auto, rate, name");
   const bool recorded = source_kind(name).times == FrameTimes::messages;
-  options.from_name = times == "name" || (times == "auto" && recorded && rate.is_none());
+  options.own_stamps = times == "name" || (times == "auto" && recorded && rate.is_none());
   std::unique_ptr<FramesObject> frames;
   reading(name, [&] {
     const py::gil_scoped_release unlocked;
@@ -218,7 +218,7 @@ void bind_read(py::module_& module) {
       .def("__next__", [](FramesObject& self) {
         std::optional<Frame> frame = self.next();
         if (!frame) throw py::stop_iteration();
-        warn_of(frame->file, frame->note);
+        warn_about_note(frame->file, frame->note);
         return FrameObject{std::move(*frame)};
       });
   module.def("read", read_points, "path"_a, py::kw_only(), "topic"_a = py::none(), "number"_a = 0,

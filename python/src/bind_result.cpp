@@ -89,7 +89,7 @@ py::dict counts_of(const Shared& self) {
   const Counts& c = self->result.counts;
   return py::dict("nonfinite"_a = c.nonfinite, "range"_a = c.range, "ground"_a = c.ground,
                   "small"_a = c.small, "large"_a = c.large, "noise"_a = c.noise, "inside"_a = c.inside,
-                  "class"_a = c.of_class);
+                  "class"_a = c.dropped_class);
 }
 
 py::dict times_of(const Shared& self) {
@@ -98,7 +98,7 @@ py::dict times_of(const Shared& self) {
                   "track"_a = ms.track, "total"_a = ms.total);
 }
 
-/// Returns the labels as int32, in which label_none and label_ground are -1 and -2.
+/// Returns the labels as int32, in which kLabelNone and kLabelGround are -1 and -2.
 py::object labels_array(const Shared& self) {
   std::vector<std::uint32_t> labels;
   {
@@ -217,7 +217,7 @@ shows the same with at most 50000 points; write('x.html', result) makes the file
 )";
 
 // Each point takes 22 bytes in the notebook's file.
-constexpr std::size_t kMostPointsOfACell = 50'000;
+constexpr std::size_t kMaxCellPoints = 50'000;
 
 std::string in_a_notebook(const std::string& page) {
   std::string cell =
@@ -287,13 +287,13 @@ void bind_result(py::module_& module) {
       .def(
           "page", [](const Shared& r) { return page_of_result(*r, kMostPointsOfAPage); }, page_doc)
       .def("_repr_html_",
-           [](const Shared& r) { return in_a_notebook(page_of_result(*r, kMostPointsOfACell)); })
+           [](const Shared& r) { return in_a_notebook(page_of_result(*r, kMaxCellPoints)); })
       .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })
       .def("__len__", [](const Shared& r) { return r->result.clusters.size(); })
       .def("__repr__", repr_of_result)
       .def(py::pickle([](const Shared& r) -> py::object { return state_of_result(r); },
                       [](const py::object& state) {
-                        return of_state("Result", [&] { return result_of_state(state); });
+                        return restore_from_state("Result", [&] { return result_of_state(state); });
                       }));
 }
 

@@ -25,11 +25,11 @@ std::size_t size_or_unlimited(py::handle value, const char* name) {
 ClassSettings class_settings(std::int64_t value, py::handle said, const ClusterSettings& others) {
   ClassSettings own{value, others};
   if (!py::isinstance<py::dict>(said))
-    refuse_type("class_settings", "a dict of settings for each class", said);
+    raise_type_error("class_settings", "a dict of settings for each class", said);
   for (const auto& [key, of] : py::reinterpret_borrow<py::dict>(said)) {
     const std::string name = text(key, "class_settings");
     if (name == "drop") {
-      if (!PyBool_Check(of.ptr())) refuse_type("class_settings: drop", "True or False", of);
+      if (!PyBool_Check(of.ptr())) raise_type_error("class_settings: drop", "True or False", of);
       own.drop = of.ptr() == Py_True;
     } else if (name == "tolerance") {
       own.clusters.tolerance =
@@ -39,7 +39,7 @@ ClassSettings class_settings(std::int64_t value, py::handle said, const ClusterS
     } else if (name == "max_size") {
       own.clusters.max_size = size_or_unlimited(of, "class_settings: max_size");
     } else {
-      refuse_value("class_settings", "'" + name + "' is not one of drop, tolerance, min_size, max_size");
+      raise_value_error("class_settings", "'" + name + "' is not one of drop, tolerance, min_size, max_size");
     }
   }
   return own;
@@ -49,7 +49,7 @@ std::vector<ClassSettings> all_class_settings(py::handle said, const ClusterSett
   std::vector<ClassSettings> own;
   if (said.is_none()) return own;
   if (!py::isinstance<py::dict>(said))
-    refuse_type("class_settings", "a dict of settings for each class", said);
+    raise_type_error("class_settings", "a dict of settings for each class", said);
   for (const auto& [value, of] : py::reinterpret_borrow<py::dict>(said)) {
     own.push_back(class_settings(signed_number(value, "class_settings"), of, others));
   }
@@ -69,7 +69,7 @@ ClustersObject find_clusters(py::handle points, py::handle tolerance, py::handle
       static_cast<float>(number(tolerance_per_metre, "tolerance_per_metre", {0, 1e6, true, true}));
   settings.oversized = word<Oversized>(oversized, "oversized");
   const std::vector<ClassSettings> own = all_class_settings(own_settings, settings);
-  if (classes.is_none() && !own.empty()) refuse_value("class_settings", "there are no classes");
+  if (classes.is_none() && !own.empty()) raise_value_error("class_settings", "there are no classes");
   const ParallelPolicy policy = policy_of(threads);
   std::vector<std::int64_t> of_points;
   if (!classes.is_none()) of_points = integers(classes, "classes", array.view.count);
@@ -117,7 +117,7 @@ GroundObject find_ground(py::handle points, py::handle method, py::handle up, py
   const PointArray array = points_of(points);
   GroundConfig config;
   config.method = word<GroundMethod>(method, "method");
-  if (config.method == GroundMethod::none) refuse_value("method", "'none' is not one of plane, zones");
+  if (config.method == GroundMethod::none) raise_value_error("method", "'none' is not one of plane, zones");
   config.up = up_argument(up);
   if (!sensor_height.is_none()) config.sensor_height = number(sensor_height, "sensor_height", {});
   if (!distance.is_none()) config.distance = number(distance, "distance", {0, kFinite, false});
@@ -134,7 +134,7 @@ GroundObject find_ground(py::handle points, py::handle method, py::handle up, py
   GroundObject found;
   found.points = array.view.count;
   if (config.method == GroundMethod::plane) {
-    if (!sensor.is_none()) refuse_value("sensor", "a plane has no use for it");
+    if (!sensor.is_none()) raise_value_error("sensor", "a plane has no use for it");
     const auto settings = set(GroundPlaneSettings());
     const py::gil_scoped_release unlocked;
     split_ground(array.view, settings, found.split);
@@ -175,7 +175,7 @@ py::dict statistics_of(py::handle points, py::handle threads) {
 }
 
 py::object cluster_at(const py::object& self, py::handle index) {
-  if (PyIndex_Check(index.ptr()) == 0) refuse_type("index", "a whole number", index);
+  if (PyIndex_Check(index.ptr()) == 0) raise_type_error("index", "a whole number", index);
   const Py_ssize_t i =
       PyNumber_AsSsize_t(index.ptr(), nullptr);  // clamped to the range of Py_ssize_t
   if (i == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
@@ -203,12 +203,12 @@ std::vector<T> list_of(const py::handle& array) {
 }
 
 ClustersObject from_state(py::handle given) {
-  const py::tuple state = parts_of_state(given, 5);
+  const py::tuple state = tuple_of_state(given, 5);
   ClustersObject c;
   c.points = points_of_state(state[0]);
   c.found.indices = list_of<std::int32_t>(state[1]);
   c.found.offsets = list_of<std::size_t>(state[2]);
-  const py::tuple counts = parts_of_state(state[3], 4);
+  const py::tuple counts = tuple_of_state(state[3], 4);
   c.found.small_points = counts[0].cast<std::size_t>();
   c.found.large_points = counts[1].cast<std::size_t>();
   c.found.noise_points = counts[2].cast<std::size_t>();
@@ -233,7 +233,7 @@ py::tuple state_of_ground(const GroundObject& g) {
 }
 
 GroundObject ground_from_state(py::handle given) {
-  const py::tuple state = parts_of_state(given, 6);
+  const py::tuple state = tuple_of_state(given, 6);
   GroundObject g;
   g.points = points_of_state(state[0]);
   g.split.found = state[1].cast<bool>();
@@ -299,7 +299,7 @@ void bind_clusters(py::module_& module) {
       .def("__repr__", repr_of_clusters)
       .def(py::pickle(
           [](const C& c) -> py::object { return state_of(c); },
-          [](const py::object& state) { return of_state("Clusters", [&] { return from_state(state); }); }));
+          [](const py::object& state) { return restore_from_state("Clusters", [&] { return from_state(state); }); }));
   module.def("cluster", find_clusters, "points"_a, "tolerance"_a, py::kw_only(), "min_size"_a = 1,
              "max_size"_a = py::none(), "min_points"_a = 1, "tolerance_per_metre"_a = 0,
              "oversized"_a = "drop", "classes"_a = py::none(), "class_settings"_a = py::none(),
@@ -328,7 +328,7 @@ void bind_ground(py::module_& module) {
       .def_property_readonly("mask", mask_of, "(N,) bool: which points are ground.")
       .def(py::pickle([](const G& g) -> py::object { return state_of_ground(g); },
                       [](const py::object& state) {
-                        return of_state("Ground", [&] { return ground_from_state(state); });
+                        return restore_from_state("Ground", [&] { return ground_from_state(state); });
                       }))
       .def("__repr__", [](const G& g) {
         return "Ground(found=" + std::string(g.split.found ? "True" : "False") +

@@ -30,9 +30,9 @@ py::class_<ShapeObject<Shape>, VolumeObject> bind(py::module_& module, const cha
         return py::make_tuple(arguments_of(v.shape()), fit_state(v));
       },
       [make, name](const py::object& state) {
-        return of_state(name, [&] {
-          const py::tuple parts = parts_of_state(state, 2);
-          ShapeObject<Shape> object = object_of(make(parts_of_state(parts[0], arguments_of(Shape()).size())));
+        return restore_from_state(name, [&] {
+          const py::tuple parts = tuple_of_state(state, 2);
+          ShapeObject<Shape> object = object_of(make(tuple_of_state(parts[0], arguments_of(Shape()).size())));
           set_fit_state(parts[1], object);
           return object;
         });
@@ -50,7 +50,7 @@ void property(Class& type, const char* name, std::size_t i, const char* doc) {
 /// Returns the shape of an argument, which must be of the same class.
 template <typename Shape>
 const Shape& same_shape(py::handle other) {
-  if (!py::isinstance<ShapeObject<Shape>>(other)) refuse_type("other", "a volume of the same class", other);
+  if (!py::isinstance<ShapeObject<Shape>>(other)) raise_type_error("other", "a volume of the same class", other);
   return other.cast<const ShapeObject<Shape>&>().shape();
 }
 
@@ -81,7 +81,7 @@ void bind_extend(Class& type) {
         const py::array_t<double> numbers = doubles(points, "points");
         if (numbers.ndim() == 1 && numbers.size() == 0) return object_of(Shape(v.shape()));
         if (numbers.size() % 3 != 0 || numbers.ndim() > 2 || numbers.shape(numbers.ndim() - 1) != 3)
-          refuse_value("points", "(3,) or (N, 3) numbers are wanted, not " + shown(points));
+          raise_value_error("points", "(3,) or (N, 3) numbers are wanted, not " + shown(points));
         Shape grown = v.shape();
         for (py::ssize_t i = 0; i < numbers.size(); i += 3)
           grown.extend(Eigen::Map<const Eigen::Vector3d>(numbers.data() + i));

@@ -27,7 +27,7 @@ bool is_one_point(py::handle object) {
 /// Three numbers, which may be NaN or infinite.
 Eigen::Vector3d point_of(py::handle object) {
   const py::array_t<double> numbers = doubles(object, "points");
-  if (numbers.size() != 3) refuse_value("points", "three numbers are wanted, not " + shown(object));
+  if (numbers.size() != 3) raise_value_error("points", "three numbers are wanted, not " + shown(object));
   return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
 }
 
@@ -149,7 +149,7 @@ Encloses the exact interval. A direction of zero tests the origin.
 True
 )";
 
-constexpr const char* verb_aabb_doc = R"(aabb(self, /)
+constexpr const char* method_aabb_doc = R"(aabb(self, /)
 --
 
 An axis-aligned box around the volume, by exact arithmetic.
@@ -227,7 +227,7 @@ void bind_volumes(py::module_& module) {
           "direction"_a, py::pos_only(), support_doc)
       .def("intersect", ray, "origin"_a, "direction"_a, py::pos_only(), intersect_doc)
       .def(
-          "aabb", [](Self v) { return to_python(aabb(v.value)); }, verb_aabb_doc)
+          "aabb", [](Self v) { return to_python(aabb(v.value)); }, method_aabb_doc)
       .def("mesh", mesh_of, mesh_doc)
       .def(
           "transformed",

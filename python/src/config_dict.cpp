@@ -12,7 +12,7 @@
 namespace pcl_bv::python {
 namespace {
 
-constexpr const char* the_name = "Pipeline";
+constexpr const char* kConfigName = "Pipeline";
 
 std::string quoted(const std::string& text) {
   std::string yaml = "\"";
@@ -50,7 +50,7 @@ std::string yaml_list(const Sequence& list, const std::string& key, Walk& walk) 
 std::string yaml_map(const py::dict& map, const std::string& prefix, Walk& walk) {
   std::string yaml;
   for (const auto& [name, value] : map) {
-    if (!PyUnicode_Check(name.ptr())) refuse_type(the_name, "a key, a text,", name);
+    if (!PyUnicode_Check(name.ptr())) raise_type_error(kConfigName, "a key, a text,", name);
     const auto key = name.cast<std::string>();
     yaml.append(yaml.empty() ? "" : ", ").append(quoted(key)).append(": ");
     yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key, walk);
@@ -75,14 +75,14 @@ std::string yaml_of_any(py::handle value, const std::string& key, Walk& walk) {
   if (py::hasattr(value, "tolist"))
     return yaml_of(value.attr("tolist")(), key, walk);  // numpy arrays and scalars
   if (py::hasattr(value, "__fspath__")) return quoted(path(value, key.c_str()).string());
-  refuse_type(key.c_str(), "a number, a text, a list or a dict", value);
+  raise_type_error(key.c_str(), "a number, a text, a list or a dict", value);
 }
 
 std::string yaml_of(py::handle value, const std::string& key, Walk& walk) {
   if (++walk.depth > max_depth)
-    refuse_value(key.c_str(), "nested more than " + std::to_string(max_depth) + " deep");
+    raise_value_error(key.c_str(), "nested more than " + std::to_string(max_depth) + " deep");
   if (++walk.values > max_values)
-    refuse_value(key.c_str(), "more than " + std::to_string(max_values) + " values");
+    raise_value_error(key.c_str(), "more than " + std::to_string(max_values) + " values");
   std::string yaml = yaml_of_any(value, key, walk);
   --walk.depth;
   return yaml;
@@ -101,9 +101,9 @@ class RegionVolumes {
       volumes_.emplace_back();
       if (py::isinstance<py::dict>(each) && each.contains("volumes")) {
         py::dict region = each.attr("copy")();
-        for (const NumberedVolume& one : volumes_of(region.attr("pop")("volumes"), "filter.regions: volumes"))
+        for (const LabelledVolume& one : volumes_of(region.attr("pop")("volumes"), "filter.regions: volumes"))
           volumes_.back().push_back(one.volume->value);
-        if (volumes_.back().empty()) refuse_value("filter.regions", "a region with an empty list of volumes");
+        if (volumes_.back().empty()) raise_value_error("filter.regions", "a region with an empty list of volumes");
         region["file"] = "volumes";
         regions.append(region);
       } else {
@@ -135,12 +135,12 @@ StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
   try {
     RegionVolumes regions(settings);
     Walk walk;
-    StreamConfig config = parse_stream_config(yaml_map(regions.settings(), "", walk), the_name, defaults);
+    StreamConfig config = parse_stream_config(yaml_map(regions.settings(), "", walk), kConfigName, defaults);
     regions.put_into(config.pipeline.filter.regions);
     return config;
   } catch (const ConfigError& error) {
     std::string said = error.what();
-    for (const std::string& prefix : {std::string(the_name) + ": ", std::string("line 1: ")}) {
+    for (const std::string& prefix : {std::string(kConfigName) + ": ", std::string("line 1: ")}) {
       if (said.rfind(prefix, 0) == 0) said.erase(0, prefix.size());
     }
     throw py::value_error(said);
@@ -152,9 +152,9 @@ StreamConfig read_config(py::handle config, const StreamConfig& defaults) {
   if (py::isinstance<py::dict>(config)) return read_dict(py::reinterpret_borrow<py::dict>(config), defaults);
   if (PyUnicode_Check(config.ptr())) {
     const auto text = config.cast<std::string>();
-    if (text.find_first_of("\n:{") != std::string::npos) return parse_stream_config(text, the_name, defaults);
+    if (text.find_first_of("\n:{") != std::string::npos) return parse_stream_config(text, kConfigName, defaults);
   } else if (!py::hasattr(config, "__fspath__")) {
-    refuse_type("config", "a dict, YAML or a path", config);
+    raise_type_error("config", "a dict, YAML or a path", config);
   }
   return read_stream_config(path(config, "config"), defaults);
 }
@@ -253,7 +253,7 @@ PipelineConfig config_of(py::handle config, py::handle preset, const py::dict& s
     try {
       apply_preset(text(preset, "preset"), defaults.pipeline);
     } catch (const std::invalid_argument& error) {
-      refuse_value("preset", error.what());
+      raise_value_error("preset", error.what());
     }
   }
   return read_dict(settings, read_config(config, defaults)).pipeline;

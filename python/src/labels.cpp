@@ -45,7 +45,7 @@ LabelGroups::LabelGroups(py::handle labels, const PointView& points) {
       label = static_cast<std::int32_t>(label);
   }
   if (points.count > std::numeric_limits<std::int32_t>::max())
-    refuse_value("labels", "more than 2147483647 points cannot be told apart");
+    raise_value_error("labels", "more than 2147483647 points cannot be told apart");
   const py::gil_scoped_release unlocked;
   numbers_.reserve(of.size());
   for (std::size_t i = 0; i < of.size(); ++i) {

@@ -23,7 +23,7 @@ std::vector<T> vector(const py::object& values) {
 }
 
 py::tuple counts(const Counts& c) {
-  return py::make_tuple(c.nonfinite, c.range, c.ground, c.small, c.large, c.noise, c.inside, c.of_class);
+  return py::make_tuple(c.nonfinite, c.range, c.ground, c.small, c.large, c.noise, c.inside, c.dropped_class);
 }
 Counts counts(const py::tuple& t) {
   const auto n = [&](std::size_t i) { return t[i].cast<std::size_t>(); };
@@ -46,7 +46,7 @@ py::object track(const std::optional<TrackEntry>& t) {
 }
 std::optional<TrackEntry> track(py::handle state) {
   if (state.is_none()) return {};
-  const py::tuple t = parts_of_state(state, 6);
+  const py::tuple t = tuple_of_state(state, 6);
   TrackEntry entry{t[0].cast<std::uint32_t>(), t[1].cast<std::size_t>()};
   entry.velocity = vector3(t[2], "velocity");
   entry.moving = t[3].cast<bool>();
@@ -74,7 +74,7 @@ py::list volumes(const FrameResult& result) {
 }
 
 /// Throws if the numbers of an unpickled result contradict each other.
-void require_sound(const FrameResult& result, std::size_t points) {
+void require_consistent(const FrameResult& result, std::size_t points) {
   const Clusters& c = result.clusters;
   const auto in_cloud = [&](const std::vector<std::int32_t>& list) {
     return std::all_of(list.begin(), list.end(),
@@ -151,14 +151,14 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   FrameResult& r = self->result;
   self->points = points_of(state["points"]);
   if (!state["pose"].is_none()) self->pose = Pose(isometry(state["pose"], "pose").matrix());
-  const py::tuple header = parts_of_state(state["header"], 4), ground = parts_of_state(state["ground"], 5),
-                  clusters = parts_of_state(state["clusters"], 3);
+  const py::tuple header = tuple_of_state(state["header"], 4), ground = tuple_of_state(state["ground"], 5),
+                  clusters = tuple_of_state(state["clusters"], 3);
   r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), header[2].cast<std::string>(),
               header[3].cast<std::uint64_t>()};
   if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("its settings are no dict");
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
   r.points = self->points.view.count;
-  r.counts = counts(parts_of_state(state["counts"], 8));
+  r.counts = counts(tuple_of_state(state["counts"], 8));
   r.kept = vector<std::int32_t>(state["kept"]);
   r.ground.found = ground[0].cast<bool>();
   r.ground.normal = vector3(ground[1], "normal");
@@ -173,8 +173,8 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   for (const py::handle name : py::list(state["methods"]))
     r.methods.push_back(method_of(name));
   take_volumes(state["volumes"], r);
-  r.ms = times(parts_of_state(state["ms"], 7));
-  require_sound(r, self->points.view.count);
+  r.ms = times(tuple_of_state(state["ms"], 7));
+  require_consistent(r, self->points.view.count);
   return self;
 }
 

@@ -11,7 +11,7 @@ namespace pcl_bv::python {
 /// Returns make(), which constructs an object from a state. Turns any error into a ValueError, "Sphere: a
 /// state that is none of its own", except MemoryError and KeyboardInterrupt.
 template <typename Make>
-auto of_state(const std::string& name, const Make& make) {
+auto restore_from_state(const std::string& name, const Make& make) {
   const std::string what = name + ": a state that is none of its own";
   try {
     return make();
@@ -30,7 +30,7 @@ auto of_state(const std::string& name, const Make& make) {
 }
 
 /// Returns the elements of a tuple. Throws py::value_error if `state` is not a tuple of `count` elements.
-inline py::tuple parts_of_state(py::handle state, std::size_t count) {
+inline py::tuple tuple_of_state(py::handle state, std::size_t count) {
   if (!py::isinstance<py::tuple>(state)) throw py::value_error("it is no tuple");
   auto parts = py::reinterpret_borrow<py::tuple>(state);
   if (parts.size() != count) throw py::value_error("it has not " + std::to_string(count) + " parts");

@@ -12,7 +12,7 @@ namespace pcl_bv::python {
 namespace {
 
 /// Returns a view of a copy that is never freed, because EstimationResult::reason does not own its text.
-std::string_view kept_text(const std::string& text) {
+std::string_view interned_text(const std::string& text) {
   static std::mutex mutex;
   static std::set<std::string>* const texts = new std::set<std::string>;
   const std::lock_guard lock(mutex);
@@ -91,12 +91,12 @@ py::object to_python(AnyVolume&& volume, const Method* method, const EstimationR
 }
 
 const VolumeObject& volume_of(py::handle value, const char* name) {
-  if (!py::isinstance<VolumeObject>(value)) refuse_type(name, "a volume", value);
+  if (!py::isinstance<VolumeObject>(value)) raise_type_error(name, "a volume", value);
   return value.cast<const VolumeObject&>();
 }
 
-std::vector<NumberedVolume> volumes_of(py::handle value, const char* name) {
-  std::vector<NumberedVolume> found;
+std::vector<LabelledVolume> volumes_of(py::handle value, const char* name) {
+  std::vector<LabelledVolume> found;
   const auto add = [&](std::int64_t number, py::handle of) {
     if (py::isinstance<py::list>(of) || py::isinstance<py::tuple>(of)) {
       for (const py::handle each : of)
@@ -171,7 +171,7 @@ py::tuple fit_state(const VolumeObject& volume) {
 
 void set_fit_state(py::handle given, VolumeObject& volume) {
   if (py::isinstance<py::tuple>(given) && py::len(given) == 0) return;
-  const py::tuple state = parts_of_state(given, 6);
+  const py::tuple state = tuple_of_state(given, 6);
   volume.method = method_of(state[0]);
   volume.fit.status = static_cast<EstimationStatus>(whole_number(state[1], "status", {0, 3}));
   volume.fit.rank = static_cast<int>(whole_number(state[2], "rank", {0, 3}));
@@ -179,8 +179,8 @@ void set_fit_state(py::handle given, VolumeObject& volume) {
   volume.fit.dropped = whole_number(state[4], "dropped", {0, kNoLimit});
   const std::string reason = text(state[5], "reason");
   constexpr std::size_t longest = 200;  // a limit, because reasons are never freed
-  if (reason.size() > longest) refuse_value("reason", "is longer than 200 bytes");
-  volume.fit.reason = kept_text(reason);
+  if (reason.size() > longest) raise_value_error("reason", "is longer than 200 bytes");
+  volume.fit.reason = interned_text(reason);
 }
 
 std::string repr_of(const VolumeObject& volume) {

@@ -29,14 +29,14 @@ py::object to_python(AnyVolume&& volume, const Method* method = nullptr, const E
 const VolumeObject& volume_of(py::handle value, const char* name);
 
 /// A volume and its label: its key in a dict, otherwise 0.
-struct NumberedVolume {
+struct LabelledVolume {
   std::int64_t number;
   const VolumeObject* volume;
 };
 
 /// Returns the volumes of an argument: None, a volume, a list of volumes, or a dict whose values are volumes
 /// or lists.
-std::vector<NumberedVolume> volumes_of(py::handle value, const char* name);
+std::vector<LabelledVolume> volumes_of(py::handle value, const char* name);
 
 /// Returns the name of a status: "ok", "degenerate", "no_valid_points" or "failed".
 const char* status_name(EstimationStatus status);

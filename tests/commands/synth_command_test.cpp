@@ -63,7 +63,7 @@ class SynthCommand : public testing::Test {
   fs::path folder_;
 };
 
-void expect_truth(const std::string& line, const VergesFrame& frame, std::size_t number) {
+void expect_truth(const std::string& line, const RuralRoadFrame& frame, std::size_t number) {
   const auto truth = nlohmann::json::parse(line);
   EXPECT_EQ(truth.at("seq"), number);
   EXPECT_EQ(truth.at("stamp_ns"), 100'000'000 * number);
@@ -73,7 +73,7 @@ void expect_truth(const std::string& line, const VergesFrame& frame, std::size_t
   std::size_t points = 0;
   for (std::size_t i = 0; i < frame.objects.size(); ++i) {
     const auto& told = truth.at("objects").at(i);
-    const VergesObject& object = frame.objects[i];
+    const RuralRoadObject& object = frame.objects[i];
     EXPECT_EQ(told.at("id"), object.id);
     EXPECT_EQ(told.at("class"), name_of(object.kind));
     EXPECT_EQ((told.at("center").get<std::array<double, 3>>()), object.center);
@@ -124,7 +124,7 @@ TEST_F(SynthCommand, WritesTheVergesWithTheirPosesAndTruth) {
   std::istringstream poses(content_of(road / "poses.txt")), truths(content_of(road / "truth.jsonl"));
   for (std::size_t number = 0; number < 3; ++number) {
     SCOPED_TRACE(number);
-    const VergesFrame frame = make_verges_frame({7, 16}, number);
+    const RuralRoadFrame frame = make_rural_road_frame({7, 16}, number);
     const RawCloud cloud = read_pcd(road / ("000000000" + std::to_string(number) + ".pcd"));
     EXPECT_EQ(cloud.data, to_raw_cloud(frame.cloud).data);
     for (const char* const field : {"object", "ground", "vegetation", "class"}) {

@@ -77,29 +77,29 @@ TEST(ParseSynth, RefusalsNameTheValueAndWhatIsAllowed) {
 }
 
 TEST(ParseVergesSequence, ReadsBeamsFramesAndSeed) {
-  EXPECT_EQ(parse_verges_sequence("verges-sequence").options.beams, 64u);
-  EXPECT_EQ(parse_verges_sequence("verges-sequence").frames, 100u);
-  EXPECT_EQ(parse_verges_sequence("verges-sequence").options.seed, 1u);
+  EXPECT_EQ(parse_rural_road_sequence("verges-sequence").options.beams, 64u);
+  EXPECT_EQ(parse_rural_road_sequence("verges-sequence").frames, 100u);
+  EXPECT_EQ(parse_rural_road_sequence("verges-sequence").options.seed, 1u);
   for (const std::size_t beams : {16u, 32u, 64u, 128u}) {
-    const auto spec = parse_verges_sequence("verges-sequence-" + std::to_string(beams) + ":3:4");
+    const auto spec = parse_rural_road_sequence("verges-sequence-" + std::to_string(beams) + ":3:4");
     EXPECT_EQ(spec.options.beams, beams);
     EXPECT_EQ(spec.frames, 3u);
     EXPECT_EQ(spec.options.seed, 4u);
   }
-  EXPECT_TRUE(is_verges_sequence("verges-sequence-7:1"));
-  EXPECT_FALSE(is_verges_sequence("verges"));
-  EXPECT_FALSE(is_verges_sequence("street-sequence:verges-sequence"));
+  EXPECT_TRUE(is_rural_road_sequence("verges-sequence-7:1"));
+  EXPECT_FALSE(is_rural_road_sequence("verges"));
+  EXPECT_FALSE(is_rural_road_sequence("street-sequence:verges-sequence"));
 }
 
 TEST(ParseVergesSequence, RefusalsNameTheValueAndWhatIsAllowed) {
   for (const std::string name :
        {"verges-sequence-", "verges-sequence-17", "verges-sequences", "verges-sequence16", "verges"}) {
-    const std::string reason = refusal(parse_verges_sequence, name);
+    const std::string reason = refusal(parse_rural_road_sequence, name);
     EXPECT_THAT(reason, HasSubstr("'" + name + "'"));
     EXPECT_THAT(reason, HasSubstr("-16, -32, -64 or -128"));
   }
-  EXPECT_THAT(refusal(parse_verges_sequence, "verges-sequence:0"), HasSubstr("FRAMES '0'"));
-  EXPECT_THAT(refusal(parse_verges_sequence, "verges-sequence-16:1:2:3"), HasSubstr("[:FRAMES[:SEED]]"));
+  EXPECT_THAT(refusal(parse_rural_road_sequence, "verges-sequence:0"), HasSubstr("FRAMES '0'"));
+  EXPECT_THAT(refusal(parse_rural_road_sequence, "verges-sequence-16:1:2:3"), HasSubstr("[:FRAMES[:SEED]]"));
 }
 
 TEST(MakeSynth, TheVergesHaveAsManyPointsAsParsingSays) {

@@ -22,10 +22,10 @@ namespace {
 
 constexpr std::array<std::size_t, 4> sensors{16, 32, 64, 128};
 
-const VergesFrame& verges_sweep(std::size_t beams, std::uint64_t seed, std::size_t frame) {
-  static std::map<std::array<std::uint64_t, 3>, VergesFrame> sweeps;
+const RuralRoadFrame& verges_sweep(std::size_t beams, std::uint64_t seed, std::size_t frame) {
+  static std::map<std::array<std::uint64_t, 3>, RuralRoadFrame> sweeps;
   const auto [sweep, added] = sweeps.try_emplace({beams, seed, frame});
-  if (added) sweep->second = make_verges_frame({seed, beams}, frame);
+  if (added) sweep->second = make_rural_road_frame({seed, beams}, frame);
   return sweep->second;
 }
 
@@ -51,29 +51,29 @@ double heading_of(const std::array<double, 12>& pose) {
   return std::atan2(pose[4], pose[0]);
 }
 
-const VergesObject* find(const std::vector<VergesObject>& objects, std::uint32_t id) {
+const RuralRoadObject* find(const std::vector<RuralRoadObject>& objects, std::uint32_t id) {
   const auto object =
       std::lower_bound(objects.begin(), objects.end(), id,
-                       [](const VergesObject& o, std::uint32_t value) { return o.id < value; });
+                       [](const RuralRoadObject& o, std::uint32_t value) { return o.id < value; });
   return object != objects.end() && object->id == id ? &*object : nullptr;
 }
 
-bool may_move(StreetObjectKind kind) {
-  return kind == StreetObjectKind::car || kind == StreetObjectKind::cyclist ||
-         kind == StreetObjectKind::pedestrian;
+bool may_move(SynthObjectKind kind) {
+  return kind == SynthObjectKind::car || kind == SynthObjectKind::cyclist ||
+         kind == SynthObjectKind::pedestrian;
 }
 
 TEST(Verges, ReturnsLieInTheBoxOfTheirObjectAndBearItsKind) {
   for (const std::size_t beams : sensors) {
     SCOPED_TRACE(beams);
-    const VergesFrame& frame = verges_sweep(beams, 1, 40);
+    const RuralRoadFrame& frame = verges_sweep(beams, 1, 40);
     std::size_t checked = 0;
     for (std::size_t i = 0; i < frame.cloud.size(); ++i) {
       const std::uint32_t id = frame.cloud.object[i];
       ASSERT_EQ(frame.cloud.kind[i] == 0, id == 0);
       if (id == 0) continue;
       ++checked;
-      const VergesObject* object = find(frame.objects, id);
+      const RuralRoadObject* object = find(frame.objects, id);
       ASSERT_NE(object, nullptr) << id;
       ASSERT_EQ(frame.cloud.kind[i], 1 + static_cast<std::uint32_t>(object->kind));
       Vector p = point_of(frame.cloud, i);
@@ -115,13 +115,13 @@ TEST(Verges, APointHasOneLabelAndAllThreeOccur) {
 TEST(Verges, GroundPointsLieOnTheGroundAndGrassStandsOnIt) {
   for (const std::size_t beams : sensors) {
     SCOPED_TRACE(beams);
-    const VergesFrame& frame = verges_sweep(beams, 2, 25);
+    const RuralRoadFrame& frame = verges_sweep(beams, 2, 25);
     std::size_t grown = 0, checked = 0;
     double grass = 0;
     for (std::size_t i = 0; i < frame.cloud.size(); i += 97) {
       if (frame.cloud.ground[i] == 0 && frame.cloud.vegetation[i] == 0) continue;
       const Vector p = fixed_point(frame.pose, point_of(frame.cloud, i));
-      const double above = p[2] - verges_ground_height(2, 25, p[0], p[1]);
+      const double above = p[2] - rural_road_ground_height(2, 25, p[0], p[1]);
       // Roughness of up to 5 cm, noise of at most 12 cm along the ray, kerbs and ditches between nodes 0.25 m
       // apart.
       if (frame.cloud.ground[i] != 0) {
@@ -146,12 +146,12 @@ TEST(Verges, VelocitiesAreTheDifferencesOfCentersInTheFixedFrame) {
     std::size_t moving = 0;
     for (const std::size_t at : {5U, 60U, 121U, 170U, 240U}) {
       SCOPED_TRACE(at);
-      const VergesFrame before = make_verges_truth({seed, 16}, at - 1);
-      const VergesFrame now = make_verges_truth({seed, 16}, at);
-      const VergesFrame after = make_verges_truth({seed, 16}, at + 1);
-      for (const VergesObject& object : now.objects) {
-        const VergesObject* last = find(before.objects, object.id);
-        const VergesObject* next = find(after.objects, object.id);
+      const RuralRoadFrame before = make_rural_road_truth({seed, 16}, at - 1);
+      const RuralRoadFrame now = make_rural_road_truth({seed, 16}, at);
+      const RuralRoadFrame after = make_rural_road_truth({seed, 16}, at + 1);
+      for (const RuralRoadObject& object : now.objects) {
+        const RuralRoadObject* last = find(before.objects, object.id);
+        const RuralRoadObject* next = find(after.objects, object.id);
         if (last == nullptr || next == nullptr) continue;
         const Vector a = fixed_point(before.pose, last->center), b = fixed_point(after.pose, next->center);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -173,10 +173,10 @@ TEST(Verges, YawRatesAreTheDifferencesOfHeadings) {
     SCOPED_TRACE(seed);
     double largest = 0;
     for (std::size_t at = 1; at < 200; at += 13) {
-      const VergesFrame now = make_verges_truth({seed, 16}, at);
-      const VergesFrame after = make_verges_truth({seed, 16}, at + 1);
-      for (const VergesObject& object : now.objects) {
-        const VergesObject* next = find(after.objects, object.id);
+      const RuralRoadFrame now = make_rural_road_truth({seed, 16}, at);
+      const RuralRoadFrame after = make_rural_road_truth({seed, 16}, at + 1);
+      for (const RuralRoadObject& object : now.objects) {
+        const RuralRoadObject* next = find(after.objects, object.id);
         if (next == nullptr) continue;
         const Vector a = fixed_direction(now.pose, object.axes[0]),
                      b = fixed_direction(after.pose, next->axes[0]);
@@ -191,8 +191,8 @@ TEST(Verges, YawRatesAreTheDifferencesOfHeadings) {
 }
 
 TEST(Verges, SameArgumentsSameBitsAndOtherSeedsOtherRoads) {
-  const VergesFrame again = make_verges_frame({1, 16}, 40);
-  const VergesFrame& first = verges_sweep(16, 1, 40);
+  const RuralRoadFrame again = make_rural_road_frame({1, 16}, 40);
+  const RuralRoadFrame& first = verges_sweep(16, 1, 40);
   EXPECT_EQ(again.cloud.xyz, first.cloud.xyz);
   EXPECT_EQ(again.cloud.object, first.cloud.object);
   EXPECT_EQ(again.cloud.ground, first.cloud.ground);
@@ -203,7 +203,7 @@ TEST(Verges, SameArgumentsSameBitsAndOtherSeedsOtherRoads) {
     EXPECT_EQ(again.objects[i].id, first.objects[i].id);
     EXPECT_EQ(again.objects[i].center, first.objects[i].center);
   }
-  EXPECT_NE(make_verges_frame({2, 16}, 40).pose, first.pose);
+  EXPECT_NE(make_rural_road_frame({2, 16}, 40).pose, first.pose);
 }
 
 TEST(Verges, StandingThingsStayWhereTheyAreInEveryFrameThatSeesThem) {
@@ -211,8 +211,8 @@ TEST(Verges, StandingThingsStayWhereTheyAreInEveryFrameThatSeesThem) {
     SCOPED_TRACE(seed);
     std::map<std::uint32_t, Vector> places;
     for (std::size_t at = 0; at < 200; at += 20) {
-      const VergesFrame frame = make_verges_truth({seed, 16}, at);
-      for (const VergesObject& object : frame.objects) {
+      const RuralRoadFrame frame = make_rural_road_truth({seed, 16}, at);
+      for (const RuralRoadObject& object : frame.objects) {
         if (object.velocity != std::array<double, 3>{} || may_move(object.kind)) continue;
         const Vector place = fixed_point(frame.pose, object.center);
         const auto [known, added] = places.try_emplace(object.id, place);
@@ -261,7 +261,7 @@ TEST(Verges, TheVehicleClimbsTurnsAndStandsWithinThreeHundredFrames) {
     Vector last{};
     double last_heading = 0;
     for (std::size_t at = 0; at < 300; ++at) {
-      const auto pose = make_verges_truth({seed, 16}, at).pose;
+      const auto pose = make_rural_road_truth({seed, 16}, at).pose;
       const Vector here = origin_of(pose);
       if (at > 0) {
         const double speed = std::hypot(here[0] - last[0], here[1] - last[1]) / 0.1;
@@ -295,15 +295,15 @@ TEST(Verges, EveryKindOfThingIsSeenSomewhere) {
     }
   }
   for (std::size_t kind = 0; kind < returns.size(); ++kind)
-    EXPECT_GT(returns[kind], 300U) << name_of(static_cast<StreetObjectKind>(kind));
+    EXPECT_GT(returns[kind], 300U) << name_of(static_cast<SynthObjectKind>(kind));
 }
 
 TEST(Verges, NobodyStandsWhereTheSensorDrives) {
   for (const std::uint64_t seed : street_seeds) {
     SCOPED_TRACE(seed);
     for (std::size_t at = 0; at < 300; at += 10) {
-      for (const VergesObject& object : make_verges_truth({seed, 16}, at).objects) {
-        if (object.kind == StreetObjectKind::bridge || object.kind == StreetObjectKind::tree) continue;
+      for (const RuralRoadObject& object : make_rural_road_truth({seed, 16}, at).objects) {
+        if (object.kind == SynthObjectKind::bridge || object.kind == SynthObjectKind::tree) continue;
         Vector sensor{};
         for (std::size_t axis = 0; axis < 3; ++axis)
           sensor[axis] = -dot(object.axes[axis], object.center);
@@ -318,8 +318,8 @@ TEST(Verges, NobodyStandsWhereTheSensorDrives) {
 
 TEST(Verges, TheTruthAloneIsThatOfTheFrame) {
   for (const std::size_t beams : sensors) {
-    const VergesFrame& frame = verges_sweep(beams, 1, 40);
-    const VergesFrame truth = make_verges_truth({1, beams}, 40);
+    const RuralRoadFrame& frame = verges_sweep(beams, 1, 40);
+    const RuralRoadFrame truth = make_rural_road_truth({1, beams}, 40);
     EXPECT_EQ(truth.pose, frame.pose);
     EXPECT_EQ(truth.cloud.size(), 0U);
     ASSERT_EQ(truth.objects.size(), frame.objects.size());
@@ -334,7 +334,7 @@ TEST(Verges, TheTruthAloneIsThatOfTheFrame) {
 TEST(Verges, OtherNumbersOfBeamsAreRefusedWithTheNumberAndWhatIsAllowed) {
   for (const std::size_t beams : {0U, 15U, 40U, 256U}) {
     try {
-      make_verges_frame({1, beams}, 0);
+      make_rural_road_frame({1, beams}, 0);
       FAIL() << beams;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(std::to_string(beams)), std::string::npos);

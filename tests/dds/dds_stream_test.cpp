@@ -70,7 +70,7 @@ class Dds : public DdsTest {
     bool heard() const {
       return wait_for([&] { return carrier->wanted(points); });
     }
-    std::unique_ptr<MessageCarrier> carrier;
+    std::unique_ptr<MessageSender> carrier;
     std::size_t points;
   };
 };

@@ -179,7 +179,7 @@ void expect_exact_maxima(const TestCloud<float>& cloud) {
   SCOPED_TRACE(cloud.name);
   const LocalHull hull = hull_of(cloud.view());
   for (const std::size_t questions : {1u, 1000u}) {
-    const ReachTree tree(hull.candidates, questions);
+    const SupportTree tree(hull.candidates, questions);
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     for (int i = 0; i < 50; ++i) {
@@ -192,7 +192,7 @@ void expect_exact_maxima(const TestCloud<float>& cloud) {
   }
 }
 
-TEST(ReachTree, IsTheExactMaximum) {
+TEST(SupportTree, IsTheExactMaximum) {
   // The second has so many candidates that boxes have the sides of least rectangles.
   TestCloud<float> ball = test::gaussian<float>(1200, 6);
   for (std::size_t i = 0; i < ball.xyz.size(); i += 3)

@@ -106,8 +106,8 @@ TEST(Silhouette, IsTheOutlineOfAllVertices) {
         const Corners all = chain(shape.vertices, u, v);
         EXPECT_LE(seen.size(), all.size() + 1);  // the first may be on an edge
         EXPECT_NEAR(area(seen), area(all), 1e-12);
-        const FlatBox box = least_rectangle(seen.data(), seen.size());
-        const FlatBox least = least_rectangle(all.data(), all.size());
+        const Rectangle box = smallest_rectangle(seen.data(), seen.size());
+        const Rectangle least = smallest_rectangle(all.data(), all.size());
         EXPECT_NEAR(box.area(), least.area(), 1e-11) << shape.vertices.size() << " vertices\n" << axes;
       }
     }

@@ -25,7 +25,7 @@ void look(const std::string& text) {
     parse_address(text);
   } catch (const std::invalid_argument&) {
   }
-  is_our_host(text, {});
+  is_server_host(text, {});
   // A page of another site never gets in by the way it writes itself.
   if (may_connect("http://" + text + ".evil.example", text) && text.find_first_of("[:") == std::string::npos)
     __builtin_trap();

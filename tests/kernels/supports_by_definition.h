@@ -11,7 +11,7 @@
 namespace pcl_bv::test {
 
 inline ChunkSupports run(Isa isa, const PointView& points, const SupportDirections& set,
-                         const ReachedSupports& reached = nothing_reached()) {
+                         const SupportBounds& reached = no_support_bounds()) {
   ChunkSupports supports;
   chunk_supports(isa, points, set, reached, supports);
   return supports;
@@ -27,7 +27,7 @@ inline ChunkSupports by_definition(const PointView& points, const SupportDirecti
     }
     for (std::size_t end = 0; end < 2 * set.count; ++end) {
       SupportPoint& best = out.ends[end];
-      const int order = best.found ? compare_along(set.end_direction(end), p, best.point) : 1;
+      const int order = best.found ? compare_along(set.support_direction(end), p, best.point) : 1;
       if (order > 0 || (order == 0 && points.index(i) < best.index)) best = {true, p, points.index(i)};
     }
   }
@@ -46,9 +46,9 @@ inline void expect_same(const ChunkSupports& a, const ChunkSupports& b, std::siz
 /// What the support points are known to reach leaves them to be found; a little more, and none is.
 inline void expect_found_unless_beyond(Isa isa, const PointView& points, const SupportDirections& set) {
   const ChunkSupports all = run(isa, points, set);
-  ReachedSupports same = nothing_reached(), beyond = same;
+  SupportBounds same = no_support_bounds(), beyond = same;
   for (std::size_t end = 0; end < 2 * set.count; ++end) {
-    same[end] = surely_reached(set, end, all.ends[end].point);
+    same[end] = projection_lower_bound(set, end, all.ends[end].point);
     beyond[end] = same[end] + 1;
   }
   expect_same(run(isa, points, set, same), all, set.count);

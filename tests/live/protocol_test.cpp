@@ -95,7 +95,7 @@ TEST(LiveProtocol, AnAnswerIsShortWhateverWasAsked) {
 }
 
 TEST(LiveProtocol, AMessagesHeadHasItsNumbersLittleEndian) {
-  const MessageHead head = message_head(0x01020304, 0x1112131415161718);
+  const MessageHeader head = message_header(0x01020304, 0x1112131415161718);
   EXPECT_THAT(head, ElementsAre(1, 4, 3, 2, 1, 0x18, 0x17, 0x16, 0x15, 0x14, 0x13, 0x12, 0x11));
   EXPECT_EQ(time_message(5), std::string("\2\5\0\0\0\0\0\0\0", 9));
 }

@@ -31,7 +31,7 @@ std::vector<std::byte> bytes_of(std::size_t count, unsigned char value) {
 class LiveServer : public testing::Test {
  protected:
   LiveServer() {
-    const std::string shows = server_.take_remarks().at(0);  // "http://127.0.0.1:41234/ shows it"
+    const std::string shows = server_.take_warnings().at(0);  // "http://127.0.0.1:41234/ shows it"
     port_ = static_cast<std::uint16_t>(std::stoul(shows.substr(shows.rfind(':') + 1)));
     points_ = server_.add_topic({"/bv/points", kCloud});
     frames_ = server_.add_topic({"/bv/frames", "pcl_bv.Frame", "json"});
@@ -132,7 +132,7 @@ TEST_F(LiveServer, AReaderThatHangsCostsOthersNothingAndMemoryOnlyItsShare) {
 #else
   constexpr std::size_t quarantine = 0;
 #endif
-  EXPECT_LT(resident(), before + 3 * Viewer::kMostWaitingBytes + quarantine);
+  EXPECT_LT(resident(), before + 3 * Viewer::kMaxQueuedBytes + quarantine);
   EXPECT_FALSE(server_.wanted(points_));
   // Once it reads again, it gets what is new, and is told what it has not got.
   std::uint64_t last = 0;
@@ -207,7 +207,7 @@ TEST_F(LiveServer, RefusesPagesOfOthersAndSaysSo) {
   EXPECT_THROW(client.open("foxglove.sdk.v1", "localhost", "http://evil.example"),
                boost::system::system_error);
   EXPECT_EQ(client.response().result(), http::status::forbidden);
-  EXPECT_THAT(server_.take_remarks(),
+  EXPECT_THAT(server_.take_warnings(),
               testing::ElementsAre(HasSubstr("'evil.example'"), HasSubstr("'http://evil.example'")));
   Client without(port_);
   EXPECT_THROW(without.open("chat"), boost::system::system_error);
@@ -216,7 +216,7 @@ TEST_F(LiveServer, RefusesPagesOfOthersAndSaysSo) {
 
 TEST_F(LiveServer, MoreViewersThanItTakesAreRefused) {
   std::vector<std::unique_ptr<Client>> all;
-  for (std::size_t i = 0; i < Viewer::kMostViewers; ++i) {
+  for (std::size_t i = 0; i < Viewer::kMaxViewers; ++i) {
     all.push_back(std::make_unique<Client>(port_));
     all.back()->open();
     all.back()->await("advertise");
@@ -268,14 +268,14 @@ TEST_F(LiveServer, HostileClientsAreCutOffAndOthersGoOn) {
   Client long_request(port_);
   long_request.open();
   try {
-    long_request.send(std::string(Viewer::kLongestRequest + 1, ' '), true);
+    long_request.send(std::string(Viewer::kMaxRequestBytes + 1, ' '), true);
   } catch (const boost::system::system_error&) {
   }
   EXPECT_TRUE(long_request.is_closed());
   Client chatty(port_);
   chatty.open();
   try {
-    for (std::size_t i = 0; i <= 10 * Viewer::kMostRequestsASecond; ++i)
+    for (std::size_t i = 0; i <= 10 * Viewer::kMaxRequestsPerSecond; ++i)
       chatty.send("{}", true);
   } catch (const boost::system::system_error&) {
   }
@@ -324,7 +324,7 @@ TEST_F(LiveServer, NoRequestEndsItOrKeepsOthersWaiting) {
   Client bad(port_);  // as long as it may be
   bad.open();
   for (const std::string& text : {deep(30'000), many.substr(0, many.find(R"({"name":"n2000")") - 1) + "]}"}) {
-    ASSERT_LT(text.size(), Viewer::kLongestRequest);
+    ASSERT_LT(text.size(), Viewer::kMaxRequestBytes);
     bad.send(text, true);
     EXPECT_THAT(bad.await("status")["message"].get<std::string>(),
                 testing::AnyOf(HasSubstr("nested more than 64 deep"), HasSubstr("names at most 100")));
@@ -340,7 +340,7 @@ TEST_F(LiveServer, SettingsChangeSoOftenASecondAndNoOftener) {
   server_.offer(remote_settings(pipeline));
   Client client(port_);
   client.open();
-  const std::size_t requests = 2 * live::Hub::kMostChangesASecond;
+  const std::size_t requests = 2 * live::Hub::kMaxChangesPerSecond;
   for (std::size_t i = 0; i < requests; ++i)
     client.say(
         {{"op", "setParameters"},
@@ -352,7 +352,7 @@ TEST_F(LiveServer, SettingsChangeSoOftenASecondAndNoOftener) {
     done += op == "parameterValues";
     refused += op == "status";
   }
-  EXPECT_GE(done, live::Hub::kMostChangesASecond);
+  EXPECT_GE(done, live::Hub::kMaxChangesPerSecond);
   EXPECT_GT(refused, 0U);
 }
 
@@ -360,9 +360,9 @@ TEST_F(LiveServer, AClientThatSaysTooManyBytesASecondIsCutOff) {
   Client client(port_);
   client.open();
   try {
-    for (std::size_t bytes = 0; bytes <= 4 * Viewer::kMostRequestBytesASecond;
-         bytes += Viewer::kLongestRequest)
-      client.send(std::string(Viewer::kLongestRequest, ' '), true);
+    for (std::size_t bytes = 0; bytes <= 4 * Viewer::kMaxRequestBytesPerSecond;
+         bytes += Viewer::kMaxRequestBytes)
+      client.send(std::string(Viewer::kMaxRequestBytes, ' '), true);
   } catch (const boost::system::system_error&) {
   }
   EXPECT_TRUE(client.is_closed());
@@ -396,7 +396,7 @@ TEST_F(LiveServer, TheEndComesAfterTheLastMessage) {
 
 TEST(LiveServers, APortThatIsTakenIsAnError) {
   Server first("0");
-  const std::string shows = first.take_remarks().at(0);
+  const std::string shows = first.take_warnings().at(0);
   const std::string port = shows.substr(shows.rfind(':') + 1);
   EXPECT_THROW(Server(port.substr(0, port.find('/'))), IoError);
   EXPECT_THROW(Server("no.such.host.invalid:1"), IoError);

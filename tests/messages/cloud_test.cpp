@@ -67,7 +67,7 @@ void expect_points(const PointView& view, std::size_t count) {
 
 TEST(CloudMessage, IsViewedWhereItLies) {
   const Made made = cloud_of(5, 2);
-  const auto view = points_in_place(made.cloud);
+  const auto view = view_points(made.cloud);
   ASSERT_TRUE(view);
   EXPECT_EQ(view->data, made.bytes.data());
   EXPECT_EQ(view->readable, 16U);
@@ -79,7 +79,7 @@ TEST(CloudMessage, IsViewedWhereItLies) {
 
 TEST(CloudMessage, WithPaddedRowsIsCopied) {
   const Made made = cloud_of(3, 4, 5);
-  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_FALSE(view_points(made.cloud));
   expect_points(raw_cloud_of(made.cloud).xyz(), 12);
 }
 
@@ -89,7 +89,7 @@ TEST(CloudMessage, InTheOtherByteOrderIsCopied) {
     std::reverse(made.bytes.begin() + static_cast<std::ptrdiff_t>(at),
                  made.bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4);
   made.cloud.is_bigendian = true;
-  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_FALSE(view_points(made.cloud));
   const RawCloud raw = raw_cloud_of(made.cloud);
   expect_points(raw.xyz(), 4);
   float intensity;
@@ -111,7 +111,7 @@ void expect_type(std::uint8_t datatype, T value, ScalarType becomes, bool swap) 
   made.cloud.fields = {
       {"z", 16, PointField::INT16, 1}, {"x", 1, datatype, 1}, {"y", 9, PointField::FLOAT32, 1}};
   made.cloud.data = {made.bytes.data(), made.bytes.size()};
-  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_FALSE(view_points(made.cloud));
   const RawCloud raw = raw_cloud_of(made.cloud);
   ASSERT_EQ(raw.xyz().count, 1U) << int{datatype};
   EXPECT_EQ(raw.xyz().scalar, becomes) << int{datatype};
@@ -143,7 +143,7 @@ TEST(CloudMessage, OfDoublesIsViewedWhereItLies) {
   made.cloud.point_step = 29;
   made.cloud.fields = {{"x", 5, 8, 1}, {"y", 13, 8, 0}, {"z", 21, 8, 1}};
   made.cloud.data = {made.bytes.data(), made.bytes.size()};
-  const auto view = points_in_place(made.cloud);
+  const auto view = view_points(made.cloud);
   ASSERT_TRUE(view);
   EXPECT_EQ(load_point(*view, 1).z, 0.5);
 }
@@ -157,7 +157,7 @@ std::string error_of(const std::function<void(Made&)>& spoil) {
       if (copy) {
         raw_cloud_of(made.cloud);
       } else {
-        points_in_place(made.cloud);
+        view_points(made.cloud);
       }
     } catch (const MessageError& error) {
       said[copy] = error.what();
@@ -191,7 +191,7 @@ TEST(CloudMessage, ThatDoesNotFitItsDataIsRefused) {
 TEST(CloudMessage, WithFieldsLongerThanTwoRecordsIsCopiedWithoutTheRest) {
   Made made = cloud_of(4);
   made.cloud.fields.insert(made.cloud.fields.end(), 5, {"a", 0, PointField::UINT8, 16});
-  EXPECT_TRUE(points_in_place(made.cloud));
+  EXPECT_TRUE(view_points(made.cloud));
   const RawCloud raw = raw_cloud_of(made.cloud);
   EXPECT_EQ(raw.point_step, 32U);
   expect_points(raw.xyz(), 4);
@@ -204,7 +204,7 @@ TEST(CloudMessage, WhoseDataAreJustItsPointsHasNoPaddingWhateverItsRowStep) {
   for (const std::uint32_t row_step : {0U, 2U, 63U, 65U, 128U, 0xFFFFFFFFU}) {
     Made made = cloud_of(4, 2);
     made.cloud.row_step = row_step;
-    const auto view = points_in_place(made.cloud);
+    const auto view = view_points(made.cloud);
     ASSERT_TRUE(view) << row_step;
     expect_points(*view, 8);
     const RawCloud raw = raw_cloud_of(made.cloud);
@@ -220,7 +220,7 @@ TEST(CloudMessage, OfOneRowIgnoresItsRowStep) {
     Made made = cloud_of(5);
     made.cloud.height = height;
     made.cloud.row_step = 7;
-    expect_points(*points_in_place(made.cloud), 5);
+    expect_points(*view_points(made.cloud), 5);
     expect_points(raw_cloud_of(made.cloud).xyz(), 5);
   }
 }
@@ -230,7 +230,7 @@ TEST(CloudMessage, WithAFieldThatCannotBeReadIsReadWithoutIt) {
   const auto note_of = [](msg::PointField field) {
     Made made = cloud_of(4, 2);
     made.cloud.fields[3] = std::move(field);
-    expect_points(*points_in_place(made.cloud), 8);
+    expect_points(*view_points(made.cloud), 8);
     const RawCloud raw = raw_cloud_of(made.cloud);
     expect_points(raw.xyz(), 8);
     EXPECT_EQ(raw.fields.size(), 3U);
@@ -251,19 +251,19 @@ TEST(CloudMessage, MayCountItsCoordinatesAsItLikes) {
   Made made = cloud_of(4);
   made.cloud.fields[0].count = 4;
   made.cloud.fields[2].count = 0;
-  expect_points(*points_in_place(made.cloud), 4);
+  expect_points(*view_points(made.cloud), 4);
   expect_points(raw_cloud_of(made.cloud).xyz(), 4);
 }
 
 TEST(CloudMessage, HasItsCoordinatesInUpperCaseWhereThereAreNoOthers) {
   Made made = cloud_of(4);
   made.cloud.fields = {{"X", 0, 7, 1}, {"Y", 4, 7, 1}, {"Z", 8, 7, 1}, {"intensity", 12, 7, 1}};
-  expect_points(*points_in_place(made.cloud), 4);
+  expect_points(*view_points(made.cloud), 4);
   const RawCloud raw = raw_cloud_of(made.cloud);
   expect_points(raw.xyz(), 4);
   EXPECT_EQ(raw.fields[1].name, "y");
   made.cloud.fields.push_back({"x", 12, 7, 1});  // that one counts
-  EXPECT_FALSE(points_in_place(made.cloud));
+  EXPECT_FALSE(view_points(made.cloud));
   EXPECT_EQ(load_point(raw_cloud_of(made.cloud).xyz(), 1).x, 101);
 }
 
@@ -271,8 +271,8 @@ TEST(CloudMessage, OfNoPointsIsEmpty) {
   Made made = cloud_of(4);
   made.cloud.width = 0;
   made.cloud.data = {};
-  ASSERT_TRUE(points_in_place(made.cloud));
-  EXPECT_TRUE(points_in_place(made.cloud)->empty());
+  ASSERT_TRUE(view_points(made.cloud));
+  EXPECT_TRUE(view_points(made.cloud)->empty());
   EXPECT_EQ(raw_cloud_of(made.cloud).size(), 0U);
   EXPECT_EQ(raw_cloud_of(made.cloud).fields.size(), 4U);
 }
@@ -286,8 +286,8 @@ TEST(CloudMessage, OfNoPointsNeedsNoFieldsNorARecord) {
         cloud.height = height;
         cloud.point_step = step;
         if (fields) cloud.fields = {{"x", 0, 7, 1}, {"y", 40, 99, 1}};
-        ASSERT_TRUE(points_in_place(cloud));
-        EXPECT_TRUE(points_in_place(cloud)->empty());
+        ASSERT_TRUE(view_points(cloud));
+        EXPECT_TRUE(view_points(cloud)->empty());
         EXPECT_EQ(unread_fields(cloud), "");
         const RawCloud raw = raw_cloud_of(cloud);
         EXPECT_EQ(raw.size(), 0U);

@@ -31,7 +31,7 @@ double yaw_of(const Obb& box) {
   return std::atan2(box.axes()(1, 0), box.axes()(0, 0)) / degree;
 }
 
-BoxSighting going(double degrees, double speed) {
+BoxState going(double degrees, double speed) {
   return {Pose::Identity(), speed * turn(degrees).col(0), true};
 }
 
@@ -83,7 +83,7 @@ TEST(BoxFilter, TheFrontStaysWhereItIsWhileTheSensorTurns) {
   BoxFilter filter;
   Obb box = filter.face(upright_box(30, 3, 3), {});
   for (int i = 1; i < 60; ++i) {  // 10 degrees a frame; a square, which the fit names anew in each
-    BoxSighting sighting;
+    BoxState sighting;
     sighting.sensor.linear() = turn(10 * i);
     box = filter.face(upright_box(30 - 10 * i + 90 * (i % 4), 3, 3), sighting);
     ASSERT_NEAR(std::remainder(yaw_of(box) + 10 * i - 30, 360), 0, 1e-9) << i;
@@ -125,7 +125,7 @@ TEST(BoxFilter, EveryPointIsInsideHoweverTheBoxIsSteadied) {
     for (int i = 0; i < 20; ++i) {
       const double yaw = 9.0 * i + 5 * static_cast<double>(random() % 7);
       const std::vector<float> xyz = block(yaw, random, 1 + static_cast<double>(random() % 5));
-      BoxSighting sighting;
+      BoxState sighting;
       sighting.moving = random() % 2 == 0;
       sighting.sensor.linear() = turn(3 * i);
       const Obb box = filter.steady(filter.face(upright_box(yaw + 7, 4, 2), sighting), view(xyz), sighting,
@@ -223,14 +223,14 @@ TEST(BoxFilter, BoxesOfEveryUprightMethodGrowForAnyUp) {
 TEST(BoxFilter, AMergedClusterChangesNeitherSizesNorTurn) {
   std::mt19937 random(7);
   BoxFilter filter;
-  const auto steadied = [&](double degrees, double length, const BoxSighting& sighting) {
+  const auto steadied = [&](double degrees, double length, const BoxState& sighting) {
     const std::vector<float> xyz = block(degrees, random, length);
     return filter.steady(filter.face(upright_box(degrees, length, 2), sighting), view(xyz), sighting, true,
                          true);
   };
   for (int i = 0; i < 10; ++i)
     steadied(0, 4, {});
-  BoxSighting merged;
+  BoxState merged;
   merged.merged = true;
   for (int i = 0; i < 20; ++i) {
     const Obb box = steadied(30, 9, merged);
@@ -245,7 +245,7 @@ TEST(BoxFilter, ASeparatedObjectLearnsItsSizesAnew) {
   BoxFilter filter;
   Obb box;
   for (int i = 0; i < 12; ++i) {
-    BoxSighting sighting;
+    BoxState sighting;
     sighting.separated = i == 8;
     const std::vector<float> xyz = block(0, random, i < 6 ? 9 : 4);
     box = filter.steady(upright_box(0, 4, 2), view(xyz), sighting, false, true);

@@ -98,7 +98,7 @@ TEST_F(FrameSinks, NameFilesByTheRunnersNumberWhateverTheSourceCounts) {
 TEST_F(FrameSinks, AnIndexIsWholeAfterEachFrame) {
   Found found;
   make_sink(parse_sink("vtp:" + path_.string()))->close();
-  EXPECT_EQ(read("frames.pvd"), std::string(pvd_begin) + std::string(pvd_end));
+  EXPECT_EQ(read("frames.pvd"), std::string(kPvdBegin) + std::string(kPvdEnd));
   const auto sink = make_sink(parse_sink("vtp:" + path_.string() + ",points"));
   std::string entries;
   for (int i = 0; i < 12; ++i) {
@@ -107,7 +107,7 @@ TEST_F(FrameSinks, AnIndexIsWholeAfterEachFrame) {
     sink->write(found.frame, found.result);
     const std::string name = (i < 10 ? "00000" : "0000") + std::to_string(i) + ".vtp";
     entries += pvd_entry({0.5 * i, "frame" + name}) + pvd_entry({0.5 * i, "points" + name, 1});
-    EXPECT_EQ(read("frames.pvd"), std::string(pvd_begin) + entries + std::string(pvd_end));
+    EXPECT_EQ(read("frames.pvd"), std::string(kPvdBegin) + entries + std::string(kPvdEnd));
   }
   EXPECT_THAT(read("points000003.vtp"), HasSubstr("0 0 4294967294 4294967295"));
   EXPECT_THAT(read("points000003.vtp"), HasSubstr("NumberOfPoints=\"4\" NumberOfVerts=\"1\""));

@@ -87,12 +87,12 @@ class NamedFrames : public Folder {
             "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
             "POINTS 1\nDATA ascii\n1 2 3\n");
     ReplayOptions options;
-    options.from_name = true;
+    options.own_stamps = true;
     const auto source = open_source(path_.string(), options);
     Read read;
     for (Frame frame; next(*source, frame);)
       read.stamps.push_back(frame.header.stamp_ns);
-    read.remarks = source->take_remarks();
+    read.remarks = source->take_warnings();
     return read;
   }
   void expect_steps(const std::vector<std::string>& names, const std::vector<std::int64_t>& steps) {
@@ -247,7 +247,7 @@ TEST(SynthSource, GivesTheRoadWithVergesAsManyBeamsSeeItAndItsPoses) {
   for (std::size_t i = 0; i < 2; ++i) {
     Frame frame;
     ASSERT_TRUE(next(*source, frame));
-    const VergesFrame made = make_verges_frame({7, 16}, i);
+    const RuralRoadFrame made = make_rural_road_frame({7, 16}, i);
     ASSERT_EQ(frame.points.count, made.cloud.size());
     EXPECT_EQ(frame.header.frame_id, "verges");
     for (std::size_t point = 0; point < made.cloud.size(); point += 1000)

@@ -14,9 +14,9 @@ namespace {
 
 class Poses : public Folder {
  protected:
-  std::vector<std::optional<Pose>> of_frames(const std::string& poses, bool from_name = false) {
+  std::vector<std::optional<Pose>> of_frames(const std::string& poses, bool own_stamps = false) {
     write("poses.txt", poses);
-    ReplayOptions options{10, from_name};
+    ReplayOptions options{10, own_stamps};
     options.poses = path_ / "poses.txt";
     const auto source = open_source(path_, options);
     std::vector<std::optional<Pose>> all;

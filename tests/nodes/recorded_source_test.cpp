@@ -75,7 +75,7 @@ class RecordedSource : public Folder {
 
 ReplayOptions as_recorded() {
   ReplayOptions options;
-  options.from_name = true;
+  options.own_stamps = true;
   return options;
 }
 
@@ -100,7 +100,7 @@ TEST_F(RecordedSource, GivesCloudsWithTheirOwnTimesAndFrames) {
     EXPECT_EQ(load_point(frames[i].points, i).y, static_cast<double>(i));
     EXPECT_EQ(frames[i].file, file());
   }
-  EXPECT_THAT(source->take_remarks(), testing::IsEmpty());
+  EXPECT_THAT(source->take_warnings(), testing::IsEmpty());
 }
 
 TEST_F(RecordedSource, GivesTheTimesOfTheRateWhereTheyAreAskedFor) {
@@ -230,9 +230,9 @@ TEST_F(RecordedSource, SaysWhatIsDamaged) {
   write("a.mcap", bytes);
   const auto source = open_source(file(), as_recorded());
   EXPECT_EQ(frames_of(*source).size(), 5U);
-  EXPECT_THAT(source->take_remarks(),
+  EXPECT_THAT(source->take_warnings(),
               testing::ElementsAre("without an index (it is cut): all of it was looked through"));
-  EXPECT_TRUE(source->take_remarks().empty());
+  EXPECT_TRUE(source->take_warnings().empty());
 }
 
 TEST_F(RecordedSource, CloudsThatWerePassedOverAreNotReadAgain) {
@@ -275,17 +275,17 @@ TEST_F(RecordedSource, RemarksAreTakenOnce) {
   try {
     for (; read < 20; ++read) {
       clouds.load(read);
-      for (const std::string& remark : clouds.take_remarks())
+      for (const std::string& remark : clouds.take_warnings())
         remarks.push_back(remark);
     }
   } catch (const IoError&) {
-    for (const std::string& remark : clouds.take_remarks())
+    for (const std::string& remark : clouds.take_warnings())
       remarks.push_back(remark);
   }
   EXPECT_LT(read, 20U);
   EXPECT_FALSE(remarks.empty());
   EXPECT_EQ(clouds.remarks(), remarks);
-  EXPECT_THAT(clouds.take_remarks(), testing::IsEmpty());
+  EXPECT_THAT(clouds.take_warnings(), testing::IsEmpty());
 }
 
 std::string error_of(const std::function<void()>& what) {

@@ -23,7 +23,7 @@ struct Street {
     pipeline.set_config(config);
   }
   void process(std::size_t number) {
-    frame = frame_of(xyz[number], number);
+    frame = third_orientation(xyz[number], number);
     pipeline.process(frame, result);
   }
   std::vector<std::vector<float>> xyz;
@@ -186,8 +186,8 @@ TEST(Topics, HoldTheIntensityOfPointsWhereItIsKnown) {
 TEST(DrawnVolumes, AreWhereTheVolumesAre) {
   const Eigen::Matrix3d axes = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.3).normalized().toRotationMatrix();
   const Cylinder cylinder({1, 2, 3}, axes.col(0), 0.5, 2);
-  const DrawnVolume shown = drawn(AnyVolume(cylinder));
-  EXPECT_EQ(shown.kind, DrawnVolume::Kind::cylinder);
+  const VolumeShape shown = drawn(AnyVolume(cylinder));
+  EXPECT_EQ(shown.kind, VolumeShape::Kind::cylinder);
   const Eigen::Quaterniond turn(shown.orientation[3], shown.orientation[0], shown.orientation[1],
                                 shown.orientation[2]);
   EXPECT_LT((turn * Eigen::Vector3d::UnitZ() - cylinder.axis()).norm(), 1e-12);

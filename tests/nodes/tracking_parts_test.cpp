@@ -55,7 +55,7 @@ TEST(MotionFilter, ManySmallStepsAreOneLarge) {
   for (int i = 0; i < 100; ++i)
     many.predict(0.001, 0.9);
   EXPECT_NEAR(many.place, one.place, 1e-12);
-  EXPECT_NEAR(many.place_variance, one.place_variance, 1e-12);
+  EXPECT_NEAR(many.position_variance, one.position_variance, 1e-12);
   EXPECT_NEAR(many.covariance, one.covariance, 1e-12);
   EXPECT_NEAR(many.velocity_variance, one.velocity_variance, 1e-12);
 }
@@ -68,8 +68,8 @@ TEST(MotionFilter, CovarianceStaysPositiveDefiniteHoweverStampsJitter) {
       const double steps[] = {0, 1e-9, 0.001, 0.1, 1}, variances[] = {1e-6, 0.01, 100};
       axis.predict(steps[random() % 5], 0.9);
       axis.correct(uniform(random, -1, 1), variances[random() % 3]);
-      ASSERT_GT(axis.place_variance, 0) << run << ' ' << i;
-      ASSERT_GT(axis.place_variance * axis.velocity_variance, axis.covariance * axis.covariance)
+      ASSERT_GT(axis.position_variance, 0) << run << ' ' << i;
+      ASSERT_GT(axis.position_variance * axis.velocity_variance, axis.covariance * axis.covariance)
           << run << ' ' << i;
     }
   }
@@ -95,7 +95,7 @@ TEST(MotionFilter, ACovarianceIsThatOfWhatItEstimates) {
       axis.correct(place + 0.1 * normal() - axis.place, 0.01);
     }
     Eigen::Matrix2d covariance;
-    covariance << axis.place_variance, axis.covariance, axis.covariance, axis.velocity_variance;
+    covariance << axis.position_variance, axis.covariance, axis.covariance, axis.velocity_variance;
     const Eigen::Vector2d error(axis.place - place, axis.velocity - velocity);
     sum += error.dot(covariance.inverse() * error);
   }

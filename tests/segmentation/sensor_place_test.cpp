@@ -61,12 +61,12 @@ void expect_right(const Street& cloud, const GroundSplit& found) {
   EXPECT_GE(right / truth, 0.98);
 }
 
-SensorPlace place_in(const Street& cloud, const Vector3d& up = {0, 0, 1}, const Vector3d& said = {0, 0, 0}) {
+SensorPosition place_in(const Street& cloud, const Vector3d& up = {0, 0, 1}, const Vector3d& said = {0, 0, 0}) {
   GroundScratch scratch;
   return find_sensor(cloud.view(), up, said, scratch);
 }
 
-TEST(SensorPlace, AStreetHasTheSameGroundWhereverItsFrameBegins) {
+TEST(SensorPosition, AStreetHasTheSameGroundWhereverItsFrameBegins) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Street cloud = street(seed);
     for (const double metres : {5.0, 20.0, 40.0, 70.0, 100.0, 200.0, 5e6}) {
@@ -85,7 +85,7 @@ TEST(SensorPlace, AStreetHasTheSameGroundWhereverItsFrameBegins) {
   }
 }
 
-TEST(SensorPlace, IsTheOriginToTheBitWhereThePointsLieAroundIt) {
+TEST(SensorPosition, IsTheOriginToTheBitWhereThePointsLieAroundIt) {
   const Street cloud = street();
   const GroundSplit found = split(cloud);
   EXPECT_TRUE(found.sensor.around);
@@ -95,22 +95,22 @@ TEST(SensorPlace, IsTheOriginToTheBitWhereThePointsLieAroundIt) {
   EXPECT_EQ(split(cloud, settings).ground, found.ground);
 }
 
-TEST(SensorPlace, ThatIsGivenIsBelieved) {
+TEST(SensorPosition, ThatIsGivenIsBelieved) {
   GroundZonesSettings settings;
   settings.sensor = Vector3d(150, 0, 0);
   EXPECT_EQ(split(street(), settings).sensor.at, Vector3d(150, 0, 0));
 }
 
-TEST(SensorPlace, RaysWithoutAReturnAreNoPointsAroundTheOrigin) {
+TEST(SensorPosition, RaysWithoutAReturnAreNoPointsAroundTheOrigin) {
   Street cloud = street().moved([](const Vector3d& p) { return Vector3d(p + Vector3d(100, 0, 0)); });
   for (std::size_t i = 0; i < 40'000; ++i)
     cloud.points.emplace_back(0, 0, 0);
-  const SensorPlace place = place_in(cloud);
+  const SensorPosition place = place_in(cloud);
   EXPECT_FALSE(place.around);
   EXPECT_NEAR(place.at.x(), 100, 5);
 }
 
-TEST(SensorPlace, ASensorThatLooksAheadHasItsPointsAroundIt) {
+TEST(SensorPosition, ASensorThatLooksAheadHasItsPointsAroundIt) {
   const Street all = street();
   Street ahead;
   for (const Vector3d& p : all.points) {
@@ -120,7 +120,7 @@ TEST(SensorPlace, ASensorThatLooksAheadHasItsPointsAroundIt) {
   EXPECT_TRUE(place_in(ahead).around);
 }
 
-TEST(SensorPlace, ASensorHighUpHasItsPointsAroundIt) {  // its first ring of ground is 15 m away
+TEST(SensorPosition, ASensorHighUpHasItsPointsAroundIt) {  // its first ring of ground is 15 m away
   Street plain;
   for (int ring = 0; ring < 8; ++ring) {
     for (int i = 0; i < 1800; ++i)
@@ -130,7 +130,7 @@ TEST(SensorPlace, ASensorHighUpHasItsPointsAroundIt) {  // its first ring of gro
   EXPECT_TRUE(place_in(plain).around);
 }
 
-TEST(SensorPlace, FewPointsAreAroundAnyPlace) {
+TEST(SensorPosition, FewPointsAreAroundAnyPlace) {
   Street few;
   few.points.assign(99, Vector3d(500, 0, 0));
   EXPECT_TRUE(place_in(few).around);
@@ -139,17 +139,17 @@ TEST(SensorPlace, FewPointsAreAroundAnyPlace) {
   EXPECT_TRUE(place_in(Street()).around);
 }
 
-TEST(SensorPlace, IsSoughtAcrossUp) {
+TEST(SensorPosition, IsSoughtAcrossUp) {
   const Street cloud = street().moved([](const Vector3d& p) { return Vector3d(p.y(), 80 - p.z(), -p.x()); });
   EXPECT_TRUE(place_in(cloud, {0, -1, 0}).around);
   const Street aside = cloud.moved([](const Vector3d& p) { return Vector3d(p + Vector3d(0, 0, 90)); });
-  const SensorPlace place = place_in(aside, {0, -1, 0});
+  const SensorPosition place = place_in(aside, {0, -1, 0});
   EXPECT_FALSE(place.around);
   EXPECT_NEAR(place.at.z(), 90, 5);
   EXPECT_EQ(place.at.y(), 0);
 }
 
-TEST(SensorPlace, SaysHowManyPointsAreBeyondTheRings) {
+TEST(SensorPosition, SaysHowManyPointsAreBeyondTheRings) {
   Street field;  // 600 x 600 m, as from an aeroplane
   for (int i = 0; i < 200; ++i) {
     for (int j = 0; j < 200; ++j)
@@ -159,13 +159,13 @@ TEST(SensorPlace, SaysHowManyPointsAreBeyondTheRings) {
   EXPECT_LT(place_in(street()).far_share, 0.02);
 }
 
-TEST(SensorPlace, ThatIsNotFiniteIsRefused) {
+TEST(SensorPosition, ThatIsNotFiniteIsRefused) {
   const double nan = std::nan("");
   EXPECT_THROW(place_in(street(), {0, 0, 1}, {nan, 0, 0}), std::invalid_argument);
   EXPECT_THROW(place_in(street(), {0, 0, 0}), std::invalid_argument);
 }
 
-TEST(SensorPlace, AHeightThatFitsNoPlaneIsToldFromOneThatDoes) {
+TEST(SensorPosition, AHeightThatFitsNoPlaneIsToldFromOneThatDoes) {
   GroundZonesSettings settings;
   settings.sensor_height = 1.7;
   EXPECT_FALSE(split(street(), settings).level);
@@ -173,7 +173,7 @@ TEST(SensorPlace, AHeightThatFitsNoPlaneIsToldFromOneThatDoes) {
   EXPECT_TRUE(split(street(), settings).level);
 }
 
-TEST(SensorPlace, AHeightIsOfNoUseWhereThePlaceIsEstimated) {
+TEST(SensorPosition, AHeightIsOfNoUseWhereThePlaceIsEstimated) {
   GroundZonesSettings settings;
   settings.sensor_height = 1.7;
   const Street high = street().moved([](const Vector3d& p) { return Vector3d(p + Vector3d(300, 0, 120)); });

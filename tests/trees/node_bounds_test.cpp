@@ -104,7 +104,7 @@ TEST(NodeBounds, DistancesAreThoseToTheShapesLessTheSlack) {
   for (const Tree& tree : trees()) {
     for (int i = 0; i < 18; ++i) {
       const Vector3d p = place_in(random, tree, i);
-      const FramePlace place(tree.boxes, coordinates(p));
+      const FramePoint place(tree.boxes, coordinates(p));
       ASSERT_EQ(place.slack, VolumeBoxes::slack(place.at.cwiseAbs().maxCoeff()));
       for (std::size_t n = 0; n < tree.expected.size(); ++n) {
         const Shape& shape = tree.expected[n];
@@ -120,7 +120,7 @@ TEST(NodeBounds, DistancesAreThoseToTheShapesLessTheSlack) {
           ASSERT_EQ(found, kInfinity);
         }
         const std::uint32_t bits = 0x5a5aU << n % 2;
-        ASSERT_EQ(tree.shapes.may_hold(n / kTreeWidth, bits, place) >> n % kTreeWidth & 1U,
+        ASSERT_EQ(tree.shapes.may_contain(n / kTreeWidth, bits, place) >> n % kTreeWidth & 1U,
                   found == 0 ? bits >> n % kTreeWidth & 1U : 0U);
         apart += found > 0 && found < kInfinity;
         for (const std::uint32_t number : shape.volumes) {

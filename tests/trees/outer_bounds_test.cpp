@@ -63,7 +63,7 @@ TEST(Image, IsWithinItsErrorOfTheExactOne) {
       for (int round = 0; round < 50; ++round) {
         const Eigen::Isometry3d pose = random.isometry(shift);
         const Vector3d p = random.vector(place);
-        const Image found = image_of(pose, coordinates(p));
+        const Image found = transform_point(pose, coordinates(p));
         EXPECT_LE(squared_distance(exact(vector(found.place)), image(pose, exact(p))),
                   test::Rational(found.error) * test::Rational(found.error));
         const Long sizes = (pose.linear().cwiseAbs() * p.cwiseAbs()).sum() + pose.translation().lpNorm<1>();
@@ -77,17 +77,17 @@ TEST(Stretch, IsThatOfTheGreatestStretchedVector) {
   Random random(4);
   for (int round = 0; round < 200; ++round) {
     Eigen::Isometry3d pose = random.isometry(1);
-    const double turned = stretch_of(pose);
+    const double turned = max_stretch(pose);
     EXPECT_GT(turned, 1 + 0x1.8p-46);
     EXPECT_LT(turned, 1 + 0x1.4p-45);
     if (round % 2 == 0) pose.linear().array() += random.uniform(-1, 1);
     const double greatest = pose.linear().jacobiSvd().singularValues()[0];
-    EXPECT_GE(stretch_of(pose), greatest);
-    EXPECT_LE(stretch_of(pose), std::sqrt(3.0) * greatest * (1 + 1e-12));
+    EXPECT_GE(max_stretch(pose), greatest);
+    EXPECT_LE(max_stretch(pose), std::sqrt(3.0) * greatest * (1 + 1e-12));
   }
   Eigen::Isometry3d uneven(Eigen::AngleAxisd(0, Vector3d::UnitX()));
   uneven.linear().diagonal() = Vector3d(1, 3, 2);
-  EXPECT_EQ(stretch_of(uneven), 3 * (1 + 0x1p-45));
+  EXPECT_EQ(max_stretch(uneven), 3 * (1 + 0x1p-45));
 }
 
 TEST(SphereAround, HoldsTheBoxAndLittleMore) {

@@ -20,13 +20,13 @@ namespace {
 using namespace testing;
 
 template <typename T>
-using Items = std::vector<PlacedItem<T>>;
+using Items = std::vector<PositionedItem<T>>;
 
 template <typename T>
 Items<T> items_of(const test::TestCloud<T>& cloud) {
   Items<T> items;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    PlacedItem<T> item;
+    PositionedItem<T> item;
     load_point(cloud.view(), i, item.place);
     item.number = static_cast<std::int32_t>(i);
     if (is_valid({item.place[0], item.place[1], item.place[2]})) items.push_back(item);
@@ -188,7 +188,7 @@ TEST(BoxLevels, FillTheirFrame) {
 
 // The squared radius from which on a ball about the place surely holds a point of a box that touches its
 // points.
-double surely_reached(const Vector3d& place, const Vector3d& low, const Vector3d& high) {
+double projection_lower_bound(const Vector3d& place, const Vector3d& low, const Vector3d& high) {
   const Vector3d near = (place - low).cwiseAbs().cwiseMin((place - high).cwiseAbs()).cwiseAbs2(),
                  far = (place - low).cwiseAbs().cwiseMax((place - high).cwiseAbs()).cwiseAbs2();
   return (far.sum() * Vector3d::Ones() - far + near).minCoeff();
@@ -212,13 +212,13 @@ TEST(BoxLevels, TellHowLittleABallMayBeThatSurelyHoldsAPoint) {
       for (int side = 0; side < 3; ++side) {
         Vector3d middle = (low[k] + high[k]) / 2;
         middle[side] = low[k][side];
-        least = std::min(least, surely_reached(middle, low[k], high[k]));
+        least = std::min(least, projection_lower_bound(middle, low[k], high[k]));
       }
       for (int place = 0; place < 20; ++place)
-        found = std::min(found, surely_reached(somewhere(), low[k], high[k]));
+        found = std::min(found, projection_lower_bound(somewhere(), low[k], high[k]));
     }
-    find_least_reached(boxes);
-    const double told = static_cast<double>(boxes.least_reached[0]) / (boxes.scale * boxes.scale);
+    find_face_cover_squares(boxes);
+    const double told = static_cast<double>(boxes.min_side_radius[0]) / (boxes.scale * boxes.scale);
     EXPECT_LE(told, found + 1e-5);
     EXPECT_NEAR(told, least, 1e-5);
   }

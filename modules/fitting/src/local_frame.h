@@ -42,7 +42,7 @@ class LocalFrame {
 
   /// Returns p relative to `center`, both in the coordinates of the points, in local units. Each coordinate
   /// is rounded once, by at most 2^-53 of itself.
-  Eigen::Vector3d seen_from(const Eigen::Vector3d& center, const Coordinates& p) const {
+  Eigen::Vector3d relative_to(const Eigen::Vector3d& center, const Coordinates& p) const {
     return (vector(p) - center) * scale_;
   }
 

@@ -93,10 +93,10 @@ Execution share_supports(const PointView& points, const std::vector<const Method
   std::size_t askers = 0, hull_askers = 0;
   std::optional<DirectionSet> widest;
   for (const Method* method : among) {
-    hull_askers += method->on_hull ? 1 : 0;
-    if (!method->begins_with) continue;
+    hull_askers += method->needs_hull ? 1 : 0;
+    if (!method->initial_directions) continue;
     ++askers;
-    widest = !widest ? *method->begins_with : union_of(*widest, *method->begins_with);
+    widest = !widest ? *method->initial_directions : union_of(*widest, *method->initial_directions);
   }
   const bool hull = hull_askers > 1;
   Execution shared = execution;

@@ -7,7 +7,7 @@
 
 namespace pcl_bv {
 
-std::vector<Direction> scattered_directions() {
+std::vector<Direction> spread_directions() {
   std::vector<Direction> directions;
   for (int a = 0; a <= 2; ++a) {
     for (int b = -2; b <= 2; ++b) {
@@ -22,7 +22,7 @@ std::vector<Direction> scattered_directions() {
   return directions;
 }
 
-std::vector<Eigen::Vector3d> farthest_along(const std::vector<Eigen::Vector3d>& directions,
+std::vector<Eigen::Vector3d> support_points_along(const std::vector<Eigen::Vector3d>& directions,
                                             const std::vector<Eigen::Vector3d>& points) {
   std::vector<bool> farthest(points.size());
   for (const Eigen::Vector3d& n : directions) {

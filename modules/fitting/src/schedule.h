@@ -22,7 +22,7 @@ inline ParallelPolicy worthwhile(const ParallelPolicy& policy, double serial_sec
 enum class Work {
   box,
   cube_support,
-  own_support,
+  custom_support,
   distance,
   half_spaces,
   outline,

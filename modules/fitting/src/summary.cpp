@@ -83,8 +83,8 @@ CloudSummary known_summary(const Supports& supports) {
 
 CloudSummary summarize(const PointView& points, const Execution& execution) {
   const FloatEnvironment environment;
-  require_own_supports(points, execution);
-  if (stand_for_all(execution)) return known_summary(*execution.supports);
+  require_matching_supports(points, execution);
+  if (represents_cloud(execution)) return known_summary(*execution.supports);
   CloudSummary summary;
   constexpr DirectionSet set = DirectionSet::dop26;
   const SupportDirections& directions = SupportDirections::of(set);
@@ -94,15 +94,15 @@ CloudSummary summarize(const PointView& points, const Execution& execution) {
       points, execution, 2 * directions.count * points.count,
       [&](const PointView& chunk) { return search.find(chunk); },
       [&](const ChunkSupports& found) { search.merge(found); });
-  summary.supports = of_search(search, set, points);
+  summary.supports = supports_of_search(search, set, points);
   summary.supports.rank = point_rank(points, summary.supports, execution);
   finish(moments, summary);
   return summary;
 }
 
 CloudSummary summarize_bounds(const PointView& points, const Execution& execution) {
-  require_own_supports(points, execution);
-  if (stand_for_all(execution)) return known_summary(*execution.supports);
+  require_matching_supports(points, execution);
+  if (represents_cloud(execution)) return known_summary(*execution.supports);
   CloudSummary summary;
   if (execution.supports != nullptr) {
     struct Nothing {};
@@ -113,7 +113,7 @@ CloudSummary summarize_bounds(const PointView& points, const Execution& executio
     finish(moments, summary);
     return summary;
   }
-  summary.supports = no_bounds(points);
+  summary.supports = empty_bounds(points);
   // The moments cost about as much as a 26-DOP, the box next to nothing.
   const Moments moments = pass<AxisExtents>(
       points, execution, kMaxDirections * points.count,

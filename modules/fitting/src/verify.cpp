@@ -53,7 +53,7 @@ double violation(const Aabb& box, const Eigen::Vector3d& p) {
 
 // Upper bound of the rounding error of n . p in double.
 double dot_error(const Eigen::Vector3d& n, const Eigen::Vector3d& p) {
-  return 8 * kU * dot3(n.cwiseAbs(), p.cwiseAbs()) + kSmallestNormal;
+  return 8 * kUnitRoundoff * dot3(n.cwiseAbs(), p.cwiseAbs()) + kSmallestNormal;
 }
 
 double violation(const Kdop& kdop, const Eigen::Vector3d& p) {
@@ -73,7 +73,7 @@ double violation(const Sphere& sphere, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - sphere.center();
   const double squared = dot3(q, q);
   const double r = sphere.radius();
-  if (squared * (1 + 16 * kU) + kSmallestNormal <= r * r * (1 - 16 * kU)) return 0.0;
+  if (squared * (1 + 16 * kUnitRoundoff) + kSmallestNormal <= r * r * (1 - 16 * kUnitRoundoff)) return 0.0;
   Rational excess = -Rational(r) * Rational(r);
   for (int axis = 0; axis < 3; ++axis) {
     const Rational difference = Rational(p[axis]) - Rational(sphere.center()[axis]);
@@ -85,7 +85,7 @@ double violation(const Sphere& sphere, const Eigen::Vector3d& p) {
 
 double violation(const Obb& box, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - box.center();
-  const double bound = 8 * kU * taxicab3(q) + kSmallestNormal;
+  const double bound = 8 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d a = box.axis(i);
@@ -118,7 +118,7 @@ double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - cylinder.center();
   const Eigen::Vector3d& axis = cylinder.axis();
   const double along = std::abs(q.dot(axis)), across = q.cross(axis).stableNorm();
-  const double doubt = 32 * kU * taxicab3(q) + kSmallestNormal;
+  const double doubt = 32 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
   const double r = cylinder.radius(), h = cylinder.half_height();
   if (along + doubt <= h && across + doubt <= r) return 0.0;
   const ExactVector exact_q = difference(exact(p), exact(cylinder.center())), a = exact(axis);
@@ -137,7 +137,7 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
   const double length = e.stableNorm();
   const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(e / length) : Eigen::Vector3d::Zero();
   const double far = (q - std::clamp(q.dot(unit), 0.0, length) * unit).stableNorm();
-  if (far + 64 * kU * (taxicab3(q) + taxicab3(e)) + kSmallestNormal <= r) return 0.0;
+  if (far + 64 * kUnitRoundoff * (taxicab3(q) + taxicab3(e)) + kSmallestNormal <= r) return 0.0;
   const ExactVector a = exact(capsule.a()), edge = difference(exact(capsule.b()), a);
   const ExactVector from_a = difference(exact(p), a);
   const Rational squared_edge = dot3(edge, edge);
@@ -153,13 +153,13 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
 double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - ellipsoid.center();
   const Eigen::Vector3d& radii = ellipsoid.radii();
-  const double doubt = 16 * kU * taxicab3(q) + kSmallestNormal;
+  const double doubt = 16 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
     const double ratio = (std::abs(q.dot(ellipsoid.axes().col(i))) + doubt) / radii[i];
     sum += ratio * ratio;
   }
-  if (sum <= 1 - 16 * kU) return 0.0;
+  if (sum <= 1 - 16 * kUnitRoundoff) return 0.0;
   const ExactVector exact_q = difference(exact(p), exact(ellipsoid.center()));
   Rational exact_sum = 0;
   bool off_plane = false;

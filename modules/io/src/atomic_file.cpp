@@ -43,7 +43,7 @@ void write_all(const FileDescriptor& file, const Pieces& pieces) {
 }
 
 // EINVAL is ignored: some file systems return it for the fsync of a folder.
-void wait_for_the_disk(const FileDescriptor& file) {
+void sync_to_disk(const FileDescriptor& file) {
   int failed = 0;
   do
     failed = ::fsync(file.get());
@@ -140,13 +140,13 @@ void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
   FileDescriptor file = name.create();
   if (exists) require(::fchmod(file.get(), old.st_mode & 0777) == 0);
   write_all(file, pieces);
-  wait_for_the_disk(file);
+  sync_to_disk(file);
   require(file.close());
   name.rename_to(path);
-  wait_for_the_disk(opened);
+  sync_to_disk(opened);
 }
 
-void make_folder_of(const fs::path& file) {
+void create_parent_folders(const fs::path& file) {
   std::error_code failure;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
   if (failure) throw IoError("cannot make its folder: " + system_reason(failure.value()));

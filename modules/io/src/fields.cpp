@@ -130,7 +130,7 @@ void add_note(RawCloud& cloud, const std::string& note) {
   cloud.note += (cloud.note.empty() ? "" : "; ") + note;
 }
 
-bool moves_points(const std::array<double, 7>& viewpoint) {
+bool is_not_identity(const std::array<double, 7>& viewpoint) {
   for (const std::size_t i : {0, 1, 2, 4, 5, 6}) {
     if (viewpoint[i] != 0) return true;
   }

@@ -82,7 +82,7 @@ void add_note(RawCloud& cloud, const std::string& note);
 
 /// Whether the viewpoint (tx ty tz qw qx qy qz) has a translation or rotation. All zeros is treated as the
 /// identity.
-bool moves_points(const std::array<double, 7>& viewpoint);
+bool is_not_identity(const std::array<double, 7>& viewpoint);
 
 /// Copies the coordinates of these records to `xyz` in the layout of packed_points(), converted to
 /// `fields.scalar`. Throws IoError for an integer above 2^53 in magnitude, which may have no exact double.

@@ -143,7 +143,7 @@ std::size_t end_of_point_data(const InputFile& file, const HeaderBytes& bytes, i
 void require_points(const InputFile& file, std::size_t end, LasHeader& header) {
   const std::size_t points = header.cloud.width, begin = header.data_offset;
   if (begin <= end && points <= (end - begin) / header.record)
-    return note_rest(file, {begin + points * header.record, end}, header.record, header.cloud);
+    return note_trailing_points(file, {begin + points * header.record, end}, header.record, header.cloud);
   const std::string what = std::to_string(points) + " points of " + std::to_string(header.record) +
                            " bytes from byte " + std::to_string(begin) + " on, ";
   if (end < file.size())

@@ -35,7 +35,7 @@ std::size_t values_per_point(const RawCloud& cloud) {
 // Reads one row. Successive fields of the same type are read as one run.
 class PointRow {
  public:
-  PointRow(const RawCloud& cloud, UnreadValues& unread) : cloud_(cloud), unread_(unread) {
+  PointRow(const RawCloud& cloud, InvalidValues& unread) : cloud_(cloud), unread_(unread) {
     for (const PointField& field : cloud.fields) {
       if (runs_.empty() || !extend_run(runs_.back(), field)) runs_.push_back(field);
     }
@@ -44,7 +44,7 @@ class PointRow {
   void operator()(TextRows& rows, std::byte* to) const {
     std::size_t read = 0;
     for (const PointField& run : runs_) {
-      rows.read_all(run, to, [&](std::uint32_t found, std::byte* at) { pass_over(rows, read + found, at); });
+      rows.read_all(run, to, [&](std::uint32_t found, std::byte* at) { replace_value(rows, read + found, at); });
       read += run.count;
       to += run.bytes();
     }
@@ -55,7 +55,7 @@ class PointRow {
 
  private:
   // Handles value number `read` of the row (from 0), which is missing or not a number of its field's type.
-  void pass_over(TextRows& rows, std::size_t read, std::byte* at) const {
+  void replace_value(TextRows& rows, std::size_t read, std::byte* at) const {
     if (!rows.find_value()) {
       throw RowError{"truncated: row ", " has " + std::to_string(read) + " values instead of " +
                                             std::to_string(values_per_point(cloud_))};
@@ -63,7 +63,7 @@ class PointRow {
     std::size_t number = 0;
     for (; read >= cloud_.fields[number].count; ++number)
       read -= cloud_.fields[number].count;
-    if (unread_.pass_over(rows, number, at)) return;
+    if (unread_.replace_value(rows, number, at)) return;
     const PointField& field = cloud_.fields[number];
     throw RowError{"row ", ", field " + in_quotes(field.name) + ": " + in_quotes(rows.value()) +
                                " is not a number of TYPE " + field.type + ", SIZE " +
@@ -71,7 +71,7 @@ class PointRow {
   }
 
   const RawCloud& cloud_;
-  UnreadValues& unread_;
+  InvalidValues& unread_;
   std::vector<PointField> runs_;
 };
 
@@ -88,7 +88,7 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
                   " values do not fit in the " + std::to_string(available) + " bytes after the header");
   }
   cloud.data.resize(cloud.size() * cloud.point_step);
-  UnreadValues unread(cloud, "row", 1);
+  InvalidValues unread(cloud, "row", 1);
   const RowsRead rows = read_text_rows({file, header.data_offset, false}, {1, cloud.size(), cloud.point_step},
                                        PointRow(cloud, unread), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {

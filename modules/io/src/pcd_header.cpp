@@ -47,7 +47,7 @@ bool begins_with_data_line(std::string_view text) {
 
 // Collects the header lines up to the line DATA. Returns false if there is no such line in `start`. `more`:
 // the file is longer than `start`.
-bool gather_lines(std::string_view start, bool more, KeywordLines& lines, std::size_t& data_offset) {
+bool collect_header_lines(std::string_view start, bool more, KeywordLines& lines, std::size_t& data_offset) {
   std::size_t at = 0;
   while (at < start.size()) {
     const std::size_t newline = start.find('\n', at);
@@ -143,7 +143,7 @@ void read_viewpoint(const KeywordLines& lines, RawCloud& cloud) {
   const Words& words = words_of(lines, "VIEWPOINT", 7);
   std::transform(words.begin(), words.end(), cloud.viewpoint.begin(),
                  [](std::string_view word) { return number<double>("VIEWPOINT", word, "a number"); });
-  if (moves_points(cloud.viewpoint))
+  if (is_not_identity(cloud.viewpoint))
     add_note(cloud, "VIEWPOINT is not the identity and is not applied: coordinates are taken as stored");
 }
 
@@ -169,7 +169,7 @@ PcdHeader read_pcd_header(const InputFile& file) {
   PcdHeader header;
   parse_header(file, "DATA line", [&](std::string_view start, bool more) {
     KeywordLines lines;
-    if (!gather_lines(start, more, lines, header.data_offset)) return false;
+    if (!collect_header_lines(start, more, lines, header.data_offset)) return false;
     check_version(lines);
     header.encoding = read_encoding(lines);
     read_fields(lines, header.cloud);
@@ -187,7 +187,7 @@ void require_records(const InputFile& file, PcdHeader& header) {
   const std::size_t needed = cloud.size() * cloud.point_step;
   const std::size_t available = file.size() - header.data_offset;
   const std::size_t end = header.data_offset + needed;
-  if (needed <= available) return note_rest(file, {end, file.size()}, cloud.point_step, cloud);
+  if (needed <= available) return note_trailing_points(file, {end, file.size()}, cloud.point_step, cloud);
   throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " +
                 std::to_string(cloud.point_step) + " bytes need " + std::to_string(needed) +
                 " bytes, the file has " + std::to_string(available));

@@ -16,7 +16,7 @@ namespace {
 // Reads one vertex. Successive properties of the same type are read as one run.
 class VertexRow {
  public:
-  VertexRow(const PlyElement& vertex, UnreadValues& unread) : vertex_(vertex), unread_(unread) {
+  VertexRow(const PlyElement& vertex, InvalidValues& unread) : vertex_(vertex), unread_(unread) {
     for (const PlyProperty& property : vertex.properties) {
       const bool follows = !property.is_list && !steps_.empty() && !steps_.back().is_list;
       if (!follows || !extend_run(steps_.back().value, property.value)) steps_.push_back(property);
@@ -32,7 +32,7 @@ class VertexRow {
         continue;
       }
       rows.read_all(step.value, to, [&](std::uint32_t found, std::byte* at) {
-        if (!unread_.pass_over(rows, field + found, at)) refuse(rows, property[found].value);
+        if (!unread_.replace_value(rows, field + found, at)) refuse(rows, property[found].value);
       });
       property += step.value.count;
       field += step.value.count;
@@ -64,7 +64,7 @@ class VertexRow {
   }
 
   const PlyElement& vertex_;
-  UnreadValues& unread_;
+  InvalidValues& unread_;
   std::vector<PlyProperty> steps_;
 };
 
@@ -92,7 +92,7 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   for (const PlyElement& element : header.skipped)
     skip(body, element);
   cloud.data.resize(cloud.size() * cloud.point_step);
-  UnreadValues unread(cloud, "vertex", 0);
+  InvalidValues unread(cloud, "vertex", 0);
   const RowsRead rows = read_text_rows(body, {0, cloud.size(), cloud.point_step},
                                        VertexRow(header.vertex, unread), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {

@@ -97,7 +97,7 @@ struct Contents {
   }
 
   /// Whether the last element read follows the vertices. Its properties do not matter.
-  bool is_behind_vertices() const { return elements.end() - vertex() > 1; }
+  bool last_follows_vertices() const { return elements.end() - vertex() > 1; }
 };
 
 void read_line(const Words& words, std::string_view line, Contents& contents) {
@@ -108,7 +108,7 @@ void read_line(const Words& words, std::string_view line, Contents& contents) {
     contents.elements.push_back(read_element(words, line));
   } else if (words[0] == "property") {
     if (contents.elements.empty()) throw IoError("header: a property before any element");
-    if (!contents.is_behind_vertices())
+    if (!contents.last_follows_vertices())
       contents.elements.back().properties.push_back(read_property(words, line));
   } else {
     refuse(line);

@@ -67,7 +67,7 @@ std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view na
     refuse("is not there: the fields are " + names);
   }
   if (field->type == 'F') refuse("is floating point, not an integer");
-  const std::vector<std::string>& unread = cloud.unread_fields;
+  const std::vector<std::string>& unread = cloud.invalid_fields;
   if (std::find(unread.begin(), unread.end(), field->name) != unread.end())
     refuse("has values that are no integers: " + cloud.note);
   if (field->count != 1) refuse("has " + std::to_string(field->count) + " elements a point, not one");

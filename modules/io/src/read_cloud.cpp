@@ -137,8 +137,8 @@ CloudHeader read_cloud_header(const std::filesystem::path& path, std::size_t bin
   } else {
     refuse_other_formats(path);
     PcdHeader pcd = extension == ".bin" ? read_bin_header(file, path, bin_fields) : read_pcd_header(file);
-    header.by_position = pcd.encoding == PcdEncoding::binary;
-    if (header.by_position) require_records(file, pcd);
+    header.random_access = pcd.encoding == PcdEncoding::binary;
+    if (header.random_access) require_records(file, pcd);
     header.cloud = std::move(pcd.cloud);
   }
   header.scalar = coordinate_fields(header.cloud.fields).scalar;

@@ -12,7 +12,7 @@
 namespace pcl_bv {
 namespace {
 
-bool is_filling(const InputFile& file, ByteRange rest) {
+bool is_zero_padding(const InputFile& file, ByteRange rest) {
   constexpr std::size_t page = 4096;
   if (rest.end - rest.begin >= page) return false;
   std::vector<char> bytes(rest.end - rest.begin);
@@ -22,9 +22,9 @@ bool is_filling(const InputFile& file, ByteRange rest) {
 
 }  // namespace
 
-void note_rest(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud) {
+void note_trailing_points(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud) {
   const std::size_t size = rest.end - rest.begin;
-  if (size < record || is_filling(file, rest)) return;
+  if (size < record || is_zero_padding(file, rest)) return;
   const std::string bytes =
       std::to_string(size) + " bytes of " + std::to_string(size / record) + " more points follow";
   if (cloud.size() == 0) throw IoError("header: 0 points, but " + bytes);

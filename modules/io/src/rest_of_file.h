@@ -19,6 +19,6 @@ struct ByteRange {
 /// Adds a note to the cloud if the bytes behind the last point, `rest`, have more points of `record` bytes: a
 /// recorder that stopped early may not have updated the header. An incomplete record is ignored, and so are
 /// zeros of less than 4 KiB, which PCL appends. Throws IoError if the header says 0 points but more follow.
-void note_rest(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud);
+void note_trailing_points(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud);
 
 }  // namespace pcl_bv

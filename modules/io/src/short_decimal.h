@@ -17,7 +17,7 @@
 namespace pcl_bv {
 
 /// Number of bytes after the text that read_short_decimal() may read.
-inline constexpr std::size_t text_padding = 16;
+inline constexpr std::size_t kTextPadding = 16;
 
 /// Whether the character separates values within a line: white space of C except the line feed.
 inline bool is_blank(char c) {
@@ -60,8 +60,8 @@ inline constexpr std::array<std::uint64_t, 9> integer_powers{1,      10,      10
                                                              100000, 1000000, 10000000, 100000000};
 
 /// The largest power of ten that a double represents exactly is 10^22.
-inline constexpr int greatest_power = 22;
-inline constexpr std::array<double, greatest_power + 1> double_powers{
+inline constexpr int kMaxExactPower = 22;
+inline constexpr std::array<double, kMaxExactPower + 1> double_powers{
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
@@ -70,7 +70,7 @@ struct Decimal {
   std::int64_t digits;
   int exponent;
 
-  bool has_power() const { return exponent <= greatest_power && exponent >= -greatest_power; }
+  bool has_power() const { return exponent <= kMaxExactPower && exponent >= -kMaxExactPower; }
 
   /// The value, rounded twice: the digits to a double, then the product or quotient. Requires has_power().
   double magnitude() const {
@@ -121,7 +121,7 @@ inline bool read_exponent(const char*& at, int& exponent) {
 
 /// Reads a number that is followed by a blank or a line end. Returns the position behind it, or null if this
 /// fast path cannot decide: the text may still be a valid number for std::from_chars. The text must be
-/// followed by text_padding bytes that begin with a line feed.
+/// followed by kTextPadding bytes that begin with a line feed.
 template <typename T>
 inline const char* read_short_decimal(const char* at, T& value) {
   static_assert(std::is_floating_point_v<T>);

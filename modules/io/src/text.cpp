@@ -37,7 +37,7 @@ std::string in_quotes(std::string_view text) {
 
 void parse_header(const InputFile& file, const char* last_line,
                   const std::function<bool(std::string_view start, bool more)>& parse) {
-  for (std::size_t size = 1 << 16; size <= max_header_size; size *= 4) {
+  for (std::size_t size = 1 << 16; size <= kMaxHeaderBytes; size *= 4) {
     std::string start(std::min(file.size(), size), '\0');
     file.read(0, start.data(), start.size());
     const bool whole = start.size() == file.size();
@@ -46,7 +46,7 @@ void parse_header(const InputFile& file, const char* last_line,
       throw IoError(std::string("truncated header: no ") + last_line + " in the first " +
                     std::to_string(start.size()) + " bytes");
   }
-  throw IoError("header: longer than the " + std::to_string(max_header_size) + " bytes allowed, no " +
+  throw IoError("header: longer than the " + std::to_string(kMaxHeaderBytes) + " bytes allowed, no " +
                 last_line + " in them");
 }
 

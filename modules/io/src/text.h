@@ -18,11 +18,11 @@ namespace pcl_bv {
 
 /// Maximum size of a header in bytes. Most headers have 200 to 400 bytes, but some exporters store the scan's
 /// metadata in comments of 100 kB.
-inline constexpr std::size_t max_header_size = 1 << 20;
+inline constexpr std::size_t kMaxHeaderBytes = 1 << 20;
 
 /// Calls parse(start, more) with the beginning of the file: 64 KiB, then more each time, until it returns
 /// true. `parse` returns false if the header does not end in `start`. `more`: the file is longer than
-/// `start`. Throws IoError, naming `last_line`, if the header does not end in the file or in max_header_size
+/// `start`. Throws IoError, naming `last_line`, if the header does not end in the file or in kMaxHeaderBytes
 /// bytes.
 void parse_header(const InputFile& file, const char* last_line,
                   const std::function<bool(std::string_view start, bool more)>& parse);

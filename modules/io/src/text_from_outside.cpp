@@ -21,7 +21,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::string read_text_from_outside(const std::filesystem::path& path, std::size_t max_bytes) {
+std::string read_untrusted_text(const std::filesystem::path& path, std::size_t max_bytes) {
   std::error_code unknown;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path, unknown)) throw IoError("cannot be read");

@@ -56,7 +56,7 @@ const char* read_number(const char* at, const char* end, T& value) {
 }
 
 // A piece is first read with 1/512 of its size beyond its end, where its last line usually ends.
-constexpr std::size_t overhang_part = 512;
+constexpr std::size_t kOverhangFraction = 512;
 
 // Offset behind the first line end at or after `from`, or npos.
 std::size_t behind_line_end(std::string_view text, std::size_t from) {
@@ -81,7 +81,7 @@ class TextPieces {
     const std::size_t begin = piece_begin(piece) - before;
     const std::size_t inside = piece_begin(piece + 1) - begin;  // bytes up to the next piece
     std::size_t have = 0, first = 0, last = std::string_view::npos;
-    for (std::size_t overhang = body_.piece_bytes / overhang_part + 1;; overhang *= 2) {
+    for (std::size_t overhang = body_.piece_bytes / kOverhangFraction + 1;; overhang *= 2) {
       const std::size_t want = std::min(inside + overhang, body_.file.size() - begin);
       fill(buffer, begin + have, want - have, have);
       const std::string_view text(reinterpret_cast<const char*>(buffer.data()), want);
@@ -94,7 +94,7 @@ class TextPieces {
     last = std::min(last, have);
     first = std::min(first, last);
     char* text = reinterpret_cast<char*>(buffer.data());
-    std::memset(text + last, '\n', text_padding);
+    std::memset(text + last, '\n', kTextPadding);
     return {text + first, last - first};
   }
 
@@ -105,10 +105,10 @@ class TextPieces {
 
   // Reads `bytes` bytes of the file from offset `from` into the buffer, behind its first `have` bytes.
   void fill(ByteBuffer& buffer, std::size_t from, std::size_t bytes, std::size_t have) const {
-    if (buffer.size() < have + bytes + text_padding) buffer.resize(have + bytes + text_padding);
+    if (buffer.size() < have + bytes + kTextPadding) buffer.resize(have + bytes + kTextPadding);
     body_.file.read(from, buffer.data() + have, bytes);
     char* text = reinterpret_cast<char*>(buffer.data());
-    if (body_.returns_end_rows) std::replace(text + have, text + have + bytes, '\r', '\n');
+    if (body_.cr_ends_row) std::replace(text + have, text + have + bytes, '\r', '\n');
   }
 
   TextBody body_;
@@ -269,7 +269,7 @@ std::size_t skip_text_rows(TextBody& body, std::size_t count) {
     body.file.read(body.begin, window.data(), bytes);
     std::size_t at = 0;
     for (; at < bytes && skipped < count; ++at) {
-      const bool ends = window[at] == '\n' || (body.returns_end_rows && window[at] == '\r');
+      const bool ends = window[at] == '\n' || (body.cr_ends_row && window[at] == '\r');
       skipped += ends && in_row;
       in_row = !ends && (in_row || !is_blank(window[at]));
     }

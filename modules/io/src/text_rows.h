@@ -18,7 +18,7 @@
 namespace pcl_bv {
 
 /// A cursor over a text of rows (lines) of values separated by blanks. Does not own the text, which must be
-/// followed by text_padding readable bytes that begin with a line feed.
+/// followed by kTextPadding readable bytes that begin with a line feed.
 class TextRows {
  public:
   explicit TextRows(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
@@ -72,14 +72,14 @@ class TextRows {
 bool extend_run(PointField& run, const PointField& next);
 
 /// Bytes of text per piece: a piece and its records fit in the second-level cache.
-inline constexpr std::size_t default_text_piece = 256 << 10;
+inline constexpr std::size_t kTextPieceBytes = 256 << 10;
 
 /// The rows of a file.
 struct TextBody {
   const InputFile& file;
   std::size_t begin;                             ///< Byte offset of the first row.
-  bool returns_end_rows;                         ///< A carriage return alone ends a row, too.
-  std::size_t piece_bytes = default_text_piece;  ///< Bytes that are read at a time.
+  bool cr_ends_row;                         ///< A carriage return alone ends a row, too.
+  std::size_t piece_bytes = kTextPieceBytes;  ///< Bytes that are read at a time.
 };
 
 /// Thrown for a row that cannot be read. The message is `before`, the number of the row, `after`.

@@ -40,10 +40,10 @@ bool read_negative(std::string_view word, const PointField& field, std::byte* to
 
 }  // namespace
 
-UnreadValues::UnreadValues(const RawCloud& cloud, std::string_view row, std::size_t first_number)
+InvalidValues::InvalidValues(const RawCloud& cloud, std::string_view row, std::size_t first_number)
     : cloud_(cloud), row_(row), first_number_(first_number), fields_(cloud.fields.size()) {}
 
-bool UnreadValues::pass_over(TextRows& rows, std::size_t field, std::byte* to) {
+bool InvalidValues::replace_value(TextRows& rows, std::size_t field, std::byte* to) {
   const PointField& of = cloud_.fields[field];
   if (is_coordinate_name(of.name) || !rows.find_value()) return false;
   if (read_negative(rows.value(), of, to)) {
@@ -51,7 +51,7 @@ bool UnreadValues::pass_over(TextRows& rows, std::size_t field, std::byte* to) {
     return true;
   }
   const std::size_t row = static_cast<std::size_t>(to - cloud_.data.data()) / cloud_.point_step;
-  OfField& known = fields_[field];
+  FieldRecord& known = fields_[field];
   known.count.fetch_add(1, std::memory_order_relaxed);
   if (row < known.first_row.load(std::memory_order_relaxed)) {
     const std::lock_guard lock(mutex_);
@@ -70,12 +70,12 @@ bool UnreadValues::pass_over(TextRows& rows, std::size_t field, std::byte* to) {
   return true;
 }
 
-void UnreadValues::report(RawCloud& cloud) const {
+void InvalidValues::report(RawCloud& cloud) const {
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    const OfField& known = fields_[i];
+    const FieldRecord& known = fields_[i];
     if (known.count == 0) continue;
     const PointField& field = cloud.fields[i];
-    cloud.unread_fields.push_back(field.name);
+    cloud.invalid_fields.push_back(field.name);
     add_note(cloud, row_ + " " + std::to_string(first_number_ + known.first_row) + ", field " +
                         in_quotes(field.name) + ": " + known.first + " is no " + kind_of(field) + "; " +
                         std::to_string(known.count) +

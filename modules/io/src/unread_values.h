@@ -20,21 +20,21 @@ namespace pcl_bv {
 /// Values that are not numbers of their field's type become NaN, or 0 in integer fields, and are counted.
 /// Negative integers in unsigned fields wrap around as in C++ (-1 becomes the maximum) and are not counted.
 /// Thread-safe; the report depends only on the file.
-class UnreadValues {
+class InvalidValues {
  public:
   /// `row`: word for a row in messages; `first_number`: number of the first row. The cloud must outlive this
   /// object, and its `data` must have its final size.
-  UnreadValues(const RawCloud& cloud, std::string_view row, std::size_t first_number);
+  InvalidValues(const RawCloud& cloud, std::string_view row, std::size_t first_number);
 
   /// Skips the value at the cursor, an element of this field, and writes its replacement to `to`. Returns
   /// false and does nothing if the field is a coordinate or the row has no more values.
-  bool pass_over(TextRows& rows, std::size_t field, std::byte* to);
+  bool replace_value(TextRows& rows, std::size_t field, std::byte* to);
 
-  /// Adds the fields with such values to the cloud's note and unread_fields.
+  /// Adds the fields with such values to the cloud's note and invalid_fields.
   void report(RawCloud& cloud) const;
 
  private:
-  struct OfField {
+  struct FieldRecord {
     std::atomic<std::uint64_t> count = 0;
     std::atomic<std::size_t> first_row = SIZE_MAX;
     std::string first;
@@ -44,7 +44,7 @@ class UnreadValues {
   const std::string row_;
   const std::size_t first_number_;
   std::mutex mutex_;
-  std::vector<OfField> fields_;
+  std::vector<FieldRecord> fields_;
 };
 
 }  // namespace pcl_bv

@@ -59,8 +59,8 @@ std::string format_header(const RawCloud& cloud, PcdEncoding encoding) {
 void write_pcd(const std::filesystem::path& path, const RawCloud& cloud, PcdEncoding encoding) {
   check_cloud(cloud);
   const std::string header = format_header(cloud, encoding);
-  require(header.size() <= max_header_size,
-          "its fields need a header of more than " + std::to_string(max_header_size) + " bytes");
+  require(header.size() <= kMaxHeaderBytes,
+          "its fields need a header of more than " + std::to_string(kMaxHeaderBytes) + " bytes");
   if (encoding == PcdEncoding::binary) {
     const char* data = reinterpret_cast<const char*>(cloud.data.data());
     return write_file_atomically(path, {header, {data, cloud.data.size()}});

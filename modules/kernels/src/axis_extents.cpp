@@ -193,7 +193,7 @@ std::size_t grow_over_valid(const PointView& block, T* low, T* high) {
     if (HWY_LIKELY(i + n <= block.count)) {
       load_packet<layout>(d, block, i, x, y, z);
     } else {
-      load_few(d, block, i, block.count - i, pad, x, y, z);
+      load_padded(d, block, i, block.count - i, pad, x, y, z);
     }
     const auto valid = valid_lanes(d, x, y, z);
     valid_count += hn::CountTrue(d, valid);

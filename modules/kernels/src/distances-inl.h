@@ -116,8 +116,8 @@ HWY_INLINE float float_limit(double limit) {
 
 // The arguments of float arithmetic: squared_distance() of points at or below `limit` is below the scan's
 // limit.
-struct InFloat {
-  InFloat(const DistanceCenter& c, double scan_limit) : center(c), limit(float_limit(scan_limit)) {}
+struct FloatRejection {
+  FloatRejection(const DistanceCenter& c, double scan_limit) : center(c), limit(float_limit(scan_limit)) {}
   FloatCenter center;
   float limit;
 };
@@ -151,7 +151,7 @@ HWY_INLINE V<D> greatest_in_float(D d, const PointView& points, Run run, const F
     return hn::Max(greatest, other);
   }
   for (std::size_t i = run.begin; i < run.end; i += n) {
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     greatest = max_or_keep(d, distances_in_float(d, center, x, y, z), greatest);
   }
   return greatest;

@@ -25,7 +25,7 @@ namespace HWY_NAMESPACE {
 
 // Inspects the kBoundPoints points of each lane whose bound exceeds the limit.
 template <Layout layout>
-std::size_t reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
+std::size_t reaching(const PointView& block, const ScanBounds& kept, const DistanceCenter& center,
                      double limit, std::uint32_t* positions) {
   const Tag<float> d;
   const std::size_t lanes = hn::Lanes(d);
@@ -58,7 +58,7 @@ std::size_t list_of_run(const PointView& points, Run run, const DistanceCenter& 
   std::size_t count = 0;
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     bool any = false, far[kGroupBytes / sizeof(T)] = {};
     bool* next = far;
 #define PCL_BV_STEP(x, y, z)                                                   \
@@ -81,7 +81,7 @@ template <Layout layout, typename T>
 std::size_t list_of(const PointView& points, const DistanceCenter& center, double limit, FloatFilter filter,
                     std::uint32_t* positions) {
   const Tag<T> d;
-  const InFloat in_float(center, limit);
+  const FloatRejection in_float(center, limit);
   std::size_t count = 0;
   for (Run run = run_at(d, 0, points.count); run.begin < points.count;
        run = run_at(d, run.end, points.count)) {
@@ -97,7 +97,7 @@ std::size_t list_of(const PointView& points, const DistanceCenter& center, doubl
   return count;
 }
 
-std::size_t list_reaching(const PointView& block, const KeptBounds& kept, const DistanceCenter& center,
+std::size_t list_distant_by_bounds(const PointView& block, const ScanBounds& kept, const DistanceCenter& center,
                           double limit, std::uint32_t* positions) {
   return for_layout(block, [&]<Layout layout, typename>() {
     return reaching<layout>(block, kept, center, limit, positions);
@@ -120,18 +120,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBounds& kept,
+std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& kept,
                           const DistanceCenter& center, double limit, std::uint32_t* positions) {
-  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_reaching, &list_reaching_reference);
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_distant_by_bounds, &list_reaching_reference);
   require_distances(block, center, kBlockPoints);
-  require_bounds(block, kept);
+  require_scan_bounds(block, kept);
   return kTable[isa](block, kept, center, limit, positions);
 }
 
 std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,
                          FloatFilter filter, std::uint32_t* positions) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_distant, &list_distant_reference);
-  require_distances(points, center, kMostPositions);
+  require_distances(points, center, kMaxPositions);
   return kTable[isa](points, center, limit, filter, positions);
 }
 

@@ -77,7 +77,7 @@ struct LaneOctants {
 // Updates the octants with the points of a run. Returns false if a point that is not valid may be among the
 // maxima; never if `masked`.
 template <Layout layout, typename T, bool masked, bool filtered>
-bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, const InFloat& in_float,
+bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, const FloatRejection& in_float,
                     LaneOctants& octants) {
   const Tag<T> d;
   const Tag<double> dd;
@@ -87,7 +87,7 @@ bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, co
   bool fine = true;
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     if constexpr (filtered) {
       if (rejects(d, in_float.center, in_float.limit, x, y, z)) continue;
     }
@@ -109,14 +109,14 @@ bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, co
 
 // If three of a block's first four runs are not rejected, the others are not expected to be either (as on the
 // surface of a sphere), and the filter is switched off.
-constexpr std::size_t kAskedRuns = 4;
-constexpr std::size_t kTooManyKept = 3;
+constexpr std::size_t kProbedRuns = 4;
+constexpr std::size_t kMaxUnrejectedRuns = 3;
 
 // Scans a block. Returns false if a point that is not valid may be among the maxima; never if `masked`.
 template <Layout layout, typename T, bool masked>
 bool octants_of(const PointView& points, OctantScan& scan) {
   const Tag<T> d;
-  const InFloat in_float(scan.center, scan.limit);
+  const FloatRejection in_float(scan.center, scan.limit);
   const T infinity = std::numeric_limits<T>::infinity();
   LaneOctants octants;
   std::size_t asked = 0, kept = 0;
@@ -130,7 +130,7 @@ bool octants_of(const PointView& points, OctantScan& scan) {
         if (bounds != nullptr) hn::StoreU(greatest, d, bounds);
         ++asked;
         if (hn::AllFalse(d, hn::Gt(greatest, hn::Set(d, in_float.limit)))) continue;
-        if (++kept == kTooManyKept && asked <= kAskedRuns) filtered = false;
+        if (++kept == kMaxUnrejectedRuns && asked <= kProbedRuns) filtered = false;
         if (!octants_of_run<layout, T, masked, true>(points, run, scan, in_float, octants)) return false;
         continue;
       }

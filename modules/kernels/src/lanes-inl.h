@@ -41,8 +41,8 @@ inline std::size_t packets_per_block(std::size_t packets) {
 /// Where the maximum projections are stored: per block support after support, for each support one number per
 /// lane.
 template <typename T>
-struct LaneReach {
-  LaneReach(T* first, std::size_t ends, std::size_t packets = kPackets)
+struct LaneProjections {
+  LaneProjections(T* first, std::size_t ends, std::size_t packets = kPackets)
       : values(first), lanes(hn::Lanes(Tag<T>())), block_points(packets * lanes), per_block(ends * lanes) {}
 
   T* values;
@@ -52,7 +52,7 @@ struct LaneReach {
 };
 
 template <typename T>
-double greatest_reach(const LaneReach<T>& reach, std::size_t end, std::size_t points) {
+double max_over_lanes(const LaneProjections<T>& reach, std::size_t end, std::size_t points) {
   const Tag<T> d;
   const T* lanes = reach.values + end * reach.lanes;
   auto greatest = hn::Load(d, lanes);
@@ -64,7 +64,7 @@ double greatest_reach(const LaneReach<T>& reach, std::size_t end, std::size_t po
 /// Calls look(first, n, last) for the points first, first + n, ... below `last` behind each lane of a block
 /// whose maximum projection is at least the threshold, a value of type T.
 template <Layout layout, typename T, typename Look>
-void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_t end, double threshold,
+void search_lanes(const PointView& points, const LaneProjections<T>& reach, std::size_t end, double threshold,
                   const Look& look) {
   const Tag<T> d;
   const std::size_t n = reach.lanes;
@@ -92,19 +92,19 @@ void search_lanes(const PointView& points, const LaneReach<T>& reach, std::size_
 /// Updates the supports in `out` with the points of a part, given the maximum projections of its lanes. If
 /// `later` is not null, it receives lower bounds of the supports found, for the parts that follow.
 template <Layout layout, typename T>
-void search_ends(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach,
-                 const Spread& spread, const ReachedSupports& reached, ReachedSupports* later,
+void search_supports(const PointView& part, const SupportDirections& set, const LaneProjections<T>& reach,
+                 const Spread& spread, const SupportBounds& reached, SupportBounds* later,
                  ChunkSupports& out) {
   std::optional<SupportPlan> plan;  // for both supports of a direction
   for (std::size_t end = 0; end < 2 * set.count; ++end) {
     if (end % 2 == 0) plan.emplace(set, end / 2, spread, part.scalar);
-    const EndSearch what = plan->of(end % 2 != 0, greatest_reach(reach, end, part.count), reached[end]);
-    if (what.kind == EndSearch::Kind::none) continue;
+    const SupportCandidates what = plan->of(end % 2 != 0, max_over_lanes(reach, end, part.count), reached[end]);
+    if (what.kind == SupportCandidates::Kind::none) continue;
     SupportPoint& best = out.ends[end];
-    if (what.kind == EndSearch::Kind::every) {
-      keep_farther(set.end_direction(end), first_valid_point(part), best);
+    if (what.kind == SupportCandidates::Kind::every) {
+      keep_larger_projection(set.support_direction(end), first_valid_point(part), best);
     } else {
-      const SupportLook<T> look(part, set, end, {spread.center, what.threshold});
+      const ExactSupportSearch<T> look(part, set, end, {spread.center, what.threshold});
       if (what.threshold <= 0) {  // which every lane passes
         look(0, 1, part.count, best);
       } else {
@@ -114,7 +114,7 @@ void search_ends(const PointView& part, const SupportDirections& set, const Lane
       }
     }
     if (later != nullptr && best.found)
-      (*later)[end] = HWY_MAX((*later)[end], surely_reached(set, end, best.point));
+      (*later)[end] = HWY_MAX((*later)[end], projection_lower_bound(set, end, best.point));
   }
 }
 

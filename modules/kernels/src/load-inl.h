@@ -135,7 +135,7 @@ HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y,
 /// Loads up to one packet, point by point in order. Lanes from `count` on repeat the point `pad` (never
 /// zeros).
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void load_few(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad,
+HWY_INLINE void load_padded(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad,
                          V<D>& x, V<D>& y, V<D>& z) {
   HWY_ALIGN T lanes[3][kGroupBytes / sizeof(T)];
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
@@ -187,7 +187,7 @@ HWY_INLINE void load_packet(D d, const PointView& points, std::size_t first, V<D
                             load_blocks(d, points, first + 1, 2, sizeof(T)));
 #endif
   } else {
-    load_few(d, points, first, n, static_cast<const T*>(nullptr), x, y, z);
+    load_padded(d, points, first, n, static_cast<const T*>(nullptr), x, y, z);
   }
 }
 
@@ -216,17 +216,17 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 /// Loads the packet from `first` on. An incomplete last packet is loaded in order and padded with the view's
 /// first point.
 template <Layout layout, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void load_some(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y, V<D>& z) {
+HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y, V<D>& z) {
   if (first + hn::Lanes(d) <= points.count) {
     load_packet<layout>(d, points, first, x, y, z);
     return;
   }
   T pad[3];
   load_point(points, 0, pad);
-  load_few(d, points, first, points.count - first, pad, x, y, z);
+  load_padded(d, points, first, points.count - first, pad, x, y, z);
 }
 
-/// Appends the positions of the marked points of a packet, which was loaded by load_some(). `positions` has
+/// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail(). `positions` has
 /// `count` entries before; returns the number of entries after.
 template <Layout layout, class D>
 std::size_t append_marked(D d, const bool* marked, const PointView& points, std::size_t first,
@@ -275,7 +275,7 @@ HWY_INLINE void load_relative(D d, const PointView& block, std::size_t first, co
   if (HWY_LIKELY(first + n <= block.count)) {
     load_packet<layout>(d, block, first, x, y, z);
   } else if (masked || block.count < n) {
-    load_few(d, block, first, block.count - first, center, x, y, z);
+    load_padded(d, block, first, block.count - first, center, x, y, z);
   } else {
     load_packet_anywhere<layout>(d, block, block.count - n, x, y, z);
   }

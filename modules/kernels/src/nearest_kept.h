@@ -34,9 +34,9 @@ class NearestOne {
 /// Retains the `most` nearest of the points that were offered. Up to 32 points are kept sorted: moving them
 /// costs less than selecting later. For larger `most`, half as many again are collected before the nearest
 /// are selected, so that a candidate costs a few nanoseconds.
-class NearestKept {
+class NearestSet {
  public:
-  NearestKept(std::size_t most, double limit, std::vector<Neighbor>& kept)
+  NearestSet(std::size_t most, double limit, std::vector<Neighbor>& kept)
       : most_(most), limit_(limit), kept_(kept) {
     kept_.clear();
   }

@@ -81,7 +81,7 @@ HWY_INLINE void side_squares(D d, const BoxGroup& group, const BoxProbe& probe, 
 /// A box around points has one on each side. So one point is no farther than the farthest corner of the
 /// nearer side along x, and so for y and z. The bound is the smallest of the three.
 template <class D>
-HWY_INLINE V<D> reached_squares(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
+HWY_INLINE V<D> nearest_point_bounds(D d, const BoxGroup& group, const BoxProbe& probe, std::size_t k) {
   V<D> near_x, near_y, near_z, far_x, far_y, far_z;
   side_squares(d, group, probe, 0, k, near_x, far_x);
   side_squares(d, group, probe, 1, k, near_y, far_y);
@@ -120,10 +120,10 @@ HWY_INLINE std::uint32_t boxes_around(const BoxGroup& group, const BoxProbe& pro
 
 /// Returns whether a box of the group is so near that it certainly has a point within the limit. Empty boxes
 /// are infinitely far.
-HWY_INLINE bool surely_near(const BoxGroup& group, const BoxProbe& probe) {
+HWY_INLINE bool contains_near_point(const BoxGroup& group, const BoxProbe& probe) {
   const Floats d;
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
-    const auto reached = reached_squares(d, group, probe, k);
+    const auto reached = nearest_point_bounds(d, group, probe, k);
     if (!hn::AllFalse(d, hn::Le(reached, hn::Set(d, probe.inner)))) return true;
   }
   return false;
@@ -162,7 +162,7 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
   return bits;
 }
 
-constexpr std::size_t kMostAtStart = 64;  // width of Open::bits
+constexpr std::size_t kMaxStartBoxes = 64;  // width of Open::bits
 
 /// Walks down a tree. Calls visit.take(packet) for each packet whose box may have a point within the limit.
 /// Before the boxes of a group are visited, calls visit.look(group) if any of them may have one, except for
@@ -179,9 +179,9 @@ HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit&
     std::size_t first;   // item of bit 0
     std::uint64_t bits;  // items still to be visited
   };
-  Open open[BoxLevels::kMostLevels];
+  Open open[BoxLevels::kMaxLevels];
   std::size_t level = boxes.levels - 1;
-  while (level > 0 && boxes.below[level - 1] <= kMostAtStart)
+  while (level > 0 && boxes.below[level - 1] <= kMaxStartBoxes)
     --level;
   const std::size_t start = level;
   std::uint64_t next = 0;

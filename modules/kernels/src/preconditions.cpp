@@ -36,7 +36,7 @@ void require_distances(const PointView& points, const DistanceCenter& center, st
   throw std::invalid_argument("distances of float points have scale 1, not " + std::to_string(center.scale));
 }
 
-void require_bounds(const PointView& block, const KeptBounds& kept) {
+void require_scan_bounds(const PointView& block, const ScanBounds& kept) {
   if (block.scalar == ScalarType::float32 && kept.bounds != nullptr) return;
   throw std::invalid_argument("list_reaching() needs the bounds that a scan of float points leaves");
 }

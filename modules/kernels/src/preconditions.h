@@ -14,7 +14,7 @@
 namespace pcl_bv {
 
 /// Maximum number of points whose positions fit into 32 bits.
-inline constexpr std::size_t kMostPositions = std::size_t{1} << 32;
+inline constexpr std::size_t kMaxPositions = std::size_t{1} << 32;
 
 /// Throws std::invalid_argument unless the points are in memory and at most `most`.
 void require_in_memory(const PointView& points, std::size_t most = std::numeric_limits<std::size_t>::max());
@@ -29,7 +29,7 @@ void require_distances(const PointView& points, const DistanceCenter& center,
 
 /// Throws std::invalid_argument unless the points are floats and there are bounds: only scans of float points
 /// write them.
-void require_bounds(const PointView& block, const KeptBounds& kept);
+void require_scan_bounds(const PointView& block, const ScanBounds& kept);
 
 /// Throws std::invalid_argument, naming `what` and the maximum, if `count` exceeds `most`.
 void require_at_most(std::size_t most, std::size_t count, const char* what);

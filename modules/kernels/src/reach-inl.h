@@ -46,7 +46,7 @@ using Low = std::conditional_t<kIsFloat<D>, Unsigned<D>, D>;
 
 /// Returns the distance from the centre, along each axis, within which every point is certainly valid.
 template <typename T>
-T room_around(const T* center) {
+T valid_distance(const T* center) {
   if (sizeof(T) == 4) return coordinate_limit<T>();
   T farthest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -55,21 +55,21 @@ T room_around(const T* center) {
 }
 
 template <class D>
-HWY_INLINE V<High<D>> no_high_reach(D) {
+HWY_INLINE V<High<D>> zero_maximum(D) {
   return hn::Zero(High<D>());
 }
 template <class D>
-HWY_INLINE V<Low<D>> no_low_reach(D d) {
+HWY_INLINE V<Low<D>> zero_minimum(D d) {
   return hn::BitCast(Low<D>(), hn::SignBit(d));
 }
 template <class D>
-HWY_INLINE V<High<D>> reach_higher(D, V<High<D>> reach, V<D> p) {
+HWY_INLINE V<High<D>> update_maximum(D, V<High<D>> reach, V<D> p) {
   reach = hn::Max(reach, hn::BitCast(High<D>(), p));
   if constexpr (kIsFloat<D>) hold(reach);
   return reach;
 }
 template <class D>
-HWY_INLINE V<Low<D>> reach_lower(D, V<Low<D>> reach, V<D> p) {
+HWY_INLINE V<Low<D>> update_minimum(D, V<Low<D>> reach, V<D> p) {
   if constexpr (!kIsFloat<D>) return hn::Min(reach, p);
   reach = hn::Max(reach, hn::BitCast(Low<D>(), p));
   hold(reach);
@@ -77,18 +77,18 @@ HWY_INLINE V<Low<D>> reach_lower(D, V<Low<D>> reach, V<D> p) {
 }
 /// The projections as numbers >= 0.
 template <class D>
-HWY_INLINE V<D> high_reach(D d, V<High<D>> reach) {
+HWY_INLINE V<D> maximum_projection(D d, V<High<D>> reach) {
   return hn::BitCast(d, reach);
 }
 template <class D>
-HWY_INLINE V<D> low_reach(D d, V<Low<D>> reach) {
+HWY_INLINE V<D> minimum_magnitude(D d, V<Low<D>> reach) {
   return hn::Abs(hn::BitCast(d, reach));
 }
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE bool all_within(D d, [[maybe_unused]] T room, V<Low<D>> low, V<High<D>> high) {
   if constexpr (kIsFloat<D>) {
     const auto greatest = hn::Set(Signed<D>(), 0x7F7FFFFF);  // largest finite float
-    const auto low_magnitude = hn::BitCast(Signed<D>(), low_reach(d, low));
+    const auto low_magnitude = hn::BitCast(Signed<D>(), minimum_magnitude(d, low));
     return hn::AllFalse(Signed<D>(), hn::Gt(hn::Max(high, low_magnitude), greatest));
   } else {
     const auto limit = hn::Set(d, room);

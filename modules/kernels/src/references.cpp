@@ -240,7 +240,7 @@ Moments block_moments_reference(const PointView& block) {
     if (out.count == 0) out.origin = p;
     ++out.count;
   }
-  if (out.count > 0) sum_with_room(block.scalar, out, [&](Moments& moments) { sum_block(block, moments); });
+  if (out.count > 0) sum_without_underflow(block.scalar, out, [&](Moments& moments) { sum_block(block, moments); });
   return out;
 }
 
@@ -264,7 +264,7 @@ void scan_octants_reference(const PointView& block, OctantScan& scan) {
 }
 
 // The bounds only save work: the reference ignores them.
-std::size_t list_reaching_reference(const PointView& block, const KeptBounds& /*kept*/,
+std::size_t list_reaching_reference(const PointView& block, const ScanBounds& /*kept*/,
                                     const DistanceCenter& center, double limit, std::uint32_t* positions) {
   return list_if(block.count, positions,
                  [&](std::size_t i) { return square(load_as<float>(block, i), center) >= limit; });

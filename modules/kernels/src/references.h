@@ -19,7 +19,7 @@ namespace pcl_bv {
 
 AxisExtents axis_extents_reference(const PointView& points);
 void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
-                              const ReachedSupports& reached, ChunkSupports& out);
+                              const SupportBounds& reached, ChunkSupports& out);
 SlabExtents slab_extents_reference(const PointView& points, const Coordinates& origin,
                                    const std::array<Direction, 3>& axes);
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
@@ -34,7 +34,7 @@ void run_boxes_reference(const PointView& points, RunBox* boxes);
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);
 
 void scan_octants_reference(const PointView& block, OctantScan& scan);
-std::size_t list_reaching_reference(const PointView& block, const KeptBounds& kept,
+std::size_t list_reaching_reference(const PointView& block, const ScanBounds& kept,
                                     const DistanceCenter& center, double limit, std::uint32_t* positions);
 std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
                                    FloatFilter filter, std::uint32_t* positions);
@@ -42,7 +42,7 @@ std::size_t list_distant_reference(const PointView& points, const DistanceCenter
 bool any_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit);
 void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, double limit,
                             std::vector<Neighbor>& found);
-void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept);
+void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestSet& kept);
 void find_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestOne& kept);
 
 void visit_along_reference(const PackedTree& tree, const SweptBall& ball, PacketVisitor& visitor);
@@ -51,7 +51,7 @@ Moments block_moments_reference(const PointView& block);
 
 /// Calls sum(moments) with growing exponents until the sum of squares is large enough; for floats once.
 template <typename Sum>
-void sum_with_room(ScalarType scalar, Moments& moments, const Sum& sum) {
+void sum_without_underflow(ScalarType scalar, Moments& moments, const Sum& sum) {
   for (moments.exponent = 0;; moments.exponent += 500) {
     sum(moments);
     const double squares = (moments.product[0] + moments.product[3]) + moments.product[5];

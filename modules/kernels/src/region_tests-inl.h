@@ -25,7 +25,7 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 
 // Number of tests between two checks whether further tests can change anything.
-constexpr std::size_t kBetweenLooks = 4;
+constexpr std::size_t kTestsPerCheck = 4;
 
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE hn::Mask<D> lanes_in_box(D d, const T (&low)[3], const T (&high)[3], V<D> x, V<D> y, V<D> z) {
@@ -44,16 +44,16 @@ HWY_INLINE V<D> along(D d, const T (&n)[3], V<D> x, V<D> y, V<D> z) {
 // The judge functions return which lanes are inside and which are outside; the results of lanes that need no
 // test are meaningless. Two masks instead of a struct, since SVE vectors cannot be members.
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
+HWY_INLINE void classify_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
                               hn::Mask<D>& outside) {
   inside = hn::Le(squares, hn::Set(d, test.square_inner));
   outside = hn::Gt(squares, hn::Set(d, test.square_outer));
 }
 
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_ball(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
+HWY_INLINE void classify_ball(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
                            hn::Mask<D>& outside) {
-  judge_squares(d, test, hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)), inside, outside);
+  classify_squares(d, test, hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)), inside, outside);
 }
 
 template <class D, typename T = hn::TFromD<D>>
@@ -64,7 +64,7 @@ HWY_INLINE V<D> square_beyond(D d, const SlabTest<T>& slab, V<D> reach) {
 }
 
 template <bool slabs_only, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
+HWY_INLINE void classify_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
                            hn::Mask<D>& outside) {
   const auto& [a, b, c] = test.slabs;
   const auto along_a = hn::Abs(along(d, a.axis, x, y, z));
@@ -79,20 +79,20 @@ HWY_INLINE void judge_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> 
     const auto squares = hn::Add(hn::Add(square_beyond(d, a, along_a), square_beyond(d, b, along_b)),
                                  square_beyond(d, c, along_c));
     hn::Mask<D> round_inside, round_outside;
-    judge_squares(d, test, squares, round_inside, round_outside);
+    classify_squares(d, test, squares, round_inside, round_outside);
     inside = hn::And(inside, round_inside);
     outside = hn::Or(outside, round_outside);
   }
 }
 
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void judge_planes(D d, const RegionTest<T>& test, hn::Mask<D> asked, V<D> x, V<D> y, V<D> z,
+HWY_INLINE void classify_planes(D d, const RegionTest<T>& test, hn::Mask<D> asked, V<D> x, V<D> y, V<D> z,
                              hn::Mask<D>& inside, hn::Mask<D>& outside) {
   const auto doubt = hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, test.slope));
   inside = asked;
   outside = hn::AndNot(asked, asked);
   for (std::size_t k = 0; k < test.planes.size();) {
-    const std::size_t end = HWY_MIN(k + kBetweenLooks, test.planes.size());
+    const std::size_t end = HWY_MIN(k + kTestsPerCheck, test.planes.size());
     for (; k < end; ++k) {
       const PlaneTest<T>& plane = test.planes[k];
       const auto reach = along(d, plane.normal, x, y, z);
@@ -130,13 +130,13 @@ HWY_INLINE void test_region(D d, const RegionTest<T>& test, hn::Mask<D> near, V<
   z = hn::Sub(z, hn::Set(d, test.tail[2]));
   hn::Mask<D> in, out;
   if (test.shape == RegionShape::ball) {
-    judge_ball(d, test, x, y, z, in, out);
+    classify_ball(d, test, x, y, z, in, out);
   } else if (test.shape == RegionShape::slabs) {
-    judge_body<true>(d, test, x, y, z, in, out);
+    classify_body<true>(d, test, x, y, z, in, out);
   } else if (test.shape == RegionShape::body) {
-    judge_body<false>(d, test, x, y, z, in, out);
+    classify_body<false>(d, test, x, y, z, in, out);
   } else {
-    judge_planes(d, test, asked, x, y, z, in, out);
+    classify_planes(d, test, asked, x, y, z, in, out);
   }
   inside = hn::Or(inside, hn::And(asked, in));
   unclear = hn::Or(unclear, hn::AndNot(hn::Or(in, out), asked));
@@ -172,7 +172,7 @@ HWY_INLINE void states_by(const PointView& points, const RegionTestsOf<T>& all, 
   std::fill_n(states, points.count, std::uint8_t{0});  // outside
   for (std::size_t i = 0; i < points.count; i += lanes) {
     V<decltype(d)> x, y, z;
-    load_some<layout>(d, points, i, x, y, z);
+    load_packet_or_tail<layout>(d, points, i, x, y, z);
     const auto near = lanes_in_box(d, all.low, all.high, x, y, z);
     if (hn::AllFalse(d, near)) continue;
     auto inside = hn::AndNot(near, near), unclear = inside;

@@ -17,10 +17,10 @@ namespace {
 
 // Error relative to |q|_1 or to a radius: of rounding in T, and of the caller's numbers.
 template <typename T>
-constexpr double kSlope = 16 * (sizeof(T) == 4 ? 0x1p-24 : kU) + 0x1p-42;
+constexpr double kSlope = 16 * (sizeof(T) == 4 ? 0x1p-24 : kUnitRoundoff) + 0x1p-42;
 
 template <typename T>
-constexpr double kLeast = static_cast<double>(std::numeric_limits<T>::denorm_min());
+constexpr double kAbsoluteMargin = static_cast<double>(std::numeric_limits<T>::denorm_min());
 
 template <typename T>
 T up(double x) {
@@ -61,10 +61,10 @@ double set_center(const ConvexRegion& region, RegionTest<T>& test) {
     test.head[k] = static_cast<T>(region.center[k]);
     const double rest = region.center[k] - static_cast<double>(test.head[k]);
     test.tail[k] = static_cast<T>(rest);
-    test.reach[k] = up<T>((reach(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kLeast<T>);
+    test.reach[k] = up<T>((reach(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kAbsoluteMargin<T>);
     lost += std::abs(rest - static_cast<double>(test.tail[k])) + kSlope<T> * std::abs(rest);
   }
-  return 2 * lost + region.doubt + 16 * kLeast<T> + 0x1p-500;  // Sphere::contains() adds 2^-500 to a radius
+  return 2 * lost + region.doubt + 16 * kAbsoluteMargin<T> + 0x1p-500;  // Sphere::contains() adds 2^-500 to a radius
 }
 
 template <typename T>
@@ -86,11 +86,11 @@ void set_body(const ConvexRegion& region, double off, RegionTest<T>& test) {
     slab.weight = static_cast<T>(region.weight[i]);
   }
   const double steepest = std::max({region.weight[0], region.weight[1], region.weight[2]});
-  const double doubt = 2 * steepest * error + 4 * kLeast<T>;
+  const double doubt = 2 * steepest * error + 4 * kAbsoluteMargin<T>;
   const double narrow = (region.radius - doubt) * (1 - kSlope<T>);
   const double wide = (region.radius + doubt) * (1 + kSlope<T>);
-  test.square_inner = narrow > 0 ? down<T>(narrow * narrow * (1 - 0x1p-50) - 8 * kLeast<T>) : T(-1);
-  test.square_outer = up<T>(wide * wide * (1 + 0x1p-50) + 8 * kLeast<T>);
+  test.square_inner = narrow > 0 ? down<T>(narrow * narrow * (1 - 0x1p-50) - 8 * kAbsoluteMargin<T>) : T(-1);
+  test.square_outer = up<T>(wide * wide * (1 + 0x1p-50) + 8 * kAbsoluteMargin<T>);
 }
 
 template <typename T>

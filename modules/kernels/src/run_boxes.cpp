@@ -43,7 +43,7 @@ RunExtremes<T> extremes_of(const PointView& points, std::size_t begin) {
     } else {
       T pad[3];
       load_point(points, i, pad);
-      load_few(d, points, i, points.count - i, pad, x, y, z);
+      load_padded(d, points, i, points.count - i, pad, x, y, z);
     }
     grow(d, x, low_x, high_x);
     grow(d, y, low_y, high_y);

@@ -42,27 +42,27 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
 // clang-format on
 
 #define PCL_BV_DECLARE(i, projection)             \
-  [[maybe_unused]] auto low##i = no_low_reach(d); \
-  [[maybe_unused]] auto high##i = no_high_reach(d);
+  [[maybe_unused]] auto low##i = zero_minimum(d); \
+  [[maybe_unused]] auto high##i = zero_maximum(d);
 
 #define PCL_BV_STEP(i, projection)         \
   if constexpr (slot(set, i) >= 0) {       \
     const V<D> p = projection;             \
-    low##i = reach_lower(d, low##i, p);    \
-    high##i = reach_higher(d, high##i, p); \
+    low##i = update_minimum(d, low##i, p);    \
+    high##i = update_maximum(d, high##i, p); \
   }
 
 #define PCL_BV_STORE(i, projection)                                           \
   if constexpr (slot(set, i) >= 0) {                                          \
-    hn::Store(low_reach(d, low##i), d, reach + 2 * slot(set, i) * n);         \
-    hn::Store(high_reach(d, high##i), d, reach + (2 * slot(set, i) + 1) * n); \
+    hn::Store(minimum_magnitude(d, low##i), d, reach + 2 * slot(set, i) * n);         \
+    hn::Store(maximum_projection(d, high##i), d, reach + (2 * slot(set, i) + 1) * n); \
   }
 
 // Computes the maximum projection of each lane of a block for each support: lanes(d) numbers per support,
 // support after support. Returns whether all points are valid; if not, `reach` is meaningless. With `masked`,
 // invalid points are replaced by the centre, whose projection is 0, and counted.
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
-bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std::size_t& dropped) {
+bool project_lanes(D d, const PointView& block, const T* center, T* reach, std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
   [[maybe_unused]] auto total = hn::Zero(d);
@@ -82,14 +82,14 @@ bool reach_of_block(D d, const PointView& block, const T* center, T* reach, std:
     return true;
   }
   dropped = 0;
-  const T room = room_around<T>(center);
+  const T room = valid_distance<T>(center);
   return all_within(d, room, low0, high0) && all_within(d, room, low1, high1) &&
          all_within(d, room, low2, high2) && sum_is_finite(d, total);
 }
 
 // Passes over the blocks of a chunk. Returns the number of dropped points.
 template <Layout layout, DirectionSet set, typename T>
-std::size_t reach_of_blocks(const PointView& chunk, const T* center, const LaneReach<T>& reach) {
+std::size_t project_blocks(const PointView& chunk, const T* center, const LaneProjections<T>& reach) {
   const Tag<T> d;
   std::size_t dropped = 0;
   bool clean = true;  // where one point is invalid, others follow
@@ -97,8 +97,8 @@ std::size_t reach_of_blocks(const PointView& chunk, const T* center, const LaneR
   for (std::size_t begin = 0; begin < chunk.count; begin += reach.block_points, out += reach.per_block) {
     const PointView block = chunk.slice(begin, HWY_MIN(reach.block_points, chunk.count - begin));
     std::size_t bad = 0;
-    if (!clean || !reach_of_block<layout, set, false>(d, block, center, out, bad)) {
-      reach_of_block<layout, set, true>(d, block, center, out, bad);
+    if (!clean || !project_lanes<layout, set, false>(d, block, center, out, bad)) {
+      project_lanes<layout, set, true>(d, block, center, out, bad);
       clean = bad == 0;
     }
     dropped += bad;
@@ -107,7 +107,7 @@ std::size_t reach_of_blocks(const PointView& chunk, const T* center, const LaneR
 }
 
 template <Layout layout, DirectionSet set, typename T>
-void supports_of_chunk(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
+void supports_of_chunk(const PointView& chunk, const SupportBounds& reached, ChunkSupports& out) {
   Spread spread;
   if (!central_point(chunk, spread.center)) {
     out.dropped = chunk.count;
@@ -118,22 +118,22 @@ void supports_of_chunk(const PointView& chunk, const ReachedSupports& reached, C
   constexpr std::size_t ends = 2 * direction_count(set);
   // A 26-DOP takes 104 KiB for floats and 208 KiB for doubles, whatever the width of vectors.
   HWY_ALIGN T values[kChunkPoints / kPackets * ends];
-  const LaneReach<T> reach(values, ends, packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
-  out.dropped = reach_of_blocks<layout, set>(chunk, c, reach);
+  const LaneProjections<T> reach(values, ends, packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
+  out.dropped = project_blocks<layout, set>(chunk, c, reach);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    spread.greatest[axis] = HWY_MAX(greatest_reach(reach, 2 * axis, chunk.count),
-                                    greatest_reach(reach, 2 * axis + 1, chunk.count));
+    spread.greatest[axis] = HWY_MAX(max_over_lanes(reach, 2 * axis, chunk.count),
+                                    max_over_lanes(reach, 2 * axis + 1, chunk.count));
   }
-  search_ends<layout>(chunk, SupportDirections::of(set), reach, spread, reached, nullptr, out);
+  search_supports<layout>(chunk, SupportDirections::of(set), reach, spread, reached, nullptr, out);
 }
 
 template <DirectionSet set>
-void supports_of(const PointView& chunk, const ReachedSupports& reached, ChunkSupports& out) {
+void supports_of(const PointView& chunk, const SupportBounds& reached, ChunkSupports& out) {
   for_layout(chunk,
              [&]<Layout layout, typename T>() { supports_of_chunk<layout, set, T>(chunk, reached, out); });
 }
 
-void cube_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+void cube_supports(const PointView& chunk, const SupportDirections& set, const SupportBounds& reached,
                    ChunkSupports& out) {
   switch (*set.cube) {
     case DirectionSet::dop6:
@@ -157,7 +157,7 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                   const ReachedSupports& reached, ChunkSupports& out) {
+                   const SupportBounds& reached, ChunkSupports& out) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(cube_supports, &chunk_supports_reference);
   kTable[isa](chunk, set, reached, out);
 }

@@ -55,15 +55,15 @@ void SupportDirections::add(const Direction& direction) {
   ++count;
 }
 
-Direction SupportDirections::end_direction(std::size_t end) const {
+Direction SupportDirections::support_direction(std::size_t end) const {
   return opposite_if(end % 2 == 0, exact[end / 2]);
 }
 
-Direction SupportDirections::scaled_end_direction(std::size_t end) const {
+Direction SupportDirections::scaled_support_direction(std::size_t end) const {
   return opposite_if(end % 2 == 0, scaled[end / 2]);
 }
 
-void keep_farther(const Direction& direction, const SupportPoint& other, SupportPoint& best) {
+void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best) {
   if (!other.found) return;
   // Many equal points (a cloud of one value, beams without a return) need no arithmetic.
   const int order = !best.found                 ? 1
@@ -72,8 +72,8 @@ void keep_farther(const Direction& direction, const SupportPoint& other, Support
   if (order > 0 || (order == 0 && other.index < best.index)) best = other;
 }
 
-double surely_reached(const SupportDirections& set, std::size_t end, const Coordinates& point) {
-  const Direction scaled = set.scaled_end_direction(end);
+double projection_lower_bound(const SupportDirections& set, std::size_t end, const Coordinates& point) {
+  const Direction scaled = set.scaled_support_direction(end);
   return dot3(scaled, point) - double_error(scaled, point);
 }
 

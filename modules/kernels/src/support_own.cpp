@@ -45,7 +45,7 @@ template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& spread,
                 std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
-  auto spread_x = no_high_reach(d), spread_y = no_high_reach(d), spread_z = no_high_reach(d);
+  auto spread_x = zero_maximum(d), spread_y = zero_maximum(d), spread_z = zero_maximum(d);
   [[maybe_unused]] auto total = hn::Zero(d);
   std::size_t valid_count = 0;
   for (std::size_t i = 0; i < block.count; i += n, points += 3 * n) {
@@ -55,21 +55,21 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
     hn::Store(y, d, points + n);
     hn::Store(z, d, points + 2 * n);
     if constexpr (!masked && sizeof(T) == 8) total = hn::Add(total, hn::Add(hn::Add(x, y), z));
-    spread_x = reach_higher(d, spread_x, hn::Abs(x));
-    spread_y = reach_higher(d, spread_y, hn::Abs(y));
-    spread_z = reach_higher(d, spread_z, hn::Abs(z));
+    spread_x = update_maximum(d, spread_x, hn::Abs(x));
+    spread_y = update_maximum(d, spread_y, hn::Abs(y));
+    spread_z = update_maximum(d, spread_z, hn::Abs(z));
   }
   dropped = masked ? (block.count + n - 1) / n * n - valid_count : 0;
   if constexpr (!masked) {
-    const T room = room_around<T>(center);
-    const auto low = no_low_reach(d);
+    const T room = valid_distance<T>(center);
+    const auto low = zero_minimum(d);
     if (!all_within(d, room, low, spread_x) || !all_within(d, room, low, spread_y) ||
         !all_within(d, room, low, spread_z) || !sum_is_finite(d, total)) {
       return false;
     }
   }
   const auto grow = [&](std::size_t axis, V<High<D>> reach) {
-    const double greatest = hn::GetLane(hn::MaxOfLanes(d, high_reach(d, reach)));
+    const double greatest = hn::GetLane(hn::MaxOfLanes(d, maximum_projection(d, reach)));
     spread[axis] = HWY_MAX(spread[axis], greatest);
   };
   grow(0, spread_x);
@@ -87,26 +87,26 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
   [[maybe_unused]] const auto c##i = hn::Set(d, directions[3 * (i < count ? i : 0) + 2]);
 
 #define PCL_BV_DECLARE(i)                         \
-  [[maybe_unused]] auto low##i = no_low_reach(d); \
-  [[maybe_unused]] auto high##i = no_high_reach(d);
+  [[maybe_unused]] auto low##i = zero_minimum(d); \
+  [[maybe_unused]] auto high##i = zero_maximum(d);
 
 // MulAdd may be fused or not: the filter's error bound covers both, and results are decided exactly.
 #define PCL_BV_STEP(i)                                                         \
   if constexpr (i < count) {                                                   \
     const V<D> p = hn::MulAdd(c##i, z, hn::MulAdd(b##i, y, hn::Mul(a##i, x))); \
-    low##i = reach_lower(d, low##i, p);                                        \
-    high##i = reach_higher(d, high##i, p);                                     \
+    low##i = update_minimum(d, low##i, p);                                        \
+    high##i = update_maximum(d, high##i, p);                                     \
   }
 
 #define PCL_BV_STORE(i)                                             \
   if constexpr (i < count) {                                        \
-    hn::Store(low_reach(d, low##i), d, values + 2 * i * n);         \
-    hn::Store(high_reach(d, high##i), d, values + (2 * i + 1) * n); \
+    hn::Store(minimum_magnitude(d, low##i), d, values + 2 * i * n);         \
+    hn::Store(maximum_projection(d, high##i), d, values + (2 * i + 1) * n); \
   }
 
 // Computes the maximum projections of the lanes of copied packets for `count` directions, from `values` on.
 template <std::size_t count, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void reach_of_group(D d, const T* points, std::size_t packets, const T* directions,
+HWY_INLINE void project_group(D d, const T* points, std::size_t packets, const T* directions,
                                std::size_t per_block, T* values) {
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_OF_GROUP(PCL_BV_DIRECTION)
@@ -129,19 +129,19 @@ HWY_INLINE void reach_of_group(D d, const T* points, std::size_t packets, const 
 #undef PCL_BV_STORE
 
 template <class D, typename T = hn::TFromD<D>>
-void reach_of_copy(D d, const T* points, std::size_t packets, std::size_t count, const T* directions,
+void project_copy(D d, const T* points, std::size_t packets, std::size_t count, const T* directions,
                    std::size_t per_block, T* values) {
   const std::size_t per_group = 2 * kGroup * hn::Lanes(d);
   for (; count >= kGroup; count -= kGroup, directions += 3 * kGroup, values += per_group)
-    reach_of_group<kGroup>(d, points, packets, directions, per_block, values);
-  if (count == 3) reach_of_group<3>(d, points, packets, directions, per_block, values);
-  if (count == 2) reach_of_group<2>(d, points, packets, directions, per_block, values);
-  if (count == 1) reach_of_group<1>(d, points, packets, directions, per_block, values);
+    project_group<kGroup>(d, points, packets, directions, per_block, values);
+  if (count == 3) project_group<3>(d, points, packets, directions, per_block, values);
+  if (count == 2) project_group<2>(d, points, packets, directions, per_block, values);
+  if (count == 1) project_group<1>(d, points, packets, directions, per_block, values);
 }
 
 // Passes over the points of a part. Returns the number of dropped points.
 template <Layout layout, typename T>
-std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneReach<T>& reach,
+std::size_t project_part(const PointView& part, std::size_t count, const LaneProjections<T>& reach,
                           Workspace<T>& work, Spread& spread) {
   const Tag<T> d;
   const T center[3] = {static_cast<T>(spread.center.x), static_cast<T>(spread.center.y),
@@ -160,7 +160,7 @@ std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneRe
     }
     dropped += bad;
     const std::size_t packets = (block.count + reach.lanes - 1) / reach.lanes;
-    reach_of_copy(d, work.points, packets, count, work.directions, reach.per_block, values);
+    project_copy(d, work.points, packets, count, work.directions, reach.per_block, values);
   }
   return dropped;
 }
@@ -168,26 +168,26 @@ std::size_t reach_of_part(const PointView& part, std::size_t count, const LaneRe
 // Finds the supports of a part, which is as many points as `reach` has capacity for. If `more` parts follow,
 // `reached` receives lower bounds of the supports found, so that later parts compare fewer points.
 template <Layout layout, typename T>
-void supports_of_part(const PointView& part, const SupportDirections& set, const LaneReach<T>& reach,
-                      bool more, Workspace<T>& work, ReachedSupports& reached, ChunkSupports& out) {
+void supports_of_part(const PointView& part, const SupportDirections& set, const LaneProjections<T>& reach,
+                      bool more, Workspace<T>& work, SupportBounds& reached, ChunkSupports& out) {
   Spread spread;
   if (!central_point(part, spread.center)) {
     out.dropped += part.count;
     return;
   }
-  out.dropped += reach_of_part<layout>(part, set.count, reach, work, spread);
-  search_ends<layout>(part, set, reach, spread, reached, more ? &reached : nullptr, out);
+  out.dropped += project_part<layout>(part, set.count, reach, work, spread);
+  search_supports<layout>(part, set, reach, spread, reached, more ? &reached : nullptr, out);
 }
 
 template <Layout layout, typename T>
-void supports_of(const PointView& chunk, const SupportDirections& set, ReachedSupports reached,
+void supports_of(const PointView& chunk, const SupportDirections& set, SupportBounds reached,
                  ChunkSupports& out) {
   Workspace<T> work;
   for (std::size_t k = 0; k < set.count; ++k) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       work.directions[3 * k + axis] = static_cast<T>(set.scaled[k][axis]);
   }
-  const LaneReach<T> reach(work.reach, 2 * set.count);
+  const LaneProjections<T> reach(work.reach, 2 * set.count);
   const std::size_t per_copy = kBlockPoints / reach.block_points;
   const std::size_t copies = sizeof(work.reach) / sizeof(T) / reach.per_block / per_copy;
   const std::size_t part_points = copies * per_copy * reach.block_points;
@@ -197,7 +197,7 @@ void supports_of(const PointView& chunk, const SupportDirections& set, ReachedSu
   }
 }
 
-void own_supports(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+void general_supports(const PointView& chunk, const SupportDirections& set, const SupportBounds& reached,
                   ChunkSupports& out) {
   for_layout(chunk, [&]<Layout layout, typename T>() { supports_of<layout, T>(chunk, set, reached, out); });
 }
@@ -211,9 +211,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-void own_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                  const ReachedSupports& reached, ChunkSupports& out) {
-  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(own_supports, &chunk_supports_reference);
+void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
+                  const SupportBounds& reached, ChunkSupports& out) {
+  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(general_supports, &chunk_supports_reference);
   kTable[isa](chunk, set, reached, out);
 }
 

@@ -52,7 +52,7 @@ bool central_point(const PointView& points, Coordinates& center) {
 SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread,
                          ScalarType scalar)
     : scaled_(set.scaled[direction]), center_(spread.center), is_float_(scalar == ScalarType::float32) {
-  const double unit = is_float_ ? 0x1p-24 : kU;
+  const double unit = is_float_ ? 0x1p-24 : kUnitRoundoff;
   const double least = is_float_ ? 0x1p-149 : 0x1p-1074;
   const double greatest = is_float_ ? static_cast<double>(std::numeric_limits<float>::max()) : 1e300;
   const auto& s = spread.greatest;
@@ -78,12 +78,12 @@ bool SupportPlan::reaches(bool high, double top, double reached) const {
   return !(top + (high ? offset : -offset) + error < reached);
 }
 
-EndSearch SupportPlan::of(bool high, double top, double reached) const {
-  if (constant_) return {EndSearch::Kind::every, 0};
-  if (overflow_) return {EndSearch::Kind::some, -kInfinity};  // overflowing sums decide nothing
-  if (!reaches(high, top, reached)) return {EndSearch::Kind::none, 0};
+SupportCandidates SupportPlan::of(bool high, double top, double reached) const {
+  if (constant_) return {SupportCandidates::Kind::every, 0};
+  if (overflow_) return {SupportCandidates::Kind::some, -kInfinity};  // overflowing sums decide nothing
+  if (!reaches(high, top, reached)) return {SupportCandidates::Kind::none, 0};
   const double threshold = top - pair_error_;
-  return {EndSearch::Kind::some, is_float_ ? float_down(threshold) : threshold};
+  return {SupportCandidates::Kind::some, is_float_ ? float_down(threshold) : threshold};
 }
 
 SupportPoint first_valid_point(const PointView& points) {
@@ -109,10 +109,10 @@ T loaded(const std::byte* from) {
 }  // namespace
 
 template <typename T>
-SupportLook<T>::SupportLook(const PointView& points, const SupportDirections& set, std::size_t end,
+ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const SupportDirections& set, std::size_t end,
                             const RoundedFilter& filter)
-    : points_(points), direction_(set.end_direction(end)), threshold_(static_cast<T>(filter.threshold)) {
-  const Direction scaled = set.scaled_end_direction(end);
+    : points_(points), direction_(set.support_direction(end)), threshold_(static_cast<T>(filter.threshold)) {
+  const Direction scaled = set.scaled_support_direction(end);
   const Coordinates& center = filter.center;
   for (std::size_t axis = 0; axis < 3; ++axis)
     scaled_[axis] = static_cast<T>(scaled[axis]);
@@ -123,7 +123,7 @@ SupportLook<T>::SupportLook(const PointView& points, const SupportDirections& se
 // `address` returns the address of a point's x; y is `gap` bytes after x, z `gap` bytes after y.
 template <typename T>
 template <typename Address>
-void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
+void ExactSupportSearch<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
                                   std::size_t step, std::size_t last, SupportPoint& best) const {
   const T a = scaled_[0], b = scaled_[1], c = scaled_[2];
   const T x = center_[0], y = center_[1], z = center_[2];
@@ -144,13 +144,13 @@ void SupportLook<T>::find_passing(const Address& address, std::size_t gap, std::
 }
 
 template <typename T>
-void SupportLook<T>::compete(std::size_t i, SupportPoint& best) const {
+void ExactSupportSearch<T>::compete(std::size_t i, SupportPoint& best) const {
   const Coordinates point = load_point(points_, i);
-  if (is_valid(point)) keep_farther(direction_, {true, point, points_.index(i)}, best);
+  if (is_valid(point)) keep_larger_projection(direction_, {true, point, points_.index(i)}, best);
 }
 
 template <typename T>
-void SupportLook<T>::operator()(std::size_t first, std::size_t step, std::size_t last,
+void ExactSupportSearch<T>::operator()(std::size_t first, std::size_t step, std::size_t last,
                                 SupportPoint& best) const {
   if (first >= last) return;
   if (points_.order == PointOrder::records && points_.indices == nullptr) {
@@ -164,15 +164,15 @@ void SupportLook<T>::operator()(std::size_t first, std::size_t step, std::size_t
   }
 }
 
-template class SupportLook<float>;
-template class SupportLook<double>;
+template class ExactSupportSearch<float>;
+template class ExactSupportSearch<double>;
 
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                    const ReachedSupports& reached, ChunkSupports& out) {
+                    const SupportBounds& reached, ChunkSupports& out) {
   require_in_memory(chunk, kChunkPoints);
   require_at_most(kMaxSupportDirections, set.count, "directions");
   out = ChunkSupports();
-  (set.cube ? cube_supports : own_supports)(isa, chunk, set, reached, out);
+  (set.cube ? cube_supports : general_supports)(isa, chunk, set, reached, out);
 }
 
 }  // namespace pcl_bv

@@ -36,7 +36,7 @@ struct Spread {
 };
 
 /// Which points must be compared exactly for one support.
-struct EndSearch {
+struct SupportCandidates {
   enum class Kind {
     none,   ///< No point: the support cannot exceed its bound in `reached`.
     every,  ///< All valid points have exactly the same projection.
@@ -52,8 +52,8 @@ class SupportPlan {
   SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread, ScalarType scalar);
 
   /// Returns the search for the maximum if `high`, else for the minimum. `top` is the largest rounded
-  /// projection of p - center on that side, `reached` the bound of ReachedSupports.
-  EndSearch of(bool high, double top, double reached) const;
+  /// projection of p - center on that side, `reached` the bound of SupportBounds.
+  SupportCandidates of(bool high, double top, double reached) const;
 
  private:
   bool reaches(bool high, double top, double reached) const;
@@ -80,9 +80,9 @@ SupportPoint first_valid_point(const PointView& points);
 
 /// Compares points exactly for one support. T is the points' scalar type. Stores a reference to the points.
 template <typename T>
-class SupportLook {
+class ExactSupportSearch {
  public:
-  SupportLook(const PointView& points, const SupportDirections& set, std::size_t end,
+  ExactSupportSearch(const PointView& points, const SupportDirections& set, std::size_t end,
               const RoundedFilter& filter);
 
   /// Updates `best` with the valid points among first, first + step, ... below `last` that pass the filter.
@@ -102,8 +102,8 @@ class SupportLook {
 
 /// The kernels of chunk_supports(): for the directions of the cube and for others.
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                   const ReachedSupports& reached, ChunkSupports& out);
-void own_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                  const ReachedSupports& reached, ChunkSupports& out);
+                   const SupportBounds& reached, ChunkSupports& out);
+void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
+                  const SupportBounds& reached, ChunkSupports& out);
 
 }  // namespace pcl_bv

@@ -21,7 +21,7 @@ constexpr T limit = sizeof(T) == 4 ? static_cast<T>(std::numeric_limits<float>::
 
 // Projects on the cube's directions, in the points' scalar type.
 template <DirectionSet set>
-struct AlongCube {
+struct CubeProjections {
   static constexpr std::size_t count = direction_count(set);
 
   template <typename T>
@@ -50,7 +50,7 @@ struct AlongCube {
 };
 
 // Projects on any directions, in double; first on the axes, whose extremes give the magnitudes.
-struct AlongOwn {
+struct GeneralProjections {
   const SupportDirections& set;
   std::size_t count = 3 + set.count;
 
@@ -135,18 +135,18 @@ double pair_error(const SupportDirections& set, std::size_t k, const Coordinates
 
 void search(const PointView& block, const SupportDirections& set, std::size_t end, double threshold,
             SupportPoint& best) {
-  const Direction exact = set.end_direction(end), d = set.scaled_end_direction(end);
+  const Direction exact = set.support_direction(end), d = set.scaled_support_direction(end);
   for (std::size_t i = 0; i < block.count; ++i) {
     const Coordinates p = load_point(block, i);
     if (!is_valid(p) || (d[0] * p.x + d[1] * p.y) + d[2] * p.z < threshold) continue;
-    keep_farther(exact, {true, p, block.index(i)}, best);
+    keep_larger_projection(exact, {true, p, block.index(i)}, best);
   }
 }
 
-// `first` is the number of the first support of `set` in a Block: AlongOwn projects on the three axes before.
+// `first` is the number of the first support of `set` in a Block: GeneralProjections projects on the three axes before.
 template <typename T, typename Along>
 void supports(const PointView& chunk, const SupportDirections& set, const Along& along, std::size_t first,
-              const ReachedSupports& reached, ChunkSupports& out) {
+              const SupportBounds& reached, ChunkSupports& out) {
   Block<T> blocks[kChunkPoints / kBlockPoints];
   const std::size_t count = block_count(chunk.count);
   for (std::size_t b = 0; b < count; ++b)
@@ -174,18 +174,18 @@ void supports(const PointView& chunk, const SupportDirections& set, const Along&
 }
 
 template <DirectionSet cube>
-void supports_of(const PointView& chunk, const SupportDirections& set, const ReachedSupports& reached,
+void supports_of(const PointView& chunk, const SupportDirections& set, const SupportBounds& reached,
                  ChunkSupports& out) {
   if (chunk.scalar == ScalarType::float32)
-    return supports<float>(chunk, set, AlongCube<cube>(), 0, reached, out);
-  supports<double>(chunk, set, AlongCube<cube>(), 0, reached, out);
+    return supports<float>(chunk, set, CubeProjections<cube>(), 0, reached, out);
+  supports<double>(chunk, set, CubeProjections<cube>(), 0, reached, out);
 }
 
 template <typename T>
 AxisExtents axis_extents_of(const PointView& points) {
   Block<T> block;
   AxisExtents out;
-  out.dropped = project_block(points, AlongCube<DirectionSet::dop6>(), block);
+  out.dropped = project_block(points, CubeProjections<DirectionSet::dop6>(), block);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     out.low[axis] = block.low[axis] + 0.0;
     out.high[axis] = block.high[axis] + 0.0;
@@ -196,8 +196,8 @@ AxisExtents axis_extents_of(const PointView& points) {
 }  // namespace
 
 void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
-                              const ReachedSupports& reached, ChunkSupports& out) {
-  if (!set.cube) return supports<double>(chunk, set, AlongOwn{set}, 6, reached, out);
+                              const SupportBounds& reached, ChunkSupports& out) {
+  if (!set.cube) return supports<double>(chunk, set, GeneralProjections{set}, 6, reached, out);
   switch (*set.cube) {
     case DirectionSet::dop6:
       return supports_of<DirectionSet::dop6>(chunk, set, reached, out);

@@ -32,7 +32,7 @@ struct AnyPoint {
 
   std::uint32_t first(const BoxGroup& group) const { return boxes_around(group, probe); }
   bool look(std::size_t group) const {
-    return probe.inner >= boxes.least_reached[group] && surely_near(boxes.groups[group], probe);
+    return probe.inner >= boxes.min_side_radius[group] && contains_near_point(boxes.groups[group], probe);
   }
   bool take(std::size_t packet) const { return near_points(packets[packet], center, limit, nullptr) != 0; }
 };

@@ -79,7 +79,7 @@ HWY_INLINE std::size_t take_nearest(OpenGroup& open, float limit) {
 /// group; for unused boxes it must return infinity or the smallest bound of the used ones.
 template <typename Bound, typename Take>
 HWY_INLINE void descend(const BoxLevels& boxes, const Bound& bound, const float& limit, const Take& take) {
-  OpenGroup open[BoxLevels::kMostLevels];
+  OpenGroup open[BoxLevels::kMaxLevels];
   const std::size_t top = boxes.levels - 1;
   std::size_t level = top, k = open_group(boxes, bound, limit, level, 0, open[level]);
   for (;;) {

@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 
 template <typename T>
 HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers,
-                             const Coordinates& center, NearestKept& kept) {
+                             const Coordinates& center, NearestSet& kept) {
   HWY_ALIGN double squares[kTreeWidth];
   for (std::uint32_t bits = near_points(packet, center, kept.limit(), squares); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
@@ -72,7 +72,7 @@ void nearest_to(const PackedTree& tree, const Coordinates& center, Kept& kept) {
   }
 }
 
-void list_nearest(const PackedTree& tree, const Coordinates& center, NearestKept& kept) {
+void list_nearest(const PackedTree& tree, const Coordinates& center, NearestSet& kept) {
   nearest_to(tree, center, kept);
 }
 
@@ -92,7 +92,7 @@ namespace pcl_bv {
 void list_nearest(UsableIsa isa, const PackedTree& tree, const Coordinates& center, std::size_t most,
                   double limit, std::vector<Neighbor>& found) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_nearest, &list_nearest_reference);
-  NearestKept kept(most, limit, found);
+  NearestSet kept(most, limit, found);
   if (tree.count == 0 || most == 0) return;
   kTable[isa](tree, center, kept);
   kept.finish();

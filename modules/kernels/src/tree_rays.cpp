@@ -36,7 +36,7 @@ HWY_INLINE V<Floats> enter_times(Floats d, const BoxGroup& group, const SweptBal
 }
 
 // Returns, as bits, the points that may be within the radius of the whole line; a NaN never is. With q from
-// the origin to the point, |q x d| is off by less than 2^-48 |q|_1 |d|. kDoubt |q|_1 covers this and the
+// the origin to the point, |q x d| is off by less than 2^-48 |q|_1 |d|. kRelativeMargin |q|_1 covers this and the
 // margin that Sphere::intersect() adds to a radius.
 template <typename T>
 HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const SweptBall& ball) {
@@ -52,8 +52,8 @@ HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const SweptBall
                                                 hn::Sub(hn::Mul(z, unit_x), hn::Mul(x, unit_z)),
                                                 hn::Sub(hn::Mul(x, unit_y), hn::Mul(y, unit_x)));
     const auto doubt =
-        hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, SweptBall::kDoubt));
-    const auto far = hn::Add(doubt, hn::Set(d, ball.radius + SweptBall::kLeast));
+        hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, SweptBall::kRelativeMargin));
+    const auto far = hn::Add(doubt, hn::Set(d, ball.radius + SweptBall::kAbsoluteMargin));
     bits |= bits_of_lanes(d, hn::Le(square, hn::Mul(far, far))) << k;
   }
   return bits;

@@ -90,7 +90,7 @@ bool is_near_line(const Coordinates& p, const SweptBall& ball) {
   const double u = y * ball.unit.z - z * ball.unit.y, v = z * ball.unit.x - x * ball.unit.z,
                w = x * ball.unit.y - y * ball.unit.x;
   const double far =
-      SweptBall::kDoubt * ((std::abs(x) + std::abs(y)) + std::abs(z)) + (ball.radius + SweptBall::kLeast);
+      SweptBall::kRelativeMargin * ((std::abs(x) + std::abs(y)) + std::abs(z)) + (ball.radius + SweptBall::kAbsoluteMargin);
   return (u * u + v * v) + w * w <= far * far;
 }
 
@@ -111,7 +111,7 @@ void list_in_ball_reference(const PackedTree& tree, const Coordinates& center, d
       });
 }
 
-void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestKept& kept) {
+void list_nearest_reference(const PackedTree& tree, const Coordinates& center, NearestSet& kept) {
   visit_nearest(tree, center, kept);
 }
 

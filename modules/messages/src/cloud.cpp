@@ -215,7 +215,7 @@ RawCloud cloud_without_points(const msg::PointCloud2& cloud) {
 
 }  // namespace
 
-std::optional<PointView> points_in_place(const msg::PointCloud2& cloud) {
+std::optional<PointView> view_points(const msg::PointCloud2& cloud) {
   const Layout layout = layout_of(cloud);
   if (layout.points() == 0) return PointView();
   const auto [x, y, z] = coordinates_of(cloud);
@@ -234,13 +234,13 @@ std::optional<PointView> points_in_place(const msg::PointCloud2& cloud) {
   return view;
 }
 
-std::string unread_fields(const msg::PointCloud2& cloud) {
+std::string skipped_fields_note(const msg::PointCloud2& cloud) {
   if (layout_of(cloud).points() == 0) return {};
   return select_fields(cloud, coordinates_of(cloud)).note;
 }
 
-std::optional<FieldView> intensity_in_place(const msg::PointCloud2& cloud) {
-  if (!points_in_place(cloud) || cloud.is_bigendian) return std::nullopt;
+std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud) {
+  if (!view_points(cloud) || cloud.is_bigendian) return std::nullopt;
   std::vector<PointField> fields;
   for (const msg::PointField& field : cloud.fields) {
     if (field.datatype < 1 || field.datatype > std::size(kDatatypes)) continue;

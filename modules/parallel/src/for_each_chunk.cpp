@@ -54,9 +54,9 @@ class ChunkQueue {
 // ThreadSanitizer does not understand libgomp's barriers and would report false races. Under it, OpenMP
 // policies run on the library's own threads.
 #if defined(__SANITIZE_THREAD__)
-constexpr bool kOpenMpIsUnderstood = false;
+constexpr bool kUseOpenMp = false;
 #else
-constexpr bool kOpenMpIsUnderstood = true;
+constexpr bool kUseOpenMp = true;
 #endif
 
 void work_with_openmp(ChunkQueue& queue, unsigned threads) {
@@ -111,7 +111,7 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
   ChunkQueue queue(chunks, body);
   if (threads == 1) {
     queue.work();
-  } else if (kOpenMpIsUnderstood && std::holds_alternative<OpenMP>(policy)) {
+  } else if (kUseOpenMp && std::holds_alternative<OpenMP>(policy)) {
     work_with_openmp(queue, threads);
   } else if (const auto* executor = std::get_if<Executor>(&policy)) {
     work_with_executor(queue, *executor, threads);
@@ -125,16 +125,16 @@ void run_chunks(const ParallelPolicy& policy, std::size_t chunks,
 
 namespace pcl_bv {
 
-AwakeThreads::AwakeThreads(const ParallelPolicy& policy) {
+SpinningThreads::SpinningThreads(const ParallelPolicy& policy) {
   const unsigned threads = std::holds_alternative<Threads>(policy) ? thread_count(policy) : 1;
   if (threads == 1 || internal::ParallelRegion::inside()) return;
   internal::WorkerPool& pool = internal::WorkerPool::instance();
-  pool.stay_awake(threads - 1);
+  pool.start_spinning(threads - 1);
   pool_ = &pool;
 }
 
-AwakeThreads::~AwakeThreads() {
-  if (pool_ != nullptr) internal::WorkerPool::let_sleep(static_cast<internal::WorkerPool*>(pool_));
+SpinningThreads::~SpinningThreads() {
+  if (pool_ != nullptr) internal::WorkerPool::stop_spinning(static_cast<internal::WorkerPool*>(pool_));
 }
 
 }  // namespace pcl_bv

@@ -33,7 +33,7 @@ unsigned process_processors() {
   return static_cast<unsigned>(main_thread_processors(set) ? CPU_COUNT(&set) : omp_get_num_procs());
 }
 
-int own_processor() {
+int current_processor() {
   return ::sched_getcpu();
 }
 
@@ -44,7 +44,7 @@ void avoid_processor(int avoided, std::vector<std::thread>& threads) {
     ::pthread_setaffinity_np(thread.native_handle(), sizeof set, &set);
 }
 
-void schedule_as_process(int avoided) {
+void adopt_main_thread_scheduling(int avoided) {
   cpu_set_t set;
   if (processors_without(avoided, set)) ::sched_setaffinity(0, sizeof set, &set);
   const int policy = ::sched_getscheduler(::getpid()) & ~SCHED_RESET_ON_FORK;

@@ -17,7 +17,7 @@ namespace pcl_bv::internal {
 unsigned process_processors();
 
 /// Returns the processor that the calling thread runs on; negative if the system does not report it.
-int own_processor();
+int current_processor();
 
 /// Excludes processor `avoided` from the affinity of `threads`, unless it is the main thread's only
 /// processor. A negative `avoided` excludes none.
@@ -26,7 +26,7 @@ void avoid_processor(int avoided, std::vector<std::thread>& threads);
 /// Gives the calling thread the main thread's processors without `avoided` (as avoid_processor() does), the
 /// main thread's nice value and its scheduling policy; SCHED_OTHER if the main thread is real-time.
 /// Attributes that the system refuses to set stay unchanged.
-void schedule_as_process(int avoided);
+void adopt_main_thread_scheduling(int avoided);
 
 /// Blocks signals in the calling thread while the object lives, so that threads started meanwhile inherit the
 /// mask and signal handlers run on the host's threads. Signals of faults (SIGSEGV, ...) stay unblocked: the

@@ -26,12 +26,12 @@ std::atomic<WorkerPool*> current{nullptr};
 thread_local bool inside_region = false;
 
 // How long to spin before sleeping: longer than the pause between two parallel calls of a frame's stages.
-constexpr std::chrono::milliseconds kPatience{2};
+constexpr std::chrono::milliseconds kSpinTime{2};
 
-// Spins until the condition holds, at most for kPatience. Returns whether it holds.
+// Spins until the condition holds, at most for kSpinTime. Returns whether it holds.
 template <typename Condition>
 bool spin_until(const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kSpinTime;
   for (unsigned i = 1; !condition(); ++i) {
 #if defined(__x86_64__)
     __builtin_ia32_pause();
@@ -46,12 +46,12 @@ bool spin_until(const Condition& condition) {
 // A forked child has none of the pool's threads, the pool's lock may be held by one of them, and its
 // condition variables still count them as waiting. So the child never touches that pool and makes a new one
 // when needed.
-void begin_anew_in_child() {
+void reset_in_child() {
   current = nullptr;
   inside_region = false;
 }
 
-[[maybe_unused]] const int registered = ::pthread_atfork(nullptr, nullptr, begin_anew_in_child);
+[[maybe_unused]] const int registered = ::pthread_atfork(nullptr, nullptr, reset_in_child);
 
 void end_pool() {
   if (WorkerPool* const pool = current) pool->end();
@@ -113,29 +113,29 @@ WorkerPool::Task* WorkerPool::wanting() {
   return found == tasks_.end() ? nullptr : *found;
 }
 
-// Spins until the next task is offered. Returns false if none was offered in time or if no AwakeThreads is
+// Spins until the next task is offered. Returns false if none was offered in time or if no SpinningThreads is
 // left. Spinning pays because a sleeping thread takes 25 us to wake, as long as a stage of a frame may take.
-bool WorkerPool::look_out(std::unique_lock<std::mutex>& lock) {
-  const std::uint64_t seen = offers_;
-  ++looking_out_;
+bool WorkerPool::spin_for_task(std::unique_lock<std::mutex>& lock) {
+  const std::uint64_t seen = run_count_;
+  ++spinning_;
   lock.unlock();
-  spin_until([&] { return offers_ != seen || awake_ == 0; });
+  spin_until([&] { return run_count_ != seen || spin_requests_ == 0; });
   lock.lock();
-  --looking_out_;
-  return offers_ != seen;
+  --spinning_;
+  return run_count_ != seen;
 }
 
 void WorkerPool::serve() {
   const ParallelRegion region;
   std::unique_lock lock(mutex_);
-  schedule_as_process(avoided_);
+  adopt_main_thread_scheduling(avoided_);
   for (;;) {
     Task* task = wanting();
-    while (task == nullptr && !ended_ && awake_ > 0 && looking_out_ < lookouts_ && look_out(lock))
+    while (task == nullptr && !ended_ && spin_requests_ > 0 && spinning_ < max_spinning_ && spin_for_task(lock))
       task = wanting();
     if (task == nullptr) {
-      const std::uint64_t wakes = wakes_;
-      work_.wait(lock, [&] { return ended_ || wakes_ != wakes || (task = wanting()) != nullptr; });
+      const std::uint64_t wakes = spin_request_count_;
+      work_.wait(lock, [&] { return ended_ || spin_request_count_ != wakes || (task = wanting()) != nullptr; });
     }
     if (ended_) return;
     if (task == nullptr) continue;
@@ -149,22 +149,22 @@ void WorkerPool::serve() {
   }
 }
 
-void WorkerPool::stay_awake(unsigned helpers) {
+void WorkerPool::start_spinning(unsigned helpers) {
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
-    if (tasks_.empty()) avoid(own_processor());
-    lookouts_ = std::max(lookouts_, helpers);
-    ++awake_;
-    ++wakes_;
+    if (tasks_.empty()) avoid(current_processor());
+    max_spinning_ = std::max(max_spinning_, helpers);
+    ++spin_requests_;
+    ++spin_request_count_;
   }
   work_.notify_all();
 }
 
-void WorkerPool::let_sleep(WorkerPool* pool) {
+void WorkerPool::stop_spinning(WorkerPool* pool) {
   if (current != pool) return;
   const std::lock_guard lock(pool->mutex_);
-  if (--pool->awake_ == 0) pool->lookouts_ = 0;
+  if (--pool->spin_requests_ == 0) pool->max_spinning_ = 0;
 }
 
 void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
@@ -173,10 +173,10 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
-    if (tasks_.empty()) avoid(own_processor());
+    if (tasks_.empty()) avoid(current_processor());
     tasks_.push_back(&task);
-    ++offers_;
-    sleeping = helpers - std::min(helpers, looking_out_);
+    ++run_count_;
+    sleeping = helpers - std::min(helpers, spinning_);
   }
   for (unsigned i = 0; i < sleeping; ++i)
     work_.notify_one();
@@ -188,13 +188,13 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
     throw std::logic_error("a child forked inside a parallel call cannot finish that call");
   std::unique_lock lock(mutex_);
   tasks_.erase(std::find(tasks_.begin(), tasks_.end(), &task));
-  if (awake_ > 0 && task.active > 0) {
+  if (spin_requests_ > 0 && task.active > 0) {
     lock.unlock();
     spin_until([&] { return task.active == 0; });
     lock.lock();
   }
   const auto done = [&] { return task.active == 0; };
-  if (done_.wait_for(lock, kPatience, done)) return;
+  if (done_.wait_for(lock, kSpinTime, done)) return;
   avoid(-1);  // the caller now leaves its processor, while the others may be busy
   done_.wait(lock, done);
 }

@@ -40,12 +40,12 @@ class WorkerPool {
   /// is lost there.
   void run(unsigned helpers, const std::function<void()>& work);
 
-  /// From now on up to `helpers` threads spin for new tasks instead of sleeping, until let_sleep() has been
-  /// called as often as stay_awake().
-  void stay_awake(unsigned helpers);
+  /// From now on up to `helpers` threads spin for new tasks instead of sleeping, until stop_spinning() has been
+  /// called as often as start_spinning().
+  void start_spinning(unsigned helpers);
 
-  /// Ends one stay_awake(). Does nothing if `pool` is that of the parent process.
-  static void let_sleep(WorkerPool* pool);
+  /// Ends one start_spinning(). Does nothing if `pool` is that of the parent process.
+  static void stop_spinning(WorkerPool* pool);
 
   /// Joins the threads; later calls run on the calling thread alone.
   void end();
@@ -61,7 +61,7 @@ class WorkerPool {
   void avoid(int processor);
   Task* wanting();
   void serve();
-  bool look_out(std::unique_lock<std::mutex>& lock);
+  bool spin_for_task(std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
   std::condition_variable work_, done_;
@@ -69,10 +69,10 @@ class WorkerPool {
   std::vector<std::thread> threads_;
   bool ended_ = false;
   int avoided_ = -1;                         // processor that the threads avoid, or -1; guarded by mutex_
-  unsigned looking_out_ = 0, lookouts_ = 0;  // threads that spin, and the maximum of them; guarded by mutex_
-  std::uint64_t wakes_ = 0;                  // number of calls of stay_awake(); guarded by mutex_
-  std::atomic<unsigned> awake_{0};           // calls of stay_awake() that let_sleep() has not ended
-  std::atomic<std::uint64_t> offers_{0};     // number of calls of run()
+  unsigned spinning_ = 0, max_spinning_ = 0;  // threads that spin, and the maximum of them; guarded by mutex_
+  std::uint64_t spin_request_count_ = 0;                  // number of calls of start_spinning(); guarded by mutex_
+  std::atomic<unsigned> spin_requests_{0};           // calls of start_spinning() that stop_spinning() has not ended
+  std::atomic<std::uint64_t> run_count_{0};     // number of calls of run()
 };
 
 }  // namespace pcl_bv::internal

@@ -34,7 +34,7 @@ void LoadedPoints::load(const PointView& points, std::size_t begin, std::size_t 
     throw std::invalid_argument("PointSource::load() gives other points than it was asked for");
 }
 
-void LoadedPoints::give_back() {
+void LoadedPoints::return_buffer() {
   if (spares.size() < kSpares) spares.push_back(std::move(buffer_));
 }
 

@@ -33,7 +33,7 @@ void unpack_bz2(const std::byte* data, std::size_t size, std::size_t expected, s
 }
 
 // A record in the file: its header, and position and size of its data, which are not read.
-struct BagPlace {
+struct BagRecordLocation {
   std::vector<std::byte> header;
   std::uint64_t data = 0, size = 0;
 };
@@ -44,22 +44,22 @@ constexpr std::uint64_t kMaxHeader = 1U << 20U, kMaxChunkHeader = 256;
 class BagReader final : public ChunkedReader {
  public:
   explicit BagReader(const std::filesystem::path& path) : file_(path) {
-    if (!by_index()) {
+    if (!read_index_or_warn()) {
       scan();
-      note_offsets();
+      sort_offsets();
     }
     start(std::move(found_topics_), std::move(found_parts_));
   }
 
  private:
   // Returns the record at `at`; nullopt if it exceeds the file or its header exceeds `max_header` bytes.
-  std::optional<BagPlace> place_at(std::uint64_t at, std::uint64_t max_header = kMaxHeader) const {
+  std::optional<BagRecordLocation> record_at(std::uint64_t at, std::uint64_t max_header = kMaxHeader) const {
     const std::uint64_t size = file_.size();
     if (at + 4 > size) return std::nullopt;
     std::uint32_t length = 0;
     file_.read(at, &length, 4);
     if (length > max_header || length > size - at - 4 || size - at - 4 - length < 4) return std::nullopt;
-    BagPlace place;
+    BagRecordLocation place;
     place.header.resize(length);
     file_.read(at + 4, place.header.data(), length);
     std::uint32_t data = 0;
@@ -70,7 +70,7 @@ class BagReader final : public ChunkedReader {
     return place;
   }
 
-  std::vector<std::byte> bytes_of(const BagPlace& place) const {
+  std::vector<std::byte> bytes_of(const BagRecordLocation& place) const {
     std::vector<std::byte> bytes(place.size);
     if (!bytes.empty()) file_.read(place.data, bytes.data(), bytes.size());
     return bytes;
@@ -86,16 +86,16 @@ class BagReader final : public ChunkedReader {
 
   // Reads the index at the file's end: connections and positions of chunks. Returns false, with a warning, if
   // it is missing or damaged.
-  bool by_index() {
+  bool read_index_or_warn() {
     std::string problem = "it was not closed";
     try {
-      const std::optional<BagPlace> head = place_at(kMagicBytes);
+      const std::optional<BagRecordLocation> head = record_at(kMagicBytes);
       const BagHeader header =
           head ? BagHeader(head->header.data(), head->header.size()) : BagHeader(nullptr, 0);
       const auto index = header.number<std::uint64_t>("index_pos");
       const auto chunks = header.number<std::uint32_t>("chunk_count");
       if (index >= kMagicBytes && index < file_.size() && read_index(index) &&
-          found_parts_.size() == chunks && note_offsets())
+          found_parts_.size() == chunks && sort_offsets())
         return true;
       if (index != 0) problem = "it is not whole";
     } catch (const IoError& error) {
@@ -110,7 +110,7 @@ class BagReader final : public ChunkedReader {
 
   bool read_index(std::uint64_t at) {
     for (; at < file_.size();) {
-      const std::optional<BagPlace> place = place_at(at);
+      const std::optional<BagRecordLocation> place = record_at(at);
       if (!place) return false;
       const BagHeader header(place->header.data(), place->header.size());
       const std::vector<std::byte> data = bytes_of(*place);
@@ -133,7 +133,7 @@ class BagReader final : public ChunkedReader {
   }
 
   // Sorts the positions of the chunks. Returns false if two chunks have the same position.
-  bool note_offsets() {
+  bool sort_offsets() {
     offsets_.clear();
     for (const Part& part : found_parts_)
       offsets_.push_back(part.offset);
@@ -146,7 +146,7 @@ class BagReader final : public ChunkedReader {
     Decompressor decompressor;
     std::uint64_t previous = 0;  // position of the last record: its length may be damaged
     for (std::uint64_t at = kMagicBytes; at < file_.size();) {
-      const std::optional<BagPlace> place = place_at(at);
+      const std::optional<BagRecordLocation> place = record_at(at);
       const std::optional<BagOp> op = place ? op_of(*place) : std::nullopt;
       if (!op) {
         const std::uint64_t from = std::max(previous, std::uint64_t{kMagicBytes}) + 1;
@@ -172,7 +172,7 @@ class BagReader final : public ChunkedReader {
     }
   }
 
-  static std::optional<BagOp> op_of(const BagPlace& place) {
+  static std::optional<BagOp> op_of(const BagRecordLocation& place) {
     try {
       return BagHeader(place.header.data(), place.header.size()).op();
     } catch (const IoError&) {
@@ -200,7 +200,7 @@ class BagReader final : public ChunkedReader {
   std::uint64_t chunk_around(std::uint64_t begin, std::uint64_t end, std::uint64_t from) const {
     const std::uint64_t least = std::max(from, begin - std::min(begin, kMaxChunkHeader));
     for (std::uint64_t at = begin; at-- > least;) {
-      const std::optional<BagPlace> place = place_at(at, kMaxChunkHeader);
+      const std::optional<BagRecordLocation> place = record_at(at, kMaxChunkHeader);
       if (place && place->data > end && op_of(*place) == BagOp::chunk) return at;
     }
     return file_.size();
@@ -218,7 +218,7 @@ class BagReader final : public ChunkedReader {
     }
   }
 
-  BagBytes unpack(const BagPlace& place, Decompressor& decompressor, std::vector<std::byte>& raw,
+  BagBytes unpack(const BagRecordLocation& place, Decompressor& decompressor, std::vector<std::byte>& raw,
                   std::vector<std::byte>& unpacked) const {
     const BagHeader header(place.header.data(), place.header.size());
     if (header.op() != BagOp::chunk) throw IoError("there is no chunk");
@@ -242,7 +242,7 @@ class BagReader final : public ChunkedReader {
   }
 
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
-    const std::optional<BagPlace> place = place_at(part_offset(part));
+    const std::optional<BagRecordLocation> place = record_at(part_offset(part));
     if (!place) throw IoError("it is cut");
     // Refuse overlapping chunks: each entry of a small file's index could refer to most of the file.
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), part_offset(part));

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kFileHeader = 100;  // bytes at the beginning of the first page
 constexpr int kTableLeaf = 0x0D;
-constexpr std::size_t kMostColumns = 16;  // more than either table has; limits the work for a damaged row
+constexpr std::size_t kMaxColumns = 16;  // more than either table has; limits the work for a damaged row
 
 std::uint64_t big(const std::byte* at, std::size_t bytes) {
   std::uint64_t value = 0;
@@ -134,7 +134,7 @@ void Db3Pages::read_row(std::uint64_t page, std::uint64_t cell) {
   const std::uint64_t types_end = begin + values.varint();
   std::vector<std::uint64_t> types;
   while (values.ends_before(types_end)) {
-    if (types.size() == kMostColumns) return;
+    if (types.size() == kMaxColumns) return;
     types.push_back(values.varint());
   }
   if (types.size() == 4 && types[0] == 0 && is_integer(types[1]) && is_integer(types[2]) &&

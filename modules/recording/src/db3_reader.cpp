@@ -24,7 +24,7 @@ namespace {
 class DatabaseError : public IoError {
  public:
   explicit DatabaseError(sqlite3* database)
-      : IoError(sqlite_problem(database)), code_(sqlite3_errcode(database) & 0xFF) {}
+      : IoError(sqlite_error_message(database)), code_(sqlite3_errcode(database) & 0xFF) {}
   bool is_damage() const { return code_ == SQLITE_CORRUPT || code_ == SQLITE_NOTADB; }
 
  private:
@@ -125,8 +125,8 @@ class Db3Reader final : public RecordingReader {
       if (!error.is_damage()) throw;
       read_pages(file, error.what());
     }
-    if (of_no_topic_ > 0)
-      remark(std::to_string(of_no_topic_) + " messages of topics that are not described are passed over");
+    if (messages_without_topic_ > 0)
+      remark(std::to_string(messages_without_topic_) + " messages of topics that are not described are passed over");
     for (const Row& row : rows_)
       ++topics_[row.topic].messages;
     std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
@@ -176,7 +176,7 @@ class Db3Reader final : public RecordingReader {
     topics_.clear();
     topic_of_.clear();
     rows_.clear();
-    of_no_topic_ = 0;
+    messages_without_topic_ = 0;
     pages_ = std::make_unique<Db3Pages>(file);
     for (const auto& [id, topic] : pages_->topics())
       add(id, topic);
@@ -192,7 +192,7 @@ class Db3Reader final : public RecordingReader {
   void add(std::int64_t topic, Row row) {
     const auto found = topic_of_.find(topic);
     if (found == topic_of_.end()) {
-      ++of_no_topic_;
+      ++messages_without_topic_;
       return;
     }
     row.topic = found->second;
@@ -227,7 +227,7 @@ class Db3Reader final : public RecordingReader {
   std::unique_ptr<Db3Pages> pages_;  // used instead of both if the file is damaged
   std::vector<RecordedTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_of_;
-  std::uint64_t of_no_topic_ = 0;
+  std::uint64_t messages_without_topic_ = 0;
   std::vector<Row> rows_;  // sorted by time, equal times by id
   std::vector<bool> wanted_;
   std::size_t next_ = 0;

@@ -75,7 +75,7 @@ bool describes_channels(const Summary& summary, const Index& index) {
 }
 
 // Reads the summary. Returns nullopt if there is none, or if it does not describe all channels.
-std::optional<Summary> by_summary(const InputFile& file, Index& index) {
+std::optional<Summary> read_summary_index(const InputFile& file, Index& index) {
   const std::vector<std::byte> bytes = read_summary(file);
   Summary summary;
   for (Fields records(bytes.data(), bytes.size()); records.left() > 0;) {
@@ -128,7 +128,7 @@ Index index_of(const InputFile& file) {
   Index index;
   std::optional<Summary> summary;
   try {
-    summary = by_summary(file, index);
+    summary = read_summary_index(file, index);
   } catch (const IoError& error) {
     problem = error.what();
   }

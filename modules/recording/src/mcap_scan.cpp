@@ -25,7 +25,7 @@ class Scan {
   Scan(const InputFile& file, Index& index, const Summary& summary)
       : file_(file), index_(index), summary_(summary) {
     for (const auto& [offset, part] : summary.chunks)
-      unseen_.insert(offset);
+      remaining_chunks_.insert(offset);
   }
 
   Unknown all() {
@@ -34,7 +34,7 @@ class Scan {
       if (const auto known = summary_.chunks.find(at); known != summary_.chunks.end()) {
         loose_ = false;
         index_.parts.push_back(known->second);
-        unseen_.erase(at);
+        remaining_chunks_.erase(at);
         at = std::max(behind(*known), at + kRecordStart);  // moves forward even if the summary is wrong
         previous = at - 1;
         continue;
@@ -54,7 +54,7 @@ class Scan {
       if (op == Op::data_end) break;
       at += kRecordStart + size;
     }
-    add_rest();
+    add_remaining_chunks();
     return found_;
   }
 
@@ -110,8 +110,8 @@ class Scan {
   }
 
   // Adds the chunks of the summary that are behind the end of the walk.
-  void add_rest() {
-    for (const std::uint64_t offset : unseen_)
+  void add_remaining_chunks() {
+    for (const std::uint64_t offset : remaining_chunks_)
       index_.parts.push_back(summary_.chunks.at(offset));
     std::stable_sort(index_.parts.begin(), index_.parts.end(),
                      [](const Part& a, const Part& b) { return a.offset < b.offset; });
@@ -180,7 +180,7 @@ class Scan {
   const InputFile& file_;
   Index& index_;
   const Summary& summary_;
-  std::set<std::uint64_t> unseen_;  // positions of the summary's chunks that the walk has not met
+  std::set<std::uint64_t> remaining_chunks_;  // positions of the summary's chunks that the walk has not met
   Unknown found_;
   Decompressor decompressor_;
   std::vector<std::byte> raw_, unpacked_;

@@ -40,7 +40,7 @@ std::uint64_t time_of(std::int64_t nanoseconds) {
 class McapWriter::State {
  public:
   State(const std::filesystem::path& file, const Options& options)
-      : file_(opened(file, made_)), options_(options) {
+      : file_(opened(file, created_path_)), options_(options) {
     Writer writer(start_);
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
     writer.begin(Op::header);
@@ -50,7 +50,7 @@ class McapWriter::State {
   }
   // Removes a file that this object created and that has no content.
   ~State() {
-    if (!start_.empty() && !made_.empty()) ::unlink(made_.c_str());
+    if (!start_.empty() && !created_path_.empty()) ::unlink(created_path_.c_str());
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -258,7 +258,7 @@ class McapWriter::State {
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
   }
 
-  std::filesystem::path made_;  // path of the file if this object created it
+  std::filesystem::path created_path_;  // path of the file if this object created it
   FileDescriptor file_;
   Options options_;
   Buffer start_;  // header and first topics, until they are written

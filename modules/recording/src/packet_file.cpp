@@ -13,13 +13,13 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::uint64_t kWindow = 1U << 20U;
-constexpr std::uint64_t kBack = 1U << 16U;  // bytes that the window keeps before the position at_
+constexpr std::uint64_t kLookBehind = 1U << 16U;  // bytes that the window keeps before the position at_
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kMaxSeconds = 9 * kSecond;  // 9e9 s since 1970; more could overflow as nanoseconds
 // Maximum bytes of a pcap packet, and of a pcapng block while searching for one.
-constexpr std::uint32_t kLongest = 1U << 20U;
+constexpr std::uint32_t kMaxPacket = 1U << 20U;
 // Maximum seconds between two packets, unless the following packets confirm a larger jump.
-constexpr std::int64_t kNear = 24 * 3600;
+constexpr std::int64_t kMaxTimeGap = 24 * 3600;
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kByteOrder = 0x1A2B3C4D;
 
 std::uint32_t reversed(std::uint32_t value) {
@@ -82,7 +82,7 @@ const std::byte* PacketFile::need(std::size_t bytes) {
   const std::uint64_t at = at_;
   if (at > file_.size() || bytes > file_.size() - at) return nullptr;
   if (at < window_at_ || at + bytes > window_at_ + window_.size()) {
-    window_at_ = at - std::min(at, kBack);
+    window_at_ = at - std::min(at, kLookBehind);
     window_.resize(std::max<std::uint64_t>(at + bytes - window_at_,
                                            std::min<std::uint64_t>(kWindow, file_.size() - window_at_)));
     file_.read(window_at_, window_.data(), window_.size());
@@ -104,9 +104,9 @@ bool PacketFile::peek(std::uint64_t at, std::size_t bytes, std::byte* to) const 
 // Moves at_ to the next position where a run of packets can begin, with a warning. Returns false, with a
 // warning that the file is cut, if there is none. The search begins within the previous packet, whose length
 // may be damaged.
-bool PacketFile::go_on() {
+bool PacketFile::resynchronise() {
   const std::uint64_t damage = at_;
-  const bool back = previous_ && damage - *previous_ <= kBack;
+  const bool back = previous_ && damage - *previous_ <= kLookBehind;
   const std::uint64_t from = (back ? *previous_ : damage) + 1;
   for (at_ = from; at_ < file_.size(); ++at_) {
     if (!begins_packet()) continue;
@@ -145,8 +145,8 @@ std::uint64_t PacketFile::end_of_packet(std::uint64_t at, std::optional<std::int
   if (!peek(at, sizeof head, head)) return 0;
   const std::int64_t time = u32(head);
   const std::uint32_t size = u32(head + 8), original = u32(head + 12);
-  if (size > original || original > kLongest || size > file_.size() - at - sizeof head ||
-      u32(head + 4) >= interfaces_[0].ticks || (seconds && std::abs(time - *seconds) > kNear))
+  if (size > original || original > kMaxPacket || size > file_.size() - at - sizeof head ||
+      u32(head + 4) >= interfaces_[0].ticks || (seconds && std::abs(time - *seconds) > kMaxTimeGap))
     return 0;
   seconds = time;
   return at + sizeof head + size;
@@ -157,7 +157,7 @@ std::uint64_t PacketFile::end_of_block(std::uint64_t at) const {
   std::byte head[8], end[4];
   if (!peek(at, sizeof head, head)) return 0;
   const std::uint32_t type = u32(head), length = u32(head + 4);
-  if (type < 1 || type > 6 || length < 12 || length % 4 != 0 || length > kLongest ||
+  if (type < 1 || type > 6 || length < 12 || length % 4 != 0 || length > kMaxPacket ||
       !peek(at + length - 4, sizeof end, end) || u32(end) != length)
     return 0;
   return at + length;
@@ -171,7 +171,7 @@ bool PacketFile::next_pcap(Payload& payload) {
   while (at_ < file_.size()) {
     // A jump of the time, as in merged captures, is accepted if the next packet confirms it.
     if (need(16) == nullptr || !(is_run(1, last_seconds_) || is_run(2, std::nullopt))) {
-      if (!go_on()) return false;
+      if (!resynchronise()) return false;
       continue;
     }
     const std::uint32_t size = u32(need(16) + 8);
@@ -189,7 +189,7 @@ bool PacketFile::next_block(Payload& payload) {
   while (at_ < file_.size()) {
     const std::uint32_t length = block_length();
     if (length == 0) {
-      if (!go_on()) return false;
+      if (!resynchronise()) return false;
       continue;
     }
     const std::byte* const block = need(length);

@@ -49,7 +49,7 @@ class PacketFile {
   bool packet_of_block(const std::byte* block, std::uint32_t length, std::uint32_t type, Payload& payload);
   void add_interface(const std::byte* body, std::size_t size);
   bool begin_section(const std::byte* head);
-  bool go_on();
+  bool resynchronise();
   bool begins_packet();
   bool is_run(int packets, std::optional<std::int64_t> seconds) const;
   std::uint64_t end_of_packet(std::uint64_t at, std::optional<std::int64_t>& seconds) const;

@@ -23,16 +23,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_member(const fs::path& file) {
+bool is_recording_file(const fs::path& file) {
   const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
   return name.extension() == ".db3" || name.extension() == ".mcap";
 }
 
 // Throws IoError unless the path can be a file of a recording. A folder is refused: metadata.yaml could name
 // the folder itself, which would recurse without end.
-void require_member(const fs::path& file) {
+void require_recording_file(const fs::path& file) {
   std::error_code unknown;
-  if (!is_member(file) || (fs::exists(file, unknown) && !fs::is_regular_file(file, unknown)))
+  if (!is_recording_file(file) || (fs::exists(file, unknown) && !fs::is_regular_file(file, unknown)))
     throw IoError("no .db3 or .mcap file");
 }
 
@@ -47,7 +47,7 @@ class JoinedReader final : public RecordingReader {
     for (fs::path& file : files) {
       try {
         Member member;
-        require_member(file);
+        require_recording_file(file);
         member.reader = open_recording(file);
         for (const RecordedTopic& topic : member.reader->topics())
           member.topics.push_back(add_topic(topics_, topic));
@@ -144,11 +144,11 @@ bool has_metadata(const fs::path& folder) {
 }
 
 // Returns the .db3 and .mcap files in a folder (NAME_0.db3, NAME_1.db3, ...), in natural order.
-std::vector<fs::path> members_in(const fs::path& folder) {
+std::vector<fs::path> recording_files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code unknown;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, unknown)) {
-    if (is_member(entry.path())) files.push_back(entry.path());
+    if (is_recording_file(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().native(), b.filename().native());
@@ -158,8 +158,8 @@ std::vector<fs::path> members_in(const fs::path& folder) {
 
 // Returns the files of a recording without metadata.yaml, as after a crash. Returns none if the folder also
 // has clouds: then it is a folder of clouds.
-std::vector<fs::path> parts_in(const fs::path& folder) {
-  std::vector<fs::path> files = members_in(folder);
+std::vector<fs::path> files_without_metadata(const fs::path& folder) {
+  std::vector<fs::path> files = recording_files_in(folder);
   if (files.empty()) return files;
   try {
     if (!list_clouds(folder).empty()) files.clear();
@@ -202,17 +202,17 @@ class Temporary {
 
 bool is_rosbag2_folder(const fs::path& folder) {
   std::error_code unknown;
-  return fs::is_directory(folder, unknown) && (has_metadata(folder) || !parts_in(folder).empty());
+  return fs::is_directory(folder, unknown) && (has_metadata(folder) || !files_without_metadata(folder).empty());
 }
 
 // A recorder writes metadata.yaml last, so it may be older than the files or incomplete. If it cannot be
 // read, all files of the folder are used.
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   if (!has_metadata(folder))
-    return std::make_unique<JoinedReader>(parts_in(folder), std::vector<std::string>());
+    return std::make_unique<JoinedReader>(files_without_metadata(folder), std::vector<std::string>());
   std::vector<std::string> remarks;
   std::vector<fs::path> files;
-  const std::vector<fs::path> there = members_in(folder);
+  const std::vector<fs::path> there = recording_files_in(folder);
   try {
     files = without_repetitions(files_of(folder), remarks);
   } catch (const IoError& error) {

@@ -41,7 +41,7 @@ CREATE INDEX timestamp_idx ON messages (timestamp ASC);
 )";
 
 // Minimum duration of a transaction.
-constexpr std::chrono::milliseconds kTransaction{50};
+constexpr std::chrono::milliseconds kMinTransaction{50};
 
 fs::path made_folder(const fs::path& folder) {
   std::error_code failure;
@@ -83,7 +83,7 @@ class Rosbag2Writer::State {
       fs::remove(folder_ / (file_ + more), unknown);
     fs::remove(folder_ / "metadata.yaml", unknown);
     if (sqlite3_open((folder_ / file_).c_str(), &database_) != SQLITE_OK) {
-      const std::string why = sqlite_problem(database_);
+      const std::string why = sqlite_error_message(database_);
       sqlite3_close(std::exchange(database_, nullptr));
       throw IoError(why);
     }
@@ -124,7 +124,7 @@ class Rosbag2Writer::State {
     ++topic.messages;
     first_ = std::min(first_, time);
     last_ = std::max(last_, time);
-    if (Clock::now() - begun_ >= kTransaction) commit();
+    if (Clock::now() - begun_ >= kMinTransaction) commit();
   }
 
   void attach(const std::string& name, const std::string& content) {
@@ -149,7 +149,7 @@ class Rosbag2Writer::State {
     std::uint64_t messages;
   };
 
-  [[noreturn]] void fail() const { throw IoError(sqlite_problem(database_)); }
+  [[noreturn]] void fail() const { throw IoError(sqlite_error_message(database_)); }
   void run(const char* sql) {
     if (sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail();
   }
@@ -161,7 +161,7 @@ class Rosbag2Writer::State {
   }
   void step(sqlite3_stmt* statement) {
     const bool done = sqlite3_step(statement) == SQLITE_DONE;
-    const std::string why = done ? "" : sqlite_problem(database_);
+    const std::string why = done ? "" : sqlite_error_message(database_);
     sqlite3_reset(statement);
     if (!done) throw IoError(why);
   }

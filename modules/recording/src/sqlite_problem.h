@@ -11,7 +11,7 @@
 namespace pcl_bv {
 
 /// Returns the error message for the last failed call on the database.
-inline std::string sqlite_problem(sqlite3* database) {
+inline std::string sqlite_error_message(sqlite3* database) {
   const int code = sqlite3_errcode(database) & 0xFF;  // primary result code
   switch (code) {
     case SQLITE_NOTADB:

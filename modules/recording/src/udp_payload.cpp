@@ -46,7 +46,7 @@ bool unwrap_udp(unsigned link, const std::byte* data, std::size_t size, Payload&
   payload.data = ip + header + 8;
   payload.size = udp - 8;
   payload.address = static_cast<std::uint32_t>(big16(ip + 12) << 16U | big16(ip + 14));
-  payload.to_port = static_cast<std::uint16_t>(big16(ip + header + 2));
+  payload.destination_port = static_cast<std::uint16_t>(big16(ip + header + 2));
   return true;
 }
 
@@ -54,7 +54,7 @@ std::string Payload::source() const {
   std::string text;
   for (unsigned shift = 32; shift > 0; shift -= 8)
     text += (text.empty() ? "" : ".") + std::to_string(address >> (shift - 8) & 0xFFU);
-  return text + ':' + std::to_string(to_port);
+  return text + ':' + std::to_string(destination_port);
 }
 
 }  // namespace pcl_bv

@@ -16,11 +16,11 @@ struct Payload {
   const std::byte* data = nullptr;
   std::size_t size = 0;
   std::uint32_t address = 0;  ///< Source address.
-  std::uint16_t to_port = 0;  ///< Destination port.
+  std::uint16_t destination_port = 0;  ///< Destination port.
 
   /// Key of the sender: source address and destination port. The source port is not used, since a relay may
   /// send each packet from another port.
-  std::uint64_t key() const { return std::uint64_t{address} << 16U | to_port; }
+  std::uint64_t key() const { return std::uint64_t{address} << 16U | destination_port; }
   /// The key as text, such as "192.168.1.201:2368".
   std::string source() const;
 };

@@ -24,8 +24,8 @@ struct Origin {
   Payload waiting_packet() const { return {waiting_time_ns, waiting.data(), waiting.size()}; }
 };
 
-constexpr std::size_t kMostSensors = 8;  // of one origin
-constexpr std::size_t kMostNames = 5;    // in a message
+constexpr std::size_t kMaxSensors = 8;  // of one origin
+constexpr std::size_t kMaxListedNames = 5;    // in a message
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
@@ -75,7 +75,7 @@ struct VelodyneReader::State {
     std::vector<std::string> sensors, others;
 
     static void add(std::vector<std::string>& names, std::string name) {
-      if (names.size() < kMostNames && std::find(names.begin(), names.end(), name) == names.end())
+      if (names.size() < kMaxListedNames && std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(std::move(name));
     }
     void note(const Payload& packet, const VelodyneModel* found) {
@@ -118,7 +118,7 @@ struct VelodyneReader::State {
       const Payload earlier = origin.waiting_packet();
       // If a sensor expects this packet, the waiting packet was of another sensor. Otherwise the azimuth has
       // jumped, and the waiting packet was the first one after the jump.
-      if (sensor != nullptr && origin.sensors.size() < kMostSensors) {
+      if (sensor != nullptr && origin.sensors.size() < kMaxSensors) {
         const auto place = static_cast<std::size_t>(sensor - origin.sensors.data());
         add_sensor(found, origin).add(earlier, whole);
         sensor = &origin.sensors[place];
@@ -149,13 +149,13 @@ struct VelodyneReader::State {
 
   // Updates the warning about several sensors, a single line that names the sensors found so far.
   void note_several() {
-    if (sensors <= said_sensors || sensors < 2) return;
-    said_sensors = sensors;
+    if (sensors <= noted_sensors || sensors < 2) return;
+    noted_sensors = sensors;
     std::vector<std::string> names;
-    for (auto it = origins.begin(); it != origins.end() && names.size() < kMostNames; ++it)
+    for (auto it = origins.begin(); it != origins.end() && names.size() < kMaxListedNames; ++it)
       names.push_back(it->second.name);
     const std::size_t others = origins.size() - names.size();
-    several_line = "packets of " + std::to_string(sensors) + " sensors (" + listed(names) +
+    sensors_note = "packets of " + std::to_string(sensors) + " sensors (" + listed(names) +
                    (others > 0 ? " and " + std::to_string(others) + " others" : "") +
                    "): each frame is a revolution of one of them" +
                    (origins.size() > 1 ? ", --topic chooses one" : "");
@@ -192,12 +192,12 @@ struct VelodyneReader::State {
   std::optional<PacketFile> packets;
   const VelodyneModel* model = nullptr;
   std::map<std::uint64_t, Address> origins;
-  std::size_t sensors = 0, said_sensors = 0;
+  std::size_t sensors = 0, noted_sensors = 0;
   std::deque<VelodyneSweep> whole;
   WarningList warnings;                // about packets; kept by rewind(), since a second pass finds the same
   std::uint64_t warnings_added = 0;    // number of warnings of `packets` that are in `warnings`
-  std::optional<std::size_t> several;  // number of warnings before several_line
-  std::string several_line;
+  std::optional<std::size_t> several;  // number of warnings before sensors_note
+  std::string sensors_note;
   bool done = false;
 };
 
@@ -218,7 +218,7 @@ bool VelodyneReader::next(VelodyneSweep& sweep) {
   while (state.whole.empty() && state.read_packet()) {
   }
   if (state.whole.empty() && !state.done) state.finish();
-  state.warnings.add_new_of(state.packets->warnings(), state.warnings_added);
+  state.warnings.append_new(state.packets->warnings(), state.warnings_added);
   state.note_several();
   if (state.whole.empty()) return false;
   sweep = std::move(state.whole.front());
@@ -228,8 +228,8 @@ bool VelodyneReader::next(VelodyneSweep& sweep) {
 
 std::vector<std::string> VelodyneReader::remarks() const {
   std::vector<std::string> all = state_->warnings.lines();
-  if (!state_->several_line.empty())
-    all.insert(all.begin() + static_cast<std::ptrdiff_t>(*state_->several), state_->several_line);
+  if (!state_->sensors_note.empty())
+    all.insert(all.begin() + static_cast<std::ptrdiff_t>(*state_->several), state_->sensors_note);
   return all;
 }
 

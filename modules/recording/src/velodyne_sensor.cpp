@@ -58,15 +58,15 @@ constexpr VelodyneModel kModels[] = {
       1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
 
 // Azimuths are in hundredths of a degree.
-constexpr std::size_t kTurn = 36'000;
+constexpr std::size_t kFullCircle = 36'000;
 struct Turn {
   double sine, cosine;
 };
 
 const std::vector<Turn>& turns() {
   static const auto all = [] {
-    std::vector<Turn> made(kTurn);
-    for (std::size_t i = 0; i < kTurn; ++i) {
+    std::vector<Turn> made(kFullCircle);
+    for (std::size_t i = 0; i < kFullCircle; ++i) {
       const double angle = static_cast<double>(i) / 100 * kDegree;
       made[i] = {std::sin(angle), std::cos(angle)};
     }
@@ -75,9 +75,9 @@ const std::vector<Turn>& turns() {
   return all;
 }
 
-constexpr double kForgotten = 0.3e9;  // pause in nanoseconds after which the azimuth cannot be predicted
-constexpr double kStrange = 6'000;    // maximum prediction error, hundredths of a degree, of the same sensor
-constexpr unsigned kLate = 8;         // packets (10 ms) after a revolution's end until it is complete
+constexpr double kMaxPause = 0.3e9;  // pause in nanoseconds after which the azimuth cannot be predicted
+constexpr double kMaxPredictionError = 6'000;    // maximum prediction error, hundredths of a degree, of the same sensor
+constexpr unsigned kLatePackets = 8;         // packets (10 ms) after a revolution's end until it is complete
 
 std::uint16_t word(const std::byte* at) {
   std::uint16_t value;
@@ -99,13 +99,13 @@ std::size_t step_of(const Payload& packet) {
 }
 
 // Returns the signed difference of two azimuths, -180 to 180 degrees.
-double way_between(double from, double to) {
-  return std::remainder(to - from, static_cast<double>(kTurn));
+double azimuth_difference(double from, double to) {
+  return std::remainder(to - from, static_cast<double>(kFullCircle));
 }
 
 // Returns the rotation from the packet's first firing to its last one.
-double way_within(const Payload& packet) {
-  return way_between(azimuth_of(packet, 0), azimuth_of(packet, kBlocks - step_of(packet)));
+double rotation_within(const Payload& packet) {
+  return azimuth_difference(azimuth_of(packet, 0), azimuth_of(packet, kBlocks - step_of(packet)));
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
                                           sorted.begin());
     sine_[i] = std::sin(model.degrees[i] * kDegree);
     cosine_[i] = std::cos(model.degrees[i] * kDegree);
-    aside_[i] = static_cast<std::size_t>(std::lround(100 * model.aside[i]) + static_cast<long>(kTurn));
+    azimuth_offset_[i] = static_cast<std::size_t>(std::lround(100 * model.aside[i]) + static_cast<long>(kFullCircle));
   }
   sweep_.sensor = number;
 }
@@ -145,28 +145,28 @@ VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
 // revolutions that fits the packet's time best.
 double VelodyneSensor::ahead(const Payload& packet) const {
   const double expected = speed_ * static_cast<double>(packet.time_ns - last_time_ns_);
-  return expected + way_between(place_ + expected, azimuth_of(packet, 0));
+  return expected + azimuth_difference(azimuth_ + expected, azimuth_of(packet, 0));
 }
 
 bool VelodyneSensor::expects(const Payload& packet) const {
   const auto passed = static_cast<double>(packet.time_ns - last_time_ns_);
-  if (!started_ || std::abs(passed) > kForgotten) return true;
-  return std::abs(ahead(packet) - speed_ * passed) <= kStrange;
+  if (!started_ || std::abs(passed) > kMaxPause) return true;
+  return std::abs(ahead(packet) - speed_ * passed) <= kMaxPredictionError;
 }
 
 // Estimates the rotation speed: from the first packet alone, then from each pair of packets with a smoothing
 // factor of 1/8, so that jitter of a single packet or another firing rate has little effect.
-void VelodyneSensor::learn_speed(const Payload& packet, double way) {
+void VelodyneSensor::update_speed(const Payload& packet, double way) {
   const std::size_t firings = kBlocks / step_of(packet) - 1;
-  if (speed_ == 0) speed_ = way_within(packet) / (static_cast<double>(firings) * model_->block_ns);
+  if (speed_ == 0) speed_ = rotation_within(packet) / (static_cast<double>(firings) * model_->block_ns);
   const auto passed = static_cast<double>(packet.time_ns - last_time_ns_);
   if (!started_ || !(passed > 0.2e6 && passed < 5e6) || way * speed_ <= 0 || std::abs(way) > 3'000) return;
   speed_ += (way / passed - speed_) / 8;
 }
 
-void VelodyneSensor::begin_turn(std::int64_t turn, std::deque<VelodyneSweep>& whole) {
-  turn_ = turn;
-  since_turn_ = 0;
+void VelodyneSensor::begin_revolution(std::int64_t turn, std::deque<VelodyneSweep>& whole) {
+  revolution_ = turn;
+  packets_in_revolution_ = 0;
   if (!previous_.points.empty()) whole.push_back(std::move(previous_));
   previous_ = std::exchange(sweep_, VelodyneSweep());
   sweep_.sensor = number_;
@@ -182,38 +182,38 @@ void VelodyneSensor::finish(std::deque<VelodyneSweep>& whole) {
 }
 
 void VelodyneSensor::add(const Payload& packet, std::deque<VelodyneSweep>& whole) {
-  if (started_ && std::abs(static_cast<double>(packet.time_ns - last_time_ns_)) > kForgotten) finish(whole);
+  if (started_ && std::abs(static_cast<double>(packet.time_ns - last_time_ns_)) > kMaxPause) finish(whole);
   const double way = started_ ? ahead(packet) : 0;
-  learn_speed(packet, way);
+  update_speed(packet, way);
   const std::size_t step = step_of(packet);
   const double forward = speed_ < 0 ? -1 : 1;
-  double place = started_ ? place_ + way : azimuth_of(packet, 0);
-  if (!started_) turn_ = static_cast<std::int64_t>(std::floor(place / kTurn));
+  double place = started_ ? azimuth_ + way : azimuth_of(packet, 0);
+  if (!started_) revolution_ = static_cast<std::int64_t>(std::floor(place / kFullCircle));
   if (!started_ || forward * way > 0) {
-    place_ = place;
+    azimuth_ = place;
     last_time_ns_ = packet.time_ns;
   }
   started_ = true;
   // The second firing of a VLP-16's block is half way to the next block. The rotation per block is that
   // between the packet's first two blocks.
-  const double half = way_between(azimuth_of(packet, 0), azimuth_of(packet, step)) / 2;
+  const double half = azimuth_difference(azimuth_of(packet, 0), azimuth_of(packet, step)) / 2;
   for (std::size_t block = 0; block < kBlocks; block += step) {
-    if (block > 0) place += way_between(azimuth_of(packet, block - step), azimuth_of(packet, block));
+    if (block > 0) place += azimuth_difference(azimuth_of(packet, block - step), azimuth_of(packet, block));
     for (std::size_t laser = 0; laser < kVelodyneLasers; ++laser) {
       const double at = laser >= model_->beams ? place + half : place;
-      auto turn = static_cast<std::int64_t>(std::floor(at / kTurn));
-      if (at > place && at == static_cast<double>(turn) * kTurn) --turn;
-      if (forward * static_cast<double>(turn - turn_) > 0) begin_turn(turn, whole);
-      const bool late = turn != turn_ && !previous_.points.empty();
+      auto turn = static_cast<std::int64_t>(std::floor(at / kFullCircle));
+      if (at > place && at == static_cast<double>(turn) * kFullCircle) --turn;
+      if (forward * static_cast<double>(turn - revolution_) > 0) begin_revolution(turn, whole);
+      const bool late = turn != revolution_ && !previous_.points.empty();
       VelodyneSweep& sweep = late ? previous_ : sweep_;
       if (sweep.points.empty()) sweep.stamp_ns = packet.time_ns;
       const double time = static_cast<double>(packet.time_ns - sweep.stamp_ns) +
                           static_cast<double>(block / step) * model_->block_ns +
                           static_cast<double>(laser) * model_->laser_ns;
-      add_firing(packet, block, laser, at - std::floor(at / kTurn) * kTurn, time, sweep);
+      add_firing(packet, block, laser, at - std::floor(at / kFullCircle) * kFullCircle, time, sweep);
     }
   }
-  if (++since_turn_ < kLate || previous_.points.empty()) return;
+  if (++packets_in_revolution_ < kLatePackets || previous_.points.empty()) return;
   whole.push_back(std::exchange(previous_, VelodyneSweep()));
 }
 
@@ -231,7 +231,7 @@ void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hu
   const double distance = word(at) * model_->metres;
   if (distance == 0) return;  // no return
   const std::size_t beam = laser % model_->beams;
-  const Turn& turn = turns()[(static_cast<std::size_t>(hundredths) + aside_[beam]) % kTurn];
+  const Turn& turn = turns()[(static_cast<std::size_t>(hundredths) + azimuth_offset_[beam]) % kFullCircle];
   const double level = distance * cosine_[beam];
   sweep.points.push_back({static_cast<float>(level * turn.sine), static_cast<float>(level * turn.cosine),
                           static_cast<float>(distance * sine_[beam]),

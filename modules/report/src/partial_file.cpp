@@ -21,7 +21,7 @@ using Shares = std::vector<std::pair<std::size_t, std::size_t>>;
 
 constexpr std::string_view kFormat = "pcl_bv partial results ";
 constexpr std::string_view kVersion = "1\n";
-constexpr std::size_t kGreatest = std::size_t{1} << 30;
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 
 std::string check_sum(std::string_view content) {
   boost::crc_32_type sum;
@@ -71,7 +71,7 @@ std::size_t whole(const Json& number) {
 }
 
 // Throws Json::exception and IoError.
-PartialFile read_heading(std::string_view line) {
+PartialFile read_partial_header(std::string_view line) {
   require(line.size() <= kMaxHeadingBytes, "its heading is too long");
   const Json json = read_json(line);
   PartialFile file;
@@ -170,7 +170,7 @@ PartialFile parse_partial_file(std::string_view content) {
   const std::size_t end = rest.find('\n');
   require(end != std::string_view::npos, "ends early");
   try {
-    PartialFile file = read_heading(rest.substr(0, end));
+    PartialFile file = read_partial_header(rest.substr(0, end));
     const std::string_view bytes = rest.substr(end + 1);
     file.partial = Partial::from_bytes(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
     require(file.partial.size() == points_in(file.shares), "its numbers of points contradict each other");
@@ -189,7 +189,7 @@ void write_partial_file(const std::filesystem::path& path, const PartialFile& fi
 
 PartialFile read_partial_file(const std::filesystem::path& path) {
   const InputFile file(path);
-  require(file.size() <= kGreatest, "is too large for partial results");
+  require(file.size() <= kMaxFileBytes, "is too large for partial results");
   std::string content(file.size(), '\0');
   file.read(0, content.data(), content.size());
   return parse_partial_file(content);

@@ -45,7 +45,7 @@ class Marks {
     cairo_rectangle(cairo_, box.min().x(), box.min().y(), box.sizes().x(), box.sizes().y());
     cairo_set_source_rgba(cairo_, 0.03, 0.04, 0.07, 0.75);
     cairo_fill(cairo_);
-    taken_.push_back(box);
+    occupied_.push_back(box);
   }
 
   /// Writes a text whose baseline starts at x, y.
@@ -63,7 +63,7 @@ class Marks {
   cairo_t* cairo_;
   const View& view_;
   double bottom_;
-  std::vector<Box> taken_;  ///< Areas with text or marks, which labels must not overlap.
+  std::vector<Box> occupied_;  ///< Areas with text or marks, which labels must not overlap.
 };
 
 /// Replaces characters that Cairo's built-in font does not have by '?'.
@@ -90,7 +90,7 @@ void Marks::draw_axes() {
     darken(box_of(name, left, foot));
     write(name, left, foot, colours[axis]);
   }
-  taken_.emplace_back(Eigen::Vector2d(x - reach, y - reach), Eigen::Vector2d(x + reach, y + reach));
+  occupied_.emplace_back(Eigen::Vector2d(x - reach, y - reach), Eigen::Vector2d(x + reach, y + reach));
 }
 
 // Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `most`.
@@ -114,7 +114,7 @@ void Marks::draw_scale(const std::string& unit) {
   char digits[32];
   const auto written = std::to_chars(digits, digits + sizeof digits, length, std::chars_format::general, 3);
   const std::string text = std::string(digits, written.ptr) + (unit.empty() ? "" : " " + readable(unit));
-  taken_.push_back(box_of(text, x + 8, bottom_ - 6).extend(Eigen::Vector2d(x + pixels, bottom_)));
+  occupied_.push_back(box_of(text, x + 8, bottom_ - 6).extend(Eigen::Vector2d(x + pixels, bottom_)));
   write(text, x + 8, bottom_ - 6, plain);
 }
 
@@ -124,7 +124,7 @@ void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& s
   double x = margin, y = margin, widest = 0;
   for (const auto& [method, number] : styles.colour_of) {
     if (method >= methods.size()) continue;
-    if (y > bottom_ - mark_room) {  // begin a new column
+    if (y > bottom_ - kMarkMargin) {  // begin a new column
       x += sample + 24 + widest;
       y = margin, widest = 0;
     }
@@ -155,7 +155,7 @@ void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
     const double x = std::max(4.0, std::min(at.x() - width / 2, view_.width - width - 4));
     const double y = std::max(cap_height + 4, top - 7);
     const Box box = box_of(text, x, y);
-    if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return other.intersects(box); }))
+    if (std::any_of(occupied_.begin(), occupied_.end(), [&](const Box& other) { return other.intersects(box); }))
       continue;
     darken(box);
     write(text, x, y, palette(entry.colour));

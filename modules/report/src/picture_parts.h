@@ -67,10 +67,10 @@ void add_path(cairo_t* cairo, const View& view, const std::vector<Eigen::Vector3
 void stroke(cairo_t* cairo, const Colour& colour, bool front, std::uint32_t dash = 0);
 
 /// Minimum picture size with marks, and the margin at the lower edge that marks need, in pixels.
-constexpr int marked_width = 480, marked_height = 320, mark_room = 130;
+constexpr int kMinMarkedWidth = 480, kMinMarkedHeight = 320, kMarkMargin = 130;
 
 inline bool has_marks(const View& view) {
-  return view.width >= marked_width && view.height >= marked_height;
+  return view.width >= kMinMarkedWidth && view.height >= kMinMarkedHeight;
 }
 
 /// Draws the axes (except one along the line of sight), a scale bar, the legend and the volumes' labels.

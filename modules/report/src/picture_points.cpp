@@ -80,7 +80,7 @@ void splat(Raster& raster, const Eigen::Vector3d& at, const Offsets& offsets, co
 }
 
 /// Returns the brightness of a sample, 0 to 1: lower if neighbours are closer to the viewer.
-float eye_dome(const Raster& raster, int x, int y) {
+float eye_dome_brightness(const Raster& raster, int x, int y) {
   constexpr int step = 3;
   constexpr float reach = 40;  // maximum depth difference that counts, in samples
   constexpr int around[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> shade(const Raster& raster) {
         const std::size_t i = static_cast<std::size_t>(sy) * raster.width + sx;
         const bool hit = raster.depth[i] != no_depth;
         const Colour& colour = hit ? raster.colour[i] : background;
-        const float light = hit ? eye_dome(raster, sx, sy) : 1;
+        const float light = hit ? eye_dome_brightness(raster, sx, sy) : 1;
         for (int c = 0; c < 3; ++c)
           sum[c] += colour[c] * light;
       }
@@ -144,7 +144,7 @@ std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view)
     const double height = (point.dot(view.sky) - low) / (high - low);
     if (!picture.labels) return splat(raster, sample, clustered, height_colour(static_cast<float>(height)));
     const std::uint32_t label = picture.labels[index];
-    if (label < label_ground) return splat(raster, sample, clustered, palette(label));
+    if (label < kLabelGround) return splat(raster, sample, clustered, palette(label));
     const double near = 0.5 - at.z() / picture.height;
     splat(raster, sample, plain, mix(grey_far, grey_near, static_cast<float>(std::clamp(near, 0.0, 1.0))));
   };

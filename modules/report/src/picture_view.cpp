@@ -46,7 +46,7 @@ std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < picture.points.count; i += picture.points.count / enough + 1) {
     const Coordinates p = load_point(LoadedPoints(picture.points, i, 1).view(), 0);
-    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < label_ground;
+    const bool counts = !picture.labels || picture.labels[picture.points.index(i)] < kLabelGround;
     if (counts && is_drawn(p)) points.emplace_back(p.x, p.y, p.z);
   }
   return points;
@@ -91,7 +91,7 @@ View oriented(const Picture& picture) {
 /// Returns the cropped length of a picture's side: `content` pixels and the margins for marks, at least
 /// `least` and at most `side`.
 int cropped(int side, double content, int least) {
-  return std::min(side, std::max(least, static_cast<int>(std::min<double>(side, content)) + 2 * mark_room));
+  return std::min(side, std::max(least, static_cast<int>(std::min<double>(side, content)) + 2 * kMarkMargin));
 }
 
 }  // namespace
@@ -119,8 +119,8 @@ View fit_view(const Picture& picture) {
   if (fill > 0) view.scale = (1 - 2 * margin_part) / fill;
   const bool crops = picture.from == ViewFrom::front || picture.from == ViewFrom::side;
   if (crops && has_marks(view)) {
-    view.width = cropped(picture.width, size[0] * view.scale, marked_width);
-    view.height = cropped(picture.height, size[1] * view.scale, marked_height);
+    view.width = cropped(picture.width, size[0] * view.scale, kMinMarkedWidth);
+    view.height = cropped(picture.height, size[1] * view.scale, kMinMarkedHeight);
   }
   return view;
 }

@@ -58,7 +58,7 @@ int choose_decimals(const ClusterSource& clusters) {
 
 Row volume_row(const VolumeEntry& entry, int decimals) {
   Row row;
-  row[method_column] = shown_method(entry);
+  row[method_column] = method_label(entry);
   if (entry.outside) row[11] = std::to_string(*entry.outside);
   if (empty(entry.volume)) {
     row[3] = entry.failed.empty() ? "empty" : "failed";
@@ -185,7 +185,7 @@ std::string header(const Report& report, std::size_t clusters) {
   add(report.counts.small, " in small clusters");
   add(report.counts.large, " in large clusters");
   add(report.counts.noise, " in no cluster");
-  add(report.counts.of_class, " of dropped classes");
+  add(report.counts.dropped_class, " of dropped classes");
   if (clusters == 0) text += ", no clusters";
   if (report.seconds) {
     text += "; read " + format("%.*f", 1, report.seconds->read * 1e3);
@@ -220,7 +220,7 @@ std::string info_text(const CloudInfo& info) {
 
 }  // namespace
 
-ClusterSource source_of(const std::vector<ClusterEntry>& clusters) {
+ClusterSource vector_source(const std::vector<ClusterEntry>& clusters) {
   return {clusters.size(), [&clusters](std::size_t i) -> const ClusterEntry& { return clusters[i]; }};
 }
 
@@ -233,7 +233,7 @@ void write_report_text(const Report& report, const ClusterSource& clusters, cons
 
 std::string report_text(const Report& report) {
   std::string all;
-  write_report_text(report, source_of(report.clusters), appended_to(all));
+  write_report_text(report, vector_source(report.clusters), appended_to(all));
   return all;
 }
 

@@ -30,7 +30,7 @@ inline std::string shortest(double value) {
 }
 
 /// Returns the method's name; for `best` with the shape that it chose, such as "best (obb)".
-inline std::string shown_method(const VolumeEntry& entry) {
+inline std::string method_label(const VolumeEntry& entry) {
   if (entry.method != "best" || empty(entry.volume)) return entry.method;
   return entry.method + " (" + std::string(shape_name(entry.volume)) + ')';
 }

@@ -44,15 +44,15 @@ std::pair<Group<T>, Group<T>> split(const Group<T>& group) {
 
 template <typename T>
 bool any_link_of_groups(Group<T> a, Group<T> b, T r2) {
-  if (!(least_squared_distance(a.box, b.box) < r2)) return false;
+  if (!(min_squared_distance(a.box, b.box) < r2)) return false;
   if (greatest_squared_distance(a.box, b.box) < r2) return true;
-  if (a.count * b.count <= few_pairs) {
+  if (a.count * b.count <= max_direct_pairs) {
     return any_link_of_few(PointRun<T>{a.points, a.count}, PointRun<T>{b.points, b.count}, r2);
   }
   // Two groups without extent were decided above, so the longer group has at least two points.
   if (longest_side(a.box) < longest_side(b.box)) std::swap(a, b);
   auto [near, far] = split(a);
-  if (least_squared_distance(far.box, b.box) < least_squared_distance(near.box, b.box)) std::swap(near, far);
+  if (min_squared_distance(far.box, b.box) < min_squared_distance(near.box, b.box)) std::swap(near, far);
   return any_link_of_groups(near, b, r2) || any_link_of_groups(far, b, r2);
 }
 
@@ -81,7 +81,7 @@ Nearest<T> nearest(const PointRun<T>& run, const Point<T>& to) {
 // Returns whether the point of a nearest to the first point of b is linked to this point, or to the point of
 // b nearest to it. This finds most links.
 template <typename T>
-bool is_soon_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
+bool nearest_points_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
   const Nearest<T> of_a = nearest(a, *b.points);
   return of_a.squared_distance < r2 || nearest(b, *of_a.point).squared_distance < r2;
 }
@@ -90,7 +90,7 @@ bool is_soon_linked(const PointRun<T>& a, const PointRun<T>& b, T r2) {
 
 template <typename T>
 bool any_link_of_many(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
-  if (is_soon_linked(a, b, r2)) return true;
+  if (nearest_points_linked(a, b, r2)) return true;
   return any_link_of_groups(copy_of(a, scratch.a), copy_of(b, scratch.b), r2);
 }
 

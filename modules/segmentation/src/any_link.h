@@ -43,12 +43,12 @@ bool any_link_of_few(PointRun<T> a, PointRun<T> b, T r2) {
 }
 
 /// Number of pairs up to which testing all is cheaper than splitting.
-inline constexpr std::size_t few_pairs = 256;
+inline constexpr std::size_t max_direct_pairs = 256;
 
 /// Returns whether squared_distance(p, q) < r2 for some p of a and q of b. Neither may be empty.
 template <typename T>
 bool any_link(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
-  return a.count * b.count <= few_pairs ? any_link_of_few(a, b, r2) : any_link_of_many(a, b, r2, scratch);
+  return a.count * b.count <= max_direct_pairs ? any_link_of_few(a, b, r2) : any_link_of_many(a, b, r2, scratch);
 }
 
 }  // namespace pcl_bv

@@ -42,7 +42,7 @@ inline std::int64_t cell_number(double coordinate, double inverse_side) {
 /// Position of a cell: the key of its block and its number in the block, two bits each of x (lowest), y and
 /// z.
 template <typename Key>
-struct CellPlace {
+struct CellKey {
   Key block;
   std::uint8_t bit;
 };
@@ -65,7 +65,7 @@ struct CellGrid {
   }
 
   template <typename Key, typename T>
-  CellPlace<Key> place(const Point<T>& p) const {
+  CellKey<Key> place(const Point<T>& p) const {
     return near ? packed<Key>(near_cell(0, p.x), near_cell(1, p.y), near_cell(2, p.z))
                 : packed<Key>(cell(0, p.x), cell(1, p.y), cell(2, p.z));
   }
@@ -74,7 +74,7 @@ struct CellGrid {
   void add_axis(std::size_t axis, double min, double max);
 
   template <typename Key, typename Cell>
-  CellPlace<Key> packed(Cell x, Cell y, Cell z) const {
+  CellKey<Key> packed(Cell x, Cell y, Cell z) const {
     const auto block = [this](Cell c, std::size_t axis) { return static_cast<Key>(c >> 2) << shift[axis]; };
     return {static_cast<Key>(block(x, 0) | block(y, 1) | block(z, 2)),
             static_cast<std::uint8_t>((x & 3) | (y & 3) << 2 | (z & 3) << 4)};

@@ -21,7 +21,7 @@ void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockK
   Key last = 0;
   std::uint64_t occupied = 0;  // a register is faster than memory
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    const CellPlace<Key> place = grid.template place<Key>(points[i]);
+    const CellKey<Key> place = grid.template place<Key>(points[i]);
     keys.bit_of_point[i] = place.bit;
     if (place.block != last) {
       if (!part.runs.empty()) part.runs.back().occupied = occupied;

@@ -70,7 +70,7 @@ struct CellPart {
 };
 
 /// Number of blocks from which the memory used to find them is freed at once. A street has 10 000.
-constexpr std::size_t many_blocks = 1 << 18;
+constexpr std::size_t free_memory_from_blocks = 1 << 18;
 
 /// Keys of one width, and the buffers to sort them.
 template <typename Key>

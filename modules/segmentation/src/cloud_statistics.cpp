@@ -21,17 +21,17 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kMostSamples = 1000;
+constexpr std::size_t kMaxSamples = 1000;
 
 // Number of points before and after a sample that give its first bound.
-constexpr std::size_t kListedNear = 64;
+constexpr std::size_t kNeighboursInList = 64;
 
-bool is_dead(const Coordinates& p) {
+bool is_no_return(const Coordinates& p) {
   return p.x == 0 && p.y == 0 && p.z == 0;
 }
 
 bool counts(const Coordinates& p) {
-  return is_valid(p) && !is_dead(p);
+  return is_valid(p) && !is_no_return(p);
 }
 
 double distance(const Coordinates& a, const Coordinates& b) {
@@ -49,13 +49,13 @@ struct ChunkCounts {
   Aabb box;
 };
 
-ChunkCounts look_at(const PointView& points) {
+ChunkCounts count_points(const PointView& points) {
   ChunkCounts found;
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);
     if (!is_valid(p)) {
       ++found.nonfinite;
-    } else if (is_dead(p)) {
+    } else if (is_no_return(p)) {
       ++found.zero;
     } else {
       ++found.used;
@@ -67,8 +67,8 @@ ChunkCounts look_at(const PointView& points) {
 
 double nearest_listed(const PointView& points, std::size_t i, const Coordinates& p) {
   double best = std::numeric_limits<double>::infinity();
-  const std::size_t end = std::min(points.count, i + kListedNear + 1);
-  for (std::size_t j = i - std::min(i, kListedNear); j < end; ++j) {
+  const std::size_t end = std::min(points.count, i + kNeighboursInList + 1);
+  for (std::size_t j = i - std::min(i, kNeighboursInList); j < end; ++j) {
     const Coordinates q = load_point(points, j);
     if (j != i && counts(q)) best = std::min(best, distance(p, q));
   }
@@ -78,7 +78,7 @@ double nearest_listed(const PointView& points, std::size_t i, const Coordinates&
 // Takes the samples of a chunk. They are evenly spaced among the `used` points of the cloud, of which
 // `before` are in earlier chunks.
 std::vector<Sample> take_samples(const PointView& points, std::size_t before, std::size_t used) {
-  const std::size_t samples = std::min(used, kMostSamples);
+  const std::size_t samples = std::min(used, kMaxSamples);
   std::vector<Sample> taken;
   std::size_t k = (before * samples + used - 1) / used;  // sample k is usable point k * used / samples
   for (std::size_t i = 0, rank = before; i < points.count && k < samples; ++i) {
@@ -103,7 +103,7 @@ double median(const std::vector<Sample>& samples) {
 
 // Lowers the distances of the samples, which are sorted along `axis`, by comparing them with the points. The
 // search radius `reach` shrinks with the median.
-void come_nearer(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
+void lower_distances(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
   constexpr std::size_t points_per_reach = 4096;
   const auto before = [&](const Sample& sample, double at) { return sample.point.*axis < at; };
   double reach = 0;
@@ -153,7 +153,7 @@ double spacing(const PointView& points, std::vector<Sample> samples, const Aabb&
       const std::lock_guard lock(merging);
       mine = samples;
     }
-    come_nearer(load_chunk(points, chunk).view(), axis, mine);
+    lower_distances(load_chunk(points, chunk).view(), axis, mine);
     const std::lock_guard lock(merging);
     for (std::size_t k = 0; k < mine.size(); ++k)
       samples[k].nearest = std::min(samples[k].nearest, mine[k].nearest);
@@ -167,7 +167,7 @@ CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& 
   CloudStatistics found;
   std::vector<ChunkCounts> chunks(chunk_count(points.count));
   for_each_chunk(policy, chunks.size(),
-                 [&](std::size_t chunk) { chunks[chunk] = look_at(load_chunk(points, chunk).view()); });
+                 [&](std::size_t chunk) { chunks[chunk] = count_points(load_chunk(points, chunk).view()); });
   std::size_t used = 0;
   for (const ChunkCounts& chunk : chunks) {
     used += chunk.used;

@@ -33,7 +33,7 @@ struct CoreSearch {
   // Calls test(begin, end) for the positions of a run, group by group. Whole groups are left out if skip(box)
   // is true. Stops and returns false when test returns false.
   template <typename Skip, typename Test>
-  bool by_group(const PlaceRun& run, Skip skip, Test test) const {
+  bool by_group(const PositionRange& run, Skip skip, Test test) const {
     for (std::uint32_t i = run.begin; i < run.end;) {
       const std::uint32_t group_end = (i / group_size + 1) * group_size;
       const std::uint32_t end = std::min(run.end, group_end);
@@ -45,11 +45,11 @@ struct CoreSearch {
   }
 
   // Returns how many points of a run are linked to p. Stops once it has counted `needed`.
-  std::size_t count(const PlaceRun& run, const Point<T>& p, std::size_t needed) const {
+  std::size_t count(const PositionRange& run, const Point<T>& p, std::size_t needed) const {
     const Box<T> at{p, p};
     std::size_t found = 0;
     const auto skip = [&](const Box<T>& box) {
-      if (!(least_squared_distance(at, box) < r2)) return true;
+      if (!(min_squared_distance(at, box) < r2)) return true;
       if (!(greatest_squared_distance(at, box) < r2)) return false;
       found += group_size;
       return true;
@@ -88,7 +88,7 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
   std::uint64_t sparse_cells = 0;
   std::uint32_t cell = block.first_cell;
   for (std::uint64_t rest = block.occupied; rest != 0; rest &= rest - 1, ++cell) {
-    const PlaceRun own{search.cells.begin[cell], search.cells.begin[cell + 1]};
+    const PositionRange own{search.cells.begin[cell], search.cells.begin[cell + 1]};
     const std::uint64_t bit = rest & -rest;
     if (search.solid && own.end - own.begin >= search.min_points) {
       std::fill(core.begin() + own.begin, core.begin() + own.end, std::uint8_t{1});
@@ -115,9 +115,9 @@ std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const
   const Box<T> at{p, p};
   T least = search.r2;
   std::uint32_t nearest = noise;
-  const auto look = [&](const PlaceRun& run) {
+  const auto look = [&](const PositionRange& run) {
     search.by_group(
-        run, [&](const Box<T>& box) { return least_squared_distance(at, box) > least; },
+        run, [&](const Box<T>& box) { return min_squared_distance(at, box) > least; },
         [&](std::uint32_t begin, std::uint32_t end) {
           for (std::uint32_t i = begin; i < end; ++i) {
             const T d2 = squared_distance(search.cells.points[i], p);
@@ -137,7 +137,7 @@ std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const
 }
 
 template <typename T, typename FindAround>
-void label_sparse(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
+void label_border(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
                   Neighbourhood<T>& near) {
   CoreScratch<T>& scratch = search.scratch;
   if (scratch.sparse_cells[number] == 0) return;
@@ -146,7 +146,7 @@ void label_sparse(const CoreSearch<T>& search, std::size_t number, FindAround fi
   for (std::uint64_t rest = scratch.sparse_cells[number]; rest != 0; rest &= rest - 1) {
     const auto bit = static_cast<unsigned>(std::countr_zero(rest));
     const std::uint32_t cell = block.cell(bit);
-    const PlaceRun own{search.cells.begin[cell], search.cells.begin[cell + 1]};
+    const PositionRange own{search.cells.begin[cell], search.cells.begin[cell + 1]};
     near.start(around, bit);
     near.complete();
     for (std::uint32_t i = own.begin; i < own.end; ++i) {
@@ -194,11 +194,11 @@ void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, c
     });
   };
   in_parts([&](std::size_t b, auto find_around, auto& near) { mark_core(search, b, find_around, near); });
-  in_parts([&](std::size_t b, auto find_around, auto& near) { label_sparse(search, b, find_around, near); });
+  in_parts([&](std::size_t b, auto find_around, auto& near) { label_border(search, b, find_around, near); });
 }
 
 template <typename T>
-std::uint32_t keep_core(Cells<T>& cells, CoreScratch<T>& scratch) {
+std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch) {
   std::uint32_t to = 0;
   std::uint32_t to_cell = 0;
   std::uint32_t begin = 0;
@@ -240,7 +240,7 @@ PCL_BV_FIND_CORE(float, WideKey)
 PCL_BV_FIND_CORE(double, std::uint64_t)
 PCL_BV_FIND_CORE(double, WideKey)
 #undef PCL_BV_FIND_CORE
-template std::uint32_t keep_core(Cells<float>&, CoreScratch<float>&);
-template std::uint32_t keep_core(Cells<double>&, CoreScratch<double>&);
+template std::uint32_t remove_non_core(Cells<float>&, CoreScratch<float>&);
+template std::uint32_t remove_non_core(Cells<double>&, CoreScratch<double>&);
 
 }  // namespace pcl_bv

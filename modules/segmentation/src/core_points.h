@@ -41,6 +41,6 @@ void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, c
 /// Sets cells.node of every point to the node of its cluster. Noise gets the number after the last node,
 /// which is returned.
 template <typename T>
-std::uint32_t keep_core(Cells<T>& cells, CoreScratch<T>& scratch);
+std::uint32_t remove_non_core(Cells<T>& cells, CoreScratch<T>& scratch);
 
 }  // namespace pcl_bv

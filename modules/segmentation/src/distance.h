@@ -49,7 +49,7 @@ Box<T> box_of(const Point<T>* points, std::size_t count) {
 
 /// Returns a lower bound of squared_distance() for all pairs of points in the two boxes.
 template <typename T>
-T least_squared_distance(const Box<T>& a, const Box<T>& b) {
+T min_squared_distance(const Box<T>& a, const Box<T>& b) {
   const auto gap = [](T a_min, T a_max, T b_min, T b_max) {
     return std::max({T(0), b_min - a_max, a_min - b_max});
   };

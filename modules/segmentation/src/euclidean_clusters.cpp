@@ -81,12 +81,12 @@ std::uint32_t find_components(const std::vector<Point<T>>& points, PointScratch<
   const bool solid = cells_are_solid(grid, r2);
   scratch.cells.by_point = !solid || min_points > 1;
   make_cells(points, grid, policy, scratch.cells, keys);
-  if (keys.keys.size() >= many_blocks) keys.release_memory();
+  if (keys.keys.size() >= free_memory_from_blocks) keys.release_memory();
   std::uint32_t noise = no_root;
   if (min_points > 1) {
     find_core(grid, r2, min_points, solid, policy, keys.keys, scratch.cells, scratch.core);
     scratch.cells.by_point = !solid;
-    noise = keep_core(scratch.cells, scratch.core);
+    noise = remove_non_core(scratch.cells, scratch.core);
   }
   join_cells(grid, r2, policy, keys.keys, scratch.cells, sets, scratch.join);
   if (noise != no_root) sets.add();

@@ -37,7 +37,7 @@ bool is_valid(const double (&p)[3]) {
 
 // Stores the valid points of a part, from its beginning.
 template <typename T>
-void gather_part(const PointView& points, ValidPoints<T>& valid, GatherPart<T>& part) {
+void copy_valid_part(const PointView& points, ValidPoints<T>& valid, CopyPart<T>& part) {
   const FloatEnvironment environment;
   constexpr T largest = std::numeric_limits<T>::max();
   const PointView view = points;  // local, so that it is not read again after each store
@@ -57,7 +57,7 @@ void gather_part(const PointView& points, ValidPoints<T>& valid, GatherPart<T>& 
 
 // Moves the points of a part to position `to`.
 template <typename T>
-void append(const GatherPart<T>& from, std::size_t to, ValidPoints<T>& valid) {
+void append(const CopyPart<T>& from, std::size_t to, ValidPoints<T>& valid) {
   const auto move_down = [&](auto& all) {
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(from.begin);
     std::copy_n(first, from.kept, all.begin() + static_cast<std::ptrdiff_t>(to));
@@ -76,10 +76,10 @@ void gather(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>&
   valid.points.resize(sorted.count);
   valid.numbers.resize(sorted.count);
   valid.parts.cut(sorted.count, policy);
-  valid.parts.for_each(policy, [&](GatherPart<T>& part) { gather_part(sorted, valid, part); });
+  valid.parts.for_each(policy, [&](CopyPart<T>& part) { copy_valid_part(sorted, valid, part); });
   std::size_t kept = 0;
   valid.box = valid.parts.front().box;
-  for (const GatherPart<T>& part : valid.parts) {
+  for (const CopyPart<T>& part : valid.parts) {
     if (part.kept == 0) continue;
     append(part, kept, valid);
     kept += part.kept;

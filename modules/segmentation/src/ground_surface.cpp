@@ -29,7 +29,7 @@ constexpr float slope_memory = 2.6F;
 constexpr float fall = 0.06F;
 
 // Metres; the plane around the sensor is only a guess for the innermost cells.
-constexpr float first_age = 2;
+constexpr float first_since_ground = 2;
 constexpr float never = 1000;       // metres since ground was seen
 constexpr float roughness = 0.02F;  // metres from the lowest point to the middle of the points of bare ground
 
@@ -55,9 +55,9 @@ void GroundSurface::Front::share(float width) {
   }
 }
 
-void GroundSurface::walk_out(const CellFacts& cells) {
+void GroundSurface::estimate_outwards(const CellSummary& cells) {
   Front front;
-  front.height.fill(0), front.slope.fill(0), front.anchor.fill(0), front.age.fill(first_age);
+  front.height.fill(0), front.slope.fill(0), front.anchor.fill(0), front.age.fill(first_since_ground);
   for (std::size_t ring = 0; ring < rings_; ++ring) {
     const std::size_t first = ring * sector_count;
     for (std::size_t s = 0; s < sector_count; ++s) {
@@ -88,7 +88,7 @@ void GroundSurface::walk_out(const CellFacts& cells) {
 }
 
 // Interpolates linearly between two cells of a sector where ground is seen.
-void GroundSurface::walk_in() {
+void GroundSurface::interpolate_inwards() {
   Front front;
   front.slope.fill(0), front.height.fill(0), front.anchor.fill(0), front.age.fill(never);
   for (std::size_t ring = rings_; ring-- > 0;) {
@@ -123,15 +123,15 @@ void GroundSurface::connect() {
   }
 }
 
-void GroundSurface::find(const CellFacts& cells, const Slope& plane, float max_slope) {
+void GroundSurface::find(const CellSummary& cells, const Slope& plane, float max_slope) {
   const FloatEnvironment environment;
   std::size_t last = cell_count;
   while (last > 0 && cells.low[last - 1] == no_low)
     --last;
   rings_ = (last + sector_count - 1) / sector_count;
   height_.resize(cell_count), anchor_.resize(cell_count), age_.resize(cell_count), seen_.resize(cell_count);
-  walk_out(cells);
-  walk_in();
+  estimate_outwards(cells);
+  interpolate_inwards();
   limit_slopes(height_.data(), rings_, plane, max_slope);
   connect();
 }

@@ -21,7 +21,7 @@ class GroundSurface {
 
   /// Computes the lines of all cells. The heights in `cells` are relative to `plane`. `max_slope` is the
   /// tangent of the largest angle between the ground and the horizontal. O(cells).
-  void find(const CellFacts& cells, const Slope& plane, float max_slope);
+  void find(const CellSummary& cells, const Slope& plane, float max_slope);
 
   /// Returns the height of point `i` above the ground, metres.
   float clearance(const ZonePoints& points, std::size_t i) const {
@@ -39,8 +39,8 @@ class GroundSurface {
     void share(float width);
   };
 
-  void walk_out(const CellFacts& cells);
-  void walk_in();
+  void estimate_outwards(const CellSummary& cells);
+  void interpolate_inwards();
   void connect();
 
   std::size_t rings_ = 0;  // number of rings up to the last with a point

@@ -88,7 +88,7 @@ void GroundZones::split(const PointView& points, const GroundZonesSettings& sett
   check(settings);
   check_numbers(points);
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
-  split.sensor = settings.sensor ? SensorPlace{*settings.sensor}
+  split.sensor = settings.sensor ? SensorPosition{*settings.sensor}
                                  : find_sensor(points, settings.up, Eigen::Vector3d::Zero(), split.scratch);
   const bool estimated = !settings.sensor && !split.sensor.around;
   const std::optional<double> height = estimated ? std::nullopt : settings.sensor_height;

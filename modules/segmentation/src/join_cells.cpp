@@ -140,7 +140,7 @@ void join_within(const Joining<T>& joining, Block& block, LinkScratch<T>& scratc
 
 // Joins the cells of one block if some may be loose.
 template <typename T>
-void join_within_loosely(const Joining<T>& joining, Block& block, LinkScratch<T>& scratch) {
+void join_within_by_pairs(const Joining<T>& joining, Block& block, LinkScratch<T>& scratch) {
   for (std::uint32_t i = 0; i < count_bits(block.occupied); ++i) {
     for (std::uint32_t j = 0; j <= i; ++j)
       join_pair(joining, block.first_cell + i, block.first_cell + j, scratch);
@@ -149,7 +149,7 @@ void join_within_loosely(const Joining<T>& joining, Block& block, LinkScratch<T>
 
 // Joins the cells of two neighbouring blocks.
 template <typename T>
-void join_between(const Joining<T>& joining, const NearAndFar& masks, const Block& a, const Block& b,
+void join_between(const Joining<T>& joining, const TouchingAndNext& masks, const Block& a, const Block& b,
                   LinkScratch<T>& scratch) {
   const auto in_both = [&](auto visit) {
     if (!visit_pairs(masks.near, a.occupied, b.occupied, visit))
@@ -186,7 +186,7 @@ Key key_offset(const CellGrid& grid, const BlockRow& row) {
 // the block.
 template <typename T, typename Key>
 void sweep(const Joining<T>& joining, const std::vector<Key>& keys, Key offset,
-           const std::array<NearAndFar, 3>& masks, std::size_t begin, std::size_t end,
+           const std::array<TouchingAndNext, 3>& masks, std::size_t begin, std::size_t end,
            LinkScratch<T>& scratch) {
   const std::vector<Block>& blocks = joining.cells.blocks;
   const auto key_of_row = [&](std::size_t block) { return static_cast<Key>(keys[block] + offset); };
@@ -226,7 +226,7 @@ void start_sets(const Joining<T>& joining) {
 // Reserves memory for any two cells in each chunk, except for cells of very many points. Which cells a thread
 // compares depends on timing; allocations should not.
 template <typename T>
-void make_room(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
+void reserve_links(const Cells<T>& cells, std::vector<LinkScratch<T>>& links, std::size_t chunks) {
   constexpr std::size_t very_many = 4096;
   std::size_t most = 0;
   for (std::uint32_t c = 0; c < cells.size(); ++c)
@@ -254,7 +254,7 @@ void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const 
   const std::size_t blocks = keys.size();
   const std::size_t chunks = (blocks + blocks_per_chunk - 1) / blocks_per_chunk;
   if (scratch.links.size() < chunks) scratch.links.resize(chunks);
-  if (chunks > 1 && thread_count(policy) > 1) make_room(cells, scratch.links, chunks);
+  if (chunks > 1 && thread_count(policy) > 1) reserve_links(cells, scratch.links, chunks);
   const auto in_chunks = [&](auto work) {
     for_each_chunk(policy, chunks, [&](std::size_t chunk) {
       const FloatEnvironment environment;
@@ -264,7 +264,7 @@ void join_cells(const CellGrid& grid, T r2, const ParallelPolicy& policy, const 
   in_chunks([&](std::size_t begin, std::size_t end, LinkScratch<T>& links) {
     for (std::size_t b = begin; b < end; ++b) {
       if (cells.by_point) {
-        join_within_loosely(joining, cells.blocks[b], links);
+        join_within_by_pairs(joining, cells.blocks[b], links);
       } else {
         join_within(joining, cells.blocks[b], links);
       }

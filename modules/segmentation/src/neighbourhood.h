@@ -21,7 +21,7 @@ namespace pcl_bv {
 /// constant.
 template <int dy, int dz>
 inline constexpr std::array<CellMasks, 3> masks_of_row{
-    cells_up_to({-1, dy, dz}, 2), cells_up_to({0, dy, dz}, 2), cells_up_to({1, dy, dz}, 2)};
+    cells_within({-1, dy, dz}, 2), cells_within({0, dy, dz}, 2), cells_within({1, dy, dz}, 2)};
 
 /// Indices: (dz + 1) * 3 + dy + 1, then dx + 1.
 inline constexpr std::array<const std::array<CellMasks, 3>*, 9> masks_around{
@@ -70,7 +70,7 @@ class BlockRows {
 };
 
 /// A range of positions in Cells::points: points of consecutive cells of a block.
-struct PlaceRun {
+struct PositionRange {
   std::uint32_t begin, end;
 };
 
@@ -104,7 +104,7 @@ class Neighbourhood {
 
   std::size_t size() const { return count_; }
   std::size_t points() const { return points_; }  ///< Number of points in all runs.
-  const PlaceRun& operator[](std::size_t i) const { return runs_[i]; }
+  const PositionRange& operator[](std::size_t i) const { return runs_[i]; }
 
  private:
   void add(unsigned x, unsigned y, unsigned z) {
@@ -117,7 +117,7 @@ class Neighbourhood {
       const std::uint64_t others = block.occupied & ~mask & ~((rest & -rest) - 1);
       const std::uint64_t before = others == 0 ? ~std::uint64_t{0} : (others & -others) - 1;
       const std::uint32_t first = block.cell(static_cast<unsigned>(std::countr_zero(rest)));
-      const PlaceRun run{cells_.begin[first], cells_.begin[first + count_bits(rest & before)]};
+      const PositionRange run{cells_.begin[first], cells_.begin[first + count_bits(rest & before)]};
       runs_[count_++] = run;
       points_ += run.end - run.begin;
       rest &= ~before;
@@ -128,7 +128,7 @@ class Neighbourhood {
   unsigned bit_ = 0;
   bool complete_ = false;
   std::size_t count_ = 0, points_ = 0;
-  std::array<PlaceRun, 125> runs_;  // Only the first count_ are set.
+  std::array<PositionRange, 125> runs_;  // Only the first count_ are set.
 };
 
 }  // namespace pcl_bv

@@ -29,7 +29,7 @@ using CellMasks = std::array<std::uint64_t, 64>;
 
 /// Returns the cells whose coordinate in bits [shift, shift + 2) is at most `most` from the coordinate `own`
 /// of a cell in another block.
-constexpr std::uint64_t cells_along(int shift, int own, int offset, int most) {
+constexpr std::uint64_t cells_within_on_axis(int shift, int own, int offset, int most) {
   std::uint64_t mask = 0;
   for (int b = 0; b < 64; ++b) {
     const int difference = (b >> shift & 3) + 4 * offset - own;
@@ -40,12 +40,12 @@ constexpr std::uint64_t cells_along(int shift, int own, int offset, int most) {
 
 /// Returns, for each cell, the cells at most `most` away along each axis. Computed by axis, which takes few
 /// steps: clang allows a million.
-constexpr CellMasks cells_up_to(const BlockOffset& offset, int most) {
+constexpr CellMasks cells_within(const BlockOffset& offset, int most) {
   std::array<std::array<std::uint64_t, 4>, 3> along{};
   for (int own = 0; own < 4; ++own) {
-    along[0][own] = cells_along(0, own, offset.dx, most);
-    along[1][own] = cells_along(2, own, offset.dy, most);
-    along[2][own] = cells_along(4, own, offset.dz, most);
+    along[0][own] = cells_within_on_axis(0, own, offset.dx, most);
+    along[1][own] = cells_within_on_axis(2, own, offset.dy, most);
+    along[2][own] = cells_within_on_axis(4, own, offset.dz, most);
   }
   CellMasks masks{};
   for (int a = 0; a < 64; ++a)
@@ -54,13 +54,13 @@ constexpr CellMasks cells_up_to(const BlockOffset& offset, int most) {
 }
 
 /// Cells that touch a cell, and cells two away. Touching cells are mostly linked, so they are tested first.
-struct NearAndFar {
+struct TouchingAndNext {
   CellMasks near, far;
 };
 
-constexpr NearAndFar near_and_far(const BlockOffset& offset) {
-  const CellMasks same = cells_up_to(offset, 0), one = cells_up_to(offset, 1), two = cells_up_to(offset, 2);
-  NearAndFar result{};
+constexpr TouchingAndNext near_and_far(const BlockOffset& offset) {
+  const CellMasks same = cells_within(offset, 0), one = cells_within(offset, 1), two = cells_within(offset, 2);
+  TouchingAndNext result{};
   for (std::size_t a = 0; a < 64; ++a) {
     result.near[a] = one[a] & ~same[a];
     result.far[a] = two[a] & ~one[a];
@@ -68,11 +68,11 @@ constexpr NearAndFar near_and_far(const BlockOffset& offset) {
   return result;
 }
 
-inline constexpr NearAndFar within_block = near_and_far({0, 0, 0});
+inline constexpr TouchingAndNext within_block = near_and_far({0, 0, 0});
 
 /// Index: row, then dx + 1.
-inline constexpr std::array<std::array<NearAndFar, 3>, half_of_neighbours.size()> beside_block = [] {
-  std::array<std::array<NearAndFar, 3>, half_of_neighbours.size()> all{};
+inline constexpr std::array<std::array<TouchingAndNext, 3>, half_of_neighbours.size()> beside_block = [] {
+  std::array<std::array<TouchingAndNext, 3>, half_of_neighbours.size()> all{};
   for (std::size_t row = 0; row < all.size(); ++row) {
     for (int dx = -1; dx <= 1; ++dx)
       all[row][dx + 1] = near_and_far({dx, half_of_neighbours[row].dy, half_of_neighbours[row].dz});

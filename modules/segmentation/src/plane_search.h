@@ -25,13 +25,13 @@ inline double height_above(const Plane& plane, const Eigen::Vector3d& p) {
 
 /// Number of points in the sample of a cloud: one in 15 of a 64-beam sweep, 8 for each cell of the grid of
 /// areas.
-inline constexpr std::size_t cloud_sample = 8192;
+inline constexpr std::size_t default_sample_size = 8192;
 
 /// Finds the ground plane as split_ground() describes, in a sample of at most `sample_size` points.
 /// settings.sensor_height is the height of `sensor`.
 std::optional<Plane> find_ground_plane(const PointView& points, const Eigen::Vector3d& sensor,
                                        const GroundPlaneSettings& settings, GroundScratch& scratch,
-                                       std::size_t sample_size = cloud_sample);
+                                       std::size_t sample_size = default_sample_size);
 
 /// Stores `plane` in the split and fills its lists. visit(put) must call put(index, is_ground) for each valid
 /// point, at most `most` times. Each index is written to both lists, and the end of one list advances. This

@@ -28,7 +28,7 @@ inline float range_of(float u, float v) {
 
 /// Returns the angle of a point in turns, 0 to 1, to 0.004 rad. The same on every machine, unlike atan2() of
 /// the C libraries.
-inline float turn_of(float u, float v) {
+inline float angle_in_turns(float u, float v) {
   const float along = std::abs(u), across = std::abs(v);
   const float longer = std::max(along, across);
   const float t = std::min(along, across) / (longer > 0 ? longer : 1);

@@ -21,8 +21,8 @@ RangeLevel range_level(float tolerance, float per_metre, std::size_t level) {
 template <typename T>
 void RangeLevels<T>::start(const std::vector<Point<T>>& points) {
   points_ = points;
-  place_.resize(points.size());
-  std::iota(place_.begin(), place_.end(), 0U);
+  position_.resize(points.size());
+  std::iota(position_.begin(), position_.end(), 0U);
   sets_.reset(points.size());
 }
 
@@ -31,25 +31,25 @@ bool RangeLevels<T>::climb(const RangeLevel& level) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Point<T> p = points_[i];
-    if (squared_norm<double>(p.x, p.y, p.z) < level.least_squared_range) continue;
+    if (squared_norm<double>(p.x, p.y, p.z) < level.min_squared_range) continue;
     points_[kept] = p;
-    place_[kept++] = place_[i];
+    position_[kept++] = position_[i];
   }
   points_.resize(kept);
-  place_.resize(kept);
+  position_.resize(kept);
   return kept > 0;
 }
 
 template <typename T>
 void RangeLevels<T>::unite(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node) {
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  first_.assign(roots.size(), none);
+  first_of_root_.assign(roots.size(), none);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    std::uint32_t& first = first_[roots[node[i]]];
+    std::uint32_t& first = first_of_root_[roots[node[i]]];
     if (first == none) {
-      first = place_[i];
+      first = position_[i];
     } else {
-      sets_.unite(first, place_[i]);
+      sets_.unite(first, position_[i]);
     }
   }
 }

@@ -16,7 +16,7 @@ namespace pcl_bv {
 /// The tolerance of level i, tolerance * 2^(i/4), and the squared distance from the origin from which points
 /// have at least this tolerance.
 struct RangeLevel {
-  double tolerance, least_squared_range;
+  double tolerance, min_squared_range;
 };
 /// Returns a level for ClusterSettings::tolerance and tolerance_per_metre.
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level);
@@ -44,8 +44,8 @@ class RangeLevels {
 
  private:
   std::vector<Point<T>> points_;
-  std::vector<std::uint32_t> place_;  // position of each point in those of start()
-  std::vector<std::uint32_t> first_;  // for each root, a point that has it
+  std::vector<std::uint32_t> position_;  // position of each point in those of start()
+  std::vector<std::uint32_t> first_of_root_;  // for each root, a point that has it
   UnionFind sets_;
 };
 

@@ -61,7 +61,7 @@ Vector3d mean_near(const FlatPoints& points, const Vector3d& place) {
 
 /// Returns the position where the points are densest: the centre of the fullest of squares of 25 m, in steps
 /// of 12.5 m, moved twice to the mean of the points near it.
-Vector3d densest_place(const FlatPoints& points) {
+Vector3d densest_position(const FlatPoints& points) {
   using Square = std::pair<double, double>;
   std::array<Square, 4 * kSample> corners;  // four for each point, those of its grid cell
   auto end_of_all = corners.begin();
@@ -85,7 +85,7 @@ Vector3d densest_place(const FlatPoints& points) {
   return mean_near(points, mean_near(points, middle));
 }
 
-bool is_around(const FlatPoints& points, const Vector3d& densest) {
+bool lies_around_assumed(const FlatPoints& points, const Vector3d& densest) {
   const double near = share_near(points, Vector3d::Zero(), kNear);
   if (near >= kNearShare) return true;
   const bool some = share_near(points, Vector3d::Zero(), 2 * kNear) >= kNearShare;
@@ -94,7 +94,7 @@ bool is_around(const FlatPoints& points, const Vector3d& densest) {
 
 }  // namespace
 
-SensorPlace find_sensor(const PointView& points, const Vector3d& up, const Vector3d& said,
+SensorPosition find_sensor(const PointView& points, const Vector3d& up, const Vector3d& said,
                         GroundScratch& scratch) {
   const FloatEnvironment environment;
   const UpFrame frame(up);
@@ -102,13 +102,13 @@ SensorPlace find_sensor(const PointView& points, const Vector3d& up, const Vecto
     require(std::abs(said[axis]) <= kMaxCoordinate, "sensor", "place", said[axis], "finite");
   FlatPoints& flat = scratch.sample;
   sample_from_above(points, frame, said, flat);
-  SensorPlace place{said};
+  SensorPosition place{said};
   if (flat.size() < kFewPoints) return place;
   constexpr double edge = ring_width * (ring_count - 1);
   Vector3d at = Vector3d::Zero();
   if (share_near(flat, at, kNear) < kNearShare) {
-    const Vector3d densest = densest_place(flat);
-    place.around = is_around(flat, densest);
+    const Vector3d densest = densest_position(flat);
+    place.around = lies_around_assumed(flat, densest);
     if (!place.around) {
       at = densest;
       place.at += at.x() * frame.u + at.y() * frame.v;
@@ -122,7 +122,7 @@ std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneS
                                      const Vector3d& sensor, double found) {
   constexpr double least_height = 0.2, least_share = 0.03, most_share = 0.95, most_below = 0.1;
   const FloatEnvironment environment;
-  const Vector3d up = up_direction(settings.up);
+  const Vector3d up = normalized_up(settings.up);
   GroundPlaneSettings search = settings;
   search.sensor_height.reset();
   GroundScratch scratch;
@@ -131,7 +131,7 @@ std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneS
   if (found > 0) directions = {-settings.up};
   for (const Vector3d& direction : directions) {
     search.up = direction;
-    if (dot3(up_direction(direction), up) > 0.9) continue;
+    if (dot3(normalized_up(direction), up) > 0.9) continue;
     const std::optional<Plane> plane = find_ground_plane(points, sensor, search, scratch, 2048);
     if (!plane || height_above(*plane, sensor) < least_height) continue;
     draw_sample(points, search.seed, kSample, scratch.sample);

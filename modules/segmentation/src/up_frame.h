@@ -10,7 +10,7 @@ namespace pcl_bv {
 
 /// Three orthogonal unit vectors: `up` and two horizontal directions u and v. If up is an axis of the cloud
 /// or its opposite, u and v are the two next axes: x and y for z and -z. Otherwise they are the axes after
-/// the nearest axis, rotated by the smallest rotation of that axis to up. Throws as up_direction().
+/// the nearest axis, rotated by the smallest rotation of that axis to up. Throws as normalized_up().
 struct UpFrame {
   explicit UpFrame(const Eigen::Vector3d& any_length);
 

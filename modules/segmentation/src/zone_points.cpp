@@ -79,7 +79,7 @@ std::size_t load_upright(const PointView& view, std::size_t begin, std::size_t e
 }
 
 template <typename T>
-std::size_t load_turned(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
+std::size_t load_rotated(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
                         const Place& to) {
   const std::size_t step = view.step();
   return load(view, begin, end, to.number, [&](const std::byte* x, std::size_t n) {
@@ -118,7 +118,7 @@ void ZonePoints::read_part(const PointView& view, const ZoneFrame& frame, ZonePa
   const FloatEnvironment environment;
   const bool is_float = view.scalar == ScalarType::float32;
   const bool upright = is_float && frame.along_axis && frame.sensor.isZero(0);
-  const auto load_batch = upright ? load_upright : is_float ? load_turned<float> : load_turned<double>;
+  const auto load_batch = upright ? load_upright : is_float ? load_rotated<float> : load_rotated<double>;
   std::size_t to = part.begin;
   for (std::size_t i = part.begin; i < part.end; i += kBatch) {
     const Place batch{u_.data() + to, v_.data() + to, height.data() + to, number.data() + to};
@@ -127,7 +127,7 @@ void ZonePoints::read_part(const PointView& view, const ZoneFrame& frame, ZonePa
     std::uint16_t* const cells = cell.data() + to;
     for (std::size_t k = 0; k < count; ++k) {
       ranges[k] = range_of(batch.u[k], batch.v[k]);
-      cells[k] = static_cast<std::uint16_t>(cell_of(ranges[k], turn_of(batch.u[k], batch.v[k])));
+      cells[k] = static_cast<std::uint16_t>(cell_of(ranges[k], angle_in_turns(batch.u[k], batch.v[k])));
     }
     to += count;
   }
@@ -157,7 +157,7 @@ void ZonePoints::list_near(std::size_t rings, std::vector<std::int32_t>& numbers
   numbers.resize(count);
 }
 
-void ZonePoints::find_lows(const Slope& plane, ZonePart& part) {
+void ZonePoints::find_lowest(const Slope& plane, ZonePart& part) {
   const FloatEnvironment environment;
   const auto offset = static_cast<float>(plane.offset), slope_u = static_cast<float>(plane.slope_u),
              slope_v = static_cast<float>(plane.slope_v);
@@ -188,7 +188,7 @@ void ZonePoints::fill_pits() {
   }
 }
 
-void ZonePoints::find_standing(const std::vector<float>& low, ZonePart& part) const {
+void ZonePoints::find_objects(const std::vector<float>& low, ZonePart& part) const {
   std::vector<std::uint8_t>& stands = part.cells.stands;
   stands.assign(cell_count, 0);
   for (std::size_t i = part.begin; i < part.begin + part.kept; ++i) {
@@ -198,14 +198,14 @@ void ZonePoints::find_standing(const std::vector<float>& low, ZonePart& part) co
 }
 
 void ZonePoints::place(const Slope& plane, const ParallelPolicy& policy) {
-  parts.for_each(policy, [&](ZonePart& part) { find_lows(plane, part); });
-  CellFacts& all = parts.front().cells;
+  parts.for_each(policy, [&](ZonePart& part) { find_lowest(plane, part); });
+  CellSummary& all = parts.front().cells;
   for (const ZonePart& part : parts) {
     for (std::size_t i = 0; i < cell_count; ++i)
       all.low[i] = std::min(all.low[i], part.cells.low[i]);
   }
   fill_pits();
-  parts.for_each(policy, [&](ZonePart& part) { find_standing(all.low, part); });
+  parts.for_each(policy, [&](ZonePart& part) { find_objects(all.low, part); });
   for (const ZonePart& part : parts) {
     for (std::size_t i = 0; i < cell_count; ++i)
       all.stands[i] |= part.cells.stands[i];

@@ -43,7 +43,7 @@ struct ZoneFrame : UpFrame {
 };
 
 /// Facts about each cell, from some of the points.
-struct CellFacts {
+struct CellSummary {
   std::vector<float> low;  ///< Height of the lowest point above the plane, metres; no_low if empty.
   /// Whether an object stands in the cell: it has points 0.3 to 2 m above the lowest one.
   std::vector<std::uint8_t> stands;
@@ -55,7 +55,7 @@ inline constexpr float no_low = 1e30F;
 struct ZonePart {
   std::size_t begin, end;  ///< Range in the view.
   std::size_t kept;        ///< Number of valid points, stored from `begin`.
-  CellFacts cells;
+  CellSummary cells;
 };
 
 /// The valid points of a view, part by part, in its order.
@@ -78,13 +78,13 @@ class ZonePoints {
   void place(const Slope& plane, const ParallelPolicy& policy);
 
   /// Returns the facts of all cells, which place() stores in the first part.
-  const CellFacts& cells() const { return parts.front().cells; }
+  const CellSummary& cells() const { return parts.front().cells; }
 
  private:
   void read_part(const PointView& view, const ZoneFrame& frame, ZonePart& part);
-  void find_lows(const Slope& plane, ZonePart& part);
+  void find_lowest(const Slope& plane, ZonePart& part);
   void fill_pits();
-  void find_standing(const std::vector<float>& low, ZonePart& part) const;
+  void find_objects(const std::vector<float>& low, ZonePart& part) const;
 
   std::vector<float> u_, v_;
 };

@@ -19,14 +19,14 @@ namespace {
 constexpr std::size_t kBlock = 256;
 
 // Fewer than four blocks are finished before another thread has started.
-std::size_t threads_for_questions(std::size_t count) {
+std::size_t threads_for_queries(std::size_t count) {
   return count / (4 * kBlock);
 }
 
 // Calls ask(begin, end) for blocks of the `count` queries.
 template <typename Ask>
-void ask_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
-  for_each_run(limit_threads(execution.parallel, threads_for_questions(count)), count, kBlock,
+void query_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
+  for_each_run(limit_threads(execution.parallel, threads_for_queries(count)), count, kBlock,
                [&](std::size_t begin, std::size_t end) {
                  const FloatEnvironment environment;
                  ask(begin, end);
@@ -37,7 +37,7 @@ void require_in_memory(const PointView& places) {
   if (places.source != nullptr) throw std::invalid_argument("PointTree: the places must be in memory");
 }
 
-Eigen::Vector3d place_of(const PointView& places, std::size_t i) {
+Eigen::Vector3d query_point(const PointView& places, std::size_t i) {
   return vector(load_point(places, i));
 }
 
@@ -48,11 +48,11 @@ void list_for_each(const PointView& places, const Execution& execution, Neighbor
   require_in_memory(places);
   std::vector<std::vector<Neighbor>> blocks(places.count / kBlock + 1);
   found.first.assign(places.count + 1, 0);
-  ask_blocks(places.count, execution, [&](std::size_t begin, std::size_t end) {
+  query_blocks(places.count, execution, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor>& block = blocks[begin / kBlock];
     std::vector<Neighbor> one;
     for (std::size_t i = begin; i < end; ++i) {
-      ask(place_of(places, i), one);
+      ask(query_point(places, i), one);
       found.first[i + 1] = one.size();
       block.insert(block.end(), one.begin(), one.end());
     }
@@ -74,7 +74,7 @@ void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbo
   const Neighbor none{-1, std::numeric_limits<double>::infinity()};
   const double limit = square_limit(max_distance);
   found.assign(places.count, none);
-  ask_blocks(places.count, execution, [&](std::size_t begin, std::size_t end) {
+  query_blocks(places.count, execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Coordinates place = load_point(places, i);
       if (is_valid(place)) found[i] = find_nearest(execution.isa, tree.packed(), place, limit).value_or(none);
@@ -100,7 +100,7 @@ void near(const PointTree& tree, const PointView& places, double distance, Neigh
 void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& inside,
                 const Execution& execution) {
   inside.resize(spheres.size());
-  ask_blocks(spheres.size(), execution, [&](std::size_t begin, std::size_t end) {
+  query_blocks(spheres.size(), execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Sphere& sphere = spheres[i];
       inside[i] = static_cast<std::uint8_t>(
@@ -113,7 +113,7 @@ void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::
 void any_inside(const PointTree& tree, const std::vector<AnyVolume>& volumes,
                 std::vector<std::uint8_t>& inside, const Execution& execution) {
   inside.resize(volumes.size());
-  ask_blocks(volumes.size(), execution, [&](std::size_t begin, std::size_t end) {
+  query_blocks(volumes.size(), execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       inside[i] = static_cast<std::uint8_t>(tree.any_inside(volumes[i]));
   });

@@ -34,7 +34,7 @@ const BoxGroup& empty_group() {
 
 // Returns the squared radius of the smallest ball that covers a face of one of the boxes; the best centre is
 // the middle of the face. Each face of a tight box has a point, so the ball certainly holds one.
-float least_reached(const BoxGroup& group) {
+float min_side_radius(const BoxGroup& group) {
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
     const float x = group.high[0][k] - group.low[0][k], y = group.high[1][k] - group.low[1][k],
@@ -46,7 +46,7 @@ float least_reached(const BoxGroup& group) {
 
 }  // namespace
 
-void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds) {
+void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bounds) {
   boxes.levels = 0;
   boxes.below[0] = items;
   if (items == 0) {
@@ -98,9 +98,9 @@ void raise_levels(BoxLevels& boxes) {
   }
 }
 
-void find_least_reached(BoxLevels& boxes) {
-  boxes.least_reached.resize(boxes.groups.size());
-  std::transform(boxes.groups.begin(), boxes.groups.end(), boxes.least_reached.begin(), least_reached);
+void find_face_cover_squares(BoxLevels& boxes) {
+  boxes.min_side_radius.resize(boxes.groups.size());
+  std::transform(boxes.groups.begin(), boxes.groups.end(), boxes.min_side_radius.begin(), min_side_radius);
 }
 
 }  // namespace pcl_bv

@@ -13,7 +13,7 @@
 namespace pcl_bv {
 
 /// Allocates the boxes of `items` items within the bounds, and chooses their frame (origin and scale).
-void reset_levels(BoxLevels& boxes, std::size_t items, const PlaceBounds& bounds);
+void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bounds);
 
 /// Sets box `item` of level 0 to a box around [low, high], rounded outward.
 void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, const Coordinates& high);
@@ -21,7 +21,7 @@ void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, co
 /// Sets the boxes of level 1 and above from the levels below. O(items / 16), in the calling thread.
 void raise_levels(BoxLevels& boxes);
 
-/// Sets BoxLevels::least_reached from the boxes. O(items), in the calling thread.
-void find_least_reached(BoxLevels& boxes);
+/// Sets BoxLevels::min_side_radius from the boxes. O(items), in the calling thread.
+void find_face_cover_squares(BoxLevels& boxes);
 
 }  // namespace pcl_bv

@@ -41,11 +41,11 @@ struct Prepared {
 
 // Returns whether a point may be within `margin` of a moved volume. Conservative; takes a fiftieth of the
 // time of touches().
-bool may_touch(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double stretch,
+bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double stretch,
                double margin) {
   if (volume.body.empty()) return false;
   if (volume.around.empty()) return true;
-  const Image center = image_of(pose, coordinates(volume.around.center()));
+  const Image center = transform_point(pose, coordinates(volume.around.center()));
   return any_within(points, center, volume.around.radius() * stretch + margin);
 }
 
@@ -65,8 +65,8 @@ bool touches(const PointTree& points, const Prepared& volume, const Eigen::Isome
 }
 
 // Returns a box around everything within `margin` of a moved volume.
-PlaceBounds extent_near(const AnyVolume& turning, const Eigen::Isometry3d& pose, double margin) {
-  PlaceBounds box = extent_of(transformed(turning, pose));
+PositionBounds extent_near(const AnyVolume& turning, const Eigen::Isometry3d& pose, double margin) {
+  PositionBounds box = extent_of(transformed(turning, pose));
   box.low = {-add_up(-box.low.x, margin), -add_up(-box.low.y, margin), -add_up(-box.low.z, margin)};
   box.high = {add_up(box.high.x, margin), add_up(box.high.y, margin), add_up(box.high.z, margin)};
   return box;
@@ -84,7 +84,7 @@ MovingVolumes::MovingVolumes(std::vector<AnyVolume> volumes) {
   const FloatEnvironment environment;
   auto state = std::make_shared<State>();
   state->volumes = std::move(volumes);
-  std::vector<PlaceBounds> extents;
+  std::vector<PositionBounds> extents;
   for (const AnyVolume& volume : state->volumes) {
     state->prepared.emplace_back(volume);
     extents.push_back(extent_of(volume));
@@ -102,14 +102,14 @@ namespace {
 // Calls found(i) for the volumes within `margin` of a point, ascending. Stops and returns true when found()
 // returns true.
 template <typename Found>
-bool each_touched(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
+bool each_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
                   double margin, const Found& found) {
   const FloatEnvironment environment;
   require(pose, margin);
   const std::vector<Prepared>& prepared = volumes.state().prepared;
-  const double stretch = stretch_of(pose);
+  const double stretch = max_stretch(pose);
   for (std::size_t i = 0; i < prepared.size(); ++i) {
-    if (may_touch(points, prepared[i], pose, stretch, margin) && touches(points, prepared[i], pose, margin) &&
+    if (may_be_within(points, prepared[i], pose, stretch, margin) && touches(points, prepared[i], pose, margin) &&
         found(static_cast<std::int32_t>(i))) {
       return true;
     }
@@ -128,7 +128,7 @@ bool each_pair(const MovingVolumes& volumes, const MovingVolumes& others, const 
   for (std::size_t j = 0; j < moving.prepared.size(); ++j) {
     const Prepared& other = moving.prepared[j];
     if (other.body.empty()) continue;
-    const PlaceBounds near = extent_near(other.turning, pose, margin);
+    const PositionBounds near = extent_near(other.turning, pose, margin);
     const ConvexBody body = other.body.moved(pose);
     const bool ended = state.boxes.visit(state.boxes.query(near.low, near.high), [&](std::uint32_t i) {
       return within(state.prepared[i].body, body, margin) &&
@@ -149,13 +149,13 @@ bool within(const PointTree& points, const PointTree& others, const Eigen::Isome
 
 bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
             double margin) {
-  return each_touched(points, volumes, pose, margin, [](std::int32_t) { return true; });
+  return each_within(points, volumes, pose, margin, [](std::int32_t) { return true; });
 }
 
 void list_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
                  double margin, std::vector<std::int32_t>& touched) {
   touched.clear();
-  each_touched(points, volumes, pose, margin, [&](std::int32_t i) {
+  each_within(points, volumes, pose, margin, [&](std::int32_t i) {
     touched.push_back(i);
     return false;
   });

@@ -24,7 +24,7 @@ class FirstHit final : public PacketVisitor {
         ball_(tree.boxes, coordinates(origin), coordinates(direction), radius) {}
 
   std::optional<PointHit> among(UsableIsa isa) {
-    visit_along(isa, tree_, ball_, *this);
+    visit_ray_candidates(isa, tree_, ball_, *this);
     return best_.index < 0 ? std::nullopt : std::optional(best_);
   }
 
@@ -49,7 +49,7 @@ class FirstHit final : public PacketVisitor {
 };
 
 // Returns the point with the smallest index inside a sphere that does not move.
-std::optional<PointHit> lowest_inside(UsableIsa isa, const PackedTree& tree, const Sphere& sphere) {
+std::optional<PointHit> smallest_index_inside(UsableIsa isa, const PackedTree& tree, const Sphere& sphere) {
   std::vector<Neighbor> found;
   list_in_ball(isa, tree, coordinates(sphere.center()), sphere.contained_square(), found);
   if (found.empty()) return std::nullopt;
@@ -65,7 +65,7 @@ std::optional<PointHit> PointTree::first_hit(const Eigen::Vector3d& origin, cons
   if (!(radius >= 0 && radius <= kMaxCoordinate))
     refuse("PointTree: the radius of a moving sphere must be from 0 to 1e100", radius);
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
-  if (direction.isZero(0)) return lowest_inside(isa_, tree_, Sphere(origin, radius));
+  if (direction.isZero(0)) return smallest_index_inside(isa_, tree_, Sphere(origin, radius));
   return FirstHit(tree_, origin, direction, radius).among(isa_);
 }
 

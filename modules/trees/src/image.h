@@ -17,7 +17,7 @@ struct Image {
   double error;
 };
 
-inline Image image_of(const Eigen::Isometry3d& pose, const Coordinates& p) {
+inline Image transform_point(const Eigen::Isometry3d& pose, const Coordinates& p) {
   double places[3], sizes = 0;
   for (int k = 0; k < 3; ++k) {
     const double x = pose(k, 0) * p.x, y = pose(k, 1) * p.y, z = pose(k, 2) * p.z;
@@ -29,7 +29,7 @@ inline Image image_of(const Eigen::Isometry3d& pose, const Coordinates& p) {
 
 /// Returns an upper bound of |M v| / |v| for the linear part M. Its square is at most the largest absolute
 /// row sum of M'M.
-inline double stretch_of(const Eigen::Isometry3d& pose) {
+inline double max_stretch(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d squares = pose.linear().transpose() * pose.linear();
   return std::sqrt(squares.cwiseAbs().rowwise().sum().maxCoeff()) * (1 + 0x1p-45);
 }

@@ -44,7 +44,7 @@ double entered(const FrameRay& ray, double enter, double exit) {
 
 }  // namespace
 
-FramePlace::FramePlace(const VolumeBoxes& boxes, const Coordinates& place) {
+FramePoint::FramePoint(const VolumeBoxes& boxes, const Coordinates& place) {
   at = (vector(place) - vector(boxes.levels().origin)) * boxes.levels().scale;
   slack = VolumeBoxes::slack(at.cwiseAbs().maxCoeff());
 }
@@ -61,7 +61,7 @@ double FrameRay::time(double t) const {
   return std::ldexp(t, exponent);
 }
 
-double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k) {
+double distance_to_box(const FramePoint& place, const BoxGroup& group, std::size_t k) {
   double squares = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at = place.at[axis],
@@ -134,7 +134,7 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
   const Aabb box = aabb(volume);
   if (box.empty()) return slabs;  // a k-DOP whose slabs have no common point
   const SlabBounds<kSlabs, double> bounds(volume);
-  const double margin = 2 * contained_margin(box);
+  const double margin = 2 * contains_margin(box);
   for (std::size_t i = 3; i < kSlabs; ++i) {  // the box bounds the first three
     Expansion low, high;
     low.add_dot(-cube_vector(i), boxes.levels().origin);
@@ -146,16 +146,16 @@ NodeShapes::Slabs NodeShapes::slabs_of(const VolumeBoxes& boxes, const AnyVolume
 }
 
 NodeShapes::Ball NodeShapes::ball_of(const VolumeBoxes& boxes, const AnyVolume& volume) {
-  const PlaceBounds extent = extent_of(volume);
+  const PositionBounds extent = extent_of(volume);
   const Eigen::Vector3d size = vector(extent.high) - vector(extent.low);
   double radius = 0.5 * norm3(size);
   Eigen::Vector3d center = 0.5 * vector(extent.low) + 0.5 * vector(extent.high);
   if (const auto* const sphere = std::get_if<Sphere>(&volume)) {
-    radius = sphere->radius() + contained_margin(sphere->aabb());
+    radius = sphere->radius() + contains_margin(sphere->aabb());
     center = sphere->center();
   }
   Ball ball;
-  ball.center = FramePlace(boxes, coordinates(center)).at.cast<float>();
+  ball.center = FramePoint(boxes, coordinates(center)).at.cast<float>();
   ball.radius =
       float_up(radius * boxes.levels().scale * (1 + 0x1p-20) + 0x1p-20);  // errors of radius and centre
   return ball;
@@ -178,7 +178,7 @@ NodeShapes::Ball NodeShapes::joined(const Ball* balls, std::size_t count) {
   return all;
 }
 
-double NodeShapes::distance(std::size_t shape, const FramePlace& place) const {
+double NodeShapes::distance(std::size_t shape, const FramePoint& place) const {
   double farthest = 0;
   if (!slabs_.empty()) {
     const Slabs& slabs = slabs_[shape];
@@ -193,7 +193,7 @@ double NodeShapes::distance(std::size_t shape, const FramePlace& place) const {
   return std::max(0.0, farthest - 2 * place.slack);
 }
 
-std::uint32_t NodeShapes::may_hold(std::size_t group, std::uint32_t bits, const FramePlace& place) const {
+std::uint32_t NodeShapes::may_contain(std::size_t group, std::uint32_t bits, const FramePoint& place) const {
   std::uint32_t held = 0;
   for (; bits != 0; bits &= bits - 1) {
     const int k = std::countr_zero(bits);

@@ -15,12 +15,12 @@
 namespace pcl_bv {
 
 /// A query point in the frame of the boxes, and the margin by which bounds are extended.
-struct FramePlace {
+struct FramePoint {
   Eigen::Vector3d at;
   /// Margin of each coordinate: VolumeBoxes::slack().
   double slack;
 
-  FramePlace(const VolumeBoxes& boxes, const Coordinates& place);
+  FramePoint(const VolumeBoxes& boxes, const Coordinates& place);
 
   /// Returns whether distances to bounds can be computed: beyond 2^500 squares leave the range of double.
   bool is_in_range() const { return at.cwiseAbs().maxCoeff() < 0x1p500; }
@@ -29,7 +29,7 @@ struct FramePlace {
 /// A ray in the frame of the boxes: at + t u, where `at` is from.at. The largest component of u is from 1 to
 /// 2.
 struct FrameRay {
-  FramePlace from;
+  FramePoint from;
   Eigen::Vector3d u;
   int exponent;   ///< t in the frame is 2^exponent times t of the given ray.
   double margin;  ///< Bound of what underflow in intersect() adds to either end.
@@ -51,11 +51,11 @@ class NodeShapes {
   /// The shape of box k of group g has the number 16 g + k. distance() is a lower bound of the distance from
   /// a query point, 0 if the point may be inside. enter() is a lower bound of t where a ray enters, infinity
   /// if the ray misses.
-  double distance(std::size_t shape, const FramePlace& place) const;
+  double distance(std::size_t shape, const FramePoint& place) const;
   double enter(std::size_t shape, const FrameRay& ray) const;
 
   /// Returns those of the boxes `bits` of a group whose shape may hold the query point, as bits.
-  std::uint32_t may_hold(std::size_t group, std::uint32_t bits, const FramePlace& place) const;
+  std::uint32_t may_contain(std::size_t group, std::uint32_t bits, const FramePoint& place) const;
 
  private:
   using Slabs = SlabBounds<7, float>;
@@ -76,7 +76,7 @@ class NodeShapes {
 };
 
 /// Returns a lower bound of the distance from a query point to a box; 0 if the point may be inside.
-double distance_to_box(const FramePlace& place, const BoxGroup& group, std::size_t k);
+double distance_to_box(const FramePoint& place, const BoxGroup& group, std::size_t k);
 
 /// Returns a lower bound of t where a ray enters a box; infinity if the ray misses.
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k);

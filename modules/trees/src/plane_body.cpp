@@ -28,7 +28,7 @@ namespace {
 constexpr std::size_t kFences = 6;
 // Largest error bound, relative to |p|, that is accepted. A larger one means nearly parallel planes: the
 // vertex is ill-conditioned and its bound useless.
-constexpr double kMostDoubt = 0x1p-26;
+constexpr double kMaxErrorBound = 0x1p-26;
 
 double greatest(const Eigen::Vector3d& v) {
   return v.cwiseAbs().maxCoeff();
@@ -37,7 +37,7 @@ double greatest(const Eigen::Vector3d& v) {
 }  // namespace
 
 PlaneBody::PlaneBody(const Kdop& kdop) {
-  if (!set_out(kdop.aabb())) return;
+  if (!add_fences(kdop.aabb())) return;
   for (std::size_t i = 0; i < kdop.size(); ++i) {
     add(kdop.set()->direction(i), kdop.max(i));
     add(-kdop.set()->direction(i), -kdop.min(i));
@@ -46,14 +46,14 @@ PlaneBody::PlaneBody(const Kdop& kdop) {
 }
 
 PlaneBody::PlaneBody(const Hull& hull) {
-  if (!set_out(hull.aabb())) return;
+  if (!add_fences(hull.aabb())) return;
   for (const HullPlane& plane : hull.planes())
     add(plane.normal, plane.offset);
   prove_box();
 }
 
 // Adds the fences: the sides of a box around the expected body, with a margin. The search starts from them.
-bool PlaneBody::set_out(const Aabb& about) {
+bool PlaneBody::add_fences(const Aabb& about) {
   if (about.empty()) return false;
   origin_ = about.center();
   const double margin = (about.max() - about.min()).sum() + 0x1p-30 * greatest(origin_) + 0x1p-900;
@@ -67,7 +67,7 @@ bool PlaneBody::set_out(const Aabb& about) {
 void PlaneBody::add(const Eigen::Vector3d& normal, double offset) {
   if (normal.isZero(0)) return;  // bounds nothing
   planes_.push_back({normal, offset});
-  local_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
+  local_offsets_.push_back(Expansion().add(offset).add_dot(-normal, origin_).value());
 }
 
 // Skips the fences: no bound may rest on them, and a vertex beyond them can be proven as well.
@@ -78,7 +78,7 @@ std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point
   for (std::size_t i = kFences; i < planes_.size(); ++i) {
     const Eigen::Vector3d& n = planes_[i].normal;
     const double length = norm3(n);
-    const double excess = (dot3(n, point) - local_[i]) / length - tolerance;
+    const double excess = (dot3(n, point) - local_offsets_[i]) / length - tolerance;
     if (excess > worst) {
       worst = excess;
       side = i;
@@ -99,7 +99,7 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
     for (int k = 0; k < 3; ++k) {
       const std::size_t side = corner.sides[static_cast<std::size_t>(k)];
       normals.row(k) = planes_[side].normal.transpose();
-      offsets[k] = local_[side];
+      offsets[k] = local_offsets_[side];
     }
     const Eigen::Matrix3d inverse = normals.inverse();
     const std::optional<std::size_t> side = most_violated(inverse * offsets);
@@ -146,7 +146,7 @@ void PlaneBody::prove_box() {
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     proofs[i] = prove((i < 3 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<int>(i % 3)));
     reach = std::max(reach, std::abs(proofs[i].bound));
-    if (!(proofs[i].doubt <= kMostDoubt && 2 * reach < kInfinity)) return;
+    if (!(proofs[i].doubt <= kMaxErrorBound && 2 * reach < kInfinity)) return;
   }
   const auto end = [&](const Proof& proof) {
     return add_up(proof.bound, multiply_up(proof.doubt, 2 * reach));
@@ -158,10 +158,10 @@ void PlaneBody::prove_box() {
   if (!box.empty()) box_ = box;
 }
 
-double PlaneBody::reach_up(const Eigen::Vector3d& direction) const {
+double PlaneBody::support_bound_up(const Eigen::Vector3d& direction) const {
   if (!box_) return kInfinity;
   const Proof proof = prove(direction);
-  if (!(proof.doubt <= kMostDoubt * taxicab3(direction))) return kInfinity;
+  if (!(proof.doubt <= kMaxErrorBound * taxicab3(direction))) return kInfinity;
   const double size = std::max(greatest(box_->min()), greatest(box_->max()));
   return add_up(proof.bound, multiply_up(proof.doubt, size));
 }

@@ -24,7 +24,7 @@ class PlaneBody {
   /// Returns an upper bound of direction . p. Infinity if the planes prove no bound, as a body of planes need
   /// not be bounded. Tight to a few units in the last place of the coordinates and 2^-48 of the weights with
   /// which the planes prove it. O(planes), about ten passes over them.
-  double reach_up(const Eigen::Vector3d& direction) const;
+  double support_bound_up(const Eigen::Vector3d& direction) const;
 
   /// Returns a box around all points; nothing if no box is proven.
   std::optional<Aabb> box() const;
@@ -41,7 +41,7 @@ class PlaneBody {
     Eigen::Vector3d weights;  // of the planes' normals; the weighted sum is the direction
   };
 
-  bool set_out(const Aabb& about);
+  bool add_fences(const Aabb& about);
   void add(const Eigen::Vector3d& normal, double offset);
   Corner farthest(const Eigen::Vector3d& direction) const;
   std::optional<std::size_t> most_violated(const Eigen::Vector3d& point) const;
@@ -50,7 +50,7 @@ class PlaneBody {
 
   // The first six are fences: sides of a box that should hold the body. No bound may rest on them.
   std::vector<HullPlane> planes_;
-  std::vector<double> local_;  // offsets relative to origin_
+  std::vector<double> local_offsets_;  // offsets relative to origin_
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::optional<Aabb> box_;
 };

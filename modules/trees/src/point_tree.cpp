@@ -17,11 +17,11 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kMostPoints = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t kMaxPoints = std::numeric_limits<std::int32_t>::max();
 
 void require_usable(const PointView& points, const Execution& execution) {
   if (points.source != nullptr) throw std::invalid_argument("PointTree: the points must be in memory");
-  if (points.count > kMostPoints || points.first > kMostPoints - points.count) {
+  if (points.count > kMaxPoints || points.first > kMaxPoints - points.count) {
     std::ostringstream what;
     what << "PointTree: point numbers must be from 0 to 2147483646, not " << points.count << " from "
          << points.first << " on";

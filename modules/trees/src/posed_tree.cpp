@@ -41,7 +41,7 @@ double difference(const Eigen::Isometry3d& back, const Eigen::Isometry3d& pose, 
 
 // Upper bound of |p|_1 for the points of the tree, from its topmost boxes. It is at least 2^-401 if the tree
 // has points, so bounds relative to it cover underflow of products, too.
-double reach_of(const BoxLevels& boxes) {
+double max_taxicab_norm(const BoxLevels& boxes) {
   double reach = 0;
   if (boxes.groups.empty()) return reach;
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
@@ -58,7 +58,7 @@ PosedTree::PosedTree(const PointTree& tree, const Eigen::Isometry3d& pose) : tre
   const FloatEnvironment environment;
   require_rigid(pose);
   back_ = inverse(pose);
-  rounding_ = difference(back_, pose, reach_of(tree.packed().boxes));
+  rounding_ = difference(back_, pose, max_taxicab_norm(tree.packed().boxes));
 }
 
 std::optional<Neighbor> PosedTree::nearest(const Eigen::Vector3d& place, double max_distance) const {

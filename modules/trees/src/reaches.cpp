@@ -17,7 +17,7 @@ namespace pcl_bv {
 namespace {
 
 // Adds more than the rounding errors of some tens of sums and products of magnitudes, and their underflow.
-double grown_up(double magnitude) {
+double inflate_by_rounding(double magnitude) {
   return magnitude * (1 + 0x1p-45) + 0x1p-1000;
 }
 
@@ -37,7 +37,7 @@ void add_axes(const Aabb& box, Reaches& found) {
 // Each half_width_up() is an upper bound of n . q and of -n . q for all points q of the volume, relative to
 // its centre. `half` is a bound of |q|, coordinate by coordinate.
 double half_width_up(const Eigen::Vector3d& n, const Sphere& sphere, const Eigen::Vector3d&) {
-  return grown_up(length(n) * sphere.radius());
+  return inflate_by_rounding(length(n) * sphere.radius());
 }
 
 // Splits n into the sum of weights[i] axes[i] and a remainder. Valid for any weights.
@@ -57,13 +57,13 @@ struct AlongAxes {
 
 double half_width_up(const Eigen::Vector3d& n, const Obb& box, const Eigen::Vector3d& half) {
   const AlongAxes along(n, box.axes(), half);
-  return grown_up(dot3(along.weights.cwiseAbs(), box.half_extents()) + along.rest);
+  return inflate_by_rounding(dot3(along.weights.cwiseAbs(), box.half_extents()) + along.rest);
 }
 
 // Cauchy's inequality bounds the projection.
 double half_width_up(const Eigen::Vector3d& n, const Ellipsoid& ellipsoid, const Eigen::Vector3d& half) {
   const AlongAxes along(n, ellipsoid.axes(), half);
-  return grown_up(length(along.weights.cwiseProduct(ellipsoid.radii())) + along.rest);
+  return inflate_by_rounding(length(along.weights.cwiseProduct(ellipsoid.radii())) + along.rest);
 }
 
 // q has a part along the axis, of at most half_height, and a perpendicular part, of at most the radius. For
@@ -72,7 +72,7 @@ double half_width_up(const Eigen::Vector3d& n, const Cylinder& cylinder, const E
   const Eigen::Vector3d& a = cylinder.axis();
   const double along = dot3(n, a), doubt = 0x1p-49 * taxicab3(n);
   const Eigen::Vector3d across = n - along * a;
-  return grown_up((std::abs(along) + doubt) * cylinder.half_height() +
+  return inflate_by_rounding((std::abs(along) + doubt) * cylinder.half_height() +
                   (length(across) + doubt) * cylinder.radius());
 }
 
@@ -108,7 +108,7 @@ struct Measure {
 
   Reaches operator()(const Capsule& capsule) const {
     return centered(capsule.aabb(), [&](const Eigen::Vector3d& n) {
-      return std::max(reach_up(n, capsule.a(), capsule.radius()), reach_up(n, capsule.b(), capsule.radius()));
+      return std::max(support_bound_up(n, capsule.a(), capsule.radius()), support_bound_up(n, capsule.b(), capsule.radius()));
     });
   }
 
@@ -123,8 +123,8 @@ struct Measure {
     });
   }
 
-  static double reach_up(const Eigen::Vector3d& n, const Eigen::Vector3d& center, double radius) {
-    return Expansion().add_dot(n, center).add(grown_up(length(n) * radius)).up();
+  static double support_bound_up(const Eigen::Vector3d& n, const Eigen::Vector3d& center, double radius) {
+    return Expansion().add_dot(n, center).add(inflate_by_rounding(length(n) * radius)).up();
   }
 
   template <typename Reach>
@@ -141,8 +141,8 @@ struct Measure {
   Reaches of_planes(const PlaneBody& body) const {
     Reaches found;
     for (std::size_t i = 0; i < count; ++i) {
-      found.up[i] = body.reach_up(cube_vector(i));
-      found.down[i] = body.reach_up(-cube_vector(i));
+      found.up[i] = body.support_bound_up(cube_vector(i));
+      found.down[i] = body.support_bound_up(-cube_vector(i));
     }
     return found;
   }

@@ -19,7 +19,7 @@
 namespace pcl_bv {
 namespace {
 
-std::vector<AnyVolume> grown_volumes(const std::vector<Region>& regions) {
+std::vector<AnyVolume> inflated_volumes(const std::vector<Region>& regions) {
   std::vector<AnyVolume> volumes;
   for (const auto& [volume, padding] : regions) {
     if (!(padding >= 0 && padding <= kMaxCoordinate))
@@ -39,7 +39,7 @@ RegionTests tests_of(const std::vector<AnyVolume>& volumes) {
 
 std::shared_ptr<const VolumeBoxes> boxes_of(const std::vector<AnyVolume>& volumes) {
   const FloatEnvironment environment;
-  std::vector<PlaceBounds> extents;
+  std::vector<PositionBounds> extents;
   extents.reserve(volumes.size());
   for (const AnyVolume& volume : volumes)
     extents.push_back(extent_of(volume));
@@ -56,7 +56,7 @@ std::size_t threads_for_chunks(std::size_t chunks) {
 }  // namespace
 
 RegionMask::RegionMask(const std::vector<Region>& regions)
-    : volumes_(grown_volumes(regions)), tests_(tests_of(volumes_)) {
+    : volumes_(inflated_volumes(regions)), tests_(tests_of(volumes_)) {
   if (volumes_.size() > kFewRegions) boxes_ = boxes_of(volumes_);
 }
 

@@ -16,9 +16,9 @@ namespace {
 using Chosen = std::vector<std::uint32_t>;
 
 // Costs a point. The unit is the test of a point against one region of the complete list (0.16 ns with
-// AVX-512, 0.5 ns with SSE4). kToChoose: finding the regions whose boxes overlap the run of the point.
-// kToTestChosen: testing one of these. kToSort: sorting the points (25 ns) and everything after that.
-constexpr double kToChoose = 6, kToTestChosen = 1.6, kToSort = 150;
+// AVX-512, 0.5 ns with SSE4). kChooseCost: finding the regions whose boxes overlap the run of the point.
+// kTestChosenCost: testing one of these. kSortCost: sorting the points (25 ns) and everything after that.
+constexpr double kChooseCost = 6, kTestChosenCost = 1.6, kSortCost = 150;
 constexpr std::size_t kRunsOfSample = 16;
 
 void choose(const VolumeBoxes& boxes, const RunBox& run, Chosen& chosen) {
@@ -51,10 +51,10 @@ struct SortedPoints {
 
   // Loads and sorts the points; returns their number.
   std::size_t load(const PointView& points) {
-    PlacedItem<T>* const items = order.reset(points.count);
+    PositionedItem<T>* const items = order.reset(points.count);
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.count; ++i) {
-      PlacedItem<T>& item = items[count];
+      PositionedItem<T>& item = items[count];
       load_point(points, i, item.place);
       item.number = static_cast<std::int32_t>(i);
       count += is_valid({item.place[0], item.place[1], item.place[2]});
@@ -77,7 +77,7 @@ Scratch& scratch() {
 }
 
 // Estimates the mean number of regions whose boxes overlap a run, from a sample of the runs.
-double regions_reached(const VolumeBoxes& boxes, Runs& runs) {
+double mean_overlapping_regions(const VolumeBoxes& boxes, Runs& runs) {
   const std::size_t step = std::max<std::size_t>(1, runs.count / kRunsOfSample);
   std::size_t reached = 0, looked = 0;
   for (std::size_t run = 0; run < runs.count; run += step, ++looked) {
@@ -90,10 +90,10 @@ double regions_reached(const VolumeBoxes& boxes, Runs& runs) {
 enum class Way { all, in_order, sorted };
 
 Way cheapest(const VolumeBoxes& boxes, Runs& runs) {
-  const double by_runs = kToChoose + kToTestChosen * regions_reached(boxes, runs);
+  const double by_runs = kChooseCost + kTestChosenCost * mean_overlapping_regions(boxes, runs);
   const auto by_all = static_cast<double>(boxes.size());
-  if (by_all <= std::min(by_runs, kToSort)) return Way::all;
-  return by_runs <= kToSort ? Way::in_order : Way::sorted;
+  if (by_all <= std::min(by_runs, kSortCost)) return Way::all;
+  return by_runs <= kSortCost ? Way::in_order : Way::sorted;
 }
 
 void states_in_order(UsableIsa isa, const PointView& points, const RegionTests& regions,
@@ -124,7 +124,7 @@ void states_sorted(UsableIsa isa, const PointView& points, const RegionTests& re
   const std::size_t count = sorted.load(points);
   std::fill(states, states + points.count, static_cast<std::uint8_t>(RegionState::outside));
   sorted.states.resize(count);
-  const PointView view = PointView::of(sorted.order[0].place, sizeof(PlacedItem<T>), count);
+  const PointView view = PointView::of(sorted.order[0].place, sizeof(PositionedItem<T>), count);
   runs.measure(isa, view);
   states_in_order(isa, view, regions, boxes, runs, sorted.states.data());
   for (std::size_t i = 0; i < count; ++i)

@@ -46,7 +46,7 @@ bool SlabBounds<N, T>::contains(const Eigen::Vector3d& point) const {
   for (std::size_t i = 0; i < N; ++i) {
     const CubeDirection& d = kCubeDirections[i];
     const double s = (d[0] * point.x() + d[1] * point.y()) + d[2] * point.z();
-    const double doubt = i < 3 ? 0 : 4 * kU * taxicab3(point);
+    const double doubt = i < 3 ? 0 : 4 * kUnitRoundoff * taxicab3(point);
     if (!(s - doubt <= static_cast<double>(max[i]) && s + doubt >= static_cast<double>(min[i]))) return false;
   }
   return true;

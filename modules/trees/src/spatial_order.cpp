@@ -13,8 +13,8 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::size_t kParts = 4;
-constexpr std::size_t kMostBins = 1024;
+constexpr std::size_t kMaxParts = 4;
+constexpr std::size_t kMaxBins = 1024;
 
 // The longest side of the box around a run.
 struct Side {
@@ -39,7 +39,7 @@ Side longest_side(const ItemRun<T>& run) {
 
 // The positions in a run where its parts begin, and where the last part ends.
 struct Cuts {
-  std::array<std::size_t, kParts + 1> at{};
+  std::array<std::size_t, kMaxParts + 1> at{};
   std::size_t parts;
 
   explicit Cuts(std::size_t count) {
@@ -47,7 +47,7 @@ struct Cuts {
     while (unit * kTreeWidth < count)
       unit *= kTreeWidth;
     const std::size_t units = (count + unit - 1) / unit;
-    parts = std::min(units, kParts);
+    parts = std::min(units, kMaxParts);
     for (std::size_t p = 0; p < parts; ++p)
       at[p] = units * p / parts * unit;
     at[parts] = count;
@@ -71,9 +71,9 @@ void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::u
 // Groups the bins to buckets: a bin that a cut passes through is one bucket, all bins between two of these
 // are another. `begin` has the first position of each bucket.
 struct Buckets {
-  std::array<std::uint8_t, kMostBins> of_bin;
-  std::array<std::size_t, 2 * kParts> begin{};
-  std::array<std::size_t, kParts + 1> of_cut{};  // bucket of the bin that the cut passes through
+  std::array<std::uint8_t, kMaxBins> of_bin;
+  std::array<std::size_t, 2 * kMaxParts> begin{};
+  std::array<std::size_t, kMaxParts + 1> of_cut{};  // bucket of the bin that the cut passes through
 
   Buckets(const Cuts& cuts, std::size_t bins, const std::uint32_t* counts) {
     std::size_t place = 0, bucket = 0, cut = 1;
@@ -95,7 +95,7 @@ struct Buckets {
 
 template <typename T>
 void move_items(const ItemRun<T>& run, const Buckets& buckets) {
-  std::array<std::size_t, 2 * kParts> place = buckets.begin;
+  std::array<std::size_t, 2 * kMaxParts> place = buckets.begin;
   for (std::size_t i = 0; i < run.count; ++i)
     run.other[place[buckets.of_bin[run.bins[i]]]++] = run.items[i];
 }
@@ -103,12 +103,12 @@ void move_items(const ItemRun<T>& run, const Buckets& buckets) {
 // Moves the items to `other`, each to the positions of its part.
 template <typename T>
 void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
-  std::array<std::uint32_t, kMostBins> counts;
-  const std::size_t bins = std::min(kMostBins, run.count);
+  std::array<std::uint32_t, kMaxBins> counts;
+  const std::size_t bins = std::min(kMaxBins, run.count);
   fill_bins(run, side, bins, counts.data());
   const Buckets buckets(cuts, bins, counts.data());
   move_items(run, buckets);
-  const auto precedes = [axis = side.axis](const PlacedItem<T>& a, const PlacedItem<T>& b) {
+  const auto precedes = [axis = side.axis](const PositionedItem<T>& a, const PositionedItem<T>& b) {
     return a.place[axis] < b.place[axis] || (a.place[axis] == b.place[axis] && a.number < b.number);
   };
   for (std::size_t c = 1; c < cuts.parts; ++c) {
@@ -148,7 +148,7 @@ std::size_t runs_for(std::size_t threads, std::size_t items) {
 }  // namespace
 
 template <typename T>
-PlacedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
+PositionedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
   items_.resize(count);
   buffer_.resize(count);
   bins_.resize(count);
@@ -158,16 +158,16 @@ PlacedItem<T>* SpatialOrder<T>::reset(std::size_t count) {
 template <typename T>
 void SpatialOrder<T>::sort(std::size_t count, const ParallelPolicy& policy) {
   runs_.assign(1, {items_.data(), buffer_.data(), bins_.data(), count, true});
-  share_out(runs_for(thread_count(policy), count), policy);
+  split_for_threads(runs_for(thread_count(policy), count), policy);
   for_each_chunk(policy, runs_.size(), [&](std::size_t r) { sort_run(runs_[r]); });
 }
 
 template <typename T>
-void SpatialOrder<T>::share_out(std::size_t runs, const ParallelPolicy& policy) {
+void SpatialOrder<T>::split_for_threads(std::size_t runs, const ParallelPolicy& policy) {
   while (!runs_.empty() && runs_.size() < runs) {
-    parts_.assign(runs_.size() * kParts, {});
+    parts_.assign(runs_.size() * kMaxParts, {});
     for_each_chunk(policy, runs_.size(), [&](std::size_t r) {
-      std::size_t p = r * kParts;
+      std::size_t p = r * kMaxParts;
       cut_run(runs_[r], [&](const ItemRun<T>& part) { parts_[p++] = part; });
     });
     runs_.clear();

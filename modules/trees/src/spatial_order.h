@@ -17,13 +17,13 @@ namespace pcl_bv {
 
 /// An item with the position that represents it, which must be valid. 16 bytes for float, 32 for double.
 template <typename T>
-struct PlacedItem {
+struct PositionedItem {
   T place[3];
   std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t> number;
 };
 
 /// A box around positions; empty if low is above high.
-struct PlaceBounds {
+struct PositionBounds {
   Coordinates low, high;
 };
 
@@ -38,7 +38,7 @@ struct Extremes {
     high[axis] = value > high[axis] ? value : high[axis];
   }
   /// Returns the box. -0 becomes 0, as otherwise the sign of a zero would depend on the order of add().
-  PlaceBounds bounds() const {
+  PositionBounds bounds() const {
     return {{low[0] + 0.0, low[1] + 0.0, low[2] + 0.0}, {high[0] + 0.0, high[1] + 0.0, high[2] + 0.0}};
   }
 };
@@ -46,8 +46,8 @@ struct Extremes {
 /// A run of items: their buffer, the buffer that the next cut moves them to, and a bin for each item.
 template <typename T>
 struct ItemRun {
-  PlacedItem<T>* items = nullptr;
-  PlacedItem<T>* other = nullptr;
+  PositionedItem<T>* items = nullptr;
+  PositionedItem<T>* other = nullptr;
   std::uint16_t* bins = nullptr;
   std::size_t count = 0;
   /// Whether the sorted items belong to the buffer `items`, not `other`.
@@ -71,18 +71,18 @@ template <typename T>
 class SpatialOrder {
  public:
   /// Makes a buffer of `count` items and returns it, to be filled by the caller.
-  PlacedItem<T>* reset(std::size_t count);
+  PositionedItem<T>* reset(std::size_t count);
 
   /// Sorts the first `count` items.
   void sort(std::size_t count, const ParallelPolicy& policy);
 
   /// Returns the item in a position of the sorted order.
-  const PlacedItem<T>& operator[](std::size_t place) const { return items_[place]; }
+  const PositionedItem<T>& operator[](std::size_t place) const { return items_[place]; }
 
  private:
-  void share_out(std::size_t runs, const ParallelPolicy& policy);
+  void split_for_threads(std::size_t runs, const ParallelPolicy& policy);
 
-  std::vector<PlacedItem<T>> items_, buffer_;
+  std::vector<PositionedItem<T>> items_, buffer_;
   std::vector<std::uint16_t> bins_;
   std::vector<ItemRun<T>> runs_, parts_;  // runs that threads share
 };

@@ -30,14 +30,14 @@ void SweepWindow::add(const PointView& points, const Execution& execution) {
 
 void SweepWindow::drop_oldest() {
   if (size() == 0) return;
-  if (oldest_.empty()) turn_over();
+  if (oldest_.empty()) refill_oldest();
   first_ += oldest_.back().points;
   points_ -= oldest_.back().points;
   oldest_.pop_back();
   all_.reset();
 }
 
-void SweepWindow::turn_over() {
+void SweepWindow::refill_oldest() {
   for (auto sweep = newest_.rbegin(); sweep != newest_.rend(); ++sweep) {
     Partial merged = sweep->merged;
     if (!oldest_.empty()) merged.merge(oldest_.back().merged);

@@ -14,7 +14,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr PlaceBounds kNowhere = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+constexpr PositionBounds kEmptyBounds = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 template <typename T>
 std::vector<PointPacket<T>>& packets_of(PackedTree& tree) {
@@ -25,7 +25,7 @@ std::vector<PointPacket<T>>& packets_of(PackedTree& tree) {
   }
 }
 
-void widen(PlaceBounds& bounds, const PlaceBounds& other) {
+void widen(PositionBounds& bounds, const PositionBounds& other) {
   bounds.low = {std::min(bounds.low.x, other.low.x), std::min(bounds.low.y, other.low.y),
                 std::min(bounds.low.z, other.low.z)};
   bounds.high = {std::max(bounds.high.x, other.high.x), std::max(bounds.high.y, other.high.y),
@@ -33,10 +33,10 @@ void widen(PlaceBounds& bounds, const PlaceBounds& other) {
 }
 
 template <typename T>
-void load_part(const PointView& points, LoadPart& part, PlacedItem<T>* to) {
+void load_part(const PointView& points, LoadPart& part, PositionedItem<T>* to) {
   std::size_t place = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    PlacedItem<T>& item = to[place];
+    PositionedItem<T>& item = to[place];
     load_point(points, i, item.place);
     item.number = static_cast<std::int32_t>(points.index(i));
     if (is_valid({item.place[0], item.place[1], item.place[2]})) ++place;
@@ -47,7 +47,7 @@ void load_part(const PointView& points, LoadPart& part, PlacedItem<T>* to) {
 // Loads the valid points and returns their number.
 template <typename T>
 std::size_t load(const PointView& points, const ParallelPolicy& policy, Parts<LoadPart>& parts,
-                 PlacedItem<T>* to) {
+                 PositionedItem<T>* to) {
   parts.cut(points.count, policy);
   parts.for_each(policy, [&](LoadPart& part) { load_part(points, part, to); });
   std::size_t count = 0;
@@ -59,7 +59,7 @@ std::size_t load(const PointView& points, const ParallelPolicy& policy, Parts<Lo
 }
 
 template <typename T>
-PlaceBounds bounds_of(const PointPacket<T>& packet) {
+PositionBounds bounds_of(const PointPacket<T>& packet) {
   Extremes<T> extremes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t k = 0; k < kTreeWidth; ++k)
@@ -75,24 +75,24 @@ void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPa
   std::vector<PointPacket<T>>& packets = packets_of<T>(tree);
   parts.cut(packets.size(), policy);
   parts.for_each(policy, [&](PacketPart& part) {
-    part.bounds = kNowhere;
+    part.bounds = kEmptyBounds;
     for (std::size_t p = part.begin; p < part.end; ++p) {
       fill(p, packets[p]);
       widen(part.bounds, bounds_of(packets[p]));
     }
   });
-  PlaceBounds all = kNowhere;
+  PositionBounds all = kEmptyBounds;
   for (const PacketPart& part : parts)
     widen(all, part.bounds);
   reset_levels(tree.boxes, packets.size(), all);
   parts.for_each(policy, [&](const PacketPart& part) {
     for (std::size_t p = part.begin; p < part.end; ++p) {
-      const PlaceBounds box = bounds_of(packets[p]);
+      const PositionBounds box = bounds_of(packets[p]);
       if (box.low.x <= box.high.x) set_item_box(tree.boxes, p, box.low, box.high);
     }
   });
   raise_levels(tree.boxes);
-  find_least_reached(tree.boxes);
+  find_face_cover_squares(tree.boxes);
 }
 
 template <typename T>
@@ -106,7 +106,7 @@ void build(const PointView& points, const ParallelPolicy& policy, TreeScratch& s
   fill_packets<T>(tree, policy, scratch.packets, [&](std::size_t p, PointPacket<T>& packet) {
     const std::size_t first = p * kTreeWidth, count = std::min(kTreeWidth, tree.count - first);
     for (std::size_t k = 0; k < count; ++k) {
-      const PlacedItem<T>& item = order[first + k];
+      const PositionedItem<T>& item = order[first + k];
       for (std::size_t axis = 0; axis < 3; ++axis)
         *packet.at(axis, k) = item.place[axis];
       tree.numbers[first + k] = static_cast<std::int32_t>(item.number);

@@ -21,7 +21,7 @@ struct LoadPart {
 /// A part of the packets, which one thread fills.
 struct PacketPart {
   std::size_t begin = 0, end = 0;  ///< Range of the packets.
-  PlaceBounds bounds{};
+  PositionBounds bounds{};
 };
 
 /// Buffers for building and refitting, reused for the next cloud.

@@ -40,7 +40,7 @@ class TreeOverlap {
     const PointView view = moving_.view();
     for (std::size_t k = 0; k < kTreeWidth; ++k) {
       const Coordinates p = load_point(view, packet * kTreeWidth + k);
-      if (is_valid(p) && any_within(points_, image_of(pose_, p), margin_)) return true;
+      if (is_valid(p) && any_within(points_, transform_point(pose_, p), margin_)) return true;
     }
     return false;
   }

@@ -12,7 +12,7 @@
 namespace pcl_bv {
 
 /// Returns whether any point of the tree is within `distance` of the exact transformed point that `place`
-/// approximates (image_of()). Never false if one is, even if `distance` has been rounded twice. May be true
+/// approximates (transform_point()). Never false if one is, even if `distance` has been rounded twice. May be true
 /// for points farther by 2^-48 of the distance and twice the error of `place`. Squares underflow if both the
 /// error and the distance are below 2^-500.
 bool any_within(const PointTree& points, const Image& place, double distance);

@@ -24,11 +24,11 @@ inline constexpr std::size_t kVolumesOfChunk = 64;
 /// Returns an upper bound of the distance from a volume in `box` at which contains() may accept a point.
 /// contains() of each type exceeds the volume by less than 2^-45 of the distance and the sizes, along each of
 /// up to three perpendicular distances.
-double contained_margin(const Aabb& box);
+double contains_margin(const Aabb& box);
 
 /// Returns a box around aabb() and all points that contains() may accept. For an empty volume `low` is above
 /// `high`. For a volume without a known box (planes may bound no body) it is infinite.
-PlaceBounds extent_of(const AnyVolume& volume);
+PositionBounds extent_of(const AnyVolume& volume);
 
 /// A box in float, in the frame of the boxes, to compare with a BoxGroup.
 struct BoxQuery {
@@ -39,10 +39,10 @@ struct BoxQuery {
 class VolumeBoxes {
  public:
   /// Chooses the order of the volumes and builds the boxes. O(n log n).
-  void build(const std::vector<PlaceBounds>& extents, const ParallelPolicy& policy);
+  void build(const std::vector<PositionBounds>& extents, const ParallelPolicy& policy);
 
   /// Rebuilds the boxes of the same number of volumes after they have moved; the order stays.
-  void refit(const std::vector<PlaceBounds>& extents);
+  void refit(const std::vector<PositionBounds>& extents);
 
   const BoxLevels& levels() const { return boxes_; }
   std::size_t size() const { return order_.size(); }

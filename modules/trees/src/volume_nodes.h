@@ -27,15 +27,15 @@ struct VolumeTree::Nodes {
   /// Calls visit(index) for the volumes that may hold a point, and for those without a box. Stops and returns
   /// true when visit returns true.
   template <typename Visit>
-  bool visit_near(const Coordinates& place, const Visit& visit) const {
+  bool visit_candidates_at(const Coordinates& place, const Visit& visit) const {
     const BoxQuery query = boxes.query(place, place);
     if (shapes.none()) return boxes.visit(query, visit);
-    const FramePlace at(boxes, place);
+    const FramePoint at(boxes, place);
     for (const std::uint32_t number : boxes.everywhere()) {
       if (visit(number)) return true;
     }
     const auto pick = [&](std::size_t group) {
-      return shapes.may_hold(group, overlapping(boxes.levels().groups[group], query), at);
+      return shapes.may_contain(group, overlapping(boxes.levels().groups[group], query), at);
     };
     return walk(boxes.levels(), pick, [&](std::size_t item) { return visit(boxes.number(item)); });
   }

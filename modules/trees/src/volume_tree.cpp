@@ -33,7 +33,7 @@ void require_usable(const std::vector<AnyVolume>& volumes, const Execution& exec
 }  // namespace
 
 void VolumeTree::Nodes::measure(bool anew, const Execution& execution) {
-  std::vector<PlaceBounds> extents(volumes.size());
+  std::vector<PositionBounds> extents(volumes.size());
   for_each_run(execution.parallel, volumes.size(), kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)

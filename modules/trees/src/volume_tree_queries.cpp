@@ -42,14 +42,14 @@ bool visit_containing(const Nodes& nodes, const Eigen::Vector3d& point, const Vi
   const auto ask = [&](std::uint32_t number) {
     return contains(nodes.volumes[number], point) && visit(number);
   };
-  return is_valid(coordinates(point)) ? nodes.visit_near(coordinates(point), ask)
+  return is_valid(coordinates(point)) ? nodes.visit_candidates_at(coordinates(point), ask)
                                       : visit_all(nodes.volumes, ask);
 }
 
 // Calls visit for the volumes that a ray may hit and whose lower bound of t is at most limit(), in the unit
 // of the ray. Some volumes are visited twice.
 template <typename Nodes, typename Limit, typename Visit>
-void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+void visit_ray_candidates(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                  const Limit& limit, const Visit& visit) {
   const auto ask = [&](std::uint32_t number) {
     visit(number);
@@ -60,7 +60,7 @@ void visit_along(const Nodes& nodes, const Eigen::Vector3d& origin, const Eigen:
     return;
   }
   if (direction.isZero(0)) {
-    nodes.visit_near(coordinates(origin), ask);
+    nodes.visit_candidates_at(coordinates(origin), ask);
     return;
   }
   const FrameRay ray(nodes.boxes, coordinates(origin), coordinates(direction));
@@ -129,7 +129,7 @@ std::optional<VolumeHit> VolumeTree::first_hit(const Eigen::Vector3d& origin,
   const FloatEnvironment environment;
   std::optional<VolumeHit> first;
   const auto limit = [&] { return first ? first->interval.enter : kInfinity; };
-  visit_along(*nodes_, origin, direction, limit, [&](std::uint32_t number) {
+  visit_ray_candidates(*nodes_, origin, direction, limit, [&](std::uint32_t number) {
     const auto interval = intersect(nodes_->volumes[number], origin, direction);
     if (!interval) return;
     const VolumeHit hit = {static_cast<std::int32_t>(number), *interval};
@@ -142,7 +142,7 @@ void VolumeTree::all_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& d
                          std::vector<VolumeHit>& hits) const {
   const FloatEnvironment environment;
   hits.clear();
-  visit_along(
+  visit_ray_candidates(
       *nodes_, origin, direction, [] { return kInfinity; },
       [&](std::uint32_t number) {
         const auto interval = intersect(nodes_->volumes[number], origin, direction);
@@ -151,7 +151,7 @@ void VolumeTree::all_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& d
   sort_unique(hits);
 }
 
-void VolumeTree::all_touching(const Aabb& box, std::vector<std::int32_t>& indices) const {
+void VolumeTree::all_with_box_overlapping(const Aabb& box, std::vector<std::int32_t>& indices) const {
   const FloatEnvironment environment;
   indices.clear();
   if (box.empty()) return;
@@ -169,7 +169,7 @@ void VolumeTree::all_overlapping(const AnyVolume& volume, std::vector<std::int32
   indices.clear();
   if (empty(volume)) return;
   const ConvexBody body(volume);
-  const PlaceBounds extent = extent_of(volume);
+  const PositionBounds extent = extent_of(volume);
   nodes_->boxes.visit(nodes_->boxes.query(extent.low, extent.high), [&](std::uint32_t number) {
     if (overlaps(ConvexBody(nodes_->volumes[number]), body))
       indices.push_back(static_cast<std::int32_t>(number));
@@ -189,7 +189,7 @@ std::optional<VolumeDistance> VolumeTree::nearest(const Eigen::Vector3d& point, 
     if (found.distance <= max_distance && (!nearest || before(found, *nearest))) nearest = found;
     return false;
   };
-  const FramePlace place(nodes_->boxes, coordinates(point));
+  const FramePoint place(nodes_->boxes, coordinates(point));
   if (!is_valid(coordinates(point)) || !place.is_in_range()) {
     visit_all(nodes_->volumes, visit);
     return nearest;

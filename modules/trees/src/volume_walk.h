@@ -71,7 +71,7 @@ class VolumeWalk {
         case Relation::apart:
           break;
         case Relation::holds:
-          if (take_all(level, item)) return true;
+          if (report_all(level, item)) return true;
           break;
         case Relation::crosses:
           if (level == 0 ? take(item, volume_.inside(isa_, tree_, item)) : visit(level - 1, item))
@@ -83,7 +83,7 @@ class VolumeWalk {
 
   bool take(std::size_t packet, std::uint32_t bits) const { return bits != 0 && found_(packet, bits); }
 
-  bool take_all(std::size_t level, std::size_t item) const {
+  bool report_all(std::size_t level, std::size_t item) const {
     const std::size_t packets = std::size_t{1} << 4 * level;
     const std::size_t end = std::min((item + 1) * packets, tree_.boxes.below[0]);
     for (std::size_t packet = item * packets; packet < end; ++packet) {

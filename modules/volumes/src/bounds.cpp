@@ -79,7 +79,7 @@ double skew(const Eigen::Matrix3d& axes) {
   return worst;
 }
 
-double stretch_up(const Eigen::Matrix3d& m) {
+double matrix_norm_up(const Eigen::Matrix3d& m) {
   double result = 0;
   for (int i = 0; i < 3; ++i) {
     double row = 0;
@@ -90,7 +90,7 @@ double stretch_up(const Eigen::Matrix3d& m) {
   return sqrt_up(result);
 }
 
-MovedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
+TransformedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
   const Eigen::Vector3d moved = transform * p;
   Eigen::Vector3d error;
   for (int i = 0; i < 3; ++i) {

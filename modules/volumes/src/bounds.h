@@ -30,14 +30,14 @@ double skew(const Eigen::Matrix3d& axes);
 
 /// Returns an upper bound of |M v| / |v| over all v: sqrt(max row sum of |M'M|), rounded up; 1 for the
 /// identity.
-double stretch_up(const Eigen::Matrix3d& m);
+double matrix_norm_up(const Eigen::Matrix3d& m);
 
 /// A transformed point, rounded, and an upper bound of its distance from the exact transformed point.
-struct MovedPoint {
+struct TransformedPoint {
   Eigen::Vector3d point;
   double error;
 };
-MovedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
+TransformedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
 
 /// An upper bound of |m v - factor w|, by exact arithmetic.
 double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,

@@ -139,9 +139,9 @@ Mesh Capsule::mesh() const {
 Capsule Capsule::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const MovedPoint a = move_point(transform, a_), b = move_point(transform, b_);
+  const TransformedPoint a = move_point(transform, a_), b = move_point(transform, b_);
   const double radius =
-      add_up(multiply_up(radius_, stretch_up(transform.linear())), std::max(a.error, b.error));
+      add_up(multiply_up(radius_, matrix_norm_up(transform.linear())), std::max(a.error, b.error));
   return {a.point, b.point, radius};
 }
 

@@ -129,7 +129,7 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
     if (speed > 0) {
       const double nearest = -dot3(across / speed, turn / speed);
       const double h = (across + nearest * turn).stableNorm();
-      scaled.keep_near(nearest, h, radius, speed, 0);
+      scaled.keep_within_radius(nearest, h, radius, speed, 0);
     } else if (across.stableNorm() > radius) {
       return ray.keep(0, -1);
     }
@@ -167,14 +167,14 @@ Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
-  const MovedPoint center = move_point(transform, center_);
+  const TransformedPoint center = move_point(transform, center_);
   const Eigen::Vector3d turned = m * axis_;
   const Eigen::Vector3d axis = unit_axis(turned);
   const double length = turned.stableNorm();
   const double e = multiply_up(half_height_ * (1 + 0x1p-49), difference_up(m, axis_, length, axis));
   const double back = multiply_up(radius_ * (1 + 0x1p-49), difference_up(m.transpose(), axis, length, axis_));
   const double moved = add_up(center.error, e);
-  const double radius = add_up(multiply_up(radius_, stretch_up(m)), moved);
+  const double radius = add_up(multiply_up(radius_, matrix_norm_up(m)), moved);
   const double height = add_up(multiply_up(half_height_, length), add_up(moved, back));
   return {center.point, axis, multiply_up(radius, 1 + 0x1p-48), multiply_up(height, 1 + 0x1p-48)};
 }

@@ -88,7 +88,7 @@ std::optional<RayInterval> Ellipsoid::intersect(const Eigen::Vector3d& origin,
     const double speed = step.stableNorm();
     const double nearest = -dot3(at, step / speed) / speed;
     const double h = (at + nearest * step).stableNorm();
-    ray.keep_near(nearest, h, radius, speed, exponent);
+    ray.keep_within_radius(nearest, h, radius, speed, exponent);
   });
 }
 
@@ -111,7 +111,7 @@ Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
-  const MovedPoint center = move_point(transform, center_);
+  const TransformedPoint center = move_point(transform, center_);
   const double greatest = radii_.maxCoeff();
   Eigen::Matrix3d axes;
   axes.col(0) = (m * axes_.col(0)).stableNormalized();

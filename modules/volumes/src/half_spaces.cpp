@@ -191,12 +191,12 @@ bool HalfSpaces::enclose(double guess) {
     offset_[usable + side] = add_up(proofs[side].reach, rest);
   }
   for (std::size_t k = 0; k < 3; ++k)
-    widest_[static_cast<int>(k)] = std::max({0.0, offset_[usable + k], offset_[usable + k + 3]});
+    max_abs_[static_cast<int>(k)] = std::max({0.0, offset_[usable + k], offset_[usable + k + 3]});
   return true;
 }
 
 double HalfSpaces::radius_up() const {
-  return norm_up(widest_);
+  return norm_up(max_abs_);
 }
 
 HalfSpaces::Basis HalfSpaces::start(const Eigen::Vector3d& direction) const {
@@ -230,13 +230,13 @@ HalfSpaces::Proof HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& d
 
 double HalfSpaces::bound(const Basis& basis, const Eigen::Vector3d& direction) const {
   const auto [reach, residual] = prove(basis, direction, size());
-  const double rest = dot3(residual, widest_) * (1 + 0x1p-50) + kSmallestNormal;
+  const double rest = dot3(residual, max_abs_) * (1 + 0x1p-50) + kSmallestNormal;
   return reach + rest + 0x1p-51 * (std::abs(reach) + rest);
 }
 
 // First tries only the half-spaces at the vertex, which suffice unless rounding hides a short edge.
-double HalfSpaces::reach_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
-  const double extent = std::max({widest_[0], widest_[1], widest_[2]});
+double HalfSpaces::support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
+  const double extent = std::max({max_abs_[0], max_abs_[1], max_abs_[2]});
   const double tolerance = 0x1p-51 * extent;
   const DualSimplex simplex(*this, direction, vertex);
   const std::vector<std::size_t> tight = simplex.tight(0x1p-34 * extent);

@@ -33,7 +33,7 @@ class HalfSpaces {
   /// Returns an upper bound, by exact arithmetic, of direction . q over the body. Needs the box of enclose().
   /// `vertex` should be a point of the body whose projection on `direction` is about the largest; any other
   /// point makes the bound slower and less tight, but not wrong.
-  double reach_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const;
+  double support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const;
 
   /// Returns an upper bound of |q| over the box.
   double radius_up() const;
@@ -62,7 +62,7 @@ class HalfSpaces {
   double bound(const Basis& basis, const Eigen::Vector3d& direction) const;
 
   std::vector<double> x_, y_, z_, offset_;
-  Eigen::Vector3d widest_ = Eigen::Vector3d::Zero();  // largest |q_k| in the box, by component
+  Eigen::Vector3d max_abs_ = Eigen::Vector3d::Zero();  // largest |q_k| in the box, by component
 };
 
 }  // namespace pcl_bv::volumes_internal

@@ -88,7 +88,7 @@ double moved_offset(const HullPlane& plane, const Eigen::Vector3d& normal, const
 
 // Returns upper bounds of the projections of the hull on x, y, z, -x, -y, -z, from its planes perpendicular
 // to these axes; infinity where there is no such plane.
-std::array<double, 6> ends_along_axes(const std::vector<HullPlane>& planes) {
+std::array<double, 6> axis_bounds(const std::vector<HullPlane>& planes) {
   std::array<double, 6> ends;
   ends.fill(kInfinity);
   for (const HullPlane& plane : planes) {
@@ -104,7 +104,7 @@ std::array<double, 6> ends_along_axes(const std::vector<HullPlane>& planes) {
 double support_along_axis(const Shape& shape, std::size_t side) {
   const auto k = static_cast<int>(side % 3);
   const double sign = side < 3 ? 1 : -1;
-  return add_up(shape.reach_up(sign * Eigen::Vector3d::Unit(k)), sign * shape.origin[k]);
+  return add_up(shape.support_value_up(sign * Eigen::Vector3d::Unit(k)), sign * shape.origin[k]);
 }
 
 }  // namespace
@@ -205,7 +205,7 @@ Aabb Hull::aabb() const {
   for (const Eigen::Vector3d& v : vertices_)
     box.extend(v);
   if (empty()) return box;
-  std::array<double, 6> ends = ends_along_axes(planes_);
+  std::array<double, 6> ends = axis_bounds(planes_);
   if (std::count(ends.begin(), ends.end(), kInfinity) > 0) {
     const std::shared_ptr<const Shape> shape = make_polytope(*this);
     if (!std::isfinite(shape->size)) return box;

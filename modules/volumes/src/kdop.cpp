@@ -32,7 +32,7 @@ void require_equal_sets(const Kdop& a, const Kdop& b, const char* verb) {
 
 Kdop::Kdop(std::shared_ptr<const KdopSet> set) : set_(std::move(set)) {
   if (!set_) throw std::invalid_argument("Kdop: the set must not be null");
-  if (size() > few_slabs) many_.resize(2 * size());
+  if (size() > max_inline_slabs) heap_numbers_.resize(2 * size());
   std::fill_n(numbers(), size(), kInfinity);
   std::fill_n(numbers() + size(), size(), -kInfinity);
 }

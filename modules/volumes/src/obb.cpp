@@ -176,7 +176,7 @@ std::array<Eigen::Vector3d, 8> Obb::corners() const {
 
 // For the direction w, let y_i = axis(i) . w, rounded, and r = w - A y (`lacking`). Each q = p - center of
 // the box satisfies w . q <= sum |y_i| h_i + |r| |q|, with |q| <= 1.001 |h|_1.
-double Obb::reach_up(const Eigen::Vector3d& direction) const {
+double Obb::support_value_up(const Eigen::Vector3d& direction) const {
   Eigen::Vector3d y;
   double reach = 0;
   for (int i = 0; i < 3; ++i) {
@@ -193,8 +193,8 @@ double Obb::reach_up(const Eigen::Vector3d& direction) const {
 Aabb Obb::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  return box_around(center_, {reach_up(Eigen::Vector3d::UnitX()), reach_up(Eigen::Vector3d::UnitY()),
-                              reach_up(Eigen::Vector3d::UnitZ())});
+  return box_around(center_, {support_value_up(Eigen::Vector3d::UnitX()), support_value_up(Eigen::Vector3d::UnitY()),
+                              support_value_up(Eigen::Vector3d::UnitZ())});
 }
 
 Mesh Obb::mesh() const {
@@ -212,7 +212,7 @@ Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
   const Eigen::Matrix3d axes = orthonormal_axes(m * axes_);
-  const MovedPoint center = move_point(transform, center_);
+  const TransformedPoint center = move_point(transform, center_);
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
     Eigen::Vector3d w, rounding;
@@ -223,7 +223,7 @@ Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
     }
     const double lost =
         add_up(multiply_up(1.001 * half_extents_.sum(), norm_up(rounding)), multiply_up(1.001, center.error));
-    half_extents[i] = add_up(reach_up(w), lost);
+    half_extents[i] = add_up(support_value_up(w), lost);
   }
   return {center.point, axes, half_extents};
 }
@@ -243,7 +243,7 @@ FloatObb Obb::cast_float() const {
     const Eigen::Vector3d axis = result.axes.col(i).cast<double>();
     Expansion away;
     away.add_dot(axis, center_).add_dot(-axis, result.center.cast<double>());
-    result.half_extents[i] = float_up(add_up(reach_up(axis), away.magnitude_up()));
+    result.half_extents[i] = float_up(add_up(support_value_up(axis), away.magnitude_up()));
   }
   return result;
 }

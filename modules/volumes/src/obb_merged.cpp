@@ -33,13 +33,13 @@ bool is_smaller(const Obb& a, const Obb& b) {
 }
 
 // Returns an upper bound of axis . (to - from).
-double along_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, const Eigen::Vector3d& from) {
+double projection_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, const Eigen::Vector3d& from) {
   return Expansion().add_dot(axis, to).add_dot(-axis, from).up();
 }
 
 // Returns the third orientation for merged(): the coordinate axes; for boxes with the same third axis, such
 // as upright boxes, axes with that third axis.
-Eigen::Matrix3d frame_of(const Eigen::Vector3d& third, const Eigen::Vector3d& other_third) {
+Eigen::Matrix3d third_orientation(const Eigen::Vector3d& third, const Eigen::Vector3d& other_third) {
   if (third != other_third) return Eigen::Matrix3d::Identity();
   Eigen::Index least = 0;
   third.cwiseAbs().minCoeff(&least);
@@ -76,12 +76,12 @@ bool Obb::overlaps(const Obb& other) const {
   return true;
 }
 
-bool Obb::surely_holds(const Obb& other) const {
+bool Obb::certainly_contains(const Obb& other) const {
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = axes_.col(i);
     const double away =
-        std::max(along_up(axis, other.center_, center_), along_up(axis, center_, other.center_));
-    if (add_up(away, other.reach_up(axis)) > half_extents_[i]) return false;
+        std::max(projection_up(axis, other.center_, center_), projection_up(axis, center_, other.center_));
+    if (add_up(away, other.support_value_up(axis)) > half_extents_[i]) return false;
   }
   return true;
 }
@@ -93,22 +93,22 @@ Obb Obb::merged(const Obb& other) const {
   const bool this_first = precedes(*this, other);
   const Obb& first = this_first ? *this : other;
   const Obb& second = this_first ? other : *this;
-  if (first.surely_holds(second)) return first;
-  if (second.surely_holds(first)) return second;
+  if (first.certainly_contains(second)) return first;
+  if (second.certainly_contains(first)) return second;
   const auto along = [&](const Eigen::Matrix3d& axes) {
     Eigen::Vector3d low, high;
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d axis = axes.col(i), origin = Eigen::Vector3d::Zero();
-      const double a = first.reach_up(axis), b = second.reach_up(axis);
-      high[i] = std::max(add_up(along_up(axis, first.center_, origin), a),
-                         add_up(along_up(axis, second.center_, origin), b));
-      low[i] = -std::max(add_up(along_up(axis, origin, first.center_), a),
-                         add_up(along_up(axis, origin, second.center_), b));
+      const double a = first.support_value_up(axis), b = second.support_value_up(axis);
+      high[i] = std::max(add_up(projection_up(axis, first.center_, origin), a),
+                         add_up(projection_up(axis, second.center_, origin), b));
+      low[i] = -std::max(add_up(projection_up(axis, origin, first.center_), a),
+                         add_up(projection_up(axis, origin, second.center_), b));
     }
     return from_slabs(axes, low, high);
   };
   Obb best = along(first.axes_);
-  for (const Eigen::Matrix3d& axes : {second.axes_, frame_of(first.axes_.col(2), second.axes_.col(2))}) {
+  for (const Eigen::Matrix3d& axes : {second.axes_, third_orientation(first.axes_.col(2), second.axes_.col(2))}) {
     const Obb box = along(axes);
     if (is_smaller(box, best)) best = box;
   }

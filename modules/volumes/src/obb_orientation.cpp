@@ -55,7 +55,7 @@ Heading heading_of(const Eigen::Matrix3d& axes) {
 }
 
 // Rotates axes 0 and 1 by half a turn if necessary, so that the yaw is from -pi/2 (exclusive) to pi/2.
-void face_ahead(Eigen::Matrix3d& axes) {
+void limit_yaw(Eigen::Matrix3d& axes) {
   const Heading heading = heading_of(axes);
   const bool sideways = std::abs(heading.ahead) <= same_component;
   if (sideways ? heading.left < 0 : heading.ahead < 0) axes.leftCols<2>() = -axes.leftCols<2>();
@@ -118,10 +118,10 @@ Obb Obb::upright(const Eigen::Vector3d& up) const {
   Eigen::Matrix3d axes;
   axes << axes_.col(first), axes_.col(second), axes_.col(third);
   if (along[vertical] < 0) axes.rightCols<2>() = -axes.rightCols<2>();
-  face_ahead(axes);
+  limit_yaw(axes);
   Eigen::Matrix3d quarter;
   quarter << axes.col(1), -axes.col(0), axes.col(2);
-  face_ahead(quarter);
+  limit_yaw(quarter);
   const double same_size = 0x1p-40 * half_extents_.maxCoeff() + 0x1p-50 * center_.cwiseAbs().maxCoeff();
   const double longer = half_extents_[second] - half_extents_[first];
   const Heading a = heading_of(axes), b = heading_of(quarter);

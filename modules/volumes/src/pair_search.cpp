@@ -16,7 +16,7 @@
 namespace pcl_bv::volumes_internal {
 namespace {
 
-Eigen::Vector3d turned_back(const Eigen::Matrix3d& turn, const Eigen::Vector3d& d) {
+Eigen::Vector3d inverse_rotated(const Eigen::Matrix3d& turn, const Eigen::Vector3d& d) {
   return {dot3(turn.col(0), d), dot3(turn.col(1), d), dot3(turn.col(2), d)};
 }
 
@@ -49,9 +49,9 @@ Vector<DoubleDouble> difference(const Eigen::Vector3d& delta, const Eigen::Vecto
   return result;
 }
 
-class PairSearch {
+class GjkSearch {
  public:
-  PairSearch(const Placed& a, const Placed& b, Goal goal, double bound)
+  GjkSearch(const Placed& a, const Placed& b, Goal goal, double bound)
       : a_(a), b_(b), goal_(goal), bound_(bound), radii_(add_up(a.radius, b.radius)) {
     double extent = std::max(a.size, b.size);
     for (int k = 0; k < 3; ++k) {
@@ -61,32 +61,32 @@ class PairSearch {
       extent = std::max(extent, std::abs(delta_[k]));
     }
     // Bodies are treated as overlapping also if a number overflows or the size of a body is not known.
-    meet_ = !(extent > 0 && std::isfinite(extent) && std::isfinite(radii_));
-    if (meet_) return;
+    overlap_ = !(extent > 0 && std::isfinite(extent) && std::isfinite(radii_));
+    if (overlap_) return;
     scale_ = std::ldexp(1.0, -std::max(std::ilogb(extent), -1000));
     const double length = length3(delta_);
     direction_ = length > 0 ? Eigen::Vector3d(delta_ / length) : Eigen::Vector3d(Eigen::Vector3d::UnitX());
   }
 
   double run() {
-    if (meet_) return 0;
-    found_ = apart_by_size();
+    if (overlap_) return 0;
+    lower_bound_ = bounding_ball_gap();
     if (!done() && a_.shape.kind == b_.shape.kind && a_.turn == nullptr && b_.turn == nullptr) {
       const Gap gap = a_.shape.parallel_gap(b_.shape);
-      found_ = std::max(found_, gap.bound);
+      lower_bound_ = std::max(lower_bound_, gap.bound);
       if (gap.whole) return gap.bound;
     }
     if (!done()) search<double>();
     if (!done() && !settled()) search<DoubleDouble>();
-    return found_;
+    return lower_bound_;
   }
 
  private:
-  bool done() const { return meet_ || (goal_ == Goal::enough && found_ > bound_); }
+  bool done() const { return overlap_ || (goal_ == Goal::enough && lower_bound_ > bound_); }
 
   // Returns the distance of the bounding balls around the origins, a lower bound that decides most pairs of a
   // scene.
-  double apart_by_size() const {
+  double bounding_ball_gap() const {
     const double reach = add_up(add_up(a_.size, b_.size), radii_);
     const double apart = length3(delta_) * (1 - 0x1p-49) - reach;
     return apart > 0 ? apart * (1 - 0x1p-52) : 0;
@@ -95,7 +95,7 @@ class PairSearch {
   // Returns whether the lower and upper bounds agree up to rounding, so that more digits would not help.
   bool settled() const {
     const double sizes = (a_.size + b_.size) + radii_;
-    return upper_ - radii_ - found_ <= 0x1p-42 * upper_ + 0x1p-46 * sizes;
+    return upper_bound_ - radii_ - lower_bound_ <= 0x1p-42 * upper_bound_ + 0x1p-46 * sizes;
   }
 
   // Returns a lower bound of the distance, by exact arithmetic, from the gap along d, whose length is about
@@ -103,7 +103,7 @@ class PairSearch {
   // 3.01 U, each further step by U of its result.
   double certified(const Eigen::Vector3d& d) const {
     const double x = d[0] * delta_[0], y = d[1] * delta_[1], z = d[2] * delta_[2];
-    const double reach_a = a_.reach_up(d), reach_b = b_.reach_up(-d);
+    const double reach_a = a_.support_value_up(d), reach_b = b_.support_value_up(-d);
     const double terms =
         ((std::abs(x) + std::abs(y)) + std::abs(z)) + (std::abs(reach_a) + std::abs(reach_b));
     const double gap = (((x + y) + z) - reach_a) - reach_b - 0x1p-50 * terms;
@@ -112,7 +112,7 @@ class PairSearch {
     return apart > 0 ? apart * (1 - 0x1p-52) : 0;
   }
 
-  void prove(const Eigen::Vector3d& d) { found_ = std::max(found_, certified(d)); }
+  void prove(const Eigen::Vector3d& d) { lower_bound_ = std::max(lower_bound_, certified(d)); }
 
   // Returns the point of the difference b - a with the smallest projection on d, multiplied by scale_.
   template <typename Real>
@@ -134,14 +134,14 @@ class PairSearch {
       const double gap = static_cast<double>(inner(w, Vector<Real>{Real(d[0]), Real(d[1]), Real(d[2])}));
       if (gap > best) direction_ = d;
       best = std::max(best, gap);
-      if (gap / scale_ - radii_ > bound_ && !(found_ > bound_)) prove(d);
+      if (gap / scale_ - radii_ > bound_ && !(lower_bound_ > bound_)) prove(d);
       if (done()) return;
       const bool reached = upper < kInfinity && upper - gap <= 0x1p-44 * upper + P::rounding;
       if (reached || simplex.has(w)) break;
       simplex.add(w);
       const auto foot = simplex.reduce(P::margin);
       if (!foot) {
-        meet_ = !(found_ > 0);
+        overlap_ = !(lower_bound_ > 0);
         return;
       }
       const double length = std::sqrt(static_cast<double>(inner(*foot, *foot)));
@@ -152,16 +152,16 @@ class PairSearch {
       for (std::size_t k = 0; k < 3; ++k)
         d[static_cast<int>(k)] = static_cast<double>((*foot)[k]) / length;
     }
-    upper_ = std::min(upper_, upper / scale_);
+    upper_bound_ = std::min(upper_bound_, upper / scale_);
     prove(direction_);
   }
 
   // Returns whether two points of the cores, `length` apart after scaling, prove that the bodies overlap (for
   // Goal::enough: that their distance is below the bound) by more than rounding errors.
   bool near_enough(double length) {
-    if (goal_ == Goal::best && found_ > 0) return false;
-    meet_ = length / scale_ * (1 + 0x1p-40) < radii_ + (goal_ == Goal::enough ? bound_ : 0);
-    return meet_;
+    if (goal_ == Goal::best && lower_bound_ > 0) return false;
+    overlap_ = length / scale_ * (1 + 0x1p-40) < radii_ + (goal_ == Goal::enough ? bound_ : 0);
+    return overlap_;
   }
 
   const Placed &a_, &b_;
@@ -170,9 +170,9 @@ class PairSearch {
   Eigen::Vector3d delta_, delta_rest_;
   double scale_ = 1;           // power of two that scales lengths to about 1
   Eigen::Vector3d direction_;  // initial direction, then the best direction of a search
-  bool meet_ = false;          // the bodies overlap or are nearer than bound_
-  double found_ = 0;           // best proven lower bound of the distance
-  double upper_ = kInfinity;   // distance of two points of the cores, up to rounding
+  bool overlap_ = false;          // the bodies overlap or are nearer than bound_
+  double lower_bound_ = 0;           // best proven lower bound of the distance
+  double upper_bound_ = kInfinity;   // distance of two points of the cores, up to rounding
 };
 
 // Numbers of one body, by which a pair is ordered, so that the order of the arguments does not matter.
@@ -193,7 +193,7 @@ auto key(const Placed& p) {
 
 Placed::Placed(const ConvexBody& body)
     : shape(*body.shape_),
-      turn(body.turned_ ? &body.turn_ : nullptr),
+      turn(body.turned_ ? &body.rotation_ : nullptr),
       origin(body.origin_),
       size(body.size_),
       radius(body.radius_) {}
@@ -203,25 +203,25 @@ Placed::Placed(const Shape& point, const Eigen::Vector3d& at)
 
 Eigen::Vector3d Placed::support(const Eigen::Vector3d& d) const {
   if (turn == nullptr) return shape.support(d);
-  const Eigen::Vector3d q = shape.support(turned_back(*turn, d));
+  const Eigen::Vector3d q = shape.support(inverse_rotated(*turn, d));
   return {dot3(turn->row(0), q), dot3(turn->row(1), q), dot3(turn->row(2), q)};
 }
 
 // d . (turn q) = (turn' d) . q. The rounding error of turn' d is below 4 U of its terms (U = 2^-53).
-double Placed::reach_up(const Eigen::Vector3d& d) const {
-  if (turn == nullptr) return shape.reach_up(d);
+double Placed::support_value_up(const Eigen::Vector3d& d) const {
+  if (turn == nullptr) return shape.support_value_up(d);
   double terms = 0;
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i)
       terms += std::abs((*turn)(i, j) * d[i]);
   }
-  const double reach = shape.reach_up(turned_back(*turn, d));
+  const double reach = shape.support_value_up(inverse_rotated(*turn, d));
   const double lost = 0x1p-51 * terms * shape.size + kSmallestNormal;
   return reach + lost + 0x1p-51 * (std::abs(reach) + lost);
 }
 
 double lower_bound(const Placed& a, const Placed& b, Goal goal, double bound) {
-  return key(b) < key(a) ? PairSearch(b, a, goal, bound).run() : PairSearch(a, b, goal, bound).run();
+  return key(b) < key(a) ? GjkSearch(b, a, goal, bound).run() : GjkSearch(a, b, goal, bound).run();
 }
 
 }  // namespace pcl_bv::volumes_internal

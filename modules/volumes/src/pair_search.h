@@ -19,7 +19,7 @@ struct Placed {
 
   /// As the functions of Shape, for the rotated points turn q.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
-  double reach_up(const Eigen::Vector3d& direction) const;
+  double support_value_up(const Eigen::Vector3d& direction) const;
 
   const Shape& shape;
   const Eigen::Matrix3d* turn;  ///< Null for the identity.

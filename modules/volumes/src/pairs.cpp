@@ -42,11 +42,11 @@ Product multiply(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 }  // namespace
 
 ConvexBody::ConvexBody()
-    : turn_(Eigen::Matrix3d::Identity()),
+    : rotation_(Eigen::Matrix3d::Identity()),
       origin_(Eigen::Vector3d::Constant(kNan)),
       radius_(-1),
       size_(0),
-      turned_(false) {}
+      is_rotated_(false) {}
 
 ConvexBody::ConvexBody(const AnyVolume& volume) : ConvexBody() {
   const FloatEnvironment environment;
@@ -65,19 +65,19 @@ ConvexBody ConvexBody::moved(const Eigen::Isometry3d& transform) const {
   if (empty()) return *this;
   ConvexBody result = *this;
   const Eigen::Matrix3d m = transform.linear();
-  const MovedPoint origin = move_point(transform, origin_);
-  const double stretch = stretch_up(m);
+  const TransformedPoint origin = move_point(transform, origin_);
+  const double stretch = matrix_norm_up(m);
   double lost = origin.error;
-  result.turn_ = m;
-  if (turned_) {
-    const Product product = multiply(m, turn_);
-    result.turn_ = product.matrix;
+  result.rotation_ = m;
+  if (is_rotated_) {
+    const Product product = multiply(m, rotation_);
+    result.rotation_ = product.matrix;
     lost = add_up(lost, multiply_up(product.error, shape_->size));
   }
   result.origin_ = origin.point;
   result.radius_ = add_up(multiply_up(radius_, stretch), lost);
   result.size_ = add_up(multiply_up(size_, stretch), lost);
-  result.turned_ = true;
+  result.is_rotated_ = true;
   return result;
 }
 

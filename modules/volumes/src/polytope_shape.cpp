@@ -35,7 +35,7 @@ class PolytopeShape : public Shape {
     return {x_[best], y_[best], z_[best]};
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override { return half_spaces_.reach_up(d, support(d)); }
+  double support_value_up(const Eigen::Vector3d& d) const override { return half_spaces_.support_value_up(d, support(d)); }
 
   Eigen::Vector3d mark() const override { return {x_.front(), y_.front(), z_.front()}; }
 

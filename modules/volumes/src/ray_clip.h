@@ -39,7 +39,7 @@ class RayClip {
 
   /// Keeps the t where the ray is within `radius` of a point or a line. With s = t 2^exponent, the squared
   /// distance of the ray is least^2 + (speed (s - nearest))^2.
-  void keep_near(double nearest, double least, double radius, double speed, int exponent) {
+  void keep_within_radius(double nearest, double least, double radius, double speed, int exponent) {
     if (least > radius) return keep(0, -1);
     const double half = std::sqrt(radius - least) * std::sqrt(radius + least) / speed * (1 + 0x1p-49);
     keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));

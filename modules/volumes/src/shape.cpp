@@ -27,9 +27,9 @@ double length3(const Eigen::Vector3d& v) {
 
 namespace {
 
-class BoxShape final : public Shape {
+class AabbShape final : public Shape {
  public:
-  explicit BoxShape(const Aabb& box) : box_(box) {
+  explicit AabbShape(const Aabb& box) : box_(box) {
     origin = 0.5 * box.min() + 0.5 * box.max();
     Eigen::Vector3d farthest;
     for (int k = 0; k < 3; ++k) {
@@ -44,7 +44,7 @@ class BoxShape final : public Shape {
     return {d[0] < 0 ? low_[0] : high_[0], d[1] < 0 ? low_[1] : high_[1], d[2] < 0 ? low_[2] : high_[2]};
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
+  double support_value_up(const Eigen::Vector3d& d) const override {
     const Eigen::Vector3d p = support(d);
     const double x = d[0] * p[0], y = d[1] * p[1], z = d[2] * p[2];
     return ((x + y) + z) + (0x1p-50 * ((std::abs(x) + std::abs(y)) + std::abs(z)) + kSmallestNormal);
@@ -52,7 +52,7 @@ class BoxShape final : public Shape {
 
   // The distance itself: gaps along the axes, rounded down.
   Gap parallel_gap(const Shape& other) const override {
-    const Aabb& b = static_cast<const BoxShape&>(other).box_;
+    const Aabb& b = static_cast<const AabbShape&>(other).box_;
     Eigen::Vector3d gap;
     for (int k = 0; k < 3; ++k) {
       gap[k] = 0;
@@ -111,13 +111,13 @@ Eigen::Vector3d combined(const Eigen::Matrix3d& columns, const Eigen::Vector3d& 
 }
 
 // By this factor, |q| can exceed the length computed from components along axes orthonormal to 1e-12.
-constexpr double kSkewed = 1 + 0x1p-36;
+constexpr double kSkewFactor = 1 + 0x1p-36;
 
-class TurnedBoxShape final : public Shape {
+class ObbShape final : public Shape {
  public:
-  explicit TurnedBoxShape(const Obb& box) : axes_(box.axes()), dual_(dual(axes_)), half_(box.half_extents()) {
+  explicit ObbShape(const Obb& box) : axes_(box.axes()), dual_(dual(axes_)), half_(box.half_extents()) {
     origin = box.center();
-    size = length3(half_) * kSkewed;
+    size = length3(half_) * kSkewFactor;
   }
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
@@ -127,7 +127,7 @@ class TurnedBoxShape final : public Shape {
     return combined(dual_, s);
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
+  double support_value_up(const Eigen::Vector3d& d) const override {
     const auto [y, residual] = Components(axes_, d);
     const double reach = (std::abs(y[0]) * half_[0] + std::abs(y[1]) * half_[1]) + std::abs(y[2]) * half_[2];
     return reach * (1 + 0x1p-50) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
@@ -146,7 +146,7 @@ class EllipsoidShape final : public Shape {
  public:
   explicit EllipsoidShape(const Ellipsoid& e) : axes_(e.axes()), dual_(dual(axes_)), radii_(e.radii()) {
     origin = e.center();
-    size = std::max({radii_[0], radii_[1], radii_[2]}) * kSkewed;
+    size = std::max({radii_[0], radii_[1], radii_[2]}) * kSkewFactor;
   }
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
@@ -160,7 +160,7 @@ class EllipsoidShape final : public Shape {
     return combined(dual_, s);
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
+  double support_value_up(const Eigen::Vector3d& d) const override {
     const auto [y, residual] = Components(axes_, d);
     const double reach = length3({y[0] * radii_[0], y[1] * radii_[1], y[2] * radii_[2]});
     return reach * (1 + 0x1p-49) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
@@ -179,9 +179,9 @@ class EllipsoidShape final : public Shape {
 class CylinderShape final : public Shape {
  public:
   explicit CylinderShape(const Cylinder& c)
-      : axis_(c.axis()), across_(c.radius()), half_height_(c.half_height()) {
+      : axis_(c.axis()), core_radius_(c.radius()), half_height_(c.half_height()) {
     origin = c.center();
-    size = length3({across_, half_height_, 0}) * kSkewed;
+    size = length3({core_radius_, half_height_, 0}) * kSkewFactor;
   }
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
@@ -190,19 +190,19 @@ class CylinderShape final : public Shape {
     const double length = length3(across);
     Eigen::Vector3d end = (along < 0 ? -half_height_ : half_height_) * axis_;
     if (!(length > 0)) return end;
-    return end + across_ * Eigen::Vector3d(across / length);
+    return end + core_radius_ * Eigen::Vector3d(across / length);
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
-    const double reach = half_height_ * std::abs(dot3(axis_, d)) + across_ * length3(cross3(axis_, d));
-    return reach * (1 + 0x1p-48) + (0x1p-49 * (half_height_ + across_) * taxicab3(d) + kSmallestNormal);
+  double support_value_up(const Eigen::Vector3d& d) const override {
+    const double reach = half_height_ * std::abs(dot3(axis_, d)) + core_radius_ * length3(cross3(axis_, d));
+    return reach * (1 + 0x1p-48) + (0x1p-49 * (half_height_ + core_radius_) * taxicab3(d) + kSmallestNormal);
   }
 
   Eigen::Vector3d mark() const override { return axis_; }
 
  private:
   Eigen::Vector3d axis_;
-  double across_, half_height_;
+  double core_radius_, half_height_;
 };
 
 // The shape of capsules, spheres and points. Both ends are rounded once, relative to the origin.
@@ -214,34 +214,34 @@ class SegmentShape final : public Shape {
     a_ = a - origin;
     b_ = b - origin;
     for (int k = 0; k < 3; ++k)
-      reach_[k] = std::max(std::abs(a_[k]), std::abs(b_[k]));
-    size = length3(reach_) * kSkewed;
+      max_abs_[k] = std::max(std::abs(a_[k]), std::abs(b_[k]));
+    size = length3(max_abs_) * kSkewFactor;
   }
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     return dot3(a_, d) < dot3(b_, d) ? b_ : a_;
   }
 
-  double reach_up(const Eigen::Vector3d& d) const override {
+  double support_value_up(const Eigen::Vector3d& d) const override {
     const Eigen::Vector3d magnitude(std::abs(d[0]), std::abs(d[1]), std::abs(d[2]));
-    return std::max(dot3(a_, d), dot3(b_, d)) + (0x1p-50 * dot3(magnitude, reach_) + kSmallestNormal);
+    return std::max(dot3(a_, d), dot3(b_, d)) + (0x1p-50 * dot3(magnitude, max_abs_) + kSmallestNormal);
   }
 
   Eigen::Vector3d mark() const override { return a_; }
 
  private:
-  Eigen::Vector3d a_, b_, reach_;
+  Eigen::Vector3d a_, b_, max_abs_;
 };
 
 struct Maker {
   using Result = std::shared_ptr<Shape>;
 
-  Result operator()(const Aabb& v) const { return std::make_shared<BoxShape>(v); }
+  Result operator()(const Aabb& v) const { return std::make_shared<AabbShape>(v); }
   Result operator()(const Kdop& v) const { return make_polytope(v); }
   Result operator()(const Sphere& v) const {
     return std::make_shared<SegmentShape>(v.center(), v.center(), v.radius());
   }
-  Result operator()(const Obb& v) const { return std::make_shared<TurnedBoxShape>(v); }
+  Result operator()(const Obb& v) const { return std::make_shared<ObbShape>(v); }
   Result operator()(const Cylinder& v) const { return std::make_shared<CylinderShape>(v); }
   Result operator()(const Capsule& v) const {
     return std::make_shared<SegmentShape>(v.a(), v.b(), v.radius());

@@ -29,7 +29,7 @@ class Shape {
 
   /// Returns an upper bound, by exact arithmetic, of direction . q over the points origin + q of the core.
   /// The length of the direction must be about 1.
-  virtual double reach_up(const Eigen::Vector3d& direction) const = 0;
+  virtual double support_value_up(const Eigen::Vector3d& direction) const = 0;
 
   /// Returns a lower bound of the distance to another shape of the same kind, from faces that are parallel in
   /// both. Both shapes must be at their original pose.

@@ -67,7 +67,7 @@ void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& o
   const double doubt = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
   const double held = sphere.contains(origin) ? q.stableNorm() : 0;
   const double radius = std::max(sphere.radius(), held) + doubt;
-  ray.keep_near(nearest, h, radius, u.norm(), exponent);
+  ray.keep_within_radius(nearest, h, radius, u.norm(), exponent);
 }
 
 }  // namespace
@@ -136,8 +136,8 @@ Aabb Sphere::aabb() const {
 Sphere Sphere::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const MovedPoint center = move_point(transform, center_);
-  return {center.point, add_up(multiply_up(radius_, stretch_up(transform.linear())), center.error)};
+  const TransformedPoint center = move_point(transform, center_);
+  return {center.point, add_up(multiply_up(radius_, matrix_norm_up(transform.linear())), center.error)};
 }
 
 Sphere& Sphere::extend(const Eigen::Vector3d& point) {

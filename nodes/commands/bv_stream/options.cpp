@@ -62,7 +62,7 @@ void declare_results(CommandLine& line, Texts& t) {
 double number(const char* option, std::string_view text, double least, double most, const char* wanted) {
   double value = 0;
   if (read_whole_text(text, value) && value >= least && value <= most) return value;
-  refuse_value(option, text, std::string("is not ") + wanted);
+  reject_value(option, text, std::string("is not ") + wanted);
 }
 
 // Throws UsageError if an output would overwrite an input or another output.
@@ -79,7 +79,7 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
       std::size_t subfolders = 0;
       for (const std::filesystem::path& cloud : list_clouds(options.source, &subfolders))
         claims.add_input(cloud);
-      say_what_is_skipped(options.source, subfolders);
+      warn_of_subfolders(options.source, subfolders);
     }
   } catch (const IoError& error) {
     throw IoError(options.source + ": " + error.what());
@@ -108,11 +108,11 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
   options.rate = t.rate == "max" ? Rate::max : recorded ? Rate::recorded : Rate::fixed;
   if (line.given("--rate") && options.rate == Rate::fixed)
     replay.rate_hz =
-        number("--rate", t.rate, kLeastRate, kGreatestRate, "a rate from 0.001 to 1000000, recorded or max");
+        number("--rate", t.rate, kMinRate, kMaxRate, "a rate from 0.001 to 1000000, recorded or max");
   if (line.given("--loop")) replay.loops = parse_whole_number("--loop", t.loop, 1);
   if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
-    refuse_value("--stamps", t.stamps, "is not rate or name");
-  replay.from_name = line.given("--stamps")
+    reject_value("--stamps", t.stamps, "is not rate or name");
+  replay.own_stamps = line.given("--stamps")
                          ? t.stamps == "name"
                          : times == FrameTimes::messages || (recorded && times == FrameTimes::names);
   replay.topic = t.topic;

@@ -29,7 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::chrono::milliseconds kPatience{50};  // longest time until a signal is noticed
+constexpr std::chrono::milliseconds kPollInterval{50};  // longest time until a signal is noticed
 
 class Progress {
  public:
@@ -65,13 +65,13 @@ class Reader {
       : options_(options), runner_(runner), sinks_(sinks), interrupted_(interrupted) {}
 
   void read(FrameSource& source) {
-    say_remarks(source);  // also when a signal has come already
+    print_warnings(source);  // also when a signal has come already
     for (bool more = true; more && wanted();) {
       Frame frame;
       try {
-        const Next next = source.next(frame, kPatience);
+        const Next next = source.next(frame, kPollInterval);
         more = next != Next::end;
-        say_remarks(source);
+        print_warnings(source);
         if (next == Next::frame) hand_over(std::move(frame));
       } catch (const FrameError& error) {
         if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it advances the schedule, too
@@ -88,8 +88,8 @@ class Reader {
   bool failed = false;
 
  private:
-  void say_remarks(FrameSource& source) const {
-    for (const std::string& remark : source.take_remarks())
+  void print_warnings(FrameSource& source) const {
+    for (const std::string& remark : source.take_warnings())
       complain(options_.source + ": " + remark);
   }
 
@@ -106,7 +106,7 @@ class Reader {
     if (paced()) {
       frame.taken = due(frame);
       while (wanted() && Clock::now() < frame.taken)
-        std::this_thread::sleep_until(std::min(frame.taken, Clock::now() + kPatience));
+        std::this_thread::sleep_until(std::min(frame.taken, Clock::now() + kPollInterval));
     }
     if (!wanted()) return;
     without_pose += !options_.replay.poses.empty() && !frame.pose;
@@ -120,7 +120,7 @@ class Reader {
   // Waits until the frame is processed or the next one is due. Reading the next file would take a core and
   // caches from the processing, which a live sensor does not do.
   void leave_the_worker_alone(Clock::time_point until) {
-    while (wanted() && Clock::now() < until && !runner_.wait_idle(std::min(until, Clock::now() + kPatience)))
+    while (wanted() && Clock::now() < until && !runner_.wait_idle(std::min(until, Clock::now() + kPollInterval)))
       ;
   }
 
@@ -151,7 +151,7 @@ class Reader {
 };
 
 // Prints dropped frames and frames without a pose. Errors have been printed before.
-void say_what_is_missing(const FrameTotals& frames, std::uint64_t without_pose) {
+void report_dropped_frames(const FrameTotals& frames, std::uint64_t without_pose) {
   const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age;
   const std::string all = " of " + std::to_string(frames.in) + " frames";
   if (dropped > 0) {
@@ -181,7 +181,7 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
     for (std::string& warning : warnings.take(frame, result))
       complain(named(frame, with_options(std::move(warning))));
     // Only its presence is compared: its numbers differ from frame to frame.
-    const std::string range = range_remark(result, range_from);
+    const std::string range = range_warning(result, range_from);
     if (!range.empty() && !out_of_range) complain(named(frame, range));
     out_of_range = !range.empty();
     progress.show(frame.header.seq, result.clusters.size(), result.ms.total);
@@ -223,7 +223,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   sinks.close();
   RunnerStats stats = runner.stats();
   stats.sinks = sinks.times();
-  say_what_is_missing(stats.frames, reader.without_pose);
+  report_dropped_frames(stats.frames, reader.without_pose);
   if (errors_go_to_a_terminal()) report(stats);  // no report in scripts
   const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;

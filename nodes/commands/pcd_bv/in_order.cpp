@@ -46,7 +46,7 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
 }
 
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline, const WriteJobEarly& write) {
-  HeldComplaints complaints;
+  DeferredMessages complaints;
   const WriteEarly early = [&](std::string& text) { return write(complaints.kept, text); };
   Result result = result_of(process(job, options, pipeline), options.format, write ? early : WriteEarly());
   result.complaints = std::move(complaints.kept);
@@ -77,22 +77,22 @@ double Progress::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
-InOrder::InOrder(const Options& options, std::size_t jobs, std::size_t workers)
+OrderedResults::OrderedResults(const Options& options, std::size_t jobs, std::size_t workers)
     : options_(options),
       jobs_(jobs),
-      ahead_(8 * workers),
+      max_ahead_(8 * workers),
       writer_(options.format, options.output),
       progress_(options.progress, jobs),
       erase_before_writing_(!options.output && isatty(STDOUT_FILENO) != 0) {}
 
-std::optional<std::size_t> InOrder::next() {
+std::optional<std::size_t> OrderedResults::next() {
   std::unique_lock lock(mutex_);
-  written_one_.wait(lock, [&] { return stopped_ || next_ >= jobs_ || next_ < written_ + ahead_; });
+  written_one_.wait(lock, [&] { return stopped_ || next_ >= jobs_ || next_ < written_ + max_ahead_; });
   if (stopped_ || next_ >= jobs_) return std::nullopt;
   return next_++;
 }
 
-void InOrder::take(std::size_t job, Result result) {
+void OrderedResults::take(std::size_t job, Result result) {
   const std::lock_guard lock(mutex_);
   waiting_.emplace(job, std::move(result));
   for (auto first = waiting_.begin();
@@ -103,13 +103,13 @@ void InOrder::take(std::size_t job, Result result) {
   written_one_.notify_all();
 }
 
-void InOrder::stop() {
+void OrderedResults::stop() {
   const std::lock_guard lock(mutex_);
   stopped_ = true;
   written_one_.notify_all();
 }
 
-Status InOrder::finish() {
+Status OrderedResults::finish() {
   const std::lock_guard lock(mutex_);
   if (reports_ == Reports::wanted) attempt_to_write([&] { return writer_.finish(); });
   progress_.erase();
@@ -118,7 +118,7 @@ Status InOrder::finish() {
   return status_;
 }
 
-void InOrder::interrupt() {
+void OrderedResults::interrupt() {
   std::unique_lock lock(mutex_);
   stopped_ = true;
   written_one_.wait(lock, [&] { return !partly_written_; });
@@ -128,7 +128,7 @@ void InOrder::interrupt() {
   say("interrupted: " + std::to_string(written_) + " of " + std::to_string(jobs_) + " files done");
 }
 
-bool InOrder::write_early(std::size_t job, std::vector<std::string>& complaints, std::string& text) {
+bool OrderedResults::write_early(std::size_t job, std::vector<std::string>& complaints, std::string& text) {
   const std::lock_guard lock(mutex_);
   if (job != written_ || (stopped_ && !partly_written_)) return false;
   say_all(std::exchange(complaints, {}));
@@ -136,18 +136,18 @@ bool InOrder::write_early(std::size_t job, std::vector<std::string>& complaints,
   return true;
 }
 
-void InOrder::say_all(const std::vector<std::string>& complaints) {
+void OrderedResults::say_all(const std::vector<std::string>& complaints) {
   for (const std::string& complaint : complaints)
     say(complaint);
 }
 
-void InOrder::write_text(std::string&& text, bool goes_on) {
+void OrderedResults::write_text(std::string&& text, bool goes_on) {
   if (erase_before_writing_) progress_.erase();
   if (reports_ != Reports::wanted || (goes_on && text.empty())) return;
   attempt_to_write([&] { return writer_.add(std::move(text), goes_on); });
 }
 
-void InOrder::write(Result& result) {
+void OrderedResults::write(Result& result) {
   say_all(result.complaints);
   write_text(std::move(result.text), std::exchange(partly_written_, false));
   status_ = worse(status_, result.status);
@@ -159,7 +159,7 @@ void InOrder::write(Result& result) {
 }
 
 template <typename Write>
-void InOrder::attempt_to_write(Write&& what) {
+void OrderedResults::attempt_to_write(Write&& what) {
   try {
     if (!what()) reports_ = Reports::unread;
   } catch (const IoError& error) {
@@ -169,7 +169,7 @@ void InOrder::attempt_to_write(Write&& what) {
   }
 }
 
-std::string InOrder::summary() const {
+std::string OrderedResults::summary() const {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f", progress_.seconds());
   return std::to_string(jobs_) + " files: " + std::to_string(jobs_ - failed_) + " done, " +

@@ -60,9 +60,9 @@ class Progress {
 };
 
 /// Hands out jobs, takes their results in any order and writes them in the order of the jobs.
-class InOrder {
+class OrderedResults {
  public:
-  InOrder(const Options& options, std::size_t jobs, std::size_t workers);
+  OrderedResults(const Options& options, std::size_t jobs, std::size_t workers);
 
   /// Returns the next job, or nullopt if there is none or the work was stopped. Waits while too many results
   /// wait for an earlier, slow job.
@@ -95,7 +95,7 @@ class InOrder {
   std::string summary() const;
 
   const Options& options_;
-  const std::size_t jobs_, ahead_;
+  const std::size_t jobs_, max_ahead_;
   std::mutex mutex_;
   std::condition_variable written_one_;
   std::map<std::size_t, Result> waiting_;  ///< Results that wait for earlier ones.

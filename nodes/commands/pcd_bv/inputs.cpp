@@ -31,7 +31,7 @@ bool is_folder(const std::string& path) {
 }
 
 void complain_of(RecordedClouds& clouds, const std::string& file) {
-  for (const std::string& remark : clouds.take_remarks())
+  for (const std::string& remark : clouds.take_warnings())
     complain(std::string(file).append(": ").append(remark));
 }
 
@@ -67,7 +67,7 @@ std::vector<Job> expand_recording(const std::string& argument, const std::string
 std::vector<Job> expand(const std::string& argument, const std::string& topic) {
   try {
     if (!is_synth(argument) && has_recorded_clouds(argument)) return expand_recording(argument, topic);
-    if (!is_synth(argument)) refuse_false_recording(argument);
+    if (!is_synth(argument)) check_recording_content(argument);
   } catch (const IoError& error) {
     return {{argument, error.what()}};
   } catch (const std::invalid_argument& error) {
@@ -79,7 +79,7 @@ std::vector<Job> expand(const std::string& argument, const std::string& topic) {
     std::size_t subfolders = 0;
     for (const fs::path& path : list_clouds(argument, &subfolders))
       jobs.push_back({path.string()});
-    say_what_is_skipped(argument, subfolders);
+    warn_of_subfolders(argument, subfolders);
     if (!jobs.empty()) return jobs;
     return {{argument, "no .pcd, .ply, .las or .bin file in this folder"}};
   } catch (const IoError& error) {
@@ -104,7 +104,7 @@ std::vector<Job> expand_partials(const std::string& argument) {
 // Makes one job of all inputs.
 Job joined(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
   Job job;
-  job.input = kTogether;
+  job.input = kTiledName;
   if (tiles) {
     job.tiles = std::move(tiles);
   } else if (options.merge) {
@@ -155,7 +155,7 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
     if (several || !given.has_filename() || is_folder(given.string()))
       return given / (stem(job.input) + extension);
     if (given.has_extension() || is_device(given)) return given;
-    refuse_value(option, given.string(), std::string("has no suffix such as ") + extension);
+    reject_value(option, given.string(), std::string("has no suffix such as ") + extension);
   };
   // The extension of the target selects the format, also for a folder.
   const bool svg = options.image && lower_case_extension(*options.image) == ".svg";

@@ -32,7 +32,7 @@ struct Job {
 };
 
 /// The name in results of a cloud that is tiled over several inputs or merged from partial results.
-inline constexpr char kTogether[] = "together";
+inline constexpr char kTiledName[] = "together";
 
 /// Whether an input is a generated cloud, not a file.
 bool is_synth(const std::string& input);

@@ -41,9 +41,9 @@ LoadedCloud::LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy
     xyz_ = file_ ? file_->xyz() : held_.xyz();
   }
   if (!origin.asked) return;
-  origin_ = origin.at ? *origin.at : whole_origin(xyz_, policy);
+  origin_ = origin.at ? *origin.at : rounded_centre(xyz_, policy);
   shifted_ = std::make_unique<ShiftedPoints>(xyz_, *origin_);
-  unshifted_ = std::move(near_);
+  points_before_shift_ = std::move(near_);
   xyz_ = view_of(*shifted_, xyz_.count, ScalarType::float64);
   if (hold) hold_points();
 }

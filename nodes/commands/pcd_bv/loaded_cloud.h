@@ -41,7 +41,7 @@ class LoadedCloud {
   PointView xyz_;  // refers to one of the members around it
   std::optional<Eigen::Vector3d> origin_;
   std::unique_ptr<PointSource> shifted_;
-  std::vector<std::byte> unshifted_, near_;  // tiles' points and shifted points, if in memory
+  std::vector<std::byte> points_before_shift_, near_;  // tiles' points and shifted points, if in memory
 };
 
 }  // namespace pcl_bv

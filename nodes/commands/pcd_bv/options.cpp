@@ -102,7 +102,7 @@ void require_extension(const char* option, const std::string& name,
     if (extension == each) return;
     list += (list.empty() ? "" : " or ") + std::string(each);
   }
-  refuse_value(option, name, "is no " + list + " file");
+  reject_value(option, name, "is no " + list + " file");
 }
 
 OriginOption parse_origin(const std::string& text) {
@@ -110,10 +110,10 @@ OriginOption parse_origin(const std::string& text) {
   if (text == "auto") return origin;
   parse_with("--origin", text, [&](const std::string& numbers) { read_text(numbers, origin.at); });
   if (origin.at && origin.at->allFinite()) return origin;
-  refuse_value("--origin", text, "is not X,Y,Z, all finite, or auto");
+  reject_value("--origin", text, "is not X,Y,Z, all finite, or auto");
 }
 
-void refuse_useless(const CommandLine& line, const PipelineConfig& config) {
+void reject_useless(const CommandLine& line, const PipelineConfig& config) {
   if (line.given("--view") && !line.given("--image")) throw UsageError("--view: only useful with --image");
   const std::vector<const Method*> methods = config.methods();
   const bool upright =
@@ -148,14 +148,14 @@ void read_outputs(const CommandLine& line, const Texts& texts, Options& options)
 
 ShareOption parse_share(const std::string& text) {
   const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) refuse_value("--part", text, "is not K/N, such as 0/8");
+  if (slash == std::string::npos) reject_value("--part", text, "is not K/N, such as 0/8");
   ShareOption share;
   share.count = parse_whole_number("--part", text.substr(slash + 1), 1, 1'000'000);
   share.number = parse_whole_number("--part", text.substr(0, slash), 0, share.count - 1);
   return share;
 }
 
-void refuse_with(const CommandLine& line, const char* option, std::initializer_list<const char*> others) {
+void reject_combinations(const CommandLine& line, const char* option, std::initializer_list<const char*> others) {
   for (const char* other : others) {
     if (line.given(other)) throw UsageError(std::string(option) + ": cannot be combined with " + other);
   }
@@ -163,25 +163,25 @@ void refuse_with(const CommandLine& line, const char* option, std::initializer_l
 
 // Throws UsageError for options that cannot work if several inputs are one cloud (labels, clusters, ground
 // and size limits), and for more options if only partial results are made or merged.
-void refuse_for_one_cloud(const CommandLine& line, const Options& options) {
+void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
-  refuse_with(line, option, {"--labels"});
+  reject_combinations(line, option, {"--labels"});
   const auto refuse = [&](bool asked, const char* what) {
     if (asked) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
   refuse(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
   refuse(config.ground.method != GroundMethod::none, "--ground (ground.method)");
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  refuse(config.cluster.least_size() > 0 || config.cluster.max_size < unlimited,
+  refuse(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
          "cluster.min_size or max_size");
   if (!options.merge && !options.partial) return;
-  refuse_with(line, option, {"--image", "--view-html", "--check", "--info"});
+  reject_combinations(line, option, {"--image", "--view-html", "--check", "--info"});
   if (options.merge)
-    refuse_with(line, option,
+    reject_combinations(line, option,
                 {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
                  "--bin-fields", "--topic"});
-  if (options.partial) refuse_with(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
+  if (options.partial) reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
     refuse(options.origin.asked && !options.origin.at, "--origin auto: each share would have its own");
   for (const Method* method : config.methods()) {
@@ -203,7 +203,7 @@ void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
 Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig config, PcdBvCommand command) {
   if (texts.inputs.empty())
     throw UsageError(std::string("no INPUT; ") + name_of(command) + " --help lists the options");
-  refuse_useless(line, config);
+  reject_useless(line, config);
   Options options;
   options.inputs = texts.inputs;
   options.pipeline = std::move(config);
@@ -214,7 +214,7 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   options.together = texts.together;
   options.threads_given = line.given("--threads");
   if (command == PcdBvCommand::alone) read_parts(line, texts, options);
-  if (options.together || options.merge) refuse_for_one_cloud(line, options);
+  if (options.together || options.merge) reject_for_tiled_cloud(line, options);
   return options;
 }
 

@@ -110,14 +110,14 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
 /// Returns what a user should know before trusting the results.
 std::vector<std::string> remarks(const Frame& frame, const FrameResult& result, const Options& options) {
   std::vector<std::string> said;
-  const std::string range = range_remark(result, options.range_from);
+  const std::string range = range_warning(result, options.range_from);
   if (!range.empty()) said.push_back(range);
   for (std::string& warning : FrameWarnings().take(frame, result))
     said.push_back(with_options(std::move(warning)));
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)
     box.merge(aabb(result.volume(id, 0)));
-  const std::string coarse = coarse_remark(box, frame.points.scalar);
+  const std::string coarse = coarse_warning(box, frame.points.scalar);
   if (!coarse.empty()) said.push_back(coarse);
   return said;
 }
@@ -159,7 +159,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   const StageTimes& ms = result.ms;
   if (options.timings) report.seconds = {read, (ms.filter + ms.ground + ms.cluster) / 1e3, ms.fit / 1e3};
   check(loaded.xyz(), result, options, outcome.outside);
-  const Status checked = say_what_is_wrong(report.file, outcome.clusters());
+  const Status checked = report_failures(report.file, outcome.clusters());
   loaded.require_unchanged();
   return worse(checked, write_files(job, options, frame, outcome, loaded));
 }
@@ -176,16 +176,16 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
       show_status_line(text);
     };
   }
-  Status status = say_what_is_left_out(*job.tiles);
+  Status status = report_excluded_inputs(*job.tiles);
   for (;;) {
     if (job.tiles->used() == 0) throw IoError("none of the inputs could be read");
     try {
       status = worse(status, process(job, options, pipeline, outcome));
-      say_notes(*job.tiles);
+      report_notes(*job.tiles);
       return status;
     } catch (const TileError& error) {
       complain(job.tiles->jobs()[error.tile()].input + ": " + error.what());
-      job.tiles->leave_out(error.tile(), error.what());
+      job.tiles->exclude(error.tile(), error.what());
       status = Status::failed;
     }
   }
@@ -210,7 +210,7 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
     set_volume(i, result, std::move(volume), report);
   }
   if (options.timings) report.seconds = {read, 0, watch.lap()};
-  return worse(say_what_is_wrong(report), write_mesh(job, report.clusters));
+  return worse(report_failures(report), write_mesh(job, report.clusters));
 }
 
 Status process_any(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
@@ -222,7 +222,7 @@ Status process_any(const Job& job, const Options& options, FramePipeline& pipeli
 }  // namespace
 
 ClusterSource Outcome::clusters() const {
-  if (result == nullptr) return source_of(report.clusters);
+  if (result == nullptr) return vector_source(report.clusters);
   const std::size_t methods = result->methods.size();
   return {result->clusters.size(),
           [this, methods, made = cluster_source(*result),
@@ -248,11 +248,11 @@ std::vector<ClusterEntry> Outcome::entries() const {
   return all;
 }
 
-Status say_what_is_wrong(const Report& report) {
-  return say_what_is_wrong(report.file, source_of(report.clusters));
+Status report_failures(const Report& report) {
+  return report_failures(report.file, vector_source(report.clusters));
 }
 
-Status say_what_is_wrong(const std::string& file, const ClusterSource& clusters) {
+Status report_failures(const std::string& file, const ClusterSource& clusters) {
   Status status = Status::done;
   for (std::size_t i = 0; i < clusters.count; ++i) {
     const ClusterEntry& cluster = clusters.at(i);
@@ -279,7 +279,7 @@ Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters) {
   });
 }
 
-std::string coarse_remark(const Aabb& box, ScalarType scalar) {
+std::string coarse_warning(const Aabb& box, ScalarType scalar) {
   const double farthest = box.empty() ? 0 : std::max(box.max().maxCoeff(), -box.min().minCoeff());
   const double step = farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
   // Steps of a centimetre or more that the distance from the origin causes, not the size of the cloud.

@@ -35,15 +35,15 @@ struct Outcome {
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline);
 
 /// Reports failed fits and points outside of volumes on standard error. Returns the resulting status.
-Status say_what_is_wrong(const Report& report);
-Status say_what_is_wrong(const std::string& file, const ClusterSource& clusters);
+Status report_failures(const Report& report);
+Status report_failures(const std::string& file, const ClusterSource& clusters);
 
 /// Writes the mesh of the job, if it is requested.
 Status write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters);
 
 /// Returns a warning if float32 coordinates are too coarse for a box at this distance from the origin,
 /// otherwise an empty text.
-std::string coarse_remark(const Aabb& box, ScalarType scalar);
+std::string coarse_warning(const Aabb& box, ScalarType scalar);
 
 /// Returns the options of the methods.
 MethodOptions method_options(const Options& options);

@@ -23,7 +23,7 @@ void keep_freed_memory() {
 #endif
 }
 
-void work(const std::vector<Job>& jobs, const Options& options, InOrder& order) {
+void work(const std::vector<Job>& jobs, const Options& options, OrderedResults& order) {
   try {
     FramePipeline pipeline(options.pipeline);
     while (const auto job = order.next()) {
@@ -47,7 +47,7 @@ Status process_all(const std::vector<Job>& jobs, const Options& options) {
   Options each = options;
   if (workers > 1) each.pipeline.threads = 1;
   if (jobs.size() > 1) keep_freed_memory();
-  InOrder order(options, jobs.size(), workers);
+  OrderedResults order(options, jobs.size(), workers);
   const Interruption interruption([&] { order.interrupt(); });
   for_each_chunk(policy, workers, [&](std::size_t) { work(jobs, each, order); });
   return order.finish();

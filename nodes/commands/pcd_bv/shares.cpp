@@ -97,7 +97,7 @@ std::optional<PartialFile> merge_files(const std::vector<std::string>& files) {
 
 Report report_of(const PartialFile& whole, const std::vector<const Method*>& methods) {
   Report report;
-  report.file = kTogether;
+  report.file = kTiledName;
   report.parts = whole.inputs;
   report.points = whole.cloud_points;
   report.origin = whole.origin;
@@ -116,7 +116,7 @@ void set_volume(std::size_t place, const EstimationResult& result, AnyVolume vol
   all.volumes[place].failed = result.reason;
 }
 
-Status say_what_is_left_out(const Tiles& tiles) {
+Status report_excluded_inputs(const Tiles& tiles) {
   Status status = Status::done;
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     if (!tiles.header(i).error) continue;
@@ -126,7 +126,7 @@ Status say_what_is_left_out(const Tiles& tiles) {
   return status;
 }
 
-void say_notes(const Tiles& tiles) {
+void report_notes(const Tiles& tiles) {
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     const std::string note = tiles.note(i);
     if (!tiles.header(i).error && !note.empty()) complain(tiles.jobs()[i].input + ": " + note);
@@ -154,7 +154,7 @@ Status make_partial_file(const Job& job, const Options& options) {
     return merged ? write_or_say_why(*options.partial, *merged) : Status::failed;
   }
   // A share without one of the inputs would belong to another cloud.
-  if (say_what_is_left_out(*job.tiles) != Status::done) return Status::failed;
+  if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
   const Execution execution = execution_of(options);
   PartialFile file = describe_cloud(*job.tiles, options.origin.at, options);
   const PointRange range = job.tiles->share(options.share.number, options.share.count);
@@ -162,7 +162,7 @@ Status make_partial_file(const Job& job, const Options& options) {
     const SharePoints points(*job.tiles, range, options.origin.at, options);
     add_share(points, range, execution, file);
     job.tiles->require_unchanged();
-    say_notes(*job.tiles);
+    report_notes(*job.tiles);
   } catch (const TileError& error) {
     complain(job.tiles->jobs()[error.tile()].input + ": " + error.what());
     return Status::failed;

@@ -61,9 +61,9 @@ void set_volume(std::size_t place, const EstimationResult& result, AnyVolume vol
 Status make_partial_file(const Job& job, const Options& options);
 
 /// Reports every excluded input. Returns Status::failed if there is one.
-Status say_what_is_left_out(const Tiles& tiles);
+Status report_excluded_inputs(const Tiles& tiles);
 
 /// Reports the notes of the other inputs.
-void say_notes(const Tiles& tiles);
+void report_notes(const Tiles& tiles);
 
 }  // namespace pcl_bv

@@ -26,7 +26,7 @@ class ShiftedPoints final : public PointSource {
 };
 
 /// Returns the centre of the points' box, rounded to whole numbers; 0 without a valid point.
-Eigen::Vector3d whole_origin(const PointView& points, const ParallelPolicy& policy);
+Eigen::Vector3d rounded_centre(const PointView& points, const ParallelPolicy& policy);
 
 /// Returns a copy of all points of a view without gaps, in the scalar type of the view.
 std::vector<std::byte> packed_copy(const PointView& points);

@@ -17,7 +17,7 @@ namespace pcl_bv {
 namespace {
 
 // Points between two calls of on_loaded.
-constexpr std::size_t kStep = std::size_t{1} << 22;
+constexpr std::size_t kMaxGrowth = std::size_t{1} << 22;
 
 bool is_file(const Job& job) {
   return !job.recording && !is_synth(job.input);
@@ -55,7 +55,7 @@ TileHeader describe_tile(const Job& job) {
   try {
     if (is_file(job) && !job.error) {
       const CloudHeader found = read_cloud_header(job.input, job.bin_fields);
-      header = {found.cloud.size(), found.scalar, found.by_position && found.cloud.size() > kChunkPoints};
+      header = {found.cloud.size(), found.scalar, found.random_access && found.cloud.size() > kChunkPoints};
       header.note = found.cloud.note;
     } else {
       const RawCloud cloud = load_cloud(job, Serial{});
@@ -94,7 +94,7 @@ std::size_t Tiles::used() const {
       std::count_if(headers_.begin(), headers_.end(), [](const TileHeader& h) { return !h.error; }));
 }
 
-void Tiles::leave_out(std::size_t tile, const std::string& reason) {
+void Tiles::exclude(std::size_t tile, const std::string& reason) {
   headers_[tile] = {};
   headers_[tile].error = reason;
   number_points();
@@ -115,7 +115,7 @@ std::size_t Tiles::share_begin(std::size_t number, std::size_t shares) const {
   const std::size_t point = all / shares * number + all % shares * number / shares;
   if (number == 0 || point >= all) return number == 0 ? 0 : all;
   const std::size_t tile = tile_of(point), begin = offsets_[tile], end = offsets_[tile + 1];
-  if (headers_[tile].by_position) return begin + (point - begin) / kChunkPoints * kChunkPoints;
+  if (headers_[tile].random_access) return begin + (point - begin) / kChunkPoints * kChunkPoints;
   return point - begin < end - point ? begin : end;
 }
 
@@ -136,7 +136,7 @@ Tiles::Opened Tiles::open_now(std::size_t tile) const {
   const Job& job = jobs_[tile];
   Opened opened;
   const Identity identity = identity_of(tile);
-  if (headers_[tile].by_position) opened.file = CloudFile::open(job.input, job.bin_fields);
+  if (headers_[tile].random_access) opened.file = CloudFile::open(job.input, job.bin_fields);
   if (!opened.file) opened.cloud = load_cloud(job, Serial{});
   opened.xyz = opened.file ? opened.file->xyz() : opened.cloud.xyz();
   const std::lock_guard lock(mutex_);
@@ -178,7 +178,7 @@ PointView Tiles::load(std::size_t first, std::size_t count, std::vector<std::byt
   count_loaded(count);
   std::size_t tile = tile_of(first);
   const bool whole = first + count <= offsets_[tile + 1];
-  if (whole && headers_[tile].by_position && headers_[tile].scalar == scalar_) {
+  if (whole && headers_[tile].random_access && headers_[tile].scalar == scalar_) {
     return of_tile(tile, [&] {
       PointView view = open(tile)->file->load(first - offsets_[tile], count, buffer);
       view.first = first;
@@ -202,7 +202,7 @@ PointView Tiles::load(std::size_t first, std::size_t count, std::vector<std::byt
 
 void Tiles::count_loaded(std::size_t points) const {
   const std::size_t before = loaded_.fetch_add(points, std::memory_order_relaxed);
-  if (on_loaded && before / kStep != (before + points) / kStep) on_loaded(before + points);
+  if (on_loaded && before / kMaxGrowth != (before + points) / kMaxGrowth) on_loaded(before + points);
 }
 
 void Tiles::require_unchanged() const {

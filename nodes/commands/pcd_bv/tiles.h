@@ -25,7 +25,7 @@ namespace pcl_bv {
 struct TileHeader {
   std::size_t points = 0;
   ScalarType scalar = ScalarType::float32;
-  bool by_position = false;            ///< Parts can be read by position (CloudHeader); not if small.
+  bool random_access = false;            ///< Parts can be read by position (CloudHeader); not if small.
   std::optional<std::string> error{};  ///< Why it is excluded; then it has no points.
   std::string note{};                  ///< As in RawCloud, as far as the header tells.
 };
@@ -55,7 +55,7 @@ class Tiles final : public PointSource {
   /// `threads` is the number of threads that load at the same time; it determines how many tiles stay open.
   Tiles(std::vector<Job> jobs, std::vector<TileHeader> headers, std::size_t threads);
 
-  /// Returns a view of all points. It is valid until leave_out() and while this object lives.
+  /// Returns a view of all points. It is valid until exclude() and while this object lives.
   PointView xyz() const { return view_of(*this, offsets_.back(), scalar_); }
 
   const std::vector<Job>& jobs() const { return jobs_; }
@@ -68,7 +68,7 @@ class Tiles final : public PointSource {
   std::string note(std::size_t tile) const;
 
   /// Excludes an input from the cloud. The points after it are renumbered.
-  void leave_out(std::size_t tile, const std::string& reason);
+  void exclude(std::size_t tile, const std::string& reason);
 
   /// Returns one of `shares` shares, which cover the cloud and have about as many points each. A share begins
   /// at a chunk of a file that can be read by position, or at the beginning of another input.

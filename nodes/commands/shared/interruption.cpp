@@ -36,34 +36,34 @@ bool is_ignored(int signal) {
 }  // namespace
 
 void Interruption::start() {
-  sigemptyset(&awaited_);
-  sigaddset(&awaited_, farewell());
+  sigemptyset(&handled_signals_);
+  sigaddset(&handled_signals_, farewell());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    if (!is_ignored(signal)) sigaddset(&awaited_, signal);
+    if (!is_ignored(signal)) sigaddset(&handled_signals_, signal);
   }
-  pthread_sigmask(SIG_BLOCK, &awaited_, &before_);
+  pthread_sigmask(SIG_BLOCK, &handled_signals_, &previous_mask_);
   watcher_ = std::thread([this] { watch(); });
 }
 
 Interruption::~Interruption() {
   pthread_kill(watcher_.native_handle(), farewell());
   watcher_.join();
-  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  pthread_sigmask(SIG_SETMASK, &previous_mask_, nullptr);
 }
 
 void Interruption::watch() const {
   int signal = 0;
-  sigwait(&awaited_, &signal);
+  sigwait(&handled_signals_, &signal);
   if (signal == farewell()) return;
-  told_ != nullptr ? void(*told_ = true) : begin_to_finish(signal);
+  stop_flag_ != nullptr ? void(*stop_flag_ = true) : start_finishing(signal);
   do {
-    sigwait(&awaited_, &signal);
-    if (signal == farewell() && told_ != nullptr) return;
-  } while (signal == farewell());  // begin_to_finish() ends the process
+    sigwait(&handled_signals_, &signal);
+    if (signal == farewell() && stop_flag_ != nullptr) return;
+  } while (signal == farewell());  // start_finishing() ends the process
   end_with(signal);
 }
 
-void Interruption::begin_to_finish(int signal) const {
+void Interruption::start_finishing(int signal) const {
   const auto finish = [this, signal] {
     try {
       finish_();

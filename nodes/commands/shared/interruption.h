@@ -23,7 +23,7 @@ namespace pcl_bv {
 class Interruption {
  public:
   explicit Interruption(std::function<void()> finish) : finish_(std::move(finish)) { start(); }
-  explicit Interruption(std::atomic<bool>& told) : told_(&told) { start(); }
+  explicit Interruption(std::atomic<bool>& told) : stop_flag_(&told) { start(); }
 
   /// Does not return if a signal has started `finish`: the process ends while it waits.
   ~Interruption();
@@ -33,11 +33,11 @@ class Interruption {
  private:
   void start();
   void watch() const;
-  void begin_to_finish(int signal) const;
+  void start_finishing(int signal) const;
 
   std::function<void()> finish_;
-  std::atomic<bool>* told_ = nullptr;
-  sigset_t before_, awaited_;
+  std::atomic<bool>* stop_flag_ = nullptr;
+  sigset_t previous_mask_, handled_signals_;
   std::thread watcher_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 std::mutex mutex;
 std::string command;
 std::string shown;  // the status line, if there is one
-thread_local HeldComplaints* holder = nullptr;
+thread_local DeferredMessages* holder = nullptr;
 
 // Errors are ignored, since there is no other place to report them.
 void write_error(std::string_view text) {
@@ -57,16 +57,16 @@ void complain(std::string_view problem) {
   holder != nullptr ? void(holder->kept.emplace_back(problem)) : say(problem);
 }
 
-void say_what_is_skipped(const std::string& folder, std::size_t subfolders) {
+void warn_of_subfolders(const std::string& folder, std::size_t subfolders) {
   if (subfolders == 1) complain(folder + ": 1 subfolder is not read");
   if (subfolders > 1) complain(folder + ": " + std::to_string(subfolders) + " subfolders are not read");
 }
 
-HeldComplaints::HeldComplaints() {
+DeferredMessages::DeferredMessages() {
   holder = this;
 }
 
-HeldComplaints::~HeldComplaints() {
+DeferredMessages::~DeferredMessages() {
   holder = nullptr;
 }
 

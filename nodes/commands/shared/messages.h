@@ -17,20 +17,20 @@ void name_command(std::string_view command);
 /// characters become question marks, so that a file name can neither break the line nor control a terminal.
 void say(std::string_view text);
 
-/// Prints a problem as say() does, or stores it while the thread has a HeldComplaints.
+/// Prints a problem as say() does, or stores it while the thread has a DeferredMessages.
 void complain(std::string_view problem);
 
 /// Warns that subfolders of a folder are not read, if there are any.
-void say_what_is_skipped(const std::string& folder, std::size_t subfolders);
+void warn_of_subfolders(const std::string& folder, std::size_t subfolders);
 
 /// While this object lives, complaints of its thread are stored in `kept`, to be printed later. Must not be
 /// nested.
-class HeldComplaints {
+class DeferredMessages {
  public:
-  HeldComplaints();
-  ~HeldComplaints();
-  HeldComplaints(const HeldComplaints&) = delete;
-  HeldComplaints& operator=(const HeldComplaints&) = delete;
+  DeferredMessages();
+  ~DeferredMessages();
+  DeferredMessages(const DeferredMessages&) = delete;
+  DeferredMessages& operator=(const DeferredMessages&) = delete;
 
   std::vector<std::string> kept;
 };

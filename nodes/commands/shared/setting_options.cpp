@@ -110,7 +110,7 @@ void SettingOptions::apply(StreamConfig& config) const {
                  [&](const std::string& text) { read_setting(setting, text, value); });
     }
     if constexpr (std::is_same_v<decltype(value), std::vector<std::string>&>) keep_first_mentions(value);
-    const std::string problem = problem_of(setting, value);
+    const std::string problem = exception_message(setting, value);
     if (!problem.empty()) throw UsageError(std::string(setting.option) + ": " + problem);
   };
   visit_stream(config, read);
@@ -128,7 +128,7 @@ void SettingOptions::apply(StreamConfig& config) const {
   if (line_.given("--range")) std::tie(filter.range_min, filter.range_max) = parse_range(range_);
 }
 
-void SettingOptions::refuse_useless(const PipelineConfig& config) const {
+void SettingOptions::reject_useless(const PipelineConfig& config) const {
   const auto refuse = [&](const char* option, bool useful, const char* needed) {
     if (line_.given(option) && !useful)
       throw UsageError(std::string(option) + ": only useful with " + needed);
@@ -159,10 +159,10 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
   }
   apply(config);
   if (range_from != nullptr) *range_from = line_.given("--range") ? "--range" : from;
-  refuse_useless(config.pipeline);
+  reject_useless(config.pipeline);
   const std::vector<std::string> problems = config.validate();
   if (!problems.empty()) throw UsageError(problems.front());
-  for (const std::string& line : config.pipeline.without_effect())
+  for (const std::string& line : config.pipeline.ineffective_settings())
     complain(with_options(line));
   return config;
 }

@@ -34,7 +34,7 @@ class SettingOptions {
 
  private:
   void apply(StreamConfig& config) const;
-  void refuse_useless(const PipelineConfig& config) const;
+  void reject_useless(const PipelineConfig& config) const;
 
   CommandLine& line_;
   const StreamConfig defaults_;

@@ -7,7 +7,7 @@
 
 namespace pcl_bv {
 
-void refuse_value(std::string_view option, std::string_view text, const std::string& what) {
+void reject_value(std::string_view option, std::string_view text, const std::string& what) {
   throw UsageError(std::string(option) + ": '" + std::string(text) + "' " + what);
 }
 
@@ -17,7 +17,7 @@ std::size_t parse_whole_number(std::string_view option, std::string_view text, s
   if (read_whole_text(text, value) && value >= min && value <= max) return value;
   std::string range = "is not a whole number of at least " + std::to_string(min);
   if (max != std::numeric_limits<std::size_t>::max()) range += " and at most " + std::to_string(max);
-  refuse_value(option, text, range);
+  reject_value(option, text, range);
 }
 
 std::pair<double, double> parse_range(std::string_view text) {
@@ -27,7 +27,7 @@ std::pair<double, double> parse_range(std::string_view text) {
       read_whole_text(text.substr(colon + 1), max) && min >= 0 && min <= max) {
     return {min, max};
   }
-  refuse_value("--range", text, "is not MIN:MAX with 0 <= MIN <= MAX");
+  reject_value("--range", text, "is not MIN:MAX with 0 <= MIN <= MAX");
 }
 
 std::size_t parse_bin_fields(std::string_view text) {

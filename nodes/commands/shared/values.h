@@ -20,7 +20,7 @@ class UsageError : public std::runtime_error {
 };
 
 /// Throws a UsageError such as "--rate: 'fast' is not a rate"; `what` is the part after the text.
-[[noreturn]] void refuse_value(std::string_view option, std::string_view text, const std::string& what);
+[[noreturn]] void reject_value(std::string_view option, std::string_view text, const std::string& what);
 
 /// Returns parse(text). A std::invalid_argument becomes a UsageError that names the option.
 template <typename Text, typename Parse>

@@ -78,13 +78,13 @@ void write_sequence(const StreetSequenceSpec& spec, const std::filesystem::path&
   }
 }
 
-void write_sequence(const VergesSequenceSpec& spec, const std::filesystem::path& folder) {
+void write_sequence(const RuralRoadSequenceSpec& spec, const std::filesystem::path& folder) {
   naming(folder, [&] { std::filesystem::create_directories(folder); });
   std::string poses, truth;
   for (std::size_t number = 0; number < spec.frames; ++number) {
     const std::filesystem::path path = folder / frame_name(number);
     naming(path, [&] {
-      const VergesFrame frame = make_verges_frame(spec.options, number);
+      const RuralRoadFrame frame = make_rural_road_frame(spec.options, number);
       write_pcd(path, to_raw_cloud(frame.cloud));
       poses += pose_line(frame);
       truth += truth_line(frame, number);
@@ -97,8 +97,8 @@ void write_sequence(const VergesSequenceSpec& spec, const std::filesystem::path&
 void write_scene(const std::string& scene, const std::filesystem::path& output) {
   if (scene.substr(0, scene.find(':')) == sequence_name) {
     write_sequence(parse_street_sequence(scene), output);
-  } else if (is_verges_sequence(scene)) {
-    write_sequence(parse_verges_sequence(scene), output);
+  } else if (is_rural_road_sequence(scene)) {
+    write_sequence(parse_rural_road_sequence(scene), output);
   } else {
     const SynthSpec spec = parse_synth(scene);
     naming(output, [&] {

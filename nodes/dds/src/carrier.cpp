@@ -16,7 +16,7 @@
 namespace pcl_bv::dds {
 namespace {
 
-constexpr dds_duration_t kPatience = DDS_MSECS(10);
+constexpr dds_duration_t kPollInterval = DDS_MSECS(10);
 
 // RIHS01 hash of a type's definition (REP 2011), by which rosbag2 and `ros2 topic info` of Iron and later
 // identify the type. Hashes of the definitions of Humble and later. Empty for other types.
@@ -32,7 +32,7 @@ std::string_view hash_of(const std::string& type) {
 
 Qos writer_qos(const std::string& type) {
   Qos qos = make_qos();
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kPatience);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kPollInterval);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 5);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   if (const std::string_view hash = hash_of(type); !hash.empty()) {
@@ -42,7 +42,7 @@ Qos writer_qos(const std::string& type) {
   return qos;
 }
 
-class Carrier final : public MessageCarrier {
+class Carrier final : public MessageSender {
  public:
   std::size_t add_topic(const MessageTopic& added) override {
     const auto& [name, type, encoding] = added;
@@ -78,7 +78,7 @@ class Carrier final : public MessageCarrier {
     }
   }
 
-  std::vector<std::string> take_remarks() override {
+  std::vector<std::string> take_warnings() override {
     std::vector<std::string> all = participant_->take_log();
     for (Topic& topic : topics_) {
       if (topic.late > 0)
@@ -110,7 +110,7 @@ class Carrier final : public MessageCarrier {
 
 }  // namespace
 
-std::unique_ptr<MessageCarrier> make_carrier() {
+std::unique_ptr<MessageSender> make_sender() {
   return std::make_unique<Carrier>();
 }
 

@@ -13,6 +13,6 @@ namespace pcl_bv::dds {
 
 /// The implementations of Middleware::receiver() and Middleware::carrier().
 std::unique_ptr<MessageReceiver> make_receiver(const std::string& topic, const std::string& type);
-std::unique_ptr<MessageCarrier> make_carrier();
+std::unique_ptr<MessageSender> make_sender();
 
 }  // namespace pcl_bv::dds

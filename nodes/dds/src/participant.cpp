@@ -18,7 +18,7 @@ namespace {
 // Socket buffer: with the default of 212 kB, hundreds of clouds of some megabytes are lost. Watermark: a
 // stuck reader must not block its writer. With 256 MB, the writer stores unacknowledged messages (five per
 // topic) and goes on; with the default of 500 kB it would wait for the reader.
-constexpr const char* kBuffers =
+constexpr const char* kBufferConfig =
     "<Internal><SocketReceiveBufferSize "
     "max=\"8MB\"/><Watermarks><WhcHigh>256MB</WhcHigh></Watermarks></Internal>";
 
@@ -75,7 +75,7 @@ std::string profile() {
         "<Peers>" +
         peers + "</Peers></Discovery>";
   }
-  return "<General>" + general + "</General>" + discovery + kBuffers;
+  return "<General>" + general + "</General>" + discovery + kBufferConfig;
 }
 
 bool is_word(std::string_view word) {

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr long kWantedBuffer = 8 << 20;
+constexpr long kMinReceiveBuffer = 8 << 20;
 
 struct Loan {
   void operator()(ddsi_serdata* sample) const { ddsi_serdata_unref(sample); }
@@ -30,15 +30,15 @@ Qos reader_qos() {
   return qos;
 }
 
-// Returns a warning if Linux limits a socket's receive buffer (rmem_max) to less than kWantedBuffer,
+// Returns a warning if Linux limits a socket's receive buffer (rmem_max) to less than kMinReceiveBuffer,
 // otherwise "".
-std::string small_buffers() {
-  long most = kWantedBuffer;
+std::string receive_buffer_warning() {
+  long most = kMinReceiveBuffer;
   std::ifstream("/proc/sys/net/core/rmem_max") >> most;
-  if (most >= kWantedBuffer) return "";
+  if (most >= kMinReceiveBuffer) return "";
   return "the kernel's receive buffers are small (" + std::to_string(most) +
          " bytes), large clouds may be lost: sudo sysctl -w net.core.rmem_max=" +
-         std::to_string(kWantedBuffer);
+         std::to_string(kMinReceiveBuffer);
 }
 
 class Receiver final : public MessageReceiver {
@@ -49,13 +49,13 @@ class Receiver final : public MessageReceiver {
         participant_(Participant::shared()),
         topic_(create_cdr_topic(participant_->get(), name_, type_), topic),
         reader_(dds_create_reader(participant_->get(), topic_.get(), reader_qos().get(), nullptr), topic),
-        ready_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), topic),
+        read_condition_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), topic),
         publications_(
             dds_create_reader(participant_->get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
             topic),
-        waits_(dds_create_waitset(participant_->get()), topic) {
-    dds_waitset_attach(waits_.get(), ready_.get(), 0);
-    if (std::string remark = small_buffers(); !remark.empty()) remarks_.push_back(std::move(remark));
+        waitset_(dds_create_waitset(participant_->get()), topic) {
+    dds_waitset_attach(waitset_.get(), read_condition_.get(), 0);
+    if (std::string remark = receive_buffer_warning(); !remark.empty()) pending_warnings_.push_back(std::move(remark));
   }
 
   bool next(ReceivedMessage& message, std::chrono::milliseconds patience) override {
@@ -63,17 +63,17 @@ class Receiver final : public MessageReceiver {
     do {
       if (take(message)) return true;
       const auto left = std::max(until - Clock::now(), Clock::duration(0));
-      dds_waitset_wait(waits_.get(), nullptr, 0, std::chrono::nanoseconds(left).count());
+      dds_waitset_wait(waitset_.get(), nullptr, 0, std::chrono::nanoseconds(left).count());
     } while (Clock::now() < until);
     return take(message);
   }
 
-  std::vector<std::string> take_remarks() override {
-    std::vector<std::string> all = std::exchange(remarks_, {});
+  std::vector<std::string> take_warnings() override {
+    std::vector<std::string> all = std::exchange(pending_warnings_, {});
     for (std::string& line : participant_->take_log())
       all.push_back(std::move(line));
-    note_losses(all);
-    if (Clock::now() >= look_again_) note_others(all);
+    report_losses(all);
+    if (Clock::now() >= next_check_) report_mismatched_publishers(all);
     return all;
   }
 
@@ -92,7 +92,7 @@ class Receiver final : public MessageReceiver {
   }
 
   // Reports messages lost because of missing fragments or an overloaded network.
-  void note_losses(std::vector<std::string>& all) {
+  void report_losses(std::vector<std::string>& all) {
     dds_sample_lost_status_t lost{};
     if (dds_get_sample_lost_status(reader_.get(), &lost) < 0 || lost.total_count_change == 0) return;
     all.push_back(std::to_string(lost.total_count_change) + " lost on the way, " +
@@ -100,15 +100,15 @@ class Receiver final : public MessageReceiver {
   }
 
   // Reports publishers on this topic with another type or with incompatible QoS.
-  void note_others(std::vector<std::string>& all) {
-    look_again_ = Clock::now() + std::chrono::seconds(1);
+  void report_mismatched_publishers(std::vector<std::string>& all) {
+    next_check_ = Clock::now() + std::chrono::seconds(1);
     void* samples[32] = {};
     dds_sample_info_t infos[32];
     const dds_return_t count = dds_take(publications_.get(), samples, infos, 32, 32);
     for (dds_return_t i = 0; i < count; ++i) {
       const auto& writer = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
       if (!infos[i].valid_data || name_ != writer.topic_name || type_ == writer.type_name) continue;
-      if (others_.insert(writer.type_name).second)
+      if (mismatched_types_.insert(writer.type_name).second)
         all.push_back("published as " + ros_type(writer.type_name) + ", which is not read: only " +
                       ros_type(type_) + " is");
     }
@@ -121,10 +121,10 @@ class Receiver final : public MessageReceiver {
 
   std::string type_, name_;
   std::shared_ptr<Participant> participant_;
-  Entity topic_, reader_, ready_, publications_, waits_;
-  std::vector<std::string> remarks_;
-  std::set<std::string> others_;
-  Clock::time_point look_again_{};
+  Entity topic_, reader_, read_condition_, publications_, waitset_;
+  std::vector<std::string> pending_warnings_;
+  std::set<std::string> mismatched_types_;
+  Clock::time_point next_check_{};
 };
 
 }  // namespace

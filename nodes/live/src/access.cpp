@@ -31,7 +31,7 @@ std::optional<boost::asio::ip::address> address_of(std::string_view host) {
   return address;
 }
 
-bool is_this_machine(std::string_view host) {
+bool is_loopback_host(std::string_view host) {
   const auto address = address_of(host);
   return host == "localhost" || (address && address->is_loopback());
 }
@@ -49,7 +49,7 @@ Address parse_address(const std::string& text) {
   return address;
 }
 
-bool is_our_host(std::string_view header, const Address& server) {
+bool is_server_host(std::string_view header, const Address& server) {
   const std::string_view host = without_port(header);
   std::array<char, 256> name{};
   const bool named = gethostname(name.data(), name.size() - 1) == 0;
@@ -62,7 +62,7 @@ bool may_connect(std::string_view origin, std::string_view host_header) {
   const std::size_t scheme = origin.find("://");
   if (scheme == std::string_view::npos) return false;  // "null": opaque origin, such as a sandboxed page
   const std::string_view from = origin.substr(scheme + 3);
-  return from == host_header || is_this_machine(without_port(from));
+  return from == host_header || is_loopback_host(without_port(from));
 }
 
 }  // namespace pcl_bv::live

@@ -24,7 +24,7 @@ Address parse_address(const std::string& text);
 /// localhost, this machine's name (also with ".local") or the host that the server was started with. Other
 /// names are refused because of DNS rebinding: a foreign name that resolves to this machine makes a browser
 /// treat the foreign page and this server as one site.
-bool is_our_host(std::string_view header, const Address& server);
+bool is_server_host(std::string_view header, const Address& server);
 
 /// Returns whether a page of this origin may connect: the server's own page, a page of this machine, a local
 /// file or Foxglove's page. An empty origin may connect: programs that are not browsers send none.

@@ -13,7 +13,7 @@ namespace pcl_bv::live {
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  static constexpr int kMostConnections = 64;  ///< Viewers not included.
+  static constexpr int kMaxConnections = 64;  ///< Viewers not included.
 
   Connection(boost::asio::ip::tcp::socket&& socket, Hub& hub, const Address& server, int& open);
   ~Connection();

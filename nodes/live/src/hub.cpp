@@ -33,12 +33,12 @@ void Hub::publish(std::size_t channel, std::int64_t stamp_ns, const Bytes& messa
 
 void Hub::notice(const std::string& line) {
   const auto now = std::chrono::steady_clock::now();
-  if (now - noticed_ < std::chrono::seconds(1)) {
-    ++unsaid_;
+  if (now - last_notice_time_ < std::chrono::seconds(1)) {
+    ++skipped_notices_;
     return;
   }
-  noticed_ = now;
-  const std::uint64_t others = std::exchange(unsaid_, 0);
+  last_notice_time_ = now;
+  const std::uint64_t others = std::exchange(skipped_notices_, 0);
   const std::string text =
       status(Level::warning, others == 0 ? line : line + "; " + std::to_string(others) + " more before");
   for (const auto& viewer : viewers_)
@@ -47,15 +47,15 @@ void Hub::notice(const std::string& line) {
 
 void Hub::offer(std::shared_ptr<RemoteSettings> settings) {
   settings_ = std::move(settings);
-  tell_settings();
+  send_settings();
 }
 
-void Hub::tell_settings() {
+void Hub::send_settings() {
   if (settings_ == nullptr) return;
   std::string values = settings_->values();
-  if (values == told_) return;
-  told_ = std::move(values);
-  const std::string text = parameter_values(told_, {}, "");
+  if (values == sent_values_) return;
+  sent_values_ = std::move(values);
+  const std::string text = parameter_values(sent_values_, {}, "");
   for (const auto& viewer : viewers_)
     if (viewer->watches_settings()) viewer->tell(text);
 }
@@ -82,13 +82,13 @@ void Hub::finish() {
 void Hub::change(Viewer& viewer, const SetParameters& wanted) {
   if (!changes_.allows(1)) {
     return viewer.tell(status(Level::error, "settings are changed at most " +
-                                                std::to_string(kMostChangesASecond) + " times a second"));
+                                                std::to_string(kMaxChangesPerSecond) + " times a second"));
   }
   const std::string problem =
       settings_ == nullptr ? "there are no settings" : settings_->change(wanted.object);
   if (!problem.empty()) viewer.tell(status(Level::error, problem));
   if (settings_ == nullptr) return;
-  tell_settings();
+  send_settings();
   if (!wanted.id.empty() || !problem.empty())
     viewer.tell(parameter_values(settings_->values(), wanted.names, wanted.id));
 }
@@ -113,10 +113,10 @@ void Hub::handle(Viewer& viewer, const Request& request) {
 
 void Hub::remark(const std::string& line) {
   const std::lock_guard lock(mutex_);
-  if (std::exchange(last_remark_, line) != line && remarks_.size() < kMostRemarks) remarks_.push_back(line);
+  if (std::exchange(last_warning_, line) != line && remarks_.size() < kMaxStoredWarnings) remarks_.push_back(line);
 }
 
-std::vector<std::string> Hub::take_remarks() {
+std::vector<std::string> Hub::take_warnings() {
   const std::lock_guard lock(mutex_);
   return std::exchange(remarks_, {});
 }

@@ -50,9 +50,9 @@ class RateLimit {
 /// Used only by the server's thread, except where a member function says otherwise.
 class Hub {
  public:
-  static constexpr std::size_t kMostChangesASecond =
+  static constexpr std::size_t kMaxChangesPerSecond =
       50;                                          ///< Of settings, by all viewers together; up to 1 ms each.
-  static constexpr std::size_t kMostRemarks = 10;  ///< Maximum number of warnings stored for take_remarks().
+  static constexpr std::size_t kMaxStoredWarnings = 10;  ///< Maximum number of warnings stored for take_warnings().
 
   explicit Hub(std::string session) : session_(std::move(session)) {}
 
@@ -67,7 +67,7 @@ class Hub {
 
   /// Sends the values of the settings to the viewers that watch them, if the values have changed since the
   /// last time.
-  void tell_settings();
+  void send_settings();
 
   /// Returns RemoteSettings::description(), or "[]" if there are no settings.
   std::string description() const;
@@ -80,9 +80,9 @@ class Hub {
   /// Closes the connections of all viewers after sending their queued messages.
   void finish();
 
-  /// Stores a warning for take_remarks(), unless it equals the previous one. Any thread may call these two.
+  /// Stores a warning for take_warnings(), unless it equals the previous one. Any thread may call these two.
   void remark(const std::string& line);
-  std::vector<std::string> take_remarks();
+  std::vector<std::string> take_warnings();
 
   const std::vector<std::shared_ptr<Channel>>& channels() const { return channels_; }
 
@@ -94,14 +94,14 @@ class Hub {
   std::vector<std::shared_ptr<Channel>> channels_;
   std::set<std::shared_ptr<Viewer>> viewers_;
   std::shared_ptr<RemoteSettings> settings_;
-  std::string told_;
+  std::string sent_values_;
   std::int64_t last_time_ns_ = INT64_MIN;
-  std::chrono::steady_clock::time_point noticed_{};
-  std::uint64_t unsaid_ = 0;
-  RateLimit changes_{kMostChangesASecond};
+  std::chrono::steady_clock::time_point last_notice_time_{};
+  std::uint64_t skipped_notices_ = 0;
+  RateLimit changes_{kMaxChangesPerSecond};
   std::mutex mutex_;
   std::vector<std::string> remarks_;
-  std::string last_remark_;
+  std::string last_warning_;
 };
 
 }  // namespace pcl_bv::live

@@ -12,7 +12,7 @@ class WebSockets final : public Middleware {
   std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string&) override {
     throw std::invalid_argument(in_quotes(topic) + ": nothing is received from viewers");
   }
-  std::unique_ptr<MessageCarrier> carrier(const std::string& place) override {
+  std::unique_ptr<MessageSender> carrier(const std::string& place) override {
     return std::make_unique<Server>(place);
   }
 };

@@ -30,19 +30,19 @@ std::string text_of(const AnyJson& json) {
 
 using FromClient = JsonFromOutside;
 
-struct TooMuch {
+struct LimitExceeded {
   const char* why;
 };
 
 const FromClient& list_of(const FromClient& request, const char* key) {
   const FromClient& list = request.at(key);
-  if (list.size() > kMaxNames) throw TooMuch{"a request names at most 100 things"};
+  if (list.size() > kMaxNames) throw LimitExceeded{"a request names at most 100 things"};
   return list;
 }
 
 std::string id_of(const FromClient& request) {
   std::string id = request.value("id", "");
-  if (id.size() > kMaxIdLength) throw TooMuch{"an id has at most 200 bytes"};
+  if (id.size() > kMaxIdLength) throw LimitExceeded{"an id has at most 200 bytes"};
   return id;
 }
 
@@ -149,8 +149,8 @@ std::string parameter_values(const std::string& settings, const std::vector<std:
   return text_of(json);
 }
 
-MessageHead message_head(std::uint32_t subscription, std::int64_t stamp_ns) {
-  MessageHead head{1};
+MessageHeader message_header(std::uint32_t subscription, std::int64_t stamp_ns) {
+  MessageHeader head{1};
   for (std::size_t i = 0; i < 4; ++i)
     head[1 + i] = static_cast<unsigned char>(subscription >> (8 * i));
   for (std::size_t i = 0; i < 8; ++i)
@@ -159,7 +159,7 @@ MessageHead message_head(std::uint32_t subscription, std::int64_t stamp_ns) {
 }
 
 std::string time_message(std::int64_t stamp_ns) {
-  const MessageHead head = message_head(0, stamp_ns);
+  const MessageHeader head = message_header(0, stamp_ns);
   return '\2' + std::string(head.begin() + 5, head.end());
 }
 
@@ -170,7 +170,7 @@ Request parse_request(const std::string& text) {
     return request_of(request);
   } catch (const IoError& error) {
     return Unknown{std::string("a request is an object of JSON: ") + error.what()};
-  } catch (const TooMuch& error) {
+  } catch (const LimitExceeded& error) {
     return Unknown{error.why};
   } catch (const FromClient::exception&) {
     return Unknown{"a request lacks a field, or has one of another type"};

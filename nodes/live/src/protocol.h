@@ -35,8 +35,8 @@ std::string parameter_values(const std::string& settings, const std::vector<std:
                              const std::string& id);
 
 /// The header before a message's bytes: opcode, subscription id and stamp.
-using MessageHead = std::array<unsigned char, 13>;
-MessageHead message_head(std::uint32_t subscription, std::int64_t stamp_ns);
+using MessageHeader = std::array<unsigned char, 13>;
+MessageHeader message_header(std::uint32_t subscription, std::int64_t stamp_ns);
 
 std::string time_message(std::int64_t stamp_ns);
 

@@ -70,7 +70,7 @@ void Server::listen() {
 void Server::accept() {
   acceptor_.async_accept([this](const Error& error, tcp::socket socket) {
     if (!acceptor_.is_open()) return;
-    if (!error && connections_ < Connection::kMostConnections)
+    if (!error && connections_ < Connection::kMaxConnections)
       std::make_shared<Connection>(std::move(socket), hub_, address_, connections_)->start();
     if (!error) return accept();
     // Usually out of file descriptors: keep the existing connections and accept again after 100 ms.
@@ -82,7 +82,7 @@ void Server::accept() {
 }
 
 template <class Do>
-void Server::in_its_thread(Do&& what) {
+void Server::post_to_server_thread(Do&& what) {
   boost::asio::post(io_, std::forward<Do>(what));
 }
 
@@ -90,7 +90,7 @@ std::size_t Server::add_topic(const MessageTopic& topic) {
   const auto channel = std::make_shared<Channel>();
   channel->topic = topic;
   channels_.push_back(channel);
-  in_its_thread([this, channel] { hub_.add(channel); });
+  post_to_server_thread([this, channel] { hub_.add(channel); });
   return channels_.size() - 1;
 }
 
@@ -100,13 +100,13 @@ bool Server::wanted(std::size_t topic) const {
 
 void Server::send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) {
   if (!wanted(topic)) return;
-  if (waiting_bytes_ > 0 && waiting_bytes_ + message.size() > Viewer::kMostWaitingBytes) {
+  if (waiting_bytes_ > 0 && waiting_bytes_ + message.size() > Viewer::kMaxQueuedBytes) {
     ++lost_;
     return;
   }
   waiting_bytes_ += message.size();
   const Bytes copy = std::make_shared<const std::vector<std::byte>>(message);
-  in_its_thread([this, topic, stamp_ns, copy] {
+  post_to_server_thread([this, topic, stamp_ns, copy] {
     waiting_bytes_ -= copy->size();
     if (const std::uint64_t lost = lost_.exchange(0); lost > 0)
       hub_.notice(std::to_string(lost) + " messages were dropped: the server was busy");
@@ -115,24 +115,24 @@ void Server::send(std::size_t topic, std::int64_t stamp_ns, const std::vector<st
 }
 
 void Server::settings(const std::string&, std::int64_t) {
-  in_its_thread([this] { hub_.tell_settings(); });
+  post_to_server_thread([this] { hub_.send_settings(); });
 }
 
 void Server::offer(const std::shared_ptr<RemoteSettings>& settings) {
-  in_its_thread([this, settings] { hub_.offer(settings); });
+  post_to_server_thread([this, settings] { hub_.offer(settings); });
 }
 
 void Server::notice(const std::string& line) {
-  in_its_thread([this, line] { hub_.notice(line); });
+  post_to_server_thread([this, line] { hub_.notice(line); });
 }
 
-std::vector<std::string> Server::take_remarks() {
-  return hub_.take_remarks();
+std::vector<std::string> Server::take_warnings() {
+  return hub_.take_warnings();
 }
 
 void Server::close() {
   if (!thread_.joinable()) return;
-  in_its_thread([this] {
+  post_to_server_thread([this] {
     acceptor_.close();
     hub_.finish();
     work_.reset();

@@ -19,7 +19,7 @@
 namespace pcl_bv::live {
 
 /// Serves all viewers on one port in a thread of its own, so that send() never waits for a viewer.
-class Server final : public MessageCarrier {
+class Server final : public MessageSender {
  public:
   /// Listens at `place`, [HOST:]PORT. Throws std::invalid_argument as parse_address() does, IoError if the
   /// port cannot be opened.
@@ -34,14 +34,14 @@ class Server final : public MessageCarrier {
   void settings(const std::string& yaml, std::int64_t stamp_ns) override;
   void offer(const std::shared_ptr<RemoteSettings>& settings) override;
   void notice(const std::string& line) override;
-  std::vector<std::string> take_remarks() override;
+  std::vector<std::string> take_warnings() override;
   void close() override;
 
  private:
   void listen();
   void accept();
   template <class Do>
-  void in_its_thread(Do&& what);
+  void post_to_server_thread(Do&& what);
 
   Address address_;
   boost::asio::io_context io_{1};

@@ -19,7 +19,7 @@ void Viewer::start(const HttpRequest& request, const std::string& subprotocol) {
   ws_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
     response.set(boost::beast::http::field::sec_websocket_protocol, subprotocol);
   }));
-  ws_.read_message_max(kLongestRequest);
+  ws_.read_message_max(kMaxRequestBytes);
   ws_.auto_fragment(false);
   ws_.async_accept(request, [self = shared_from_this()](const Error& error) {
     if (error) return;
@@ -46,14 +46,14 @@ void Viewer::on_request() {
 }
 
 void Viewer::tell(const std::string& text) {
-  if (waiting_answers_ >= kMostWaitingAnswers) return end();
+  if (queued_answers_ >= kMaxQueuedAnswers) return end();
   put({text, nullptr, true, true});
 }
 
 void Viewer::send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message) {
   const auto found = subscriptions_.find(channel);
   if (found == subscriptions_.end()) return;
-  const MessageHead head = message_head(found->second, stamp_ns);
+  const MessageHeader head = message_header(found->second, stamp_ns);
   put({std::string(head.begin(), head.end()), message, false, false});
 }
 
@@ -66,13 +66,13 @@ void Viewer::subscribe(std::uint32_t subscription, std::size_t channel) {
     return tell(status(Level::error, "there is no channel " + std::to_string(channel)));
   if (!subscriptions_.emplace(channel, subscription).second)
     return tell(status(Level::error, "channel " + std::to_string(channel) + " is subscribed already"));
-  hub_.channels()[channel]->readers += counts_;
+  hub_.channels()[channel]->readers += counted_as_reader_;
 }
 
 void Viewer::unsubscribe(std::uint32_t subscription) {
   for (auto it = subscriptions_.begin(); it != subscriptions_.end(); ++it) {
     if (it->second != subscription) continue;
-    hub_.channels()[it->first]->readers -= counts_;
+    hub_.channels()[it->first]->readers -= counted_as_reader_;
     subscriptions_.erase(it);
     return;
   }
@@ -81,36 +81,36 @@ void Viewer::unsubscribe(std::uint32_t subscription) {
 
 void Viewer::put(Outgoing outgoing) {
   if (!open_ || closing_) return;
-  if (!outgoing.is_answer && waiting_bytes_ + outgoing.size() > kMostWaitingBytes) make_room();
-  waiting_bytes_ += outgoing.size();
-  waiting_answers_ += outgoing.is_answer;
-  waiting_.push_back(std::move(outgoing));
+  if (!outgoing.is_answer && queued_bytes_ + outgoing.size() > kMaxQueuedBytes) drop_queued_messages();
+  queued_bytes_ += outgoing.size();
+  queued_answers_ += outgoing.is_answer;
+  send_queue_.push_back(std::move(outgoing));
   write();
 }
 
-void Viewer::make_room() {
-  const auto first = waiting_.begin() + (writing_ ? 1 : 0);
+void Viewer::drop_queued_messages() {
+  const auto first = send_queue_.begin() + (writing_ ? 1 : 0);
   const auto dropped = [this](const Outgoing& outgoing) {
     if (outgoing.is_answer) return false;
-    waiting_bytes_ -= outgoing.size();
+    queued_bytes_ -= outgoing.size();
     dropped_ += outgoing.message != nullptr;
     return true;
   };
-  waiting_.erase(std::remove_if(first, waiting_.end(), dropped), waiting_.end());
+  send_queue_.erase(std::remove_if(first, send_queue_.end(), dropped), send_queue_.end());
   count_as_reader(false);
 }
 
 void Viewer::count_as_reader(bool reads) {
-  const int change = reads - counts_;
-  counts_ = reads;
+  const int change = reads - counted_as_reader_;
+  counted_as_reader_ = reads;
   for (const auto& [channel, subscription] : subscriptions_)
     hub_.channels()[channel]->readers += change;
 }
 
 void Viewer::write() {
-  if (writing_ || waiting_.empty()) return;
+  if (writing_ || send_queue_.empty()) return;
   writing_ = true;
-  const Outgoing& next = waiting_.front();
+  const Outgoing& next = send_queue_.front();
   ws_.text(next.is_text);
   std::array<asio::const_buffer, 2> parts{asio::buffer(next.text)};
   if (next.message != nullptr) parts[1] = {next.message->data(), next.message->size()};
@@ -121,21 +121,21 @@ void Viewer::write() {
 void Viewer::on_written(const Error& error) {
   writing_ = false;
   if (error) return end();
-  waiting_bytes_ -= waiting_.front().size();
-  waiting_answers_ -= waiting_.front().is_answer;
-  waiting_.pop_front();
+  queued_bytes_ -= send_queue_.front().size();
+  queued_answers_ -= send_queue_.front().is_answer;
+  send_queue_.pop_front();
   count_as_reader(true);
   if (dropped_ > 0) {
     tell(status(Level::warning, std::to_string(std::exchange(dropped_, 0)) +
                                     " messages were dropped: this client reads too slowly"));
   }
-  if (waiting_.empty() && finishing_) return close(websocket::close_code::going_away);
+  if (send_queue_.empty() && finishing_) return close(websocket::close_code::going_away);
   write();
 }
 
 void Viewer::finish() {
   finishing_ = true;
-  if (waiting_.empty()) close(websocket::close_code::going_away);
+  if (send_queue_.empty()) close(websocket::close_code::going_away);
 }
 
 void Viewer::close(websocket::close_code code) {

@@ -20,25 +20,25 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
 class Viewer : public std::enable_shared_from_this<Viewer> {
  public:
-  static constexpr std::size_t kMostViewers = 32;
-  static constexpr std::size_t kMostWaitingBytes = std::size_t{32}
+  static constexpr std::size_t kMaxViewers = 32;
+  static constexpr std::size_t kMaxQueuedBytes = std::size_t{32}
                                                    << 20;  ///< In the queue: 16 clouds of 2 MB.
-  static constexpr std::size_t kMostWaitingAnswers = 256;
+  static constexpr std::size_t kMaxQueuedAnswers = 256;
   /// Limits on a client's requests: parsing the requests of one second delays other clients by some
   /// milliseconds. A request with 30 settings has 2 kB.
-  static constexpr std::size_t kLongestRequest = std::size_t{64} << 10;
-  static constexpr std::size_t kMostRequestBytesASecond = 4 * kLongestRequest;
-  static constexpr std::size_t kMostRequestsASecond = 200;
+  static constexpr std::size_t kMaxRequestBytes = std::size_t{64} << 10;
+  static constexpr std::size_t kMaxRequestBytesPerSecond = 4 * kMaxRequestBytes;
+  static constexpr std::size_t kMaxRequestsPerSecond = 200;
 
   Viewer(boost::beast::tcp_stream&& stream, Hub& hub) : ws_(std::move(stream)), hub_(hub) {}
 
   void start(const HttpRequest& request, const std::string& subprotocol);
 
-  /// Queues a text that is never dropped. A client with kMostWaitingAnswers unread texts is disconnected.
+  /// Queues a text that is never dropped. A client with kMaxQueuedAnswers unread texts is disconnected.
   void tell(const std::string& text);
 
   /// Queues a message if the client has subscribed to its channel. If the queue would exceed
-  /// kMostWaitingBytes, the messages in the queue are dropped first, and the client is not counted as a
+  /// kMaxQueuedBytes, the messages in the queue are dropped first, and the client is not counted as a
   /// reader until it reads again. Messages are therefore not produced for a client that hangs.
   void send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message);
   void send_time(std::int64_t stamp_ns);
@@ -63,7 +63,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void read();
   void on_request();
   void put(Outgoing outgoing);
-  void make_room();
+  void drop_queued_messages();
   void count_as_reader(bool reads);
   void write();
   void on_written(const boost::system::error_code& error);
@@ -73,13 +73,13 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   boost::beast::websocket::stream<boost::beast::tcp_stream> ws_;
   Hub& hub_;
   boost::beast::flat_buffer buffer_;
-  std::deque<Outgoing> waiting_;  // the first is being sent if `writing_`
-  std::size_t waiting_bytes_ = 0, waiting_answers_ = 0;
+  std::deque<Outgoing> send_queue_;  // the first is being sent if `writing_`
+  std::size_t queued_bytes_ = 0, queued_answers_ = 0;
   std::uint64_t dropped_ = 0;
   bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;
-  bool counts_ = true;                                  // in `readers` of the subscribed channels
+  bool counted_as_reader_ = true;                                  // in `readers` of the subscribed channels
   std::map<std::size_t, std::uint32_t> subscriptions_;  // channel id -> subscription id
-  RateLimit requests_{kMostRequestsASecond}, request_bytes_{kMostRequestBytesASecond};
+  RateLimit requests_{kMaxRequestsPerSecond}, request_bytes_{kMaxRequestBytesPerSecond};
 };
 
 }  // namespace pcl_bv::live

@@ -37,7 +37,7 @@ std::vector<std::size_t> deal(const std::vector<Job>& jobs, std::size_t ranks) {
 }
 
 // Returns the ranks that the first rank has computed: other ranks may see other file sizes if a file grows.
-std::vector<std::size_t> agreed_owners(Ranks& ranks, const std::vector<Job>& jobs) {
+std::vector<std::size_t> broadcast_owners(Ranks& ranks, const std::vector<Job>& jobs) {
   std::ostringstream text;
   if (ranks.first()) {
     for (const std::size_t owner : deal(jobs, ranks.size()))
@@ -72,7 +72,7 @@ std::string read_text(std::istream& in) {
   return text;
 }
 
-void take(const std::string& message, InOrder& order) {
+void take(const std::string& message, OrderedResults& order) {
   std::istringstream in(message);
   std::size_t job = 0, complaints = 0;
   int status = 0;
@@ -87,9 +87,9 @@ void take(const std::string& message, InOrder& order) {
 
 }  // namespace
 
-Status process_dealt(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
-                     WhenInterrupted& interrupted) {
-  const std::vector<std::size_t> owners = agreed_owners(ranks, jobs);
+Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
+                     InterruptAction& interrupted) {
+  const std::vector<std::size_t> owners = broadcast_owners(ranks, jobs);
   FramePipeline pipeline(options.pipeline);
   if (!ranks.first()) {
     for (std::size_t job = 0; job < jobs.size(); ++job) {
@@ -97,7 +97,7 @@ Status process_dealt(Ranks& ranks, const std::vector<Job>& jobs, const Options& 
     }
     return Status::done;
   }
-  InOrder order(options, jobs.size(), ranks.size());
+  OrderedResults order(options, jobs.size(), ranks.size());
   interrupted.set([&] { order.interrupt(); });
   auto others =
       static_cast<std::size_t>(std::count_if(owners.begin(), owners.end(), [](auto o) { return o != 0; }));

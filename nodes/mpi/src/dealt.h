@@ -17,7 +17,7 @@ namespace pcl_bv {
 
 /// The action that the first rank takes when a signal ends the run. Any thread may call both member
 /// functions.
-class WhenInterrupted {
+class InterruptAction {
  public:
   void set(std::function<void()> finish) {
     const std::lock_guard lock(mutex_);
@@ -36,7 +36,7 @@ class WhenInterrupted {
 /// Collective call: processes all jobs. In order of descending file size, each job goes to the rank that has
 /// the fewest bytes so far. The first rank writes the results in the order of the jobs and returns the status
 /// of the run; the other ranks return Status::done.
-Status process_dealt(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
-                     WhenInterrupted& interrupted);
+Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
+                     InterruptAction& interrupted);
 
 }  // namespace pcl_bv

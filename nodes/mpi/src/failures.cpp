@@ -9,7 +9,7 @@ namespace pcl_bv {
 namespace {
 
 void write(const TileHeader& header, std::ostream& out) {
-  out << header.points << ' ' << size_of(header.scalar) << ' ' << header.by_position << ' '
+  out << header.points << ' ' << size_of(header.scalar) << ' ' << header.random_access << ' '
       << header.error.has_value() << ' ' << header.error.value_or("").size() << ' ' << header.note.size()
       << ' ' << header.error.value_or("") << header.note << '\n';
 }
@@ -18,7 +18,7 @@ TileHeader read_header(std::istream& in) {
   TileHeader header;
   std::size_t scalar = 0, length = 0, note_length = 0;
   bool failed = false;
-  in >> header.points >> scalar >> header.by_position >> failed >> length >> note_length;
+  in >> header.points >> scalar >> header.random_access >> failed >> length >> note_length;
   header.scalar = scalar == 8 ? ScalarType::float64 : ScalarType::float32;
   in.get();
   std::string error(length, '\0');

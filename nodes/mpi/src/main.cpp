@@ -23,10 +23,10 @@ namespace {
 /// Collective call: calls work(), which gives the same result on every rank. The first rank prints its
 /// warnings. If work() throws UsageError on any rank, all ranks return false and the first rank prints the
 /// reason.
-bool all_do(Ranks& ranks, const std::function<void()>& work) {
+bool run_on_all_ranks(Ranks& ranks, const std::function<void()>& work) {
   std::string problem;
   {
-    const HeldComplaints held;
+    const DeferredMessages held;
     try {
       work();
     } catch (const UsageError& error) {
@@ -45,7 +45,7 @@ bool all_do(Ranks& ranks, const std::function<void()>& work) {
   return true;
 }
 
-void refuse_for_ranks(const Options& options) {
+void check_options_for_ranks(const Options& options) {
   if (options.together && (options.image || options.view_html || options.info))
     throw UsageError("--together: cannot be combined with --image, --view-html or --info over ranks");
 }
@@ -57,11 +57,11 @@ std::string names_of(const std::vector<Job>& inputs) {
   return names;
 }
 
-Status process_together(Ranks& ranks, const Job& job, const Options& options, WhenInterrupted& interrupted) {
+Status process_merged(Ranks& ranks, const Job& job, const Options& options, InterruptAction& interrupted) {
   Outcome outcome;
   outcome.report.file = job.input;
   try {
-    outcome.status = fit_together(ranks, *job.tiles, options, outcome.report);
+    outcome.status = fit_merged(ranks, *job.tiles, options, outcome.report);
   } catch (const IoError& error) {  // thrown on all ranks
     outcome.report.error = error.what();
     outcome.status = Status::failed;
@@ -72,7 +72,7 @@ Status process_together(Ranks& ranks, const Job& job, const Options& options, Wh
   } else {
     outcome.status = worse(outcome.status, write_mesh(job, outcome.report.clusters));
   }
-  InOrder order(options, 1, 1);
+  OrderedResults order(options, 1, 1);
   interrupted.set([&] { order.interrupt(); });
   order.take(0, result_of(outcome, options.format));
   const Status status = order.finish();
@@ -80,14 +80,14 @@ Status process_together(Ranks& ranks, const Job& job, const Options& options, Wh
   return status;
 }
 
-int run(Ranks& ranks, int argc, char** argv, WhenInterrupted& interrupted) {
+int run(Ranks& ranks, int argc, char** argv, InterruptAction& interrupted) {
   std::variant<Options, std::string> asked;
   std::vector<Job> inputs, jobs;
-  const bool understood = all_do(ranks, [&] {
+  const bool understood = run_on_all_ranks(ranks, [&] {
     asked = parse_options(argc, argv, PcdBvCommand::ranks);
     const auto* const options = std::get_if<Options>(&asked);
     if (options == nullptr) return;
-    refuse_for_ranks(*options);
+    check_options_for_ranks(*options);
     inputs = list_inputs(*options);
   });
   if (!understood) return static_cast<int>(Status::misuse);
@@ -100,10 +100,10 @@ int run(Ranks& ranks, int argc, char** argv, WhenInterrupted& interrupted) {
   if (options.together)
     tiles = std::make_shared<Tiles>(inputs, describe_tiles(ranks, inputs),
                                     thread_count(options.pipeline.policy()));
-  if (!all_do(ranks, [&] { jobs = plan_jobs(options, std::move(inputs), tiles); }))
+  if (!run_on_all_ranks(ranks, [&] { jobs = plan_jobs(options, std::move(inputs), tiles); }))
     return static_cast<int>(Status::misuse);
-  const Status status = options.together ? process_together(ranks, jobs.front(), options, interrupted)
-                                         : process_dealt(ranks, jobs, options, interrupted);
+  const Status status = options.together ? process_merged(ranks, jobs.front(), options, interrupted)
+                                         : process_jobs(ranks, jobs, options, interrupted);
   return static_cast<int>(status);
 }
 
@@ -113,7 +113,7 @@ int run(Ranks& ranks, int argc, char** argv, WhenInterrupted& interrupted) {
 int main(int argc, char** argv) {
   using namespace pcl_bv;
   return run_command("pcd_bv_mpi", [&]() -> int {
-    WhenInterrupted interrupted;
+    InterruptAction interrupted;
     const Interruption interruption([&] { interrupted(); });  // before MPI starts its threads
     Ranks ranks(&argc, &argv);
     std::string reason;

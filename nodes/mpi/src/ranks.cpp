@@ -27,11 +27,11 @@ struct Answer {
   bool failed;
 };
 
-extern "C" void merge_answers(void* from, void* to, int* count, MPI_Datatype*) {
+extern "C" void merge_messages(void* from, void* to, int* count, MPI_Datatype*) {
   const auto* const a = static_cast<const Answer*>(from);
   auto* const b = static_cast<Answer*>(to);
   for (int i = 0; i < *count; ++i) {
-    keep_farthest(a[i].farthest, b[i].farthest);
+    update_farthest(a[i].farthest, b[i].farthest);
     b[i].failed = b[i].failed || a[i].failed;
   }
 }
@@ -103,7 +103,7 @@ bool Ranks::farthest(const OctantPoints& own, bool failed, OctantPoints& of_all)
   MPI_Op op = MPI_OP_NULL;
   MPI_Type_contiguous(sizeof answer, MPI_BYTE, &type);
   MPI_Type_commit(&type);
-  MPI_Op_create(merge_answers, 1, &op);
+  MPI_Op_create(merge_messages, 1, &op);
   MPI_Allreduce(&answer, &merged, 1, type, op, MPI_COMM_WORLD);
   MPI_Op_free(&op);
   MPI_Type_free(&type);

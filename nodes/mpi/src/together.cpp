@@ -27,18 +27,18 @@ namespace {
 
 using Failure = std::optional<TileFailure>;
 
-// A query of the smallest-sphere solver (FarthestPoints), as bytes in a message.
+// A query of the smallest-sphere solver (FarthestQuery), as bytes in a message.
 struct Question {
   DistanceCenter center;
   double limit;
 };
 
 // Thrown to end the solver when a rank cannot read its points.
-struct NoAnswer {};
+struct QueryFailed {};
 
 // Whether the method is fitted by rounds of queries to all ranks.
-bool in_rounds(const Method& method, const Tiles& tiles) {
-  return method.name == "sphere-exact" && tiles.xyz().count > Partial::kAllKept;
+bool needs_query_rounds(const Method& method, const Tiles& tiles) {
+  return method.name == "sphere-exact" && tiles.xyz().count > Partial::kMaxStored;
 }
 
 double processor_seconds() {
@@ -162,7 +162,7 @@ Failure Attempt::fit() {
     Fitted& fitted = fitted_[i];
     if (const auto rank = owner(i)) {
       fitted = fitted_from(ranks_.broadcast(*rank == ranks_.rank() ? bytes_of(fitted) : "", *rank));
-    } else if (in_rounds(*methods_[i], tiles_)) {
+    } else if (needs_query_rounds(*methods_[i], tiles_)) {
       if (Failure failure = fit_in_rounds(fitted)) return failure;
     } else if (ranks_.first() || options_.check) {
       work([&] {
@@ -177,7 +177,7 @@ Failure Attempt::fit() {
 bool Attempt::answer(const Question& question, Failure& failure, OctantPoints& found) {
   OctantPoints own;
   const Failure now =
-      attempt([&] { farthest_points(points_->view(), question.center, question.limit, own, execution_); });
+      attempt([&] { answer_farthest(points_->view(), question.center, question.limit, own, execution_); });
   if (now) failure = now;
   return !ranks_.farthest(own, now.has_value(), found);
 }
@@ -191,7 +191,7 @@ Failure Attempt::fit_in_rounds(Fitted& fitted) {
     const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& farthest) {
       const Question question{center, limit};
       ranks_.broadcast(std::string(reinterpret_cast<const char*>(&question), sizeof question));
-      if (!answer(question, failure, farthest)) throw NoAnswer();
+      if (!answer(question, failure, farthest)) throw QueryFailed();
       return std::any_of(farthest.begin(), farthest.end(),
                          [](const FarPoint& p) { return p.squared_distance >= 0; });
     };
@@ -200,7 +200,7 @@ Failure Attempt::fit_in_rounds(Fitted& fitted) {
       fitted.result =
           merged_.partial.fit_smallest_sphere(fitted.volume.emplace<Sphere>(), certificate, ask, execution_);
       rounds_ += static_cast<std::size_t>(certificate.passes);
-    } catch (const NoAnswer&) {
+    } catch (const QueryFailed&) {
     }
     ranks_.broadcast("");
   } else {
@@ -241,14 +241,14 @@ Report Attempt::report() const {
     if (options_.check && entry.failed.empty()) entry.outside = outside_[i];
   }
   const std::string coarse =
-      coarse_remark(aabb(fitted_.front().volume), origin_ ? ScalarType::float64 : tiles_.xyz().scalar);
+      coarse_warning(aabb(fitted_.front().volume), origin_ ? ScalarType::float64 : tiles_.xyz().scalar);
   if (!coarse.empty()) complain(report.file + ": " + coarse);
   return report;
 }
 
 /// Prints the cost of the run (--timings): CPU time and messages of all ranks together, and the maximum
 /// memory of a rank.
-void say_costs(Ranks& ranks, double seconds, double worked, std::size_t rounds) {
+void print_costs(Ranks& ranks, double seconds, double worked, std::size_t rounds) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const std::vector<std::size_t> sums =
@@ -265,26 +265,26 @@ void say_costs(Ranks& ranks, double seconds, double worked, std::size_t rounds) 
 
 }  // namespace
 
-Status fit_together(Ranks& ranks, Tiles& tiles, const Options& options, Report& report) {
+Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& report) {
   const auto begin = std::chrono::steady_clock::now();
   Status status = Status::done;
-  if (ranks.first()) status = say_what_is_left_out(tiles);
+  if (ranks.first()) status = report_excluded_inputs(tiles);
   for (;;) {
     if (tiles.used() == 0) throw IoError("none of the inputs could be read");
     Attempt now(ranks, tiles, options);
     if (Failure failure = now.run()) {
       if (ranks.first()) complain(tiles.jobs()[failure->tile].input + ": " + failure->reason);
-      tiles.leave_out(failure->tile, failure->reason);
+      tiles.exclude(failure->tile, failure->reason);
       status = Status::failed;
       continue;
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    if (options.timings) say_costs(ranks, seconds.count(), now.worked(), now.rounds());
+    if (options.timings) print_costs(ranks, seconds.count(), now.worked(), now.rounds());
     if (!ranks.first()) return status;
-    say_notes(tiles);
+    report_notes(tiles);
     report = now.report();
     if (options.timings) report.seconds = {0, 0, seconds.count()};
-    return worse(status, say_what_is_wrong(report));
+    return worse(status, report_failures(report));
   }
 }
 

@@ -17,12 +17,12 @@ namespace pcl_bv {
 /// Collective call: fits each method to the points of all tiles.
 ///
 /// - Methods that Partial::serves() are fitted to the merged partial results of all ranks. Exception:
-///   `sphere-exact` of more than Partial::kAllKept points runs in rounds of queries to all ranks.
+///   `sphere-exact` of more than Partial::kMaxStored points runs in rounds of queries to all ranks.
 /// - Each method that needs all points is fitted on one rank, which reads all points.
 ///
 /// If an input fails on any rank, all ranks leave it out and start again without it. `report` and the
 /// returned status are meaningful on the first rank only. Throws IoError on all ranks if no input can be
 /// read.
-Status fit_together(Ranks& ranks, Tiles& tiles, const Options& options, Report& report);
+Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& report);
 
 }  // namespace pcl_bv

@@ -26,7 +26,7 @@ template <ConfigRow Row>
 std::string problem_of_row(const Row& row) {
   std::string problem;
   visit_row(row, [&](const Setting& field, const auto& value) {
-    const std::string what = problem_of(field, value);
+    const std::string what = exception_message(field, value);
     if (problem.empty() && !what.empty()) problem = std::string(field.key) + ": " + what;
   });
   return problem;
@@ -37,13 +37,13 @@ void check_classes(const ClusterConfig& all, std::vector<ConfigProblem>& problem
   if (!all.classes.empty() && !all.class_field) add("means nothing without cluster.class_field");
   for (const ClassConfig& own : all.classes) {
     const std::string name = "class " + std::to_string(own.value) + ": ";
-    const std::size_t least = own.min_size.value_or(all.least_size()),
+    const std::size_t least = own.min_size.value_or(all.effective_min_size()),
                       most = own.max_size.value_or(all.max_size);
     if (least > most) add(name + "max_size, " + to_text(most) + ", is below min_size, " + to_text(least));
   }
 }
 
-void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problems) {
+void check_combinations(const PipelineConfig& c, std::vector<ConfigProblem>& problems) {
   const auto add = [&](const char* key, const std::string& what) { problems.push_back({key, what}); };
   const FilterConfig& filter = c.filter;
   if (filter.range_min > filter.range_max) {
@@ -63,9 +63,9 @@ void check_together(const PipelineConfig& c, std::vector<ConfigProblem>& problem
     add("cluster.tolerance", "0 does not grow: all points are one object");
   if (c.cluster.class_field && c.cluster.tolerance == 0)
     add("cluster.class_field", "means nothing where cluster.tolerance is 0: all points are one object");
-  if (c.cluster.least_size() > c.cluster.max_size) {
+  if (c.cluster.effective_min_size() > c.cluster.max_size) {
     add("cluster.max_size",
-        to_text(c.cluster.max_size) + " is below cluster.min_size, " + to_text(c.cluster.least_size()));
+        to_text(c.cluster.max_size) + " is below cluster.min_size, " + to_text(c.cluster.effective_min_size()));
   }
   check_classes(c.cluster, problems);
 }
@@ -82,14 +82,14 @@ std::vector<std::string> lines(const Problems& problems) {
 // Returns a visitor that adds the problem of each visited setting to `problems`.
 auto checker(std::vector<ConfigProblem>& problems) {
   return [&](const Setting& setting, const auto& value) {
-    std::string problem = problem_of(setting, value);
+    std::string problem = exception_message(setting, value);
     if (!problem.empty()) problems.push_back({std::string(setting.key), std::move(problem)});
   };
 }
 
 }  // namespace
 
-std::string problem_of(const Setting& setting, double value) {
+std::string exception_message(const Setting& setting, double value) {
   const auto& [least, most, closed, as_float] = setting.range;
   const bool vanishes = as_float && value > 0 && static_cast<float>(value) == 0;
   if (vanishes)
@@ -108,19 +108,19 @@ std::string whole_number_range(const NumberRange& range) {
   return allowed;
 }
 
-std::string problem_of(const Setting& setting, std::size_t value) {
+std::string exception_message(const Setting& setting, std::size_t value) {
   const double least = setting.range.least, most = setting.range.most;
   const auto n = static_cast<double>(value);
   if (n >= least && (n <= most || most == kNoLimit)) return {};
   return to_text(value) + " is not a whole number" + whole_number_range(setting.range);
 }
 
-std::string problem_of(const Setting& /*setting*/, const Eigen::Vector3d& direction) {
+std::string exception_message(const Setting& /*setting*/, const Eigen::Vector3d& direction) {
   if (direction.allFinite() && !direction.isZero(0)) return {};
   return to_text(direction) + " is no direction: three finite numbers, not all 0";
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::string& instruction_set) {
+std::string exception_message(const Setting& /*setting*/, const std::string& instruction_set) {
   try {
     static_cast<void>(UsableIsa(parse_isa(instruction_set)));
   } catch (const std::invalid_argument& error) {
@@ -129,7 +129,7 @@ std::string problem_of(const Setting& /*setting*/, const std::string& instructio
   return {};
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::vector<std::string>& methods) {
+std::string exception_message(const Setting& /*setting*/, const std::vector<std::string>& methods) {
   for (auto name = methods.begin(); name != methods.end(); ++name) {
     const Method* const method = find_method(*name);
     if (method == nullptr) return "'" + *name + "' is no method; known are " + known_methods();
@@ -139,11 +139,11 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<std::string
   return {};
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::optional<Eigen::Vector3d>& point) {
+std::string exception_message(const Setting& /*setting*/, const std::optional<Eigen::Vector3d>& point) {
   return point && !point->allFinite() ? "a coordinate is not finite" : "";
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
+std::string exception_message(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
   for (const RegionConfig& region : regions) {
     if (region.file.empty() && region.volumes.empty()) return "a region has neither a file nor volumes";
     std::string problem = problem_of_row(region);
@@ -152,7 +152,7 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfi
   return {};
 }
 
-std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
+std::string exception_message(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
   std::set<std::int64_t> values;
   for (const ClassConfig& own : classes) {
     std::string name = "class " + std::to_string(own.value);
@@ -163,21 +163,21 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig
   return {};
 }
 
-std::string problem_of(const Setting& /*setting*/, const FieldName& field) {
+std::string exception_message(const Setting& /*setting*/, const FieldName& field) {
   return field.name.empty() ? "a field without a name" : "";
 }
 
 std::vector<ConfigProblem> problems_of(const StreamConfig& config) {
   std::vector<ConfigProblem> problems;
   visit_stream(config, checker(problems));
-  check_together(config.pipeline, problems);
+  check_combinations(config.pipeline, problems);
   return problems;
 }
 
 std::vector<std::string> PipelineConfig::validate() const {
   std::vector<ConfigProblem> problems;
   visit_pipeline(*this, checker(problems));
-  check_together(*this, problems);
+  check_combinations(*this, problems);
   return lines(problems);
 }
 

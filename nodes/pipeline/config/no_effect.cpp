@@ -22,7 +22,7 @@ bool is_growing_sphere(const Method* method) {
 
 }  // namespace
 
-std::vector<std::string> PipelineConfig::without_effect() const {
+std::vector<std::string> PipelineConfig::ineffective_settings() const {
   std::vector<std::string> lines;
   const auto check = [&](const char* key, bool set, bool useful, const char* needed) {
     if (set && !useful) lines.push_back(std::string(key) + ": has no effect without " + needed);

@@ -165,7 +165,7 @@ class PipelineSettings final : public RemoteSettings {
       if (setting.key != key) return;
       try {
         set(setting, text_of(value), field);
-        problem = problem_of(setting, field);
+        problem = exception_message(setting, field);
       } catch (const std::exception& error) {
         problem = error.what();
       }

@@ -16,11 +16,11 @@ template <typename T>
 concept ConfigRow = std::same_as<T, RegionConfig> || std::same_as<T, ClassConfig>;
 
 /// How messages name a row.
-struct RowWords {
+struct RowNames {
   const char *one, *many, *example;
 };
 template <ConfigRow Row>
-constexpr RowWords row_words() {
+constexpr RowNames row_words() {
   if constexpr (std::is_same_v<Row, RegionConfig>)
     return {"a region", "regions", "{file: F.json, keep: false, padding: 0}"};
   return {"a class", "classes", "{value: 4, tolerance: 0.5}"};

@@ -54,7 +54,7 @@ class Reader {
     if (list == nullptr) return;
     rows.clear();
     const std::string key = std::string(setting.key) + ": ";
-    constexpr RowWords words = row_words<Row>();
+    constexpr RowNames words = row_words<Row>();
     if (!list->IsSequence()) fail_at(*list, key + shown(*list) + " is not a list of " + words.many);
     for (const YAML::Node& element : *list) {
       if (!element.IsMap())

@@ -25,7 +25,7 @@ void refill(std::vector<T>& values, std::size_t count, T value) {
 void SparseAssignment::solve(std::size_t rows, std::size_t columns, const std::vector<AssignmentPair>& pairs,
                              double alone) {
   columns_ = columns;
-  alone_ = alone;
+  unassigned_cost_ = alone;
   refill<std::size_t>(first_, rows + 1, 0);
   for (const AssignmentPair& pair : pairs)
     ++first_[pair.row + 1];
@@ -36,7 +36,7 @@ void SparseAssignment::solve(std::size_t rows, std::size_t columns, const std::v
   refill(matched_cost_, rows, 0.0);
   refill(row_of_, all, none);
   refill(from_, all, none);
-  refill(price_, all, 0.0);
+  refill(potential_, all, 0.0);
   refill(cost_from_, all, 0.0);
   refill(distance_, all, kFar);
   refill<char>(done_, all, 0);
@@ -50,7 +50,7 @@ void SparseAssignment::solve(std::size_t rows, std::size_t columns, const std::v
 }
 
 void SparseAssignment::reach(std::size_t row, std::size_t column, double cost) {
-  const double distance = base_ + cost - price_[column];
+  const double distance = base_distance_ + cost - potential_[column];
   if (done_[column] != 0 || distance >= distance_[column]) return;
   if (distance_[column] == kFar) touched_.push_back(column);
   distance_[column] = distance;
@@ -65,12 +65,12 @@ void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair
   heap_.clear();
   touched_.clear();
   settled_.clear();
-  base_ = 0;
+  base_distance_ = 0;
   std::size_t at = row, end = none;
   while (end == none) {
     for (std::size_t p = first_[at]; p < first_[at + 1]; ++p)
       reach(at, pairs[p].column, pairs[p].cost);
-    reach(at, columns_ + at, alone_);
+    reach(at, columns_ + at, unassigned_cost_);
     Reached next;
     do {  // skip entries of columns that were reached on a shorter path
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
@@ -84,12 +84,12 @@ void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair
       end = column;
     } else {
       at = row_of_[column];
-      base_ = next.first - (matched_cost_[at] - price_[column]);
+      base_distance_ = next.first - (matched_cost_[at] - potential_[column]);
     }
   }
   const double length = distance_[end];
   for (const std::size_t column : settled_)
-    price_[column] += distance_[column] - length;
+    potential_[column] += distance_[column] - length;
   for (std::size_t column = end; column != none;) {
     const std::size_t taker = from_[column], left = column_of_[taker];
     row_of_[column] = taker;

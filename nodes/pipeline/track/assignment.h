@@ -36,13 +36,13 @@ class SparseAssignment {
 
   using Reached = std::pair<double, std::size_t>;  // distance, column
   std::size_t columns_ = 0;                        // real ones; column columns_ + r: row r stays alone
-  double alone_ = 0;
+  double unassigned_cost_ = 0;
   std::vector<std::size_t> first_, column_of_, row_of_, from_, touched_;
-  std::vector<double> matched_cost_, price_, distance_, cost_from_;
+  std::vector<double> matched_cost_, potential_, distance_, cost_from_;
   std::vector<char> done_;
   std::vector<Reached> heap_;
   std::vector<std::size_t> settled_;
-  double base_ = 0;
+  double base_distance_ = 0;
 };
 
 }  // namespace pcl_bv

@@ -13,12 +13,12 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kForget = 0.9;         // decay of the votes for the front, per frame
-constexpr double kSurer = 2;            // votes by which another front must lead
-constexpr double kTurnsForget = 0.5;    // decay of the mean yaw per frame, if the object moves
-constexpr double kStandsForget = 0.97;  // decay of the mean yaw per frame, if it is static
-constexpr double kStep = 0.15;          // metres per frame; largest growth of a size
-constexpr std::size_t kFree = 5;        // first detections, whose sizes may grow by any step
+constexpr double kVoteDecay = 0.9;         // decay of the votes for the front, per frame
+constexpr double kVoteLead = 2;            // votes by which another front must lead
+constexpr double kMovingDecay = 0.5;    // decay of the mean yaw per frame, if the object moves
+constexpr double kStaticDecay = 0.97;  // decay of the mean yaw per frame, if it is static
+constexpr double kMaxGrowth = 0.15;          // metres per frame; largest growth of a size
+constexpr std::size_t kFreeDetections = 5;        // first detections, whose sizes may grow by any step
 
 // Rotates axes 0 and 1 about axis 2 by quarters of a turn: axis 1 becomes axis 0, and so on.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, int quarters) {
@@ -67,7 +67,7 @@ void slabs_of(const PointView& points, const Eigen::Matrix3d& axes, const Eigen:
 
 }  // namespace
 
-Obb BoxFilter::face(const Obb& box, const BoxSighting& sighting) {
+Obb BoxFilter::face(const Obb& box, const BoxState& sighting) {
   if (box.empty()) return box;
   const Eigen::Matrix3d turn = sighting.sensor.linear();
   Obb facing = box;
@@ -83,9 +83,9 @@ Obb BoxFilter::face(const Obb& box, const BoxSighting& sighting) {
         best = k;
     }
     for (double& said : said_)
-      said *= kForget;
+      said *= kVoteDecay;
     said_[static_cast<std::size_t>(best)] += 1;
-    if (best != 0 && said_[static_cast<std::size_t>(best)] > said_[0] + kSurer) {
+    if (best != 0 && said_[static_cast<std::size_t>(best)] > said_[0] + kVoteLead) {
       Eigen::Vector3d half = facing.half_extents();
       if (best % 2 == 1) std::swap(half.x(), half.y());
       facing = Obb(facing.center(), turned(facing.axes(), best), half);
@@ -98,11 +98,11 @@ Obb BoxFilter::face(const Obb& box, const BoxSighting& sighting) {
   return facing;
 }
 
-double BoxFilter::smoothed_yaw(const Obb& box, const BoxSighting& sighting) {
+double BoxFilter::smoothed_yaw(const Obb& box, const BoxState& sighting) {
   const double yaw =
       Obb(box.center(), orthonormal_axes(sighting.sensor.linear() * box.axes()), box.half_extents()).yaw();
   if (!sighting.merged) {
-    const double forget = sighting.moving ? kTurnsForget : kStandsForget;
+    const double forget = sighting.moving ? kMovingDecay : kStaticDecay;
     // Longer sides have more weight, since their direction is more accurate.
     const double weight = box.half_extents().head<2>().maxCoeff();
     cosine_ = forget * cosine_ + weight * std::cos(4 * yaw);
@@ -117,19 +117,19 @@ double BoxFilter::grown(std::size_t axis, double seen, bool merged) {
   double& size = sizes_[axis];
   if (seen > size && !merged) {
     const double more = seen - size;
-    size = seen_ <= kFree ? seen : size + std::min(0.3 * more, kStep);
+    size = detections_ <= kFreeDetections ? seen : size + std::min(0.3 * more, kMaxGrowth);
   }
   return std::max(size, seen);
 }
 
-Obb BoxFilter::steady(const Obb& box, const PointView& points, const BoxSighting& sighting, bool smooth,
+Obb BoxFilter::steady(const Obb& box, const PointView& points, const BoxState& sighting, bool smooth,
                       bool grow) {
   if (box.empty() || !upright_) return box;
   if (sighting.separated) {
     sizes_ = {};
-    seen_ = 0;
+    detections_ = 0;
   }
-  if (!sighting.merged) ++seen_;
+  if (!sighting.merged) ++detections_;
   Eigen::Matrix3d axes = box.axes();
   if (smooth) {
     axes = about_third(axes, smoothed_yaw(box, sighting));

@@ -14,7 +14,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The state of the object in this frame.
-struct BoxSighting {
+struct BoxState {
   Pose sensor = Pose::Identity();                      // pose in a fixed frame
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // over the ground, along the sensor's axes, m/s
   bool moving = false;
@@ -33,7 +33,7 @@ class BoxFilter {
   /// frame. Axis 0 of a moving object comes to point in the direction of motion: each frame votes for the
   /// axis nearest to the velocity, older votes decay, and an axis with a lead of two votes becomes axis 0.
   /// Empty boxes are returned unchanged.
-  Obb face(const Obb& box, const BoxSighting& sighting);
+  Obb face(const Obb& box, const BoxState& sighting);
 
   /// Returns a smoothed box around all points; `box` must come from face().
   ///
@@ -45,10 +45,10 @@ class BoxFilter {
   ///
   /// The third axis is unchanged. Every valid point is inside (Obb::contains()). Boxes that are empty or not
   /// upright are returned unchanged. O(points).
-  Obb steady(const Obb& box, const PointView& points, const BoxSighting& sighting, bool smooth, bool grow);
+  Obb steady(const Obb& box, const PointView& points, const BoxState& sighting, bool smooth, bool grow);
 
  private:
-  double smoothed_yaw(const Obb& box, const BoxSighting& sighting);
+  double smoothed_yaw(const Obb& box, const BoxState& sighting);
   double grown(std::size_t axis, double seen, bool merged);
 
   bool upright_;
@@ -57,7 +57,7 @@ class BoxFilter {
   std::array<double, 4> said_{};                        // votes for axis 0, 1, -0, -1 as the front
   double cosine_ = 0, sine_ = 0;                        // weighted sums over time for four times the yaw
   std::array<double, 2> sizes_{};
-  std::size_t seen_ = 0;
+  std::size_t detections_ = 0;
 };
 
 }  // namespace pcl_bv

@@ -9,16 +9,16 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kReach = 4;     // metres per frame: 40 m/s at 10 Hz
-constexpr double kAgree = 0.35;  // metres; centres of partial views jump by decimetres
-constexpr double kLargest = 6;   // metres; the centre of a longer wall depends on where its view ends
-constexpr std::size_t kFewest = 6;
+constexpr double kMaxShift = 4;     // metres per frame: 40 m/s at 10 Hz
+constexpr double kAgreement = 0.35;  // metres; centres of partial views jump by decimetres
+constexpr double kMaxSize = 6;   // metres; the centre of a longer wall depends on where its view ends
+constexpr std::size_t kMinPairs = 6;
 constexpr double kBin = 0.5;
-constexpr int kBins = 17;  // 2 kReach / kBin + 1
+constexpr int kBins = 17;  // 2 kMaxShift / kBin + 1
 
 bool small(const Aabb& box) {
   const Eigen::Vector3d size = box.max() - box.min();
-  return std::max(size.x(), size.y()) < kLargest;
+  return std::max(size.x(), size.y()) < kMaxSize;
 }
 
 bool alike(const Aabb& a, const Aabb& b) {
@@ -26,7 +26,7 @@ bool alike(const Aabb& a, const Aabb& b) {
   return (sizes - others).cwiseAbs().maxCoeff() < 0.4 + 0.15 * sizes.maxCoeff();
 }
 
-Eigen::Vector2d place_of(const Aabb& box) {
+Eigen::Vector2d centre_of(const Aabb& box) {
   return box.center().head<2>();
 }
 
@@ -37,15 +37,15 @@ void EgoMotion::match(const std::vector<Aabb>& expected, const std::vector<Aabb>
   pairs_.clear();
   for (const Aabb& box : expected) {
     if (!small(box)) continue;
-    const Eigen::Vector2d from = place_of(box), at = motion * from;
+    const Eigen::Vector2d from = centre_of(box), at = motion * from;
     double nearest = radius * radius;
     Eigen::Vector2d to = at;
     bool found = false;
     grid_.visit_near({at.x(), at.y(), 0}, [&](std::size_t b) {
-      const double distance = (place_of(seen[b]) - at).squaredNorm();
+      const double distance = (centre_of(seen[b]) - at).squaredNorm();
       if (distance >= nearest || !alike(box, seen[b])) return;
       nearest = distance;
-      to = place_of(seen[b]);
+      to = centre_of(seen[b]);
       found = true;
     });
     if (found) pairs_.push_back({from, to});
@@ -56,7 +56,7 @@ void EgoMotion::match(const std::vector<Aabb>& expected, const std::vector<Aabb>
 std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen,
                               PlanarMotion& motion, double radius) {
   match(expected, seen, motion, radius);
-  if (pairs_.size() < kFewest) return pairs_.size();
+  if (pairs_.size() < kMinPairs) return pairs_.size();
   Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = from;
   for (const Pair& pair : pairs_) {
     from += pair.from;
@@ -84,9 +84,9 @@ void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>&
   votes_.assign(bin(0, kBins), 0);
   for (const Aabb& box : expected) {
     if (!small(box)) continue;
-    const Eigen::Vector2d at = PlanarMotion{motion.yaw} * place_of(box);
+    const Eigen::Vector2d at = PlanarMotion{motion.yaw} * centre_of(box);
     grid_.visit_near({at.x(), at.y(), 0}, [&](std::size_t b) {
-      const Eigen::Vector2d shift = (place_of(seen[b]) - at) / kBin;
+      const Eigen::Vector2d shift = (centre_of(seen[b]) - at) / kBin;
       const auto x = static_cast<int>(std::lround(std::clamp(shift.x(), -99.0, 99.0))) + kBins / 2;
       const auto y = static_cast<int>(std::lround(std::clamp(shift.y(), -99.0, 99.0))) + kBins / 2;
       if (x < 0 || y < 0 || x >= kBins || y >= kBins || !alike(box, seen[b])) return;
@@ -109,14 +109,14 @@ void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>&
 bool EgoMotion::estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen,
                          const PlanarMotion& guess, PlanarMotion& motion) {
   const auto few = static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), small));
-  if (few < kFewest || seen.size() < kFewest) return false;
-  grid_.fill(seen, kReach);
+  if (few < kMinPairs || seen.size() < kMinPairs) return false;
+  grid_.fill(seen, kMaxShift);
   if (pairs_.capacity() < expected.size()) pairs_.reserve(4 * expected.size());
   votes_.reserve(std::size_t{kBins} * kBins);
   const auto settle = [&](PlanarMotion& from) {
-    for (const double radius : {2.0, 1.5, 1.0, 0.7, 0.5, kAgree, kAgree})
+    for (const double radius : {2.0, 1.5, 1.0, 0.7, 0.5, kAgreement, kAgreement})
       refine(expected, seen, from, radius);
-    match(expected, seen, from, kAgree);
+    match(expected, seen, from, kAgreement);
     return pairs_.size();
   };
   PlanarMotion best = guess;
@@ -131,7 +131,7 @@ bool EgoMotion::estimate(const std::vector<Aabb>& expected, const std::vector<Aa
       best = other;
     }
   }
-  if (agree < kFewest || 10 * agree < 3 * few) return false;
+  if (agree < kMinPairs || 10 * agree < 3 * few) return false;
   motion = best;
   return true;
 }

@@ -13,13 +13,13 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Position and velocity along one axis, metres and m/s, with their covariance.
 struct AxisFilter {
   double place = 0, velocity = 0;
-  double place_variance = 1, covariance = 0, velocity_variance = 1;
+  double position_variance = 1, covariance = 0, velocity_variance = 1;
 
   /// Constant velocity with a white-noise acceleration of spectral density `density` (m^2/s^3). Many small
   /// steps equal one large step, so stamps a millisecond apart do no harm.
   void predict(double seconds, double density) {
     place += seconds * velocity;
-    place_variance += seconds * (2 * covariance + seconds * (velocity_variance + seconds * density / 3));
+    position_variance += seconds * (2 * covariance + seconds * (velocity_variance + seconds * density / 3));
     covariance += seconds * (velocity_variance + seconds * density / 2);
     velocity_variance += seconds * density;
   }
@@ -27,17 +27,17 @@ struct AxisFilter {
   /// Update by a measurement: `surprise` is the innovation, `variance` that of the measurement. The position
   /// variance uses the Joseph form, a sum of squares, which rounding cannot make negative.
   void correct(double surprise, double variance) {
-    const double all = place_variance + variance;
-    const double to_place = place_variance / all, to_velocity = covariance / all, left = variance / all;
+    const double all = position_variance + variance;
+    const double to_place = position_variance / all, to_velocity = covariance / all, left = variance / all;
     place += to_place * surprise;
     velocity += to_velocity * surprise;
-    const double old_place = place_variance, old_covariance = covariance;
-    place_variance = left * left * old_place + to_place * to_place * variance;
+    const double old_place = position_variance, old_covariance = covariance;
+    position_variance = left * left * old_place + to_place * to_place * variance;
     covariance = left * (old_covariance - to_velocity * old_place) + to_place * to_velocity * variance;
     velocity_variance += to_velocity * (to_velocity * all - 2 * old_covariance);
     // A lower bound keeps the covariance matrix positive definite.
     velocity_variance =
-        std::max(velocity_variance, (1 + 1e-9) * covariance * covariance / place_variance + 1e-12);
+        std::max(velocity_variance, (1 + 1e-9) * covariance * covariance / position_variance + 1e-12);
   }
 
   /// Initialisation by the second of two measurements, both of this variance and `seconds` apart. No prior is
@@ -45,7 +45,7 @@ struct AxisFilter {
   void start(double surprise, double variance, double seconds) {
     place += surprise;
     velocity += surprise / seconds;
-    place_variance = variance;
+    position_variance = variance;
     covariance = variance / seconds;
     velocity_variance = 2 * variance / (seconds * seconds);
   }
@@ -57,8 +57,8 @@ struct MotionFilter {
 
   Eigen::Vector3d place() const { return {axes[0].place, axes[1].place, axes[2].place}; }
   Eigen::Vector3d velocity() const { return {axes[0].velocity, axes[1].velocity, axes[2].velocity}; }
-  Eigen::Vector3d place_variance() const {
-    return {axes[0].place_variance, axes[1].place_variance, axes[2].place_variance};
+  Eigen::Vector3d position_variance() const {
+    return {axes[0].position_variance, axes[1].position_variance, axes[2].position_variance};
   }
   Eigen::Vector3d velocity_variance() const {
     return {axes[0].velocity_variance, axes[1].velocity_variance, axes[2].velocity_variance};

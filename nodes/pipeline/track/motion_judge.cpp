@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kWindow = 0.55;               // seconds; the window that is evaluated
 constexpr double kSpacing = 0.09;              // seconds between stored measurements
-constexpr double kSoonest = 0.15;              // seconds; shortest time that allows a decision
-constexpr double kLeaves = 0.3;                // metres; smallest displacement of a moving object
-constexpr double kMoves = 0.7, kStands = 0.5;  // m/s; moving starts above kMoves and ends below kStands
+constexpr double kMinTime = 0.15;              // seconds; shortest time that allows a decision
+constexpr double kMinShift = 0.3;                // metres; smallest displacement of a moving object
+constexpr double kStartSpeed = 0.7, kStopSpeed = 0.5;  // m/s; moving starts above kStartSpeed and ends below kStopSpeed
 // Smallest dot product of the velocities of both halves, relative to the larger of their squares.
-constexpr double kSameWay = 0.25;
+constexpr double kMinAlignment = 0.25;
 
 // Returns the smaller displacement of the two opposite faces along the sensor's x and y, or 0 if they move
 // apart or towards each other. A part that comes into or goes out of view moves one face only, hence gives 0.
-Eigen::Vector2d least_shift(const Eigen::Vector3d& way, const Eigen::Vector3d& before,
+Eigen::Vector2d smallest_shift(const Eigen::Vector3d& way, const Eigen::Vector3d& before,
                             const Eigen::Vector3d& now) {
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (int i = 0; i < 2; ++i) {
@@ -32,32 +32,32 @@ Eigen::Vector2d least_shift(const Eigen::Vector3d& way, const Eigen::Vector3d& b
 
 }  // namespace
 
-void MotionJudge::add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Eigen::Matrix3d& turn,
+void MotionClassifier::add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Eigen::Matrix3d& turn,
                       double seconds) {
   seconds_ += seconds;
   const Sighting now{seconds_, centre, half};
   for (; count_ > 1 && past(1).seconds <= seconds_ - kWindow; --count_)
-    first_ = (first_ + 1) % kMost;
-  if (count_ > 1 && seconds_ - past(0).seconds >= kSoonest) judge(now, turn);
-  if (count_ < kMost && (count_ == 0 || seconds_ - past(count_ - 1).seconds >= kSpacing))
-    past_[(first_ + count_++) % kMost] = now;
+    first_ = (first_ + 1) % kCapacity;
+  if (count_ > 1 && seconds_ - past(0).seconds >= kMinTime) judge(now, turn);
+  if (count_ < kCapacity && (count_ == 0 || seconds_ - past(count_ - 1).seconds >= kSpacing))
+    past_[(first_ + count_++) % kCapacity] = now;
 }
 
-void MotionJudge::judge(const Sighting& now, const Eigen::Matrix3d& turn) {
+void MotionClassifier::judge(const Sighting& now, const Eigen::Matrix3d& turn) {
   const auto shift = [&](const Sighting& from, const Sighting& to) {
-    return least_shift(turn.transpose() * (to.centre - from.centre), from.half, to.half);
+    return smallest_shift(turn.transpose() * (to.centre - from.centre), from.half, to.half);
   };
   const Sighting &oldest = past(0), &middle = past(count_ / 2);
   const double passed = now.seconds - oldest.seconds, way = shift(oldest, now).norm();
   if (moving_) {
-    moving_ = way >= kStands * std::max(passed, kWindow);
+    moving_ = way >= kStopSpeed * std::max(passed, kWindow);
     return;
   }
   if (!(now.seconds > middle.seconds)) return;
   const Eigen::Vector2d first = shift(oldest, middle) / (middle.seconds - oldest.seconds),
                         second = shift(middle, now) / (now.seconds - middle.seconds);
-  const bool same_way = first.dot(second) > kSameWay * std::max(first.squaredNorm(), second.squaredNorm());
-  moving_ = same_way && way > kLeaves && way > kMoves * passed;
+  const bool same_way = first.dot(second) > kMinAlignment * std::max(first.squaredNorm(), second.squaredNorm());
+  moving_ = same_way && way > kMinShift && way > kStartSpeed * passed;
 }
 
 }  // namespace pcl_bv

@@ -16,7 +16,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// decimetres, in 0.1 s faster than a pedestrian walks. Within half a second, the whole box of a pedestrian
 /// moves, in the same direction in both halves. Of a static object one face stays in place, or the box jumps
 /// back and forth.
-class MotionJudge {
+class MotionClassifier {
  public:
   /// Adds a measurement, `seconds` after the last one: the centre of the box in the fixed frame, half its
   /// size along the sensor's axes, and the rotation `turn` from the sensor's axes to the fixed frame. Metres.
@@ -30,12 +30,12 @@ class MotionJudge {
     double seconds = 0;  // since the first measurement
     Eigen::Vector3d centre = Eigen::Vector3d::Zero(), half = Eigen::Vector3d::Zero();
   };
-  static constexpr std::size_t kMost = 8;
+  static constexpr std::size_t kCapacity = 8;
 
-  const Sighting& past(std::size_t i) const { return past_[(first_ + i) % kMost]; }
+  const Sighting& past(std::size_t i) const { return past_[(first_ + i) % kCapacity]; }
   void judge(const Sighting& now, const Eigen::Matrix3d& turn);
 
-  std::array<Sighting, kMost> past_;  // ring buffer
+  std::array<Sighting, kCapacity> past_;  // ring buffer
   std::size_t first_ = 0, count_ = 0;
   double seconds_ = 0;
   bool moving_ = false;

@@ -9,12 +9,12 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kPlaceVariance = 0.1 * 0.1;  // m^2; variance of a measured face
+constexpr double kFaceVariance = 0.1 * 0.1;  // m^2; variance of a measured face
 constexpr double kFirstSpeed = 8;             // m/s; standard deviation of an unknown velocity
 constexpr double kManoeuvre = 0.3;            // m^2/s^3; noise of the acceleration: 1.7 m/s^2 for 0.1 s
-constexpr double kTurning = 0.1;              // 1/s; the same per squared speed: 57 degrees/s for 0.1 s
-constexpr double kFastest = 60;               // m/s; limit of the speed
-constexpr double kShortest = 0.03;            // seconds; smallest step that gives a first velocity
+constexpr double kTurnNoise = 0.1;              // 1/s; the same per squared speed: 57 degrees/s for 0.1 s
+constexpr double kMaxSpeed = 60;               // m/s; limit of the speed
+constexpr double kMinStep = 0.03;            // seconds; smallest step that gives a first velocity
 
 // Returns the variances along the axes after a rotation: the diagonal of R diag(v) R^T.
 Eigen::Vector3d turned(const Eigen::Matrix3d& turn, const Eigen::Vector3d& variances) {
@@ -23,7 +23,7 @@ Eigen::Vector3d turned(const Eigen::Matrix3d& turn, const Eigen::Vector3d& varia
 
 // Returns the innovation: the shift of the centre if the size is unchanged, the smallest shift of the faces
 // if the size changes by 0.25 m or more, and a blend between.
-double surprise_of(const Change& change, int axis) {
+double innovation_of(const Change& change, int axis) {
   const double part = std::clamp((std::abs(change.size[axis]) - 0.05) / 0.2, 0.0, 1.0);
   return (1 - part) * change.centre[axis] + part * change.shift[axis];
 }
@@ -35,7 +35,7 @@ void Track::start(const Aabb& box, const Pose& sensor) {
   const Eigen::Vector3d half = (box.max() - box.min()) / 2;
   const Eigen::Vector3d place = sensor * box.center();
   for (int i = 0; i < 3; ++i)
-    motion.axes[static_cast<std::size_t>(i)] = {place[i], 0, kPlaceVariance, 0, kFirstSpeed * kFirstSpeed};
+    motion.axes[static_cast<std::size_t>(i)] = {place[i], 0, kFaceVariance, 0, kFirstSpeed * kFirstSpeed};
   low = -half;
   high = half;
   expected = box.center();
@@ -50,7 +50,7 @@ void Track::start(const Aabb& box, const Pose& sensor) {
 void Track::predict(double seconds) {
   before = motion.place();
   // Faster objects accelerate more in curves: 12 m/s at 30 degrees/s are 6 m/s^2.
-  motion.predict(seconds, kManoeuvre + kTurning * motion.velocity().squaredNorm());
+  motion.predict(seconds, kManoeuvre + kTurnNoise * motion.velocity().squaredNorm());
   unseen += seconds;
 }
 
@@ -58,7 +58,7 @@ void Track::expect(const Pose& sensor) {
   expected = sensor.linear().transpose() * (motion.place() - sensor.translation());
 }
 
-Aabb Track::standing_box(const Pose& sensor) const {
+Aabb Track::static_box(const Pose& sensor) const {
   const Eigen::Vector3d at =
       sensor.linear().transpose() * ((moving ? motion.place() : before) - sensor.translation());
   return {at + low, at + high};
@@ -78,8 +78,8 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
   const Change change = change_to(seen_box);
   Eigen::Vector3d surprise, variance;
   for (int i = 0; i < 3; ++i) {
-    surprise[i] = surprise_of(change, i);
-    variance[i] = kPlaceVariance + 0.09 * change.size[i] * change.size[i];
+    surprise[i] = innovation_of(change, i);
+    variance[i] = kFaceVariance + 0.09 * change.size[i] * change.size[i];
   }
   const Eigen::Matrix3d turn = sensor.linear();
   surprise = turn * surprise;
@@ -87,13 +87,13 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
   const double passed = std::max(unseen, seconds);
   for (int i = 0; i < 3; ++i) {
     AxisFilter& axis = motion.axes[static_cast<std::size_t>(i)];
-    if (seen == 1 && passed >= kShortest) {
+    if (seen == 1 && passed >= kMinStep) {
       axis.start(surprise[i], variance[i], passed);
     } else {
       axis.correct(surprise[i], variance[i]);
     }
   }
-  motion.limit_speed(kFastest);
+  motion.limit_speed(kMaxSpeed);
   expect(sensor);
   for (int i = 0; i < 3; ++i) {
     const double part = std::clamp(std::abs(change.size[i]) / 0.5, 0.3, 1.0);
@@ -110,11 +110,11 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds) {
   expect(sensor);
   missed = hidden = 0;
   ++seen;
-  judge_motion(high, sensor, passed);
+  classify_motion(high, sensor, passed);
   unseen = 0;
 }
 
-void Track::judge_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds) {
+void Track::classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds) {
   judge.add(motion.place(), half, sensor.linear(), seconds);
   moving = judge.moving();
   const Eigen::Vector3d velocity = motion.velocity(), variance = motion.velocity_variance();
@@ -140,7 +140,7 @@ TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& a
   const auto block = [&](const Eigen::Vector3d& diagonal) {
     return Eigen::Matrix3d(turn * diagonal.asDiagonal() * turn.transpose());
   };
-  const Eigen::Matrix3d places = block(motion.place_variance()), both = block(motion.covariance()),
+  const Eigen::Matrix3d places = block(motion.position_variance()), both = block(motion.covariance()),
                         velocities = block(motion.velocity_variance());
   Eigen::Matrix<double, 6, 6> all = Eigen::Matrix<double, 6, 6>::Zero();
   all.topLeftCorner<3, 3>() = places;
@@ -157,8 +157,8 @@ TrackEntry Track::entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& a
 double cost_of(const Track& track, const Aabb& box, double gate) {
   const Change change = track.change_to(box);
   // Not rotated into the sensor's axes: good enough for a gate.
-  const Eigen::Vector3d variance = track.motion.place_variance();
-  const double slack = kPlaceVariance + gate * gate / 16, most = std::max(variance.x(), variance.y());
+  const Eigen::Vector3d variance = track.motion.position_variance();
+  const double slack = kFaceVariance + gate * gate / 16, most = std::max(variance.x(), variance.y());
   double cost = 0;
   for (int i = 0; i < 3; ++i) {
     const double size = track.high[i] - track.low[i];

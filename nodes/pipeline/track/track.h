@@ -28,7 +28,7 @@ struct Change {
 /// One tracked object.
 struct Track {
   MotionFilter motion;  // in the fixed frame
-  MotionJudge judge;
+  MotionClassifier judge;
   // Faces of the box relative to the position, along the sensor's axes.
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
   Eigen::Vector3d expected = Eigen::Vector3d::Zero();  // position in the sensor's frame
@@ -39,7 +39,7 @@ struct Track {
   bool alive = false, moving = false;
   std::optional<std::uint32_t> id;
   std::optional<std::size_t> split_from;  // slot of the track whose expected box held this track's first box
-  std::size_t seen_since_split = 0;       // detections since the split or the last occlusion
+  std::size_t detections_since_split = 0;       // detections since the split or the last occlusion
 
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
@@ -47,7 +47,7 @@ struct Track {
   /// Returns the expected box in the sensor's frame. An object that is not known to move is assumed to be
   /// static. If static tracks were predicted by their velocities, an error of the sensor's velocity would
   /// pass into these velocities and stay there.
-  Aabb standing_box(const Pose& sensor) const;
+  Aabb static_box(const Pose& sensor) const;
   Aabb expected_box() const { return {expected + low, expected + high}; }
   Change change_to(const Aabb& box) const;
   void correct(const Aabb& box, const Pose& sensor, double seconds);
@@ -57,7 +57,7 @@ struct Track {
   TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent) const;
 
  private:
-  void judge_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);
+  void classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);
 };
 
 /// Returns how unlikely it is that the box belongs to the track, in squared standard deviations. `gate`, in

@@ -17,7 +17,7 @@ namespace pcl_bv {
 namespace {
 
 constexpr double kGateCost = 16;         // four standard deviations, squared
-constexpr std::size_t kHiddenShare = 4;  // occluded frames that count as one missed frame
+constexpr std::size_t kOccludedFramesPerMiss = 4;  // occluded frames that count as one missed frame
 constexpr std::size_t kSeparate = 5;     // detections in a row that prove a split
 
 bool holds(const Aabb& box, const Eigen::Vector3d& place) {
@@ -77,7 +77,7 @@ Eigen::Vector3d Tracker::State::apparent(const Eigen::Vector3d& place) const {
 void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes) {
   expected.clear();
   for (const Track& track : tracks)
-    if (track.alive && track.missed == 0) expected.push_back(track.standing_box(sensor));
+    if (track.alive && track.missed == 0) expected.push_back(track.static_box(sensor));
   PlanarMotion guess;
   if (step_seconds > 0) {
     const double part = seconds / step_seconds;
@@ -155,8 +155,8 @@ void Tracker::State::miss(const std::vector<Aabb>& boxes, std::vector<Assignment
       hides = true;
       if (track.id) assignments[b].merged = true;
     });
-    if (hides) track.seen_since_split = 0;
-    if (hides && ++track.hidden % kHiddenShare != 0) continue;
+    if (hides) track.detections_since_split = 0;
+    if (hides && ++track.hidden % kOccludedFramesPerMiss != 0) continue;
     ++track.missed;
   }
 }
@@ -176,7 +176,7 @@ void Tracker::State::start(const std::vector<Aabb>& boxes, std::size_t box,
 void Tracker::State::separate(std::vector<Assignment>& assignments) {
   for (const Assignment& own : assignments) {
     Track& track = tracks[own.slot];
-    if (!track.split_from || ++track.seen_since_split < kSeparate) continue;
+    if (!track.split_from || ++track.detections_since_split < kSeparate) continue;
     const Track& other = tracks[*track.split_from];
     const bool lives = other.alive && other.age > track.age;  // a reused slot holds a younger track
     const std::size_t box = lives ? assignment.columns()[*track.split_from] : SparseAssignment::none;

@@ -17,13 +17,13 @@ namespace pcl_bv {
 ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
     : name_(parameters.getNamespace()), topics_(topics) {
   const StreamConfig config = config_of(parameters);
-  for (const std::string& line : config.pipeline.without_effect())
+  for (const std::string& line : config.pipeline.ineffective_settings())
     ROS_WARN_STREAM(name_ << ": " << line);
   if (const auto& field = config.pipeline.cluster.class_field) class_field_ = field->name;
   pipeline_ = FramePipeline(config.pipeline);
   runner_ = std::make_unique<StreamRunner>(callbacks(), config.runner);
-  const std::lock_guard lock(connecting_);
-  const auto changed = [this](const ros::SingleSubscriberPublisher&) { listen_while_wanted(); };
+  const std::lock_guard lock(subscription_mutex_);
+  const auto changed = [this](const ros::SingleSubscriberPublisher&) { update_subscription(); };
   markers_ = topics_.advertise<visualization_msgs::MarkerArray>("markers", 5, changed, changed);
   labels_ = topics_.advertise<sensor_msgs::PointCloud2>("labels", 2, changed, changed);
   diagnostics_ = topics_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 5);
@@ -45,16 +45,16 @@ StreamRunner::Callbacks ClusterVolumes::callbacks() {
     if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": a cloud is lost: " << reason);
   };
   calls.on_silence = [this](double seconds) {
-    if (listens_) ROS_WARN_STREAM(name_ << ": no cloud for " << seconds << " s");
+    if (subscribed_) ROS_WARN_STREAM(name_ << ": no cloud for " << seconds << " s");
   };
   return calls;
 }
 
-void ClusterVolumes::listen_while_wanted() {
-  const std::lock_guard lock(connecting_);
+void ClusterVolumes::update_subscription() {
+  const std::lock_guard lock(subscription_mutex_);
   const bool wanted = markers_.getNumSubscribers() + labels_.getNumSubscribers() > 0;
-  if (wanted == listens_) return;
-  listens_ = wanted;
+  if (wanted == subscribed_) return;
+  subscribed_ = wanted;
   if (wanted) {
     points_ =
         topics_.subscribe("points", 2, &ClusterVolumes::receive, this, ros::TransportHints().tcpNoDelay());

@@ -33,7 +33,7 @@ class ClusterVolumes {
   ClusterVolumes& operator=(const ClusterVolumes&) = delete;
 
  private:
-  void listen_while_wanted();
+  void update_subscription();
   void receive(const sensor_msgs::PointCloud2ConstPtr& cloud);
   void publish(const Frame& frame, const FrameResult& result);
   StreamRunner::Callbacks callbacks();
@@ -41,8 +41,8 @@ class ClusterVolumes {
   std::string name_, class_field_;
   ros::NodeHandle topics_;
   FramePipeline pipeline_;
-  std::mutex connecting_;
-  std::atomic<bool> listens_{false};
+  std::mutex subscription_mutex_;
+  std::atomic<bool> subscribed_{false};
   ros::Publisher markers_, labels_, diagnostics_;
   ros::Subscriber points_;
   ShownObjects shown_;

@@ -46,7 +46,7 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
 }
 
 // Removes the line number from an error message, because it refers to a generated text.
-std::string without_line(std::string problem) {
+std::string without_line_number(std::string problem) {
   const std::size_t at = problem.find(": line ");
   if (at != std::string::npos) problem.erase(at, problem.find(':', at + 2) - at);
   return problem;
@@ -81,7 +81,7 @@ StreamConfig config_of(const ros::NodeHandle& parameters) {
   try {
     return tree.size() == 0 ? config : parse_stream_config(YAML::Dump(tree), name, config);
   } catch (const ConfigError& error) {
-    throw ConfigError(without_line(error.what()));
+    throw ConfigError(without_line_number(error.what()));
   }
 }
 

@@ -83,7 +83,7 @@ class VtpSink : public FrameSink {
       : description_(with_folder(description)), index_(description.place / "frames.pvd") {}
   void write(const Frame& frame, const FrameResult& result) override {
     const bool tracked = result.config->track.enabled;
-    std::string entries = add("frame", frame, volumes_vtp(entries_of(result), tracked), 0);
+    std::string entries = add("frame", frame, volumes_vtp(cluster_entries(result), tracked), 0);
     if (description_.points)
       entries += add("points", frame, points_vtp(frame.points, labels_of(frame, result)), 1);
     append(entries);
@@ -94,7 +94,7 @@ class VtpSink : public FrameSink {
   }
 
  private:
-  void append(const std::string& entries) { index_.write(std::exchange(heading_, "") + entries, pvd_end); }
+  void append(const std::string& entries) { index_.write(std::exchange(heading_, "") + entries, kPvdEnd); }
 
   std::string add(const char* stem, const Frame& frame, const std::string& content, int part) {
     const std::string name = numbered(stem, frame, description_.kind->files);
@@ -105,7 +105,7 @@ class VtpSink : public FrameSink {
 
   SinkDescription description_;
   LineFile index_;
-  std::string heading_{pvd_begin};
+  std::string heading_{kPvdBegin};
   std::optional<std::int64_t> first_stamp_ns_;
 };
 

@@ -21,7 +21,7 @@ constexpr const char* kQos =
     "liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n  "
     "avoid_ros_namespace_conventions: false";
 
-class Recorder final : public MessageCarrier {
+class Recorder final : public MessageSender {
  public:
   explicit Recorder(std::unique_ptr<RecordingWriter> writer) : writer_(std::move(writer)) {}
   std::size_t add_topic(const MessageTopic& topic) override {

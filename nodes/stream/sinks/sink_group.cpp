@@ -76,7 +76,7 @@ void SinkGroup::add(const SinkDescription& description) {
       made_.emplace_back(fs::absolute(description.place, unknown), missing);
   try {
     add(name, make_sink(description));
-    for (const std::string& remark : members_.back()->sink->take_remarks())
+    for (const std::string& remark : members_.back()->sink->take_warnings())
       say_(std::string(name).append(": ").append(remark));
   } catch (const IoError& error) {
     throw IoError(name + ": " + error.what());
@@ -131,7 +131,7 @@ void SinkGroup::write(const Frame& frame, const FrameResult& result) {
   each([&](Member& member) {
     const auto begin = std::chrono::steady_clock::now();
     member.sink->write(frame, result);
-    for (const std::string& remark : member.sink->take_remarks())
+    for (const std::string& remark : member.sink->take_warnings())
       say_(member.name + ": " + remark);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     const std::lock_guard lock(member.mutex);

@@ -30,7 +30,7 @@ void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<con
   frame.header.frame_id = cloud.header.frame_id;
   if (const std::int64_t stamp = msg::nanoseconds_of(cloud.header.stamp); stamp != 0)
     frame.header.stamp_ns = stamp;
-  const std::optional<PointView> in_place = points_in_place(cloud);
+  const std::optional<PointView> in_place = view_points(cloud);
   if (in_place) {
     frame.points = *in_place;
     frame.intensity = intensity_in_place(cloud);

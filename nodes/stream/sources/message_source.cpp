@@ -46,7 +46,7 @@ class MessageSource final : public FrameSource {
     return Next::frame;
   }
 
-  std::vector<std::string> take_remarks() override { return receiver_->take_remarks(); }
+  std::vector<std::string> take_warnings() override { return receiver_->take_warnings(); }
 
  private:
   std::unique_ptr<MessageReceiver> receiver_;

@@ -13,7 +13,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Creates a source that turns each received message (sensor_msgs/msg/PointCloud2) into a frame.
 ///
-/// Points are not copied if they can be read in place (points_in_place()). A header stamp of 0 is replaced by
+/// Points are not copied if they can be read in place (view_points()). A header stamp of 0 is replaced by
 /// the time of sending. Latency is measured from the arrival of the message. `name` becomes Frame::file of
 /// every frame. Of `options`, only class_field, frame_id and poses by time (TUM) are used.
 /// FrameSource::next() throws FrameError for a message that is not a PointCloud2. This function throws

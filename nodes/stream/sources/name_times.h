@@ -22,18 +22,18 @@ enum class TimeKind : std::uint8_t {
 inline constexpr TimeKind kTimeKinds[]{TimeKind::epoch, TimeKind::date, TimeKind::day, TimeKind::decimal};
 
 /// A time in a name. What its fraction means depends on the other names of the folder.
-struct WrittenTime {
+struct ParsedTime {
   TimeKind kind = TimeKind::epoch;
   std::int64_t seconds = 0;
   std::string fraction{};
-  bool may_count = false;  ///< The fraction follows a dash or underscore: it may be a frame number.
+  bool may_be_frame_number = false;  ///< The fraction follows a dash or underscore: it may be a frame number.
 };
 
 /// Returns all times in a name without its extension, in order.
-std::vector<WrittenTime> times_in(std::string_view stem);
+std::vector<ParsedTime> times_in(std::string_view stem);
 
 /// Returns the time in nanoseconds. The fraction is decimal: "25" is a quarter of a second.
-std::int64_t stamp_of(const WrittenTime& time);
+std::int64_t stamp_of(const ParsedTime& time);
 
 /// The stamps of all names of a folder, read in one format.
 struct NameTimes {

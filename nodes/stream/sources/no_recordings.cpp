@@ -21,7 +21,7 @@ std::vector<SinkKind> recording_sinks() {
   return {};
 }
 
-void refuse_false_recording(const std::filesystem::path& file) {
+void check_recording_content(const std::filesystem::path& file) {
   constexpr std::array names{".bag", ".mcap", ".db3", ".pcap", ".pcapng"};
   if (std::find(names.begin(), names.end(), lower_case_extension(file)) != names.end())
     throw IoError("is a recording, which this build cannot read: it lacks the component recording");

@@ -32,7 +32,7 @@ class Packets final : public FrameSource {
     frame = Frame();
     frame.file = name_;
     frame.header.seq = seq_;
-    frame.header.stamp_ns = options_.from_name
+    frame.header.stamp_ns = options_.own_stamps
                                 ? sweep->stamp_ns
                                 : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
     frame.header.frame_id = options_.frame_id.empty() ? "velodyne" : options_.frame_id;
@@ -50,7 +50,7 @@ class Packets final : public FrameSource {
     return Next::frame;
   }
 
-  std::vector<std::string> take_remarks() override {
+  std::vector<std::string> take_warnings() override {
     const std::vector<std::string> all = reader_.remarks();
     if (all.size() <= remarks_) return {};
     std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(remarks_), all.end());

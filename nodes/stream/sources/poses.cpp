@@ -15,7 +15,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr std::int64_t kGreatestGap = 500'000'000;  // nanoseconds
+constexpr std::int64_t kMaxGap = 500'000'000;  // nanoseconds
 
 // long double holds today's times in seconds to the nanosecond.
 using Numbers = std::vector<long double>;
@@ -67,7 +67,7 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 // Returns the transform from the sensor to the camera whose poses KITTI gives, if there is a calib.txt.
-std::optional<Pose> camera_beside(const std::filesystem::path& poses) {
+std::optional<Pose> camera_from_calibration(const std::filesystem::path& poses) {
   const std::filesystem::path file = poses.parent_path() / "calib.txt";
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown)) return std::nullopt;
@@ -91,7 +91,7 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
     const std::string place = line_number > 0 ? ": line " + std::to_string(line_number) : "";
     throw IoError(file.string() + place + ": " + what);
   };
-  const std::optional<Pose> camera = camera_beside(file);
+  const std::optional<Pose> camera = camera_from_calibration(file);
   for (std::string line; std::getline(stream, line);) {
     ++line_number;
     if (line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos) continue;
@@ -128,7 +128,7 @@ std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
   if (after != poses_.end() && after->first == stamp_ns) return after->second;
   if (after == poses_.begin() || after == poses_.end()) return std::nullopt;
   const auto before = after - 1;
-  if (after->first - before->first > kGreatestGap) return std::nullopt;
+  if (after->first - before->first > kMaxGap) return std::nullopt;
   const double part =
       static_cast<double>(stamp_ns - before->first) / static_cast<double>(after->first - before->first);
   const Eigen::Quaterniond from(before->second.linear()), to(after->second.linear());

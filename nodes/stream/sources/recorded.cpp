@@ -50,7 +50,7 @@ class Recorded final : public FrameSource {
     return Next::frame;
   }
 
-  std::vector<std::string> take_remarks() override {
+  std::vector<std::string> take_warnings() override {
     const std::vector<std::string>& all = reader_->remarks();
     std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(remarks_), all.end());
     remarks_ = all.size();
@@ -72,7 +72,7 @@ class Recorded final : public FrameSource {
     const auto bytes = std::make_shared<std::vector<std::byte>>(message.data, message.data + message.size);
     const bool ros1 = reader_->topics()[topic_].encoding != "cdr";
     read_cloud_message({bytes->data(), bytes->size(), bytes, ros1}, options_.class_field, frame);
-    if (!options_.from_name)
+    if (!options_.own_stamps)
       frame.header.stamp_ns = std::llround(1e9 * static_cast<double>(frame.header.seq) / options_.rate_hz);
     if (!options_.frame_id.empty()) frame.header.frame_id = options_.frame_id;
   }

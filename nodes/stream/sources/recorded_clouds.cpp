@@ -81,7 +81,7 @@ bool has_recorded_clouds(const std::filesystem::path& file) {
   return is_recording(file) || is_capture(file);
 }
 
-void refuse_false_recording(const std::filesystem::path& file) {
+void check_recording_content(const std::filesystem::path& file) {
   constexpr std::array names{".bag", ".mcap", ".db3", ".pcap", ".pcapng"};
   std::error_code unknown;
   if (std::find(names.begin(), names.end(), lower_case_extension(file)) == names.end() ||
@@ -93,7 +93,7 @@ void refuse_false_recording(const std::filesystem::path& file) {
 }
 
 // Number of skipped clouds that are stored. Threads that take numbers in order may be late by some clouds.
-constexpr std::size_t kMostPassedOver = 16;
+constexpr std::size_t kMaxSkipped = 16;
 
 struct RecordedClouds::State {
   std::unique_ptr<RecordingReader> reader;
@@ -103,7 +103,7 @@ struct RecordedClouds::State {
   std::map<std::size_t, std::function<RawCloud()>> passed_over;  // by number: the cloud, or its error
   std::string note;                                              // of the last cloud that was read
   std::map<std::size_t, std::string> notes;  // by number: notes that differ from the one before
-  std::vector<std::string> taken;            // remarks that take_remarks() has returned
+  std::vector<std::string> taken;            // remarks that take_warnings() has returned
   mutable std::mutex mutex;
 
   void rewind() {
@@ -144,7 +144,7 @@ struct RecordedClouds::State {
     } catch (const std::exception&) {
       stored = [error = std::current_exception()]() -> RawCloud { std::rethrow_exception(error); };
     }
-    if (passed_over.size() > kMostPassedOver) passed_over.erase(passed_over.begin());
+    if (passed_over.size() > kMaxSkipped) passed_over.erase(passed_over.begin());
   }
 
   std::vector<std::string> remarks() const { return packets ? packets->remarks() : reader->remarks(); }
@@ -184,7 +184,7 @@ RawCloud RecordedClouds::load(std::size_t number) {
   for (;;) {
     if (!state.take()) throw IoError("the recording ends before this cloud");
     if (state.next == number) return state.noted_cloud();
-    if (number - state.next > kMostPassedOver) {
+    if (number - state.next > kMaxSkipped) {
       ++state.next;
     } else {
       state.pass_over();
@@ -204,7 +204,7 @@ std::vector<std::string> RecordedClouds::remarks() const {
 }
 
 // Compares remarks by their texts, since damage is found again when a part is read again.
-std::vector<std::string> RecordedClouds::take_remarks() {
+std::vector<std::string> RecordedClouds::take_warnings() {
   const std::lock_guard lock(state_->mutex);
   std::vector<std::string> fresh;
   for (std::string& remark : state_->remarks()) {

@@ -54,7 +54,7 @@ class RecordedClouds {
   std::vector<std::string> remarks() const;
 
   /// Returns the lines of remarks() that no earlier call has returned.
-  std::vector<std::string> take_remarks();
+  std::vector<std::string> take_warnings();
 
  private:
   struct State;

@@ -44,7 +44,7 @@ class Replay : public FrameSource {
     return Next::frame;
   }
 
-  std::vector<std::string> take_remarks() override {
+  std::vector<std::string> take_warnings() override {
     if (times_.remark.empty()) return {};
     return {std::exchange(times_.remark, {})};
   }
@@ -55,7 +55,7 @@ class Replay : public FrameSource {
     if (!files_.empty()) frame.file = files_[place].string();
     frame.header.seq = seq_;
     frame.header.frame_id = options_.frame_id;
-    frame.header.stamp_ns = options_.from_name
+    frame.header.stamp_ns = options_.own_stamps
                                 ? times_.stamps[place]
                                 : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
     frame.pose = poses_.at(place, frame.header.stamp_ns);

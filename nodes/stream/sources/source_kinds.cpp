@@ -53,12 +53,12 @@ std::unique_ptr<FrameSource> open_folder(const std::string& name, const ReplayOp
   if (std::filesystem::is_directory(name, unknown)) files = list_clouds(name);
   if (files.empty()) throw IoError(name + ": no cloud in this folder");
   NameTimes times;
-  if (options.from_name) times = times_of(files);
+  if (options.own_stamps) times = times_of(files);
   const std::size_t length = files.size();
   return make_replay(
       length, std::move(files), options,
       [fields = options.bin_fields, classes = options.class_field](std::size_t, Frame& frame) {
-        refuse_false_recording(frame.file);
+        check_recording_content(frame.file);
         const auto cloud = std::make_shared<RawCloud>(read_cloud(frame.file, Serial{}, fields));
         frame.points = cloud->xyz();
         frame.intensity = intensity_of(cloud->fields, cloud->data.data(), cloud->point_step);
@@ -79,11 +79,11 @@ Pose pose_of(const std::array<double, 12>& rows) {
 }
 
 // The sequence has poses of its own; a file of poses, if given, replaces them.
-std::unique_ptr<FrameSource> open_verges(const std::string& name, const ReplayOptions& options) {
-  const VergesSequenceSpec spec = parse_verges_sequence(name.substr(kSynth.size()));
+std::unique_ptr<FrameSource> open_rural_road(const std::string& name, const ReplayOptions& options) {
+  const RuralRoadSequenceSpec spec = parse_rural_road_sequence(name.substr(kSynth.size()));
   const bool own_poses = options.poses.empty();
   return make_replay(spec.frames, {}, options, [spec, own_poses](std::size_t place, Frame& frame) {
-    VergesFrame made = make_verges_frame(spec.options, place);
+    RuralRoadFrame made = make_rural_road_frame(spec.options, place);
     if (own_poses) frame.pose = pose_of(made.pose);
     const auto xyz = std::make_shared<std::vector<float>>(std::move(made.cloud.xyz));
     frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
@@ -93,8 +93,8 @@ std::unique_ptr<FrameSource> open_verges(const std::string& name, const ReplayOp
 }
 
 std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOptions& options) {
-  if (options.from_name) throw std::invalid_argument("'" + name + "' has no names with times");
-  if (is_verges_sequence(name.substr(kSynth.size()))) return open_verges(name, options);
+  if (options.own_stamps) throw std::invalid_argument("'" + name + "' has no names with times");
+  if (is_rural_road_sequence(name.substr(kSynth.size()))) return open_rural_road(name, options);
   const StreetSequenceSpec spec = parse_street_sequence(name.substr(kSynth.size()));
   StreetOptions street;
   street.seed = spec.seed;
@@ -143,7 +143,7 @@ std::string source_syntax() {
 }
 
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options) {
-  if (!(options.rate_hz >= kLeastRate && options.rate_hz <= kGreatestRate))
+  if (!(options.rate_hz >= kMinRate && options.rate_hz <= kMaxRate))
     throw std::invalid_argument("rate: is not a number from 0.001 to 1000000");
   return source_kind(name).open(name, options);
 }

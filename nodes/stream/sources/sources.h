@@ -33,7 +33,7 @@ class Poses {
 
 /// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
 /// empty. `load` fills in the cloud with index `place` and its owner, and throws if it cannot. `times` are
-/// the stamps if options.from_name is set.
+/// the stamps if options.own_stamps is set.
 std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
                                          const ReplayOptions& options,
                                          std::function<void(std::size_t place, Frame&)> load,
@@ -46,6 +46,6 @@ std::vector<SourceKind> recording_kinds();
 
 /// Throws IoError if the file has the extension of a recording or capture (.bag, .mcap, .db3, .pcap, .pcapng)
 /// but not its first bytes, or if it is missing or empty. Other extensions pass.
-void refuse_false_recording(const std::filesystem::path& file);
+void check_recording_content(const std::filesystem::path& file);
 
 }  // namespace pcl_bv

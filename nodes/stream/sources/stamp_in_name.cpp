@@ -12,7 +12,7 @@
 namespace pcl_bv {
 namespace {
 
-using Times = std::vector<WrittenTime>;
+using Times = std::vector<ParsedTime>;
 
 constexpr std::int64_t kDay = 86'400'000'000'000;
 
@@ -29,10 +29,10 @@ std::vector<std::int64_t> decimal_stamps(const Times& times) {
 // Reads fractions as whole milli-, micro- or nanoseconds; the longest fraction decides which.
 std::vector<std::int64_t> unpadded_stamps(Times times) {
   std::size_t longest = 0;
-  for (const WrittenTime& time : times)
+  for (const ParsedTime& time : times)
     longest = std::max(longest, time.fraction.size());
   longest = (longest + 2) / 3 * 3;
-  for (WrittenTime& time : times)
+  for (ParsedTime& time : times)
     time.fraction.insert(0, longest - time.fraction.size(), '0');
   return decimal_stamps(times);
 }
@@ -53,31 +53,31 @@ double unevenness(std::vector<std::int64_t> stamps) {
 bool are_unpadded(const Times& times) {
   const auto any = [&](auto holds) { return std::any_of(times.begin(), times.end(), holds); };
   const std::size_t size = times.front().fraction.size();
-  if (!any([&](const WrittenTime& time) { return time.fraction.size() != size; })) return false;
-  if (any([](const WrittenTime& time) { return time.fraction.size() > 9; })) return false;
-  const auto zero = [](const WrittenTime& time, bool first) {
+  if (!any([&](const ParsedTime& time) { return time.fraction.size() != size; })) return false;
+  if (any([](const ParsedTime& time) { return time.fraction.size() > 9; })) return false;
+  const auto zero = [](const ParsedTime& time, bool first) {
     const std::string& text = time.fraction;
     return text.size() > 1 && (first ? text.front() : text.back()) == '0';
   };
-  if (any([&](const WrittenTime& time) { return zero(time, true); })) return false;
-  if (any([&](const WrittenTime& time) { return zero(time, false); })) return true;
+  if (any([&](const ParsedTime& time) { return zero(time, true); })) return false;
+  if (any([&](const ParsedTime& time) { return zero(time, false); })) return true;
   const double unpadded = unevenness(unpadded_stamps(times)), decimal = unevenness(decimal_stamps(times));
-  const bool nine = any([](const WrittenTime& time) { return time.fraction.size() == 9; });
+  const bool nine = any([](const ParsedTime& time) { return time.fraction.size() == 9; });
   return unpadded < decimal || (unpadded == decimal && nine);
 }
 
 // Returns whether fractions are frame numbers: 20121214_142259_000017 is the start of a recording and a
 // number.
-bool count_frames(const Times& times) {
+bool are_frame_numbers(const Times& times) {
   for (std::size_t i = 1; i < times.size(); ++i) {
-    if (!times[i].may_count || times[i].seconds != times[0].seconds || !times[i - 1].may_count ||
+    if (!times[i].may_be_frame_number || times[i].seconds != times[0].seconds || !times[i - 1].may_be_frame_number ||
         std::stoll(times[i].fraction) != std::stoll(times[i - 1].fraction) + 1)
       return false;
   }
   return times.size() > 1;
 }
 
-NameTimes meaning_of(const Times& times) {
+NameTimes interpretation_of(const Times& times) {
   NameTimes meaning;
   const bool unpadded = are_unpadded(times);
   meaning.stamps = unpadded ? unpadded_stamps(times) : decimal_stamps(times);
@@ -88,7 +88,7 @@ NameTimes meaning_of(const Times& times) {
       meaning.stamps[i] += days;
     }
   }
-  const auto other_length = [&](const WrittenTime& time) {
+  const auto other_length = [&](const ParsedTime& time) {
     return time.fraction.size() != times.front().fraction.size();
   };
   meaning.sort =
@@ -99,7 +99,7 @@ NameTimes meaning_of(const Times& times) {
 // Returns the last (or first) time of this kind in each name; empty if a name has none.
 Times chosen(const std::vector<Times>& all, TimeKind kind, bool last) {
   Times times;
-  const auto is_kind = [kind](const WrittenTime& time) { return time.kind == kind; };
+  const auto is_kind = [kind](const ParsedTime& time) { return time.kind == kind; };
   for (const Times& some : all) {
     const auto front = std::find_if(some.begin(), some.end(), is_kind);
     if (front == some.end()) return {};
@@ -108,7 +108,7 @@ Times chosen(const std::vector<Times>& all, TimeKind kind, bool last) {
   return times;
 }
 
-std::string order_remark(const std::vector<std::int64_t>& stamps, const std::vector<std::string>& stems) {
+std::string order_warning(const std::vector<std::int64_t>& stamps, const std::vector<std::string>& stems) {
   std::size_t first = 0, wrong = 0;
   std::int64_t before = -1;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
@@ -133,11 +133,11 @@ NameTimes times_of_names(const std::vector<std::string>& stems) {
     for (const bool last : {true, false}) {
       Times times = chosen(all, kind, last);
       if (times.empty()) continue;
-      if (count_frames(times)) {
-        for (WrittenTime& time : times)
+      if (are_frame_numbers(times)) {
+        for (ParsedTime& time : times)
           time.fraction.clear();
       }
-      NameTimes meaning = meaning_of(times);
+      NameTimes meaning = interpretation_of(times);
       if (ascend(meaning.stamps)) return meaning;
       if (!found || (meaning.sort && !found->sort)) found = std::move(meaning);
     }
@@ -147,7 +147,7 @@ NameTimes times_of_names(const std::vector<std::string>& stems) {
     for (const std::string& stem : stems)
       found->stamps.push_back(stamp_in_name(stem));
   }
-  if (!found->sort) found->remark = order_remark(found->stamps, stems);
+  if (!found->sort) found->remark = order_warning(found->stamps, stems);
   return *std::move(found);
 }
 

@@ -64,7 +64,7 @@ std::int64_t whole(std::string_view digits) {
 
 // Reads hours, minutes and seconds, which follow each other directly or are all separated by the same
 // character, and a fraction. Returns the seconds of the day, or -1 if there is no time.
-std::int64_t take_clock(NameReader& name, bool apart, WrittenTime& time) {
+std::int64_t take_clock(NameReader& name, bool apart, ParsedTime& time) {
   const int hours = name.number(2, apart);
   const char between = name.here();
   if (apart && !name.take("-_:.")) return -1;
@@ -78,8 +78,8 @@ std::int64_t take_clock(NameReader& name, bool apart, WrittenTime& time) {
     time.fraction = behind.take_digits();
   } else if (time.fraction.empty() && behind.take("-_")) {
     const std::size_t size = behind.digits().size();
-    time.may_count = size == 3 || size == 6 || size == 9;
-    if (time.may_count) time.fraction = behind.take_digits();
+    time.may_be_frame_number = size == 3 || size == 6 || size == 9;
+    if (time.may_be_frame_number) time.fraction = behind.take_digits();
   }
   if (!time.fraction.empty()) name = behind;
   return 3600 * hours + 60 * minutes + seconds;
@@ -97,7 +97,7 @@ std::int64_t take_zone(NameReader& name) {
   return 3600 * hours + 60 * minutes;
 }
 
-std::optional<WrittenTime> take_date(NameReader& name) {
+std::optional<ParsedTime> take_date(NameReader& name) {
   NameReader at = name;
   const std::size_t run = at.digits().size();
   const bool joined =
@@ -114,7 +114,7 @@ std::optional<WrittenTime> take_date(NameReader& name) {
                                          std::chrono::day(static_cast<unsigned>(day))};
   if (year < 1970 || year > 2261 || month < 0 || day < 0 || !date.ok()) return std::nullopt;
   if (!joined && !at.take("Tt_-. ")) return std::nullopt;
-  WrittenTime time{TimeKind::date};
+  ParsedTime time{TimeKind::date};
   const std::int64_t clock = take_clock(at, at.digits().size() == 2, time);
   if (clock < 0) return std::nullopt;
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
@@ -123,46 +123,46 @@ std::optional<WrittenTime> take_date(NameReader& name) {
   return time;
 }
 
-std::optional<WrittenTime> take_clock_time(NameReader& name) {
+std::optional<ParsedTime> take_clock_time(NameReader& name) {
   NameReader at = name;
   if (NameReader hours = name; hours.number(2, true) < 0 || hours.here() == '.')
     return std::nullopt;  // a decimal number
-  WrittenTime time{TimeKind::day};
+  ParsedTime time{TimeKind::day};
   time.seconds = take_clock(at, true, time);
   if (time.seconds < 0) return std::nullopt;
   name = at;
   return time;
 }
 
-WrittenTime of_nanoseconds(std::int64_t stamp) {
+ParsedTime of_nanoseconds(std::int64_t stamp) {
   const std::string rest = std::to_string(stamp % kSecond);
   return {TimeKind::epoch, stamp / kSecond, std::string(9 - rest.size(), '0') + rest};
 }
 
 // Interprets a whole number as a time: seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262 (the
 // end of 64-bit nanoseconds), and nanoseconds from 1e16 on. Other numbers are frame numbers.
-std::optional<WrittenTime> epoch_of(std::int64_t value) {
+std::optional<ParsedTime> epoch_of(std::int64_t value) {
   constexpr std::int64_t e9 = 1'000'000'000, e12 = 1000 * e9, e15 = 1000 * e12;
   if (value >= 10 * e15) return of_nanoseconds(value);
   if (value >= e15 && value <= INT64_MAX / 1000) return of_nanoseconds(1000 * value);
   if (value >= e12 && value <= INT64_MAX / 1'000'000) return of_nanoseconds(1'000'000 * value);
-  if (value >= e9 && value < 2 * e9) return WrittenTime{TimeKind::epoch, value};
+  if (value >= e9 && value < 2 * e9) return ParsedTime{TimeKind::epoch, value};
   return std::nullopt;
 }
 
 // Reads a number with or without a decimal point.
-std::optional<WrittenTime> take_number(NameReader& name) {
+std::optional<ParsedTime> take_number(NameReader& name) {
   constexpr std::int64_t since_2001 = 1'000'000'000, most = INT64_MAX / kSecond - 1;
   const std::int64_t value = whole(name.take_digits());
   NameReader behind = name;
   const bool point = behind.take("."), dash = !point && behind.take("_-");
   const std::size_t digits = behind.digits().size();
-  std::optional<WrittenTime> time = epoch_of(value);
+  std::optional<ParsedTime> time = epoch_of(value);
   const bool seconds = value >= since_2001 && value < 2 * since_2001;
   if ((point && digits > 0) || (dash && seconds && digits >= 3 && digits <= 9)) {
     time = std::nullopt;
     const TimeKind kind = seconds ? TimeKind::epoch : TimeKind::decimal;
-    if (value >= 0 && value <= most) time = WrittenTime{kind, value, std::string(behind.take_digits()), dash};
+    if (value >= 0 && value <= most) time = ParsedTime{kind, value, std::string(behind.take_digits()), dash};
     if (!time) behind.take_digits();
     name = behind;
   }
@@ -171,14 +171,14 @@ std::optional<WrittenTime> take_number(NameReader& name) {
 
 }  // namespace
 
-std::vector<WrittenTime> times_in(std::string_view stem) {
-  std::vector<WrittenTime> times;
+std::vector<ParsedTime> times_in(std::string_view stem) {
+  std::vector<ParsedTime> times;
   for (NameReader name(stem, 0); name.at() < stem.size();) {
     if (!is_digit(name.here())) {
       name = NameReader(stem, name.at() + 1);
       continue;
     }
-    std::optional<WrittenTime> time = take_date(name);
+    std::optional<ParsedTime> time = take_date(name);
     if (!time) time = take_clock_time(name);
     if (!time) time = take_number(name);
     if (time) times.push_back(*std::move(time));
@@ -186,7 +186,7 @@ std::vector<WrittenTime> times_in(std::string_view stem) {
   return times;
 }
 
-std::int64_t stamp_of(const WrittenTime& time) {
+std::int64_t stamp_of(const ParsedTime& time) {
   std::string nanoseconds = time.fraction.substr(0, 9);
   nanoseconds.append(9 - nanoseconds.size(), '0');
   return time.seconds * kSecond + whole(nanoseconds);

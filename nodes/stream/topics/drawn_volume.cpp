@@ -22,7 +22,7 @@ std::array<double, 3> array_of(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-DrawnVolume solid(DrawnVolume::Kind kind, const Eigen::Vector3d& center, const Eigen::Quaterniond& turn,
+VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const Eigen::Quaterniond& turn,
                   const Eigen::Vector3d& size) {
   return {kind, array_of(center), {turn.x(), turn.y(), turn.z(), turn.w()}, array_of(size), {}};
 }
@@ -37,8 +37,8 @@ Eigen::Quaterniond turn_to(const Eigen::Vector3d& axis) {
 }
 
 // Returns the edges of the faces, each once.
-DrawnVolume wires(const Mesh& mesh) {
-  DrawnVolume volume;
+VolumeShape wires(const Mesh& mesh) {
+  VolumeShape volume;
   volume.size = {1, 1, 1};
   std::set<std::pair<std::int32_t, std::int32_t>> edges;
   for (const std::vector<std::int32_t>& face : mesh.faces) {
@@ -53,51 +53,51 @@ DrawnVolume wires(const Mesh& mesh) {
 }
 
 struct Draw {
-  using Kind = DrawnVolume::Kind;
+  using Kind = VolumeShape::Kind;
 
-  DrawnVolume operator()(const Aabb& box) const {
+  VolumeShape operator()(const Aabb& box) const {
     return solid(Kind::cube, box.center(), Eigen::Quaterniond::Identity(), box.max() - box.min());
   }
-  DrawnVolume operator()(const Obb& box) const {
+  VolumeShape operator()(const Obb& box) const {
     return solid(Kind::cube, box.center(), box.quaternion(), 2 * box.half_extents());
   }
-  DrawnVolume operator()(const Sphere& sphere) const {
+  VolumeShape operator()(const Sphere& sphere) const {
     return solid(Kind::sphere, sphere.center(), Eigen::Quaterniond::Identity(),
                  Eigen::Vector3d::Constant(2 * sphere.radius()));
   }
-  DrawnVolume operator()(const Ellipsoid& ellipsoid) const {
+  VolumeShape operator()(const Ellipsoid& ellipsoid) const {
     Eigen::Matrix3d axes = ellipsoid.axes();
     if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
     return solid(Kind::sphere, ellipsoid.center(), Eigen::Quaterniond(axes).normalized(),
                  2 * ellipsoid.radii());
   }
-  DrawnVolume operator()(const Cylinder& cylinder) const {
+  VolumeShape operator()(const Cylinder& cylinder) const {
     return solid(Kind::cylinder, cylinder.center(), turn_to(cylinder.axis()),
                  {2 * cylinder.radius(), 2 * cylinder.radius(), 2 * cylinder.half_height()});
   }
   template <class Volume>
-  DrawnVolume operator()(const Volume& volume) const {
+  VolumeShape operator()(const Volume& volume) const {
     return wires(volume.mesh());
   }
 };
 
 }  // namespace
 
-DrawnVolume drawn(const AnyVolume& volume) {
-  return empty(volume) ? DrawnVolume() : std::visit(Draw{}, volume);
+VolumeShape drawn(const AnyVolume& volume) {
+  return empty(volume) ? VolumeShape() : std::visit(Draw{}, volume);
 }
 
-std::vector<DrawnVolume> drawn(const FrameResult& result) {
-  std::vector<DrawnVolume> volumes;
+std::vector<VolumeShape> drawn(const FrameResult& result) {
+  std::vector<VolumeShape> volumes;
   volumes.reserve(result.volumes.size());
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
     for (std::size_t m = 0; m < result.methods.size(); ++m)
-      volumes.push_back(result.has(i, m) ? drawn(result.volume(i, m)) : DrawnVolume());
+      volumes.push_back(result.has(i, m) ? drawn(result.volume(i, m)) : VolumeShape());
   }
   return volumes;
 }
 
-DrawnVolume box_of(const FrameResult& result, std::size_t cluster) {
+VolumeShape box_of(const FrameResult& result, std::size_t cluster) {
   const AnyVolume* first = nullptr;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const AnyVolume& volume = result.volume(cluster, m);
@@ -105,7 +105,7 @@ DrawnVolume box_of(const FrameResult& result, std::size_t cluster) {
     if (std::holds_alternative<Aabb>(volume) || std::holds_alternative<Obb>(volume)) return drawn(volume);
     if (first == nullptr) first = &volume;
   }
-  return first == nullptr ? DrawnVolume() : drawn(AnyVolume(aabb(*first)));
+  return first == nullptr ? VolumeShape() : drawn(AnyVolume(aabb(*first)));
 }
 
 std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster) {

@@ -18,7 +18,7 @@ constexpr const char* kFrameType = "pcl_bv.Frame";
 
 class MessageSink final : public FrameSink {
  public:
-  MessageSink(std::unique_ptr<MessageCarrier> carrier, const MessageTopics& topics)
+  MessageSink(std::unique_ptr<MessageSender> carrier, const MessageTopics& topics)
       : carrier_(std::move(carrier)), sends_poses_(topics.poses) {
     objects_topic_ = carrier_->add_topic({topics.prefix + "/objects", msg::Detection3DArray::ros_type});
     markers_topic_ = carrier_->add_topic({topics.prefix + "/markers", msg::MarkerArray::ros_type});
@@ -63,7 +63,7 @@ class MessageSink final : public FrameSink {
     if (wanted(frames_topic_)) send_frame(report_of_lost(frame, reason), {});
   }
   void offer(const std::shared_ptr<RemoteSettings>& settings) override { carrier_->offer(settings); }
-  std::vector<std::string> take_remarks() override { return carrier_->take_remarks(); }
+  std::vector<std::string> take_warnings() override { return carrier_->take_warnings(); }
   void close() override { carrier_->close(); }
 
  private:
@@ -88,7 +88,7 @@ class MessageSink final : public FrameSink {
   void draw(const Frame& frame, const FrameResult& result, std::int64_t lifetime) {
     const bool markers = wanted(markers_topic_), scene = wanted(scene_topic_);
     if (!markers && !scene) return;
-    const std::vector<DrawnVolume> volumes = drawn(result);
+    const std::vector<VolumeShape> volumes = drawn(result);
     if (markers) {
       fill_markers(frame, result, volumes, lifetime, shown_markers_, markers_);
       send(*markers_topic_, frame, markers_);
@@ -120,7 +120,7 @@ class MessageSink final : public FrameSink {
     send(*pose_topic_, frame, msg::TFMessage{{transform}});
   }
 
-  std::unique_ptr<MessageCarrier> carrier_;
+  std::unique_ptr<MessageSender> carrier_;
   bool sends_poses_;
   Topic objects_topic_, markers_topic_, scene_topic_, diagnostics_topic_, points_topic_, frames_topic_,
       pose_topic_;
@@ -137,7 +137,7 @@ class MessageSink final : public FrameSink {
 
 }  // namespace
 
-std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageCarrier> carrier,
+std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageSender> carrier,
                                              const MessageTopics& topics) {
   if (carrier == nullptr) throw std::invalid_argument("make_message_sink: no carrier");
   return std::make_unique<MessageSink>(std::move(carrier), topics);

@@ -20,22 +20,22 @@ msg::SceneColor scene_colour(const FrameResult& result, std::size_t cluster) {
   return colour;
 }
 
-void add_volume(const DrawnVolume& volume, const msg::SceneColor& colour, msg::SceneEntity& entity) {
+void add_volume(const VolumeShape& volume, const msg::SceneColor& colour, msg::SceneEntity& entity) {
   msg::Pose pose;
   topics::set_pose(volume, pose);
   msg::Vector3 size;
   topics::set_point(volume.size, size);
   switch (volume.kind) {
-    case DrawnVolume::Kind::cube:
+    case VolumeShape::Kind::cube:
       entity.cubes.push_back({pose, size, colour});
       break;
-    case DrawnVolume::Kind::sphere:
+    case VolumeShape::Kind::sphere:
       entity.spheres.push_back({pose, size, colour});
       break;
-    case DrawnVolume::Kind::cylinder:
+    case VolumeShape::Kind::cylinder:
       entity.cylinders.push_back({pose, size, 1, 1, colour});
       break;
-    case DrawnVolume::Kind::lines:
+    case VolumeShape::Kind::lines:
       msg::LinePrimitive& lines = entity.lines.emplace_back();
       lines.thickness = 1.5;
       lines.scale_invariant = true;
@@ -61,14 +61,14 @@ void add_facts(const FrameResult& result, std::size_t cluster, msg::SceneEntity&
 
 }  // namespace
 
-void fill_scene(const Frame& frame, const FrameResult& result, const std::vector<DrawnVolume>& volumes,
+void fill_scene(const Frame& frame, const FrameResult& result, const std::vector<VolumeShape>& volumes,
                 std::int64_t lifetime_ns, ShownObjects& shown, msg::SceneUpdate& scene) {
   scene.entities.clear();
   scene.deletions.clear();
   std::set<std::pair<std::string, std::int32_t>> now;
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
-    const DrawnVolume box = box_of(result, i);
-    if (box.kind != DrawnVolume::Kind::cube) continue;  // no volume, nothing to show
+    const VolumeShape box = box_of(result, i);
+    if (box.kind != VolumeShape::Kind::cube) continue;  // no volume, nothing to show
     msg::SceneEntity& entity = scene.entities.emplace_back();
     topics::set_time(frame.header.stamp_ns, entity.timestamp);
     entity.frame_id = frame.header.frame_id;

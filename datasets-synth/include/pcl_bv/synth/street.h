@@ -44,10 +44,10 @@ struct StreetOptions {
 };
 
 /// Kinds of objects. Only the rural road (verges.h) has cyclists and bridges.
-enum class StreetObjectKind : std::uint8_t { car, pedestrian, pole, house, wall, hedge, tree, cyclist, bridge };
+enum class SynthObjectKind : std::uint8_t { car, pedestrian, pole, house, wall, hedge, tree, cyclist, bridge };
 
 /// Returns the name of a kind: "car", "pedestrian", ...
-std::string_view name_of(StreetObjectKind kind);
+std::string_view name_of(SynthObjectKind kind);
 
 /// Ground truth of one object within range of the sensor, occluded objects included.
 ///
@@ -56,7 +56,7 @@ std::string_view name_of(StreetObjectKind kind);
 /// below them, so the ground may occlude a part of them.
 struct StreetObject {
   std::uint32_t id = 0;  ///< >= 1, the same in every frame.
-  StreetObjectKind kind = StreetObjectKind::car;
+  SynthObjectKind kind = SynthObjectKind::car;
   std::array<double, 3> center{};               ///< Centre of the box in the sensor's frame, metres.
   std::array<std::array<double, 3>, 3> axes{};  ///< Orthonormal rows: forward, left, up.
   std::array<double, 3> half_extents{};         ///< Metres, along the axes.

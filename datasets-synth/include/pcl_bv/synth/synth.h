@@ -47,17 +47,17 @@ SynthCloud make_synth(const SynthSpec& spec);
 std::string synth_names();
 
 /// A sequence of sweeps of the rural road, frame 0 to frames - 1 (verges.h).
-struct VergesSequenceSpec {
+struct RuralRoadSequenceSpec {
   std::size_t frames = 100;
-  VergesOptions options;
+  RuralRoadOptions options;
 };
 
 /// Returns whether the text begins with `verges-sequence`.
-bool is_verges_sequence(std::string_view text);
+bool is_rural_road_sequence(std::string_view text);
 
 /// Parses `verges-sequence[-BEAMS][:FRAMES[:SEED]]`. BEAMS is 16, 32, 64 (default) or 128, FRAMES is 1 to
 /// 1000000 (default 100). Throws std::invalid_argument like parse_synth.
-VergesSequenceSpec parse_verges_sequence(std::string_view text);
+RuralRoadSequenceSpec parse_rural_road_sequence(std::string_view text);
 
 /// A sequence of street sweeps, frame 0 to frames - 1 (street.h).
 struct StreetSequenceSpec {

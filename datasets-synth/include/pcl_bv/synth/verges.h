@@ -21,8 +21,8 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Options of make_verges_frame().
-struct VergesOptions {
+/// Options of make_rural_road_frame().
+struct RuralRoadOptions {
   std::uint64_t seed = 1;
   /// Number of beams, which selects the sensor:
   ///
@@ -38,9 +38,9 @@ struct VergesOptions {
 
 /// Ground truth of one object within range of the sensor, occluded objects included. All returns of the
 /// object lie inside its box, apart from the range noise.
-struct VergesObject {
+struct RuralRoadObject {
   std::uint32_t id = 0;  ///< >= 1, the same in every frame.
-  StreetObjectKind kind = StreetObjectKind::car;
+  SynthObjectKind kind = SynthObjectKind::car;
   std::array<double, 3> center{};               ///< Centre of the box in the sensor's frame, metres.
   std::array<std::array<double, 3>, 3> axes{};  ///< Forward, left, up in rows, in the sensor's frame.
   std::array<double, 3> half_extents{};         ///< Metres, along the axes.
@@ -52,9 +52,9 @@ struct VergesObject {
 ///
 /// The cloud has the rows, columns, rays without a return and false returns of StreetFrame. Returns from
 /// grass have the label `vegetation` and are neither ground nor object.
-struct VergesFrame {
+struct RuralRoadFrame {
   SynthCloud cloud;
-  std::vector<VergesObject> objects;  ///< The objects nearer than street_max_range, by ascending id.
+  std::vector<RuralRoadObject> objects;  ///< The objects nearer than street_max_range, by ascending id.
   std::array<double, 12> pose{};      ///< Pose of the sensor in the fixed frame: 3 x 4 matrix, row-major.
 };
 
@@ -62,15 +62,15 @@ struct VergesFrame {
 /// one another. The same arguments give the same bits (on the same machine and libm). Throws
 /// std::invalid_argument for any number of beams but 16, 32, 64 and 128. O(points + frame), about 150 ms for
 /// 64 beams.
-VergesFrame make_verges_frame(const VergesOptions& options, std::size_t frame);
+RuralRoadFrame make_rural_road_frame(const RuralRoadOptions& options, std::size_t frame);
 
-/// Returns the objects and the pose of make_verges_frame(), with an empty cloud. O(frame), below 1 ms for the
+/// Returns the objects and the pose of make_rural_road_frame(), with an empty cloud. O(frame), below 1 ms for the
 /// first few thousand frames.
-VergesFrame make_verges_truth(const VergesOptions& options, std::size_t frame);
+RuralRoadFrame make_rural_road_truth(const RuralRoadOptions& options, std::size_t frame);
 
 /// Returns the height of the ground at (x, y) in the fixed frame, metres, without the roughness (up to 4 cm).
 /// `frame` selects the section of the road: (x, y) must be within 100 m of the sensor's position in that
 /// frame.
-double verges_ground_height(std::uint64_t seed, std::size_t frame, double x, double y);
+double rural_road_ground_height(std::uint64_t seed, std::size_t frame, double x, double y);
 
 }  // namespace pcl_bv

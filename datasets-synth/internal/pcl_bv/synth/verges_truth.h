@@ -13,7 +13,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Returns the pose in KITTI's format: 12 numbers, the upper three rows of the matrix from the sensor's frame
 /// to the fixed frame, and a line feed. Parsing the numbers here and in truth_line() gives the same doubles.
-std::string pose_line(const VergesFrame& frame);
+std::string pose_line(const RuralRoadFrame& frame);
 
 /// Returns one JSON object and a line feed. Its members are `seq` (the frame's number), `stamp_ns`, `pose`
 /// (12 numbers as in pose_line()) and `objects`, by ascending id. Members of each element of `objects`:
@@ -27,6 +27,6 @@ std::string pose_line(const VergesFrame& frame);
 ///  velocity  velocity of the centre in the fixed frame, m/s;
 ///  yaw_rate  in the fixed frame, rad/s;
 ///  points    number of returns of the object in the cloud (0: occluded).
-std::string truth_line(const VergesFrame& frame, std::size_t number);
+std::string truth_line(const RuralRoadFrame& frame, std::size_t number);
 
 }  // namespace pcl_bv

@@ -29,16 +29,16 @@ void turn(BoxFrame& frame, int times, double smaller, const Silhouette& shape, S
     frame.axis = b;
     const Eigen::Vector3d u = frame.axes.col(b), v = frame.axes.col(c);
     const std::vector<Eigen::Vector2d>& corners = shape.look(u, v, view);
-    const FlatBox box = least_rectangle(corners.data(), corners.size());
+    const Rectangle box = smallest_rectangle(corners.data(), corners.size());
     if (!(box.area() < frame.size[b] * frame.size[c] * (1 - smaller))) {
-      ++frame.in_vain;
+      ++frame.stuck_axes;
       continue;
     }
     frame.axes.col(b) = box.side.x() * u + box.side.y() * v;
     frame.axes.col(c) = box.side.x() * v - box.side.y() * u;
     frame.size[b] = box.width;
     frame.size[c] = box.height;
-    frame.in_vain = 1;  // no further rotation about this axis can shrink the box
+    frame.stuck_axes = 1;  // no further rotation about this axis can shrink the box
   }
 }
 

@@ -15,10 +15,10 @@ struct BoxFrame {
   Eigen::Matrix3d axes;
   Eigen::Vector3d size;  ///< Extents along the axes.
   int axis = 0;          ///< The next rotation is about this axis.
-  int in_vain = 0;       ///< Number of axes in a row about which no rotation shrinks the box.
+  int stuck_axes = 0;       ///< Number of axes in a row about which no rotation shrinks the box.
 
   double volume() const { return size.prod(); }
-  bool done() const { return in_vain == 3; }
+  bool done() const { return stuck_axes == 3; }
 };
 
 /// Returns the extents of the vertices along the axes.

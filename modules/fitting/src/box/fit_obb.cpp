@@ -40,7 +40,7 @@ EstimationResult fit_dito14(const PointView& points, Obb& box, const Execution& 
   const Supports supports = find_supports(points, DirectionSet::dop14, SupportDetail::points, execution);
   if (supports.used > 0) {
     const LocalFrame frame(supports);
-    const Eigen::Matrix3d axes = dito_axes(few_points(points, supports, frame), supports, frame);
+    const Eigen::Matrix3d axes = dito_axes(support_or_all_points(points, supports, frame), supports, frame);
     const Aabb upright = aabb_of(supports);
     if (!axes.isIdentity(0)) box = measured_box(axes, points, supports, execution).canonical();
     if (box.empty() || !(box.surface_area() < upright.surface_area())) box = Obb(upright).canonical();
@@ -132,8 +132,8 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
 
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution) {
-  constexpr std::size_t few_points = 2048;
-  return supports.used + supports.dropped <= few_points ? measure_few(axes, points, supports, execution.isa)
+  constexpr std::size_t support_or_all_points = 2048;
+  return supports.used + supports.dropped <= support_or_all_points ? measure_few(axes, points, supports, execution.isa)
                                                         : measure_many(axes, points, supports, execution);
 }
 

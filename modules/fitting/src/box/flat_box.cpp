@@ -73,8 +73,8 @@ std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count) {
   return kept;
 }
 
-FlatBox least_rectangle(const Eigen::Vector2d* corners, std::size_t count) {
-  FlatBox best;
+Rectangle smallest_rectangle(const Eigen::Vector2d* corners, std::size_t count) {
+  Rectangle best;
   if (count < 2) return best;
   double least = kInfinity;
   std::size_t right = 1, top = 1, left = 1;

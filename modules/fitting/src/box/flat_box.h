@@ -16,7 +16,7 @@ namespace pcl_bv {
 std::size_t to_convex_chain(Eigen::Vector2d* points, std::size_t count);
 
 /// A rectangle in the plane, without its position.
-struct FlatBox {
+struct Rectangle {
   Eigen::Vector2d side = Eigen::Vector2d::UnitX();  ///< Unit vector along a side.
   double width = 0, height = 0;                     ///< Extents along `side` and perpendicular to it.
 
@@ -27,6 +27,6 @@ struct FlatBox {
 /// Returns the rectangle of minimum area around a convex polygon of 1 corner or more, as returned by
 /// to_convex_chain(). Such a rectangle has a side along an edge of the polygon (Freeman, Shapira 1975), so
 /// only these are compared. Rotating calipers (Toussaint 1983): O(corners).
-FlatBox least_rectangle(const Eigen::Vector2d* corners, std::size_t count);
+Rectangle smallest_rectangle(const Eigen::Vector2d* corners, std::size_t count);
 
 }  // namespace pcl_bv

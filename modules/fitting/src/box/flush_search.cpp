@@ -191,7 +191,7 @@ bool FlushSearch::may_carry_side(const GaussArcs::Arc& arc) const {
 void FlushSearch::search(const Swing& swing) {
   const Vector3d n1 = swing.first[0] + swing.first[1], n2 = swing.second[0] + swing.second[1],
                  n3 = cross3(n1, n2);
-  const SupportGraph::LowHigh ends = graph_.near_ends(n3);
+  const SupportGraph::LowHigh ends = graph_.approximate_supports(n3);
   if (is_proven(swing,
                 {across(*swing.one), across(*swing.other), vertices_[ends.high] - vertices_[ends.low]}))
     return;
@@ -277,7 +277,7 @@ Measured FlushSearch::measure(const Swing& swing, double t) {
       over(axes, {graph_.climb(swing.one->opposite, -axes.col(0)), swing.one->vertex,
                   graph_.climb(swing.other->opposite, -axes.col(1)), swing.other->vertex, low, high});
   if (!(found.volume < limit_)) return found;
-  const Measured whole = over(axes, graph_.all_ends(axes));
+  const Measured whole = over(axes, graph_.exact_supports(axes));
   if (whole.volume < limit_) accept(axes);
   return whole;
 }

@@ -33,11 +33,11 @@ Eigen::Matrix3d axes_from(const Eigen::Vector3d& e);
 using FewPoints = SmallVector<Eigen::Vector3d, 32>;
 
 /// Returns the support points of all directions; if there are no more points than that, all valid points.
-FewPoints few_points(const PointView& points, const Supports& supports, const LocalFrame& frame);
+FewPoints support_or_all_points(const PointView& points, const Supports& supports, const LocalFrame& frame);
 
 /// Returns the coordinate axes or the axes of one of DiTO's triangles (Larsson, Kallberg 2011): those with
 /// the smallest half surface, measured on `few` in floats. `supports` must be along dop14, with points; `few`
-/// are few_points().
+/// are support_or_all_points().
 Eigen::Matrix3d dito_axes(const FewPoints& few, const Supports& supports, const LocalFrame& frame);
 
 /// Returns the axes of the smallest box around the hull; for more than 128 vertices those of the smallest box

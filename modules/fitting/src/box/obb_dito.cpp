@@ -103,7 +103,7 @@ Eigen::Matrix3d axes_from(const Eigen::Vector3d& e) {
   return orthonormal_axes(axes);
 }
 
-FewPoints few_points(const PointView& points, const Supports& supports, const LocalFrame& frame) {
+FewPoints support_or_all_points(const PointView& points, const Supports& supports, const LocalFrame& frame) {
   FewPoints few;
   const std::size_t directions = direction_count(supports.set);
   if (supports.used + supports.dropped <= 2 * directions) {

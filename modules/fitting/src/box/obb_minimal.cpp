@@ -28,7 +28,7 @@ namespace pcl_bv {
 namespace {
 
 // Random rotations, from unit quaternions of seeded integers: the same on every machine.
-std::vector<Eigen::Matrix3d> scattered_frames(std::size_t count) {
+std::vector<Eigen::Matrix3d> random_rotations(std::size_t count) {
   std::vector<Eigen::Matrix3d> frames;
   std::mt19937_64 random(1);
   const auto component = [&] { return static_cast<double>(random() >> 40) * 0x1p-23 - 1; };
@@ -71,15 +71,15 @@ struct Effort {
 constexpr Effort kSearch = {60, 40, 8}, kBeforePairs = {8, 6, 2};
 
 // The first starts, DiTO, PCA and the coordinate axes: the result must not be larger than their boxes.
-constexpr std::size_t kSureStarts = 3;
+constexpr std::size_t kGuaranteedStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
                                           const LocalFrame& frame, const LocalHull& hull,
                                           const Effort& effort) {
   Supports supports = summary.supports;
   supports.set = DirectionSet::dop14;  // the directions of dop14 come first in dop26
-  static const std::vector<Eigen::Matrix3d> scattered = scattered_frames(kSearch.scattered);
-  std::vector<Eigen::Matrix3d> frames{dito_axes(few_points(points, supports, frame), supports, frame),
+  static const std::vector<Eigen::Matrix3d> scattered = random_rotations(kSearch.scattered);
+  std::vector<Eigen::Matrix3d> frames{dito_axes(support_or_all_points(points, supports, frame), supports, frame),
                                       principal_axes(summary), Eigen::Matrix3d::Identity()};
   add_facets(hull, frames);
   frames.insert(frames.end(), scattered.begin(),
@@ -92,13 +92,13 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
   const Eigen::Vector3d u = hull.axes.col(0), v = hull.axes.col(1);
   for (const HullPoint& vertex : hull.vertices)
     flat.emplace_back(u.dot(vertex.local), v.dot(vertex.local));
-  const Eigen::Vector2d side = least_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
+  const Eigen::Vector2d side = smallest_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
   Eigen::Matrix3d axes;
   axes << hull.axes.col(2), side.x() * u + side.y() * v, Eigen::Vector3d::Zero();
   return orthonormal_axes(axes);
 }
 
-void turn_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape, const Execution& execution) {
+void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape, const Execution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
   constexpr double kSmaller = 1e-9;  // a smaller gain is not worth another round
   const std::size_t looks = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
@@ -118,7 +118,7 @@ BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& 
   frames.reserve(starts.size());
   for (const Eigen::Matrix3d& axes : starts)
     frames.push_back({axes, extents(shape.vertices(), axes)});
-  const std::vector<BoxFrame> sure(frames.begin(), frames.begin() + kSureStarts);
+  const std::vector<BoxFrame> sure(frames.begin(), frames.begin() + kGuaranteedStarts);
   const auto smaller = [](const BoxFrame& a, const BoxFrame& b) { return a.volume() < b.volume(); };
   const auto keep = [&](std::size_t count) {
     std::stable_sort(frames.begin(), frames.end(), smaller);
@@ -126,10 +126,10 @@ BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& 
   };
   keep(effort.beginners);
   while (frames.size() > effort.finalists) {
-    turn_all(frames, kTurns, shape, execution);
+    shrink_all(frames, kTurns, shape, execution);
     keep(std::max(effort.finalists, frames.size() / 2));
   }
-  turn_all(frames, kLastTurns, shape, execution);
+  shrink_all(frames, kLastTurns, shape, execution);
   BoxFrame best = *std::min_element(frames.begin(), frames.end(), smaller);
   best.size = extents(shape.vertices(), best.axes);  // over all vertices, without the rounding of silhouettes
   const BoxFrame& surest = *std::min_element(sure.begin(), sure.end(), smaller);

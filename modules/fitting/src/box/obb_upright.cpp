@@ -133,14 +133,14 @@ Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, cons
                          const Eigen::Vector3d& up, const Execution& execution) {
   const Ground ground(up);
   const Outline outline = outline_from_above(points, supports, frame, ground, execution);
-  return ground.axes_along(least_rectangle(outline.data(), outline.size()).side);
+  return ground.axes_along(smallest_rectangle(outline.data(), outline.size()).side);
 }
 
 Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
                             const Eigen::Vector3d& up, const Execution& execution) {
   const Ground ground(up);
   const Outline outline = outline_from_above(points, supports, frame, ground, execution);
-  const FlatBox rectangle = least_rectangle(outline.data(), outline.size());
+  const Rectangle rectangle = smallest_rectangle(outline.data(), outline.size());
   if (outline.size() < 3) return ground.axes_along(rectangle.side);
   const Closeness closeness(outline, rectangle.diagonal());
   const Sample coarse(points, supports, frame, ground, outline[0], kCoarsePoints);

@@ -90,7 +90,7 @@ Eigen::Matrix3d Ground::axes_along(const Eigen::Vector2d& side) const {
 
 Outline outline_from_above(const PointView& points, const Supports& supports, const LocalFrame& frame,
                            const Ground& ground, const Execution& execution) {
-  const HalfSpaces inside = walls(points, few_points(points, supports, frame), frame, ground);
+  const HalfSpaces inside = walls(points, support_or_all_points(points, supports, frame), frame, ground);
   Outline outline;
   std::size_t most = std::size_t{1} << 16;
   const auto reduce = [&] { outline.resize(to_convex_chain(outline.data(), outline.size())); };

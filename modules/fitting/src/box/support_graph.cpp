@@ -50,7 +50,7 @@ std::int32_t SupportGraph::climb(std::int32_t from, const Eigen::Vector3d& direc
   }
 }
 
-SupportGraph::LowHigh SupportGraph::near_ends(const Eigen::Vector3d& direction) {
+SupportGraph::LowHigh SupportGraph::approximate_supports(const Eigen::Vector3d& direction) {
   const double x = std::abs(direction[0]), y = std::abs(direction[1]), z = std::abs(direction[2]);
   const int axis = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
   const int second = (axis + 1) % 3, third = (axis + 2) % 3;
@@ -70,7 +70,7 @@ SupportGraph::LowHigh SupportGraph::near_ends(const Eigen::Vector3d& direction) 
   return major > 0 ? found : LowHigh{found.high, found.low};
 }
 
-std::array<std::int32_t, 6> SupportGraph::all_ends(const Eigen::Matrix3d& axes) const {
+std::array<std::int32_t, 6> SupportGraph::exact_supports(const Eigen::Matrix3d& axes) const {
   std::array<std::int32_t, 6> ends{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto before = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

@@ -27,12 +27,12 @@ class SupportGraph {
   /// Returns the vertices with the minimum and the maximum projection along a direction near the given one:
   /// the middle of its cell, one of 384 cells on the faces of a cube. They are computed when a cell is first
   /// used. Any two vertices for a zero vector.
-  LowHigh near_ends(const Eigen::Vector3d& direction);
+  LowHigh approximate_supports(const Eigen::Vector3d& direction);
 
   /// Returns the vertices with the minimum and the maximum projection along the direction, as climb() finds
   /// them.
   LowHigh ends(const Eigen::Vector3d& direction) {
-    const auto [low, high] = near_ends(direction);
+    const auto [low, high] = approximate_supports(direction);
     return {climb(low, -direction), climb(high, direction)};
   }
 
@@ -43,7 +43,7 @@ class SupportGraph {
 
   /// Returns the vertices with the minimum and the maximum projection along each column, by a pass over all
   /// vertices.
-  std::array<std::int32_t, 6> all_ends(const Eigen::Matrix3d& axes) const;
+  std::array<std::int32_t, 6> exact_supports(const Eigen::Matrix3d& axes) const;
 
  private:
   static constexpr int kCells = 8;  // cells along each side of a face of the cube
@@ -51,7 +51,7 @@ class SupportGraph {
 
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<std::int32_t> first_, neighbours_;   // the neighbours of vertex i begin at position first_[i]
-  std::array<LowHigh, 3 * kCells * kCells> near_;  // near_ends() of each cell; opposite cells share an entry
+  std::array<LowHigh, 3 * kCells * kCells> near_;  // approximate_supports() of each cell; opposite cells share an entry
 };
 
 }  // namespace pcl_bv

@@ -88,9 +88,9 @@ EstimationResult fit_hull(const PointView& points, Hull& hull, const Execution& 
   return fit_on_hull(points, execution, [&](const LocalHull& local, const LocalFrame&, const Supports&) {
     Normals normals = normals_of(local);
     drop_repeated(normals);
-    const ReachTree tree(local.candidates, normals.size());
+    const SupportTree tree(local.candidates, normals.size());
     std::vector<HullPlane> planes(normals.size());
-    const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.reach_up(normals[i])}; };
+    const auto measure = [&](std::size_t i) { planes[i] = {normals[i], tree.max_projection_up(normals[i])}; };
     for_each_plane(execution, normals.size(), measure);
     std::vector<Eigen::Vector3d> vertices;
     for (const HullPoint& v : local.vertices)

@@ -37,7 +37,7 @@ struct Scalar {
   explicit Scalar(ScalarType type) : is_float(type == ScalarType::float32) {}
 
   bool is_float;
-  double unit() const { return is_float ? 0x1p-24 : kU; }
+  double unit() const { return is_float ? 0x1p-24 : kUnitRoundoff; }
   double least() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // more than products underflow by
 
   double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }

@@ -17,7 +17,7 @@ namespace {
 
 // The turn in double arithmetic; 0 if rounding could have changed its sign. Each product has three roundings
 // and the difference one, for which 8 2^-53 is enough.
-int clear_turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+int rounded_orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const double left = (b.x() - a.x()) * (c.y() - a.y());
   const double right = (b.y() - a.y()) * (c.x() - a.x());
   const double rounding = 0x1p-50 * (std::abs(left) + std::abs(right)) + kSmallestNormal;
@@ -46,13 +46,13 @@ std::vector<Eigen::Vector2d> octagon(const std::vector<Eigen::Vector2d>& points)
 // Positions of the points that are not certainly to the left of all edges of an octagon of points (Akl,
 // Toussaint 1978). The points left out are inside the hull, whichever corners rounding has chosen: a point
 // outside the hull cannot be to the left of all edges of a closed polygon of points.
-std::vector<std::size_t> near_outline(const std::vector<Eigen::Vector2d>& points) {
+std::vector<std::size_t> outside_octagon(const std::vector<Eigen::Vector2d>& points) {
   const std::vector<Eigen::Vector2d> corners = octagon(points);
   std::vector<std::size_t> positions;
   for (std::size_t i = 0; i < points.size(); ++i) {
     bool inside = corners.size() > 2;
     for (std::size_t k = 0; k < corners.size() && inside; ++k)
-      inside = clear_turn(corners[k], corners[(k + 1) % corners.size()], points[i]) > 0;
+      inside = rounded_orientation(corners[k], corners[(k + 1) % corners.size()], points[i]) > 0;
     if (!inside) positions.push_back(i);
   }
   return positions;
@@ -76,7 +76,7 @@ int compare(double a, double b) {
 }  // namespace
 
 int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  if (const int clear = clear_turn(a, b, c)) return clear;
+  if (const int clear = rounded_orientation(a, b, c)) return clear;
   // Points of lattices are often collinear, and their differences are doubles. Then each product is the sum
   // of its rounded value and a rounding error, both doubles: the rounded values decide, and if they are
   // equal, the errors.
@@ -100,7 +100,7 @@ int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector
 
 std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points) {
   if (points.empty()) return {};
-  std::vector<std::size_t> order = near_outline(points);
+  std::vector<std::size_t> order = outside_octagon(points);
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     if (points[i].x() != points[j].x()) return points[i].x() < points[j].x();
     if (points[i].y() != points[j].y()) return points[i].y() < points[j].y();

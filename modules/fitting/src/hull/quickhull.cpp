@@ -12,7 +12,7 @@
 namespace pcl_bv {
 
 Quickhull::Quickhull(const std::vector<Coordinates>& points, const std::array<std::int32_t, 4>& corners)
-    : points_(points), beginning_(points.size()) {
+    : points_(points), facet_from_(points.size()) {
   std::array<std::int32_t, 4> c = corners;
   // The fourth corner must be below the plane of the first three.
   if (side_of_plane(at(c[0]), at(c[1]), at(c[2]), at(c[3])) > 0) std::swap(c[1], c[2]);
@@ -22,7 +22,7 @@ Quickhull::Quickhull(const std::vector<Coordinates>& points, const std::array<st
              {{c[0], c[2], c[3]}, {0, 2, 1}, {}}};
   std::vector<std::int32_t> all(points_.size());
   std::iota(all.begin(), all.end(), 0);
-  hand_out(all, 0);
+  assign_points(all, 0);
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     if (!facets_[f].removed && !facets_[f].above.empty()) add_farthest(static_cast<std::int32_t>(f));
   }
@@ -74,7 +74,7 @@ bool Quickhull::in_plane(const Facet& facet, const Facet& other) const {
 
 // Assigns each point to the first facet that it sees, from facet number `first` on. Points that see none are
 // inside.
-void Quickhull::hand_out(const std::vector<std::int32_t>& points, std::size_t first) {
+void Quickhull::assign_points(const std::vector<std::int32_t>& points, std::size_t first) {
   for (const std::int32_t point : points) {
     const auto seen = std::find_if(facets_.begin() + static_cast<std::ptrdiff_t>(first), facets_.end(),
                                    [&](const Facet& facet) { return sees(point, facet); });
@@ -133,7 +133,7 @@ void Quickhull::add_farthest(std::int32_t start) {
   const std::vector<Edge> around = remove_seen(point, start, waiting);
   const std::size_t first = facets_.size();
   for (std::size_t i = 0; i < around.size(); ++i)
-    beginning_[static_cast<std::size_t>(around[i].from)] = static_cast<std::int32_t>(first + i);
+    facet_from_[static_cast<std::size_t>(around[i].from)] = static_cast<std::int32_t>(first + i);
   for (const Edge& edge : around) {
     const auto number = static_cast<std::int32_t>(facets_.size());
     facets_.push_back({{edge.from, edge.to, point}, {edge.kept, -1, -1}, {}});
@@ -142,11 +142,11 @@ void Quickhull::add_farthest(std::int32_t start) {
       if (kept.corners[k] == edge.to) kept.beside[k] = number;
   }
   for (std::size_t i = 0; i < around.size(); ++i) {
-    const std::int32_t next = beginning_[static_cast<std::size_t>(around[i].to)];
+    const std::int32_t next = facet_from_[static_cast<std::size_t>(around[i].to)];
     facets_[first + i].beside[1] = next;
     facet(next).beside[2] = static_cast<std::int32_t>(first + i);
   }
-  hand_out(waiting, first);
+  assign_points(waiting, first);
 }
 
 }  // namespace pcl_bv

@@ -49,13 +49,13 @@ class Quickhull {
   bool sees(std::int32_t point, const Facet& facet) const;
   bool in_plane(const Facet& facet, const Facet& other) const;
   std::int32_t farthest(const Facet& facet) const;
-  void hand_out(const std::vector<std::int32_t>& points, std::size_t first);
+  void assign_points(const std::vector<std::int32_t>& points, std::size_t first);
   std::vector<Edge> remove_seen(std::int32_t point, std::int32_t start, std::vector<std::int32_t>& waiting);
   void add_farthest(std::int32_t start);
 
   const std::vector<Coordinates>& points_;
   std::vector<Facet> facets_;
-  std::vector<std::int32_t> beginning_;  // by point: the new facet whose horizon edge begins there
+  std::vector<std::int32_t> facet_from_;  // by point: the new facet whose horizon edge begins there
 };
 
 }  // namespace pcl_bv

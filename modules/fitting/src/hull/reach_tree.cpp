@@ -20,32 +20,32 @@ namespace pcl_bv {
 namespace {
 
 constexpr std::size_t kLeafPoints = 8;
-constexpr std::size_t kFewQuestions = 64;
+constexpr std::size_t kFewQueries = 64;
 
 // Error bound of a projection. Local coordinates are at most 2 and off by 4 2^-53. The products with a normal
 // and the sum of three add less than 20 times that, and the sides of a box as much again.
-constexpr double kDoubt = 0x1p-44;
+constexpr double kErrorBound = 0x1p-44;
 
 }  // namespace
 
-ReachTree::ReachTree(const std::vector<HullPoint>& points, std::size_t questions)
+SupportTree::SupportTree(const std::vector<HullPoint>& points, std::size_t questions)
     : points_(points), order_(points.size()) {
   std::iota(order_.begin(), order_.end(), 0U);
-  const bool few = questions <= kFewQuestions;
+  const bool few = questions <= kFewQueries;
   build(0, static_cast<std::uint32_t>(points.size()), few ? points.size() : kLeafPoints);
 }
 
-double ReachTree::Node::reach(const Eigen::Vector3d& normal) const {
+double SupportTree::Node::reach(const Eigen::Vector3d& normal) const {
   const Eigen::Vector3d along(dot3(axes.col(0), normal), dot3(axes.col(1), normal),
                               dot3(axes.col(2), normal));
-  return dot3(normal, center) + dot3(along.cwiseAbs(), half) + kDoubt;
+  return dot3(normal, center) + dot3(along.cwiseAbs(), half) + kErrorBound;
 }
 
 // The axes of the box of some points. Its plane contains the first point, the point farthest from it, and the
 // point farthest from the line through these two. In this plane the sides are those of the smallest
 // rectangle. If a side were along that line, the box of a square patch would be too wide by a third; and for
 // a flat helix of 100 000 points each facet on top would visit half the nodes, which takes 15 s.
-Eigen::Matrix3d ReachTree::sides(std::uint32_t begin, std::uint32_t end) const {
+Eigen::Matrix3d SupportTree::sides(std::uint32_t begin, std::uint32_t end) const {
   const auto from_start = [&](std::uint32_t i) -> Eigen::Vector3d {
     return point(i).local - point(begin).local;
   };
@@ -71,14 +71,14 @@ Eigen::Matrix3d ReachTree::sides(std::uint32_t begin, std::uint32_t end) const {
     std::vector<Eigen::Vector2d> flat;
     for (std::uint32_t i = begin; i < end; ++i)
       flat.emplace_back(dot3(u, from_start(i)), dot3(v, from_start(i)));
-    side = least_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
+    side = smallest_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
   }
   Eigen::Matrix3d axes;
   axes << side.x() * u + side.y() * v, side.x() * v - side.y() * u, cross3(u, v);
   return axes;
 }
 
-ReachTree::Node ReachTree::box(std::uint32_t begin, std::uint32_t end) const {
+SupportTree::Node SupportTree::box(std::uint32_t begin, std::uint32_t end) const {
   const Eigen::Matrix3d axes = sides(begin, end);
   const Eigen::Vector3d start = point(begin).local;
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;
@@ -94,7 +94,7 @@ ReachTree::Node ReachTree::box(std::uint32_t begin, std::uint32_t end) const {
   return {axes, center, (high - low) / 2, begin, end, 0};
 }
 
-void ReachTree::build(std::uint32_t begin, std::uint32_t end, std::size_t leaf_points) {
+void SupportTree::build(std::uint32_t begin, std::uint32_t end, std::size_t leaf_points) {
   const std::size_t node = nodes_.size();
   nodes_.push_back(box(begin, end));
   if (end - begin <= leaf_points) return;
@@ -113,7 +113,7 @@ void ReachTree::build(std::uint32_t begin, std::uint32_t end, std::size_t leaf_p
 }
 
 // Returns the maximum rounded projection of the points below node n, or `known` if that is larger.
-double ReachTree::greatest(const Eigen::Vector3d& normal, double known, std::uint32_t n) const {
+double SupportTree::greatest(const Eigen::Vector3d& normal, double known, std::uint32_t n) const {
   const Node& node = nodes_[n];
   if (node.reach(normal) < known) return known;
   if (node.second == 0) {
@@ -129,12 +129,12 @@ double ReachTree::greatest(const Eigen::Vector3d& normal, double known, std::uin
 
 // Raises `reach` to the exact projection, rounded up, of each point below node n with a rounded projection of
 // at least `least`.
-void ReachTree::reach_up(const Eigen::Vector3d& normal, double least, std::uint32_t n, double& reach) const {
+void SupportTree::max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t n, double& reach) const {
   const Node& node = nodes_[n];
   if (node.reach(normal) < least) return;
   if (node.second != 0) {
-    reach_up(normal, least, n + 1, reach);
-    reach_up(normal, least, node.second, reach);
+    max_projection_up(normal, least, n + 1, reach);
+    max_projection_up(normal, least, node.second, reach);
     return;
   }
   const Direction direction{normal.x(), normal.y(), normal.z()};
@@ -148,10 +148,10 @@ void ReachTree::reach_up(const Eigen::Vector3d& normal, double least, std::uint3
   }
 }
 
-double ReachTree::reach_up(const Eigen::Vector3d& normal) const {
+double SupportTree::max_projection_up(const Eigen::Vector3d& normal) const {
   const double known = greatest(normal, -kInfinity, 0);
   double reach = -kInfinity;
-  reach_up(normal, known - 2 * kDoubt, 0, reach);
+  max_projection_up(normal, known - 2 * kErrorBound, 0, reach);
   return reach;
 }
 

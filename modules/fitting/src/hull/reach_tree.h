@@ -14,15 +14,15 @@ namespace pcl_bv {
 
 /// A tree of oriented boxes over points. Each box is oriented along its points: on a smooth surface,
 /// axis-aligned boxes would be so loose that a query inspects hundreds of points, not tens.
-class ReachTree {
+class SupportTree {
  public:
   /// Keeps a reference to the points. `questions` is the expected number of queries: a small number does not
   /// pay for a tree. O(m log m).
-  ReachTree(const std::vector<HullPoint>& points, std::size_t questions);
+  SupportTree(const std::vector<HullPoint>& points, std::size_t questions);
 
   /// Returns the exact maximum of normal . p over the points as stored, rounded up to a double. Components of
   /// the normal must be at most 2 in magnitude. O(log m) if few points have nearly the maximum projection.
-  double reach_up(const Eigen::Vector3d& normal) const;
+  double max_projection_up(const Eigen::Vector3d& normal) const;
 
  private:
   struct Node {
@@ -39,7 +39,7 @@ class ReachTree {
 
   void build(std::uint32_t begin, std::uint32_t end, std::size_t leaf_points);
   double greatest(const Eigen::Vector3d& normal, double known, std::uint32_t node) const;
-  void reach_up(const Eigen::Vector3d& normal, double least, std::uint32_t node, double& reach) const;
+  void max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t node, double& reach) const;
   const HullPoint& point(std::uint32_t i) const { return points_[order_[i]]; }
 
   const std::vector<HullPoint>& points_;

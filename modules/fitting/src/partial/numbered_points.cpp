@@ -32,7 +32,7 @@ NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b) {
   return both;
 }
 
-HeldPoints::HeldPoints(const NumberedPoints& points, ScalarType scalar)
+PackedPoints::PackedPoints(const NumberedPoints& points, ScalarType scalar)
     : view_(scalar == ScalarType::float32 ? view_of(points, floats_) : view_of(points, doubles_)) {}
 
 }  // namespace pcl_bv

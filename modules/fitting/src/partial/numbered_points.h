@@ -35,11 +35,11 @@ void require_disjoint(bool disjoint);
 NumberedPoints merged(const NumberedPoints& a, const NumberedPoints& b);
 
 /// Stores points without gaps as floats or doubles, for the kernels.
-class HeldPoints {
+class PackedPoints {
  public:
-  HeldPoints(const NumberedPoints& points, ScalarType scalar);
-  HeldPoints(const HeldPoints&) = delete;
-  HeldPoints& operator=(const HeldPoints&) = delete;
+  PackedPoints(const NumberedPoints& points, ScalarType scalar);
+  PackedPoints(const PackedPoints&) = delete;
+  PackedPoints& operator=(const PackedPoints&) = delete;
 
   const PointView& view() const { return view_; }
 

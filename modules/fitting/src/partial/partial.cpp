@@ -57,7 +57,7 @@ MomentTree block_moments_of(const PointView& points, std::size_t first_block, co
   return blocks;
 }
 
-// The state of more than kAllKept points.
+// The state of more than kMaxStored points.
 PartialState state_of(const PointView& points, std::size_t first, const Execution& execution) {
   PartialState state;
   state.scalar = points.scalar;
@@ -72,10 +72,10 @@ PartialState state_of(const PointView& points, std::size_t first, const Executio
   return state;
 }
 
-// The state of the same points in the form of more than kAllKept points.
+// The state of the same points in the form of more than kMaxStored points.
 PartialState reduced(PartialState state) {
-  if (!state.all_kept() || state.loose.empty()) return state;
-  const HeldPoints held(state.loose, state.scalar);
+  if (!state.stores_all() || state.loose.empty()) return state;
+  const PackedPoints held(state.loose, state.scalar);
   add_extremes(
       held.view(), {}, [&](std::size_t index) { return state.loose[index].number; }, state);
   return state;
@@ -94,7 +94,7 @@ void for_each_block(const NumberedPoints& loose, const Visit& visit) {
 }
 
 Moments moments_of_block(const NumberedPoints& points, ScalarType scalar) {
-  return block_moments(Isa::automatic, HeldPoints(points, scalar).view());
+  return block_moments(Isa::automatic, PackedPoints(points, scalar).view());
 }
 
 using MomentNodes = std::vector<MomentNode>;
@@ -128,13 +128,13 @@ PartialState merged(const PartialState& one, const PartialState& other) {
   PartialState both;
   both.scalar = one.scalar;
   both.loose = merged(one.loose, other.loose);
-  if (one.size() + other.size() > Partial::kAllKept) {
+  if (one.size() + other.size() > Partial::kMaxStored) {
     const PartialState a = reduced(one), b = reduced(other);
     both.used = a.used + b.used;
     both.dropped = a.dropped + b.dropped;
     for (std::size_t end = 0; end < both.ends.size(); ++end) {
       both.ends[end] = a.ends[end];
-      keep_farther(directions.end_direction(end), b.ends[end], both.ends[end]);
+      keep_larger_projection(directions.support_direction(end), b.ends[end], both.ends[end]);
     }
     both.extreme = merged(a.extreme, b.extreme);
     keep_extreme(both.extreme);
@@ -148,7 +148,7 @@ PartialState merged(const PartialState& one, const PartialState& other) {
 
 // The points that represent the cloud: the extreme points and the support points. On a flat side, a support
 // point may be any point of the side, so it need not be an extreme point.
-NumberedPoints standing_for_all(const PartialState& state) {
+NumberedPoints representative_points(const PartialState& state) {
   NumberedPoints points = state.extreme;
   for (const SupportPoint& end : state.ends) {
     if (end.found) points.push_back({end.index, end.point});
@@ -194,11 +194,11 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
 
 Partial::Partial(const PointView& points, std::size_t first, const Execution& execution) {
   const FloatEnvironment environment;
-  require_own_supports(points, execution);
+  require_matching_supports(points, execution);
   if (points.indices != nullptr) throw std::invalid_argument("Partial: the view has an index list");
   PartialState state;
   state.scalar = points.scalar;
-  if (points.count > kAllKept) {
+  if (points.count > kMaxStored) {
     state = state_of(points, first, execution);
   } else {
     add_loose(points, first, state.loose);
@@ -224,12 +224,12 @@ EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Exe
   if (!serves(method)) refuse_partial(method.name);
   if (execution.supports != nullptr)
     throw std::invalid_argument("Execution::supports are those of other points");
-  if (state_->all_kept()) {
-    const HeldPoints all(state_->loose, state_->scalar);
+  if (state_->stores_all()) {
+    const PackedPoints all(state_->loose, state_->scalar);
     return method.fit(all.view(), volume, execution, options);
   }
-  const NumberedPoints points = standing_for_all(*state_);
-  const HeldPoints held(points, state_->scalar);
+  const NumberedPoints points = representative_points(*state_);
+  const PackedPoints held(points, state_->scalar);
   const Supports supports = supports_of(*state_, points, held.view(), execution);
   Execution informed = execution;
   informed.supports = &supports;
@@ -237,15 +237,15 @@ EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Exe
 }
 
 EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
-                                              const FarthestPoints& farthest,
+                                              const FarthestQuery& farthest,
                                               const Execution& execution) const {
   const FloatEnvironment environment;
-  if (state_->all_kept()) {
-    const HeldPoints all(state_->loose, state_->scalar);
+  if (state_->stores_all()) {
+    const PackedPoints all(state_->loose, state_->scalar);
     return pcl_bv::fit_smallest_sphere(all.view(), sphere, certificate, execution);
   }
-  const NumberedPoints points = standing_for_all(*state_);
-  const HeldPoints held(points, state_->scalar);
+  const NumberedPoints points = representative_points(*state_);
+  const PackedPoints held(points, state_->scalar);
   Supports supports = supports_of(*state_, points, held.view(), execution);
   for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // with indices in the whole cloud
     supports.along[k].low_point.index = state_->ends[2 * k].index;

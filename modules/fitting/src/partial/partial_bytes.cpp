@@ -178,7 +178,7 @@ PartialState read_state(Reader& in, ScalarType scalar) {
   require(in.left() == 0, "bytes follow them");
   require(state.used <= std::numeric_limits<std::size_t>::max() - state.dropped,
           "their numbers of points contradict each other");
-  require(state.all_kept() ? state.loose.size() <= Partial::kAllKept : state.size() > Partial::kAllKept,
+  require(state.stores_all() ? state.loose.size() <= Partial::kMaxStored : state.size() > Partial::kMaxStored,
           "their numbers of points contradict each other");
   require((state.used > 0) != state.extreme.empty(), "their numbers of points contradict each other");
   for (const NumberedPoint& p : state.extreme)

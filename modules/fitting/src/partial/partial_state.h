@@ -20,11 +20,11 @@ namespace pcl_bv {
 struct PartialState {
   ScalarType scalar = ScalarType::float32;
 
-  /// All points, if there are at most Partial::kAllKept. Otherwise the points of those blocks of the cloud
+  /// All points, if there are at most Partial::kMaxStored. Otherwise the points of those blocks of the cloud
   /// that are not complete here.
   NumberedPoints loose;
 
-  // Only if there are more than Partial::kAllKept points:
+  // Only if there are more than Partial::kMaxStored points:
   std::size_t used = 0;
   std::size_t dropped = 0;
   std::array<SupportPoint, 2 * kMaxDirections>
@@ -32,8 +32,8 @@ struct PartialState {
   NumberedPoints extreme;  ///< The extreme points of all points, loose or not.
   MomentTree blocks;       ///< The moments of complete blocks.
 
-  bool all_kept() const { return used + dropped == 0; }
-  std::size_t size() const { return all_kept() ? loose.size() : used + dropped; }
+  bool stores_all() const { return used + dropped == 0; }
+  std::size_t size() const { return stores_all() ? loose.size() : used + dropped; }
 };
 
 inline std::size_t block_of_number(std::size_t number) {

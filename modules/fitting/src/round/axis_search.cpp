@@ -23,7 +23,7 @@ struct Rated {
 
 std::vector<Eigen::Vector3d> hemisphere() {
   std::vector<Eigen::Vector3d> axes;
-  for (const Direction& d : scattered_directions())
+  for (const Direction& d : spread_directions())
     axes.push_back(unit3(Eigen::Vector3d(d[0], d[1], d[2])));
   return axes;
 }
@@ -85,10 +85,10 @@ void Profile::measure() {
   }
 }
 
-std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull) {
+std::vector<Eigen::Vector3d> search_vertices(const LocalHull& hull) {
   constexpr std::size_t kMany = 1000;
   const std::vector<Eigen::Vector3d> all = hull.local_vertices();
-  return all.size() > kMany ? farthest_along(hemisphere(), all) : all;
+  return all.size() > kMany ? support_points_along(hemisphere(), all) : all;
 }
 
 Eigen::Vector3d search_axis(const LocalHull& hull,

@@ -34,7 +34,7 @@ struct Profile {
 /// Returns the vertices in local coordinates; of more than 1000 only those with the minimum or maximum
 /// projection along one of 49 directions. These are enough for the search, because its result is measured on
 /// all points.
-std::vector<Eigen::Vector3d> essential_vertices(const LocalHull& hull);
+std::vector<Eigen::Vector3d> search_vertices(const LocalHull& hull);
 
 /// Returns a unit vector at which `size` is small; `size` must be the same for opposite vectors. Tries 49
 /// directions over the hemisphere and the hull's own axes, and improves the best by ever smaller steps. Uses

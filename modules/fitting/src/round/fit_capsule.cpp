@@ -60,9 +60,9 @@ Capsule measured_capsule(const LocalHull& hull, const LocalFrame& frame, const E
   const Eigen::Vector3d axis = length > 0 ? Eigen::Vector3d(e / length) : Eigen::Vector3d::Zero();
   double radius = 0;
   for (const HullPoint& candidate : hull.candidates) {
-    const Eigen::Vector3d q = frame.seen_from(a, candidate.point);
+    const Eigen::Vector3d q = frame.relative_to(a, candidate.point);
     const double foot = std::clamp(dot3(q, axis), 0.0, length);
-    radius = std::max(radius, norm3(q - foot * axis) + 32 * kU * (taxicab3(q) + taxicab3(e)));
+    radius = std::max(radius, norm3(q - foot * axis) + 32 * kUnitRoundoff * (taxicab3(q) + taxicab3(e)));
   }
   return {a, b, frame.length_up(radius)};
 }
@@ -71,7 +71,7 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
   Profile profile;
   Eigen::Vector3d axis = hull.axes.col(0);
   if (hull.rank >= 2) {
-    const std::vector<Eigen::Vector3d> essential = essential_vertices(hull);
+    const std::vector<Eigen::Vector3d> essential = search_vertices(hull);
     axis = search_axis(hull, [&](const Eigen::Vector3d& tried) {
       profile.look(tried, essential);
       profile.measure();

@@ -29,9 +29,9 @@ Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const
                            const Eigen::Vector3d& axis) {
   double radius = 0, half_height = 0;
   for (const HullPoint& candidate : hull.candidates) {
-    const Eigen::Vector3d q = frame.seen_from(center, candidate.point);
-    half_height = std::max(half_height, std::abs(dot3(q, axis)) + 16 * kU * taxicab3(q));
-    radius = std::max(radius, norm3(cross3(q, axis)) + 24 * kU * taxicab3(q));
+    const Eigen::Vector3d q = frame.relative_to(center, candidate.point);
+    half_height = std::max(half_height, std::abs(dot3(q, axis)) + 16 * kUnitRoundoff * taxicab3(q));
+    radius = std::max(radius, norm3(cross3(q, axis)) + 24 * kUnitRoundoff * taxicab3(q));
   }
   return {center, axis, frame.length_up(radius), frame.length_up(half_height)};
 }
@@ -41,7 +41,7 @@ Cylinder measured_cylinder(const LocalHull& hull, const LocalFrame& frame, const
 EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const Execution& execution) {
   cylinder = Cylinder();
   return fit_on_hull(points, execution, [&](const LocalHull& hull, const LocalFrame& frame, const Supports&) {
-    const std::vector<Eigen::Vector3d> vertices = essential_vertices(hull);
+    const std::vector<Eigen::Vector3d> vertices = search_vertices(hull);
     const Eigen::Vector3d axis = find_axis(hull, vertices);
     Profile profile;
     profile.look(axis, hull.local_vertices());

@@ -42,16 +42,16 @@ struct Axes {
 Axes scaled(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3d& center, Axes body) {
   double greatest = 0;
   for (const HullPoint& candidate : hull.candidates) {
-    const Eigen::Vector3d q = frame.seen_from(center, candidate.point);
+    const Eigen::Vector3d q = frame.relative_to(center, candidate.point);
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      const double along = std::abs(dot3(body.axes.col(k), q)) + 8 * kU * taxicab3(q);
+      const double along = std::abs(dot3(body.axes.col(k), q)) + 8 * kUnitRoundoff * taxicab3(q);
       const double ratio = along > 0 ? along / body.radii[k] : 0;
       sum += ratio * ratio;
     }
     greatest = std::max(greatest, sum);
   }
-  body.radii *= std::sqrt(greatest) * (1 + 16 * kU);
+  body.radii *= std::sqrt(greatest) * (1 + 16 * kUnitRoundoff);
   return body;
 }
 

@@ -45,7 +45,7 @@ void find_in_block(UsableIsa isa, const PointView& block, const DistanceCenter& 
   for (std::size_t i = 0; i < count; ++i) {
     const Coordinates p = load_point(block, positions[i]);
     if (octant(p, center) != in_octant) continue;
-    keep_farthest({squared_distance(p, center), block.index(positions[i]), p}, best);
+    update_farthest({squared_distance(p, center), block.index(positions[i]), p}, best);
   }
 }
 
@@ -85,7 +85,7 @@ void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const 
   });
 }
 
-void DistanceScan::bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const {
+void DistanceScan::bound(const DistanceCenter& center, double limit, BlockMaxima& bounds) const {
   bounds.resize(blocks_);
   visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
     const LoadedPoints points = blocks(first, count);
@@ -137,7 +137,7 @@ class DistanceScan::SharedOctants {
 
   void compete(const FarPoint& candidate, std::size_t octant) {
     const std::lock_guard lock(mutex_);
-    keep_farthest(candidate, points_[octant]);
+    update_farthest(candidate, points_[octant]);
   }
 
   void filtered() { chunks_filtered_.fetch_add(1, std::memory_order_relaxed); }
@@ -184,7 +184,7 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
   if (!scanned_ && filter_ == FloatFilter::reject && points_.source == nullptr)
     bounds_.reset(new float[blocks_ * kBlockBounds]);
   scanned_ = true;
-  first_center_ = center;
+  scan_center_ = center;
   SharedOctants best;
   visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
     scan_chunk(first, count, center, limit, best);
@@ -202,19 +202,19 @@ void DistanceScan::scan_all(const DistanceCenter& center, double limit, OctantPo
 // few.
 bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
   if (bounds_ == nullptr) return false;
-  const double moved = distance_up(center, first_center_);
+  const double moved = distance_up(center, scan_center_);
   shell_.clear();
   shell_center_ = center;
   shell_distance_ = distance - moved / 8;
   const double least = (shell_distance_ - moved) * kRoundDown;
   if (!(least > 0)) return false;
-  KeptBounds kept{nullptr, least * least * kRoundDown};
+  ScanBounds kept{nullptr, least * least * kRoundDown};
   const double limit = shell_distance_ * shell_distance_ * kRoundDown;
   std::array<std::uint32_t, kBlockPoints> positions;
   for (std::size_t block = 0; block < blocks_; ++block) {
     kept.bounds = &bounds_[block * kBlockBounds];
     const std::size_t count =
-        list_reaching(isa_, blocks(block, 1).view(), kept, center, limit, positions.data());
+        list_distant_by_bounds(isa_, blocks(block, 1).view(), kept, center, limit, positions.data());
     for (std::size_t i = 0; i < count; ++i)
       shell_.push_back(block * kBlockPoints + positions[i]);
     if (shell_.size() > 64 + points_.count / 16) return false;
@@ -227,7 +227,7 @@ void DistanceScan::scan_shell(const DistanceCenter& center, double limit, Octant
     const Coordinates p = load_point(points_, i);
     const double squared = squared_distance(p, center);
     if (!(squared >= limit) || !is_valid(p)) continue;
-    keep_farthest({squared, points_.index(i), p}, found[octant(p, center)]);
+    update_farthest({squared, points_.index(i), p}, found[octant(p, center)]);
   }
 }
 

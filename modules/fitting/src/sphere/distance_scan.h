@@ -19,7 +19,7 @@
 namespace pcl_bv {
 
 /// One number for each block of points.
-using BlockNumbers = SmallVector<double, 16>;
+using BlockMaxima = SmallVector<double, 16>;
 
 /// Scans of a cloud for points far from a centre. All squared distances are squared_distance() of the
 /// kernels. No result depends on the execution.
@@ -35,7 +35,7 @@ class DistanceScan {
 
   /// Writes for each block the largest squared distance of a valid point that is at least `limit`; -1 if
   /// there is no such point.
-  void bound(const DistanceCenter& center, double limit, BlockNumbers& bounds) const;
+  void bound(const DistanceCenter& center, double limit, BlockMaxima& bounds) const;
 
   /// Returns the largest squared distance of a valid point, or `at_least` if that is larger.
   double greatest(const DistanceCenter& center, double at_least) const;
@@ -51,7 +51,7 @@ class DistanceScan {
       visit(listed[i], load_point(part.view(), listed[i]));
   }
 
-  /// Answers a query as FarthestPoints does. Made for centres that hardly move between calls: a scan of all
+  /// Answers a query as FarthestQuery does. Made for centres that hardly move between calls: a scan of all
   /// points also stores upper bounds of distances, one for every few points. Later calls inspect only the
   /// points that can reach the limit, if these are few.
   bool farthest(const DistanceCenter& center, double limit, OctantPoints& found);
@@ -75,8 +75,8 @@ class DistanceScan {
   FloatFilter filter_;
   std::size_t blocks_;
 
-  std::unique_ptr<float[]> bounds_;  // of the latest full scan, for distances from first_center_
-  DistanceCenter first_center_;
+  std::unique_ptr<float[]> bounds_;  // of the latest full scan, for distances from scan_center_
+  DistanceCenter scan_center_;
   bool scanned_ = false;
 
   // If listed_: the positions of all points whose distance from shell_center_ is at least shell_distance_.

@@ -53,7 +53,7 @@ FirstBall ritter_ball(const Supports& supports, const LocalFrame& frame) {
 
 // The directions that EPOS-98 has beyond those of the cube; one of each two opposite directions.
 std::vector<Direction> epos98_directions() {
-  std::vector<Direction> directions = scattered_directions();
+  std::vector<Direction> directions = spread_directions();
   const auto of_cube = [](const Direction& d) {
     return std::none_of(d.begin(), d.end(), [](double c) { return std::abs(c) == 2; });
   };

@@ -65,7 +65,7 @@ void grow_in_order(const DistanceScan& scan, GrowingSphere& sphere) {
 template <typename Visit>
 void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& sphere, const Visit& visit) {
   const double limit = sphere.squared_radius();
-  BlockNumbers bounds;
+  BlockMaxima bounds;
   scan.bound(sphere.center(), limit, bounds);
   for (std::size_t block = 0; block < bounds.size(); ++block) {
     if (bounds[block] >= limit) visit(block);

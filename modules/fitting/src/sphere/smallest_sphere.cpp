@@ -43,7 +43,7 @@ bool add_candidates(const OctantPoints& found, SeedPoints& candidates) {
   return added;
 }
 
-Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints candidates,
+Sphere solve(const FarthestQuery& farthest, const LocalFrame& frame, SeedPoints candidates,
              SphereCertificate& certificate) {
   Eigen::Vector3d best_center = Eigen::Vector3d::Zero();
   double best_distance = -1;  // squared distance of the farthest point
@@ -71,24 +71,24 @@ Sphere solve(const FarthestPoints& farthest, const LocalFrame& frame, SeedPoints
 
 }  // namespace
 
-void keep_farthest(const FarPoint& other, FarPoint& best) {
+void update_farthest(const FarPoint& other, FarPoint& best) {
   const bool tie = other.squared_distance == best.squared_distance;
   if (tie ? other.index < best.index : other.squared_distance > best.squared_distance) best = other;
 }
 
-void keep_farthest(const OctantPoints& other, OctantPoints& best) {
+void update_farthest(const OctantPoints& other, OctantPoints& best) {
   for (std::size_t o = 0; o < best.size(); ++o)
-    keep_farthest(other[o], best[o]);
+    update_farthest(other[o], best[o]);
 }
 
-bool farthest_points(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
+bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution) {
   const FloatEnvironment environment;
   if (points.indices != nullptr) throw std::invalid_argument("farthest_points: the view has an index list");
   return DistanceScan(points, execution).farthest(center, limit, found);
 }
 
-Sphere smallest_sphere(const Supports& supports, const FarthestPoints& farthest,
+Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate) {
   const FloatEnvironment environment;
   certificate = SphereCertificate();

@@ -18,10 +18,10 @@ namespace pcl_bv {
 
 /// Throws std::invalid_argument if the execution has supports of other points. Every fit calls it, also a fit
 /// that does not use the supports.
-void require_own_supports(const PointView& points, const Execution& execution);
+void require_matching_supports(const PointView& points, const Execution& execution);
 
 /// Returns whether the points are a few points that represent a whole cloud (Supports::moments).
-inline bool stand_for_all(const Execution& execution) {
+inline bool represents_cloud(const Execution& execution) {
   return execution.supports != nullptr && execution.supports->moments != nullptr;
 }
 
@@ -58,8 +58,8 @@ class SupportSearch {
  private:
   UsableIsa isa_;
   const SupportDirections& directions_;
-  bool shared_;  // whether there are several chunks, which use reached_
-  std::array<std::atomic<double>, kMaxSupportEnds> reached_;
+  bool shared_;  // whether there are several chunks, which use known_max_
+  std::array<std::atomic<double>, kMaxSupports> known_max_;
   ChunkSupports all_;
 };
 
@@ -70,11 +70,11 @@ Support support_between(const SupportDirections& directions, std::size_t k, cons
 
 /// Returns the supports that a search along the directions of `set` has found among all points of a view. The
 /// rank is not set.
-Supports of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
+Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
 
-/// The supports of a box, built chunk by chunk: no_bounds() starts without a point, merge_bounds() adds the
+/// The supports of a box, built chunk by chunk: empty_bounds() starts without a point, merge_bounds() adds the
 /// box of a chunk, finish_bounds() sets the counts.
-Supports no_bounds(const PointView& points);
+Supports empty_bounds(const PointView& points);
 void merge_bounds(const AxisExtents& part, Supports& supports);
 void finish_bounds(Supports& supports);
 

@@ -28,7 +28,7 @@ msg::PointCloud2 cloud_in(const CloudMessage& message);
 ///
 /// Sets points, intensity, owner and frame_id, the stamp unless it is 0, and `note`, which names fields that
 /// cannot be read (unread_fields()). Points stay where they are if they can be read there
-/// (points_in_place()); otherwise they are copied. If `class_field` is not empty, Frame::classes gets the
+/// (view_points()); otherwise they are copied. If `class_field` is not empty, Frame::classes gets the
 /// values of that integer field. Throws MessageError if the message is not a PointCloud2, and
 /// std::runtime_error if the class field cannot be used (integers_of()).
 void read_cloud_message(const CloudMessage& message, const std::string& class_field, Frame& frame);

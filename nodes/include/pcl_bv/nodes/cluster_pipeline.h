@@ -27,7 +27,7 @@ Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {
   frame.header = {cloud->header.seq, static_cast<std::int64_t>(microseconds) * 1000, cloud->header.frame_id};
   frame.points = point_view(*cloud);
   const auto& sensor = cloud->sensor_origin_;
-  frame.sensor = place_of_sensor({sensor.x(), sensor.y(), sensor.z()});
+  frame.sensor = stored_sensor_position({sensor.x(), sensor.y(), sensor.z()});
   frame.owner = std::move(cloud);
   return frame;
 }

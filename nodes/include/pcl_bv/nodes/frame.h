@@ -63,14 +63,14 @@ struct Frame {
 
 /// Returns a sensor position as stored in a cloud. Returns nullopt for the origin, which clouds without a
 /// position have, and for a coordinate that is not finite or exceeds kMaxCoordinate in magnitude.
-inline std::optional<Eigen::Vector3d> place_of_sensor(const Eigen::Vector3d& noted) {
+inline std::optional<Eigen::Vector3d> stored_sensor_position(const Eigen::Vector3d& noted) {
   const bool is_place = (noted.array().abs() <= kMaxCoordinate).all() && !noted.isZero(0);  // false for NaN
   return is_place ? std::optional(noted) : std::nullopt;
 }
 
-/// Returns the sensor position of VIEWPOINT of a .pcd file in the frame of the points, as place_of_sensor().
+/// Returns the sensor position of VIEWPOINT of a .pcd file in the frame of the points, as stored_sensor_position().
 inline std::optional<Eigen::Vector3d> sensor_of(const RawCloud& cloud) {
-  return place_of_sensor({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
+  return stored_sensor_position({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
 }
 
 /// Converts a time of the system clock (nanoseconds since 1970) to the steady clock, which is never set.

@@ -42,12 +42,12 @@ struct FrameResult {
   std::shared_ptr<const PipelineConfig> config = std::make_shared<PipelineConfig>();
   std::size_t points = 0;          ///< Number of points of the cloud, valid or not.
   Counts counts;                   ///< Number of points in no cluster, by reason.
-  std::vector<std::int32_t> kept;  ///< Indices of the points that passed the filter; see kept_points().
+  std::vector<std::int32_t> kept;  ///< Indices of the points that passed the filter; see points_after_filter().
   GroundSplit ground;              ///< Ground and other points; `found` is false without ground removal.
   /// Sensor position, the centre of ground zones: ground.sensor if given; otherwise Frame::sensor or the
   /// origin, if the points lie around it; otherwise the densest part of the cloud (find_sensor()). The origin
   /// if no enabled setting depends on it.
-  SensorPlace sensor;
+  SensorPosition sensor;
   /// Whether the points lie around the origin, from which filter.range_max and cluster.tolerance_per_metre
   /// are measured. Always true if neither is set and the ground method is not zones, and for points that are
   /// not in memory.
@@ -84,30 +84,30 @@ struct FrameResult {
 
   /// Returns the points that passed the filter, or the points of a cluster, as views of `cloud` (the frame's
   /// points) and of the lists above. They may contain invalid points.
-  PointView kept_points(const PointView& cloud) const;
+  PointView points_after_filter(const PointView& cloud) const;
   PointView points_of(std::size_t cluster, const PointView& cloud) const;
 };
 
-/// Returns for each point of the frame's cloud the number of its cluster, label_ground or label_none. If
+/// Returns for each point of the frame's cloud the number of its cluster, kLabelGround or kLabelNone. If
 /// frame.points has an index list, the labels go up to the largest index in it. `result` must be that of
 /// `frame`.
 std::vector<std::uint32_t> labels_of(const Frame& frame, const FrameResult& result);
 
 /// Returns a warning if ground removal found no ground, or only ground, among at least 100 points. The
 /// warning names settings to try by their keys. Otherwise returns an empty text.
-std::string ground_remark(const FrameResult& result);
+std::string ground_warning(const FrameResult& result);
 
 /// Returns a warning if the range filter (filter.range_min to filter.range_max) dropped more than half of at
 /// least 100 finite points. `from` tells where the range was set ("--preset table"). Otherwise returns an
 /// empty text.
-std::string range_remark(const FrameResult& result, const std::string& from);
+std::string range_warning(const FrameResult& result, const std::string& from);
 
 /// Returns a warning if the frame is tracked and its stamp does not advance; it tells which time the tracks
 /// use instead. Otherwise returns an empty text.
-std::string track_remark(const FrameResult& result);
+std::string track_warning(const FrameResult& result);
 
 /// Returns the report entries of all clusters.
-std::vector<ClusterEntry> entries_of(const FrameResult& result);
+std::vector<ClusterEntry> cluster_entries(const FrameResult& result);
 
 /// Returns the same entries one by one, so that a million clusters need no memory. Refers to `result`.
 ClusterSource cluster_source(const FrameResult& result);

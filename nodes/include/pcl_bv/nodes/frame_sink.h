@@ -43,7 +43,7 @@ class FrameSink {
   virtual void offer(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
   /// Returns the warnings since the last call that affect no frame, one line each.
-  virtual std::vector<std::string> take_remarks() { return {}; }
+  virtual std::vector<std::string> take_warnings() { return {}; }
 
   /// Ends the output; nothing is written afterwards. Throws IoError if not everything could be written.
   virtual void close() {}
@@ -133,7 +133,7 @@ class SinkGroup {
   template <typename Do>
   void each(const Do& what);
 
-  std::function<void(const std::string&)> say_;
+  std::function<void(const std::string&)> report_;
   std::vector<std::unique_ptr<Member>> members_;
   // Path of each sink, and its outermost folder or file that did not exist.
   std::vector<std::pair<std::filesystem::path, std::filesystem::path>> made_;

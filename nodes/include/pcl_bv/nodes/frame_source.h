@@ -50,11 +50,11 @@ class FrameSource {
   virtual Next next(Frame& frame, std::chrono::milliseconds patience) = 0;
 
   /// Returns the warnings about the source as a whole since the last call, one line each.
-  virtual std::vector<std::string> take_remarks() { return {}; }
+  virtual std::vector<std::string> take_warnings() { return {}; }
 };
 
 /// Range of ReplayOptions::rate_hz, frames per second.
-inline constexpr double kLeastRate = 1e-3, kGreatestRate = 1e6;
+inline constexpr double kMinRate = 1e-3, kMaxRate = 1e6;
 
 /// How files and recordings become frames.
 struct ReplayOptions {
@@ -63,10 +63,10 @@ struct ReplayOptions {
   ///
   /// Files: the time in the name, read as by stamp_in_name(), but with one interpretation for all files of a
   /// folder. An interpretation whose stamps ascend is preferred; it may read fractions as whole milli-,
-  /// micro- or nanoseconds without leading zeros. If there is none, take_remarks() returns a warning. A name
+  /// micro- or nanoseconds without leading zeros. If there is none, take_warnings() returns a warning. A name
   /// without a time gives a FrameError. Messages: the stamp of the header or, if that is 0, the time of
   /// recording.
-  bool from_name = false;
+  bool own_stamps = false;
   std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
   std::size_t loops = 1;       ///< Number of passes; 0 means 1.
   /// Integer field of the clouds for Frame::classes; if empty, frames have no classes.
@@ -86,7 +86,7 @@ struct ReplayOptions {
 /// Where a source can take the times of frames from, other than the rate.
 enum class FrameTimes : std::uint8_t {
   none,
-  names,     ///< File names, if requested by ReplayOptions::from_name.
+  names,     ///< File names, if requested by ReplayOptions::own_stamps.
   messages,  ///< Messages of a recording, unless the rate is requested.
   live       ///< Live messages; there is no other choice.
 };
@@ -115,7 +115,7 @@ std::string source_syntax();
 /// - `synth:street-sequence[:FRAMES[:SEED]]` and other synthetic sequences, generated frame by frame.
 ///
 /// Throws IoError if there is no cloud or if poses cannot be read. Throws std::invalid_argument for a rate
-/// out of range, for names without any time (ReplayOptions::from_name), for an unknown sequence, for a topic
+/// out of range, for names without any time (ReplayOptions::own_stamps), for an unknown sequence, for a topic
 /// that does not exist, and if no topic is given and several have clouds. Also throws as
 /// Middleware::receiver() does.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
@@ -137,7 +137,7 @@ std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 /// 4. Other seconds with a decimal point.
 ///
 /// Other numbers are taken as frame numbers and ignored. For the names of a folder see
-/// ReplayOptions::from_name.
+/// ReplayOptions::own_stamps.
 std::int64_t stamp_in_name(std::string_view stem);
 
 }  // namespace pcl_bv

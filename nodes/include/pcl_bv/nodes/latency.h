@@ -26,8 +26,8 @@ class LatencyHistogram {
   double percentile(double part) const;
 
  private:
-  static constexpr std::size_t kClasses = 2084;  // ln(1e9) / ln(1.01) + 1
-  std::array<std::uint32_t, kClasses> classes_{};
+  static constexpr std::size_t kBinCount = 2084;  // ln(1e9) / ln(1.01) + 1
+  std::array<std::uint32_t, kBinCount> classes_{};
   std::uint64_t count_ = 0;
   double max_ = 0;
 };

@@ -96,7 +96,7 @@ struct ClusterConfig {
   std::vector<ClassConfig> classes{};  ///< Classes with settings of their own; only with `class_field`.
 
   /// Returns `min_size`, or its default.
-  std::size_t least_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
+  std::size_t effective_min_size() const { return min_size.value_or(tolerance > 0 ? 10 : 0); }
 };
 
 /// Settings of the tracking (Tracker).
@@ -128,7 +128,7 @@ struct PipelineConfig {
 
   /// Returns a warning for each setting that has no effect in combination with the others, such as
   /// "track.smooth: has no effect without track.enabled". None of them is an error.
-  std::vector<std::string> without_effect() const;
+  std::vector<std::string> ineffective_settings() const;
 
   /// Returns the methods of all objects: those of `volumes`, then those that only classes have. Unknown names
   /// are skipped.

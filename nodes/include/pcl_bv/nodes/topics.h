@@ -26,7 +26,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// A volume as a shape that viewers can draw.
-struct DrawnVolume {
+struct VolumeShape {
   enum class Kind : std::uint8_t {
     cube,
     sphere,    ///< A sphere or an ellipsoid: `size` holds the diameters.
@@ -41,15 +41,15 @@ struct DrawnVolume {
 };
 
 /// Returns the shape of a volume; for an empty volume `lines` without ends.
-DrawnVolume drawn(const AnyVolume& volume);
+VolumeShape drawn(const AnyVolume& volume);
 
 /// Returns the shapes of all volumes in the order of FrameResult::volumes; for missing volumes `lines`
 /// without ends. Call it once for all messages: computing the edges of a k-DOP costs as much as its fit.
-std::vector<DrawnVolume> drawn(const FrameResult& result);
+std::vector<VolumeShape> drawn(const FrameResult& result);
 
 /// Returns the box of a cluster: its first volume that is a box, otherwise the axis-aligned box of its first
 /// volume. Without volumes: `lines` without ends.
-DrawnVolume box_of(const FrameResult& result, std::size_t cluster);
+VolumeShape box_of(const FrameResult& result, std::size_t cluster);
 
 /// Returns the red, green, blue and alpha of a cluster, 0 to 1. A tracked object keeps its colour.
 std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster);
@@ -105,7 +105,7 @@ void set_point(const std::array<double, 3>& from, Point& to) {
 }
 
 template <class Pose>
-void set_pose(const DrawnVolume& from, Pose& pose) {
+void set_pose(const VolumeShape& from, Pose& pose) {
   set_point(from.position, pose.position);
   pose.orientation.x = from.orientation[0];
   pose.orientation.y = from.orientation[1];
@@ -156,7 +156,7 @@ void fill_detections(const Frame& frame, const FrameResult& result, Array& array
     array.detections.emplace_back();
     auto& detection = array.detections.back();
     topics::set_header(frame, detection.header);
-    const DrawnVolume box = box_of(result, i);
+    const VolumeShape box = box_of(result, i);
     topics::set_pose(box, detection.bbox.center);
     topics::set_point(box.size, detection.bbox.size);
     detection.results.resize(1);
@@ -189,7 +189,7 @@ class ShownObjects {
 /// markers of `shown` that have ended. The namespace is the method; the id is that of the track, or negative
 /// until there is one. Markers last `lifetime_ns`. `volumes` is drawn(result).
 template <class Array>
-void fill_markers(const Frame& frame, const FrameResult& result, const std::vector<DrawnVolume>& volumes,
+void fill_markers(const Frame& frame, const FrameResult& result, const std::vector<VolumeShape>& volumes,
                   std::int64_t lifetime_ns, ShownObjects& shown, Array& array) {
   using Marker = typename std::decay<decltype(array.markers.front())>::type;
   array.markers.clear();
@@ -210,7 +210,7 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
         tracked ? static_cast<std::int32_t>(result.tracks[i]->id) : -1 - static_cast<std::int32_t>(i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
       if (!result.has(i, m) || empty(result.volume(i, m))) continue;
-      const DrawnVolume& volume = volumes[i * result.methods.size() + m];
+      const VolumeShape& volume = volumes[i * result.methods.size() + m];
       Marker& marker = add(std::string(result.methods[m]->name), id);
       now.emplace(marker.ns, id);
       topics::set_pose(volume, marker.pose);
@@ -218,16 +218,16 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
       topics::set_colour(colour_of(result, i), marker.color);
       topics::set_time(lifetime_ns, marker.lifetime);
       switch (volume.kind) {
-        case DrawnVolume::Kind::cube:
+        case VolumeShape::Kind::cube:
           marker.type = Marker::CUBE;
           break;
-        case DrawnVolume::Kind::sphere:
+        case VolumeShape::Kind::sphere:
           marker.type = Marker::SPHERE;
           break;
-        case DrawnVolume::Kind::cylinder:
+        case VolumeShape::Kind::cylinder:
           marker.type = Marker::CYLINDER;
           break;
-        case DrawnVolume::Kind::lines:
+        case VolumeShape::Kind::lines:
           marker.type = Marker::LINE_LIST;
           marker.scale.x = 0.03;
           break;
@@ -323,11 +323,11 @@ class StreamHealth {
   std::array<std::pair<const char*, std::string>, 4> take_values();
 
   FrameWarnings warnings_;
-  std::shared_ptr<const PipelineConfig> warned_of_;
+  std::shared_ptr<const PipelineConfig> warned_config_;
   std::string warning_;
   std::uint64_t frames_ = 0, lost_ = 0;
   std::size_t objects_ = 0;
-  std::int64_t said_ns_ = 0;
+  std::int64_t last_message_ns_ = 0;
   double slowest_ms_ = 0;
 };
 

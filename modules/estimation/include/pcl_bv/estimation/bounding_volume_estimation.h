@@ -166,14 +166,14 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
   }
 
  private:
-  static const std::shared_ptr<const KdopSet>& of_k() {
+  static const std::shared_ptr<const KdopSet>& default_directions() {
     return K == 6    ? KdopSet::dop6()
            : K == 14 ? KdopSet::dop14()
            : K == 18 ? KdopSet::dop18()
                      : KdopSet::dop26();
   }
 
-  std::shared_ptr<const KdopSet> directions_ = of_k();
+  std::shared_ptr<const KdopSet> directions_ = default_directions();
 };
 
 /// Estimates a bounding sphere: the smallest one unless another method is set. See fit_sphere().
@@ -274,17 +274,17 @@ class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
       }
     }
     if (among.empty()) throw std::invalid_argument("BestEstimation::setMethods: no names");
-    among_ = std::move(among);
+    candidates_ = std::move(among);
   }
 
  protected:
   EstimationResult fit(const PointView& points, AnyVolume& volume,
                        const Execution& execution) const override {
-    return fit_smallest(points, among_, volume, execution);
+    return fit_smallest(points, candidates_, volume, execution);
   }
 
  private:
-  std::vector<const Method*> among_ = best_candidates();
+  std::vector<const Method*> candidates_ = best_candidates();
 };
 
 }  // namespace pcl_bv

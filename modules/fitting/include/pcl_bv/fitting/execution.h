@@ -19,7 +19,7 @@ struct Execution {
   /// If not null: the result of find_supports() for exactly these points. Most fits begin with supports; they
   /// save a pass over the points if the directions and the detail that they need are in here.
   /// share_supports() (methods.h) prepares this for several methods. A fit throws std::invalid_argument if
-  /// its view is not the one that was searched (same_places() in point_view.h).
+  /// its view is not the one that was searched (same_memory() in point_view.h).
   const Supports* supports = nullptr;
 };
 

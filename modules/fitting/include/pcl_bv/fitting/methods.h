@@ -29,9 +29,9 @@ struct Method {
   std::string_view shape;  ///< As shape_name() returns it; empty for `best`, whose shape varies.
   /// Called by fit().
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
-  std::optional<DirectionSet> begins_with;  ///< The directions whose supports it finds first, if it does.
+  std::optional<DirectionSet> initial_directions;  ///< The directions whose supports it finds first, if it does.
   bool upright = false;                     ///< Whether it uses MethodOptions::up.
-  bool on_hull = false;                     ///< Whether it needs the convex hull.
+  bool needs_hull = false;                     ///< Whether it needs the convex hull.
   bool needs_all_points = false;            ///< Whether points deep inside the cloud can change the volume.
 
   /// Fits the method to the points; the result is as for the function in fit.h or fit_obb.h.

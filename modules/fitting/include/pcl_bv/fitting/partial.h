@@ -17,19 +17,19 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 struct PartialState;
 
-/// The contribution of some points of a cloud to volumes around the whole cloud. Up to kAllKept points are
+/// The contribution of some points of a cloud to volumes around the whole cloud. Up to kMaxStored points are
 /// all stored. Of more points it stores the extreme ones (the vertices of their convex hull), the support
 /// points along the 26 directions, and sums for the covariance. Copies share their data.
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
 /// the serialised bytes. The volumes have the bits of a fit to the whole cloud. There are two exceptions, for
-/// more than kAllKept points: sphere-exact and obb-yaw are fitted to the extreme points only. These determine
+/// more than kMaxStored points: sphere-exact and obb-yaw are fitted to the extreme points only. These determine
 /// both volumes, but in a fit to all points, points within rounding of the extreme ones can change the last
 /// bits.
 class Partial {
  public:
   /// Maximum number of points that are all stored.
-  static constexpr std::size_t kAllKept = 4096;
+  static constexpr std::size_t kMaxStored = 4096;
 
   /// Holds no points.
   Partial();
@@ -59,7 +59,7 @@ class Partial {
   /// points. For this, `farthest` must answer for the same points, with the numbers that they have here. It
   /// is not called if all points are stored. Exceptions of `farthest` are passed on.
   EstimationResult fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
-                                       const FarthestPoints& farthest, const Execution& execution = {}) const;
+                                       const FarthestQuery& farthest, const Execution& execution = {}) const;
 
   /// Number of points, valid or not.
   std::size_t size() const;

@@ -28,23 +28,23 @@ using OctantPoints = std::array<FarPoint, 8>;
 
 /// Replaces `best` by `other` if that is farther, or as far with a smaller index; for OctantPoints in each
 /// octant.
-void keep_farthest(const FarPoint& other, FarPoint& best);
-void keep_farthest(const OctantPoints& other, OctantPoints& best);
+void update_farthest(const FarPoint& other, FarPoint& best);
+void update_farthest(const OctantPoints& other, OctantPoints& best);
 
 /// A query: finds, among the valid points with a squared distance of at least `limit`, the farthest in each
 /// octant, and overwrites `found` with them. Returns whether there is any such point.
-using FarthestPoints = std::function<bool(const DistanceCenter& center, double limit, OctantPoints& found)>;
+using FarthestQuery = std::function<bool(const DistanceCenter& center, double limit, OctantPoints& found)>;
 
-/// Answers the query of FarthestPoints for the points of a view; the indices are those of PointView::index().
+/// Answers the query of FarthestQuery for the points of a view; the indices are those of PointView::index().
 /// One pass over the points. Throws std::invalid_argument for a view with an index list.
-bool farthest_points(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
+bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution = {});
 
 /// Computes the smallest sphere of the points that `supports` describes and `farthest` answers for. The
 /// supports must be along dop26, with points. The result has the bits of fit_smallest_sphere(), however the
 /// queries are answered. Without a valid point the sphere is empty. Calls `farthest` certificate.passes
 /// times. Throws std::invalid_argument for other supports; exceptions of `farthest` are passed on.
-Sphere smallest_sphere(const Supports& supports, const FarthestPoints& farthest,
+Sphere smallest_sphere(const Supports& supports, const FarthestQuery& farthest,
                        SphereCertificate& certificate);
 
 }  // namespace pcl_bv

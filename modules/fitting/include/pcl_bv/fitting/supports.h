@@ -74,7 +74,7 @@ Kdop kdop_of(const Supports& supports);
 EstimationResult result_of(const Supports& supports);
 
 /// Supports of a cloud along directions of your own.
-struct OwnSupports {
+struct CustomSupports {
   std::size_t used = 0;        ///< Number of valid points.
   std::size_t dropped = 0;     ///< Number of points that are not valid (is_valid()).
   std::vector<Support> along;  ///< In the order of the directions; empty if no point is valid.
@@ -86,7 +86,7 @@ struct OwnSupports {
 ///
 /// Throws std::invalid_argument unless there are 1 to 49 directions, each finite with its largest component
 /// between 1e-30 and 1e30 in magnitude, and if Execution::supports are those of other points.
-OwnSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
+CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
                           const Execution& execution = {});
 
 }  // namespace pcl_bv

@@ -47,7 +47,7 @@ struct RawCloud {
 
   /// Names of the fields with values that could not be read as numbers of their type and were replaced by 0
   /// or NaN; `note` has the details.
-  std::vector<std::string> unread_fields;
+  std::vector<std::string> invalid_fields;
 
   /// Returns the number of points.
   std::size_t size() const { return width * height; }

@@ -33,7 +33,7 @@ void write_file_atomically(const std::filesystem::path& path, std::initializer_l
 void write_file_atomically(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 
 /// Creates the missing parent folders of a file. Throws IoError with the reason.
-void make_folder_of(const std::filesystem::path& file);
+void create_parent_folders(const std::filesystem::path& file);
 
 /// Removes the unfinished files of all write_file_atomically() calls of other threads. For a process that is
 /// about to end: from now on every such call throws IoError and leaves the existing file unchanged.

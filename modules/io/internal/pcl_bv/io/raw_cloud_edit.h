@@ -25,7 +25,7 @@ void set_uint32_field(RawCloud& cloud, std::string_view name, const std::vector<
 
 /// Returns the values of an integer field, one per point. If several fields have this name, the first is
 /// used. Throws std::runtime_error if there is no such field (the message lists the existing fields), if it
-/// is floating point, has several elements per point, is unsigned with 8 bytes, or is in `unread_fields`.
+/// is floating point, has several elements per point, is unsigned with 8 bytes, or is in `invalid_fields`.
 std::vector<std::int64_t> integers_of(const RawCloud& cloud, std::string_view name);
 
 /// Recomputes `packed_xyz` from `data`; call it after changing `data` or `fields`, as every reader does.

@@ -17,14 +17,14 @@ inline constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;  ///< Setti
 /// metadata.yaml of rosbag2: large, since it may contain the definitions of message types.
 inline constexpr std::size_t kMaxMetadataBytes = std::size_t{16} << 20;
 inline constexpr std::size_t kMaxVolumesBytes = std::size_t{1} << 30;   ///< JSON with volumes.
-inline constexpr std::size_t kMaxHeadingBytes = std::size_t{64} << 20;  ///< Header of partial results.
+inline constexpr std::size_t kMaxPartialHeaderBytes = std::size_t{64} << 20;  ///< Header of partial results.
 inline constexpr std::size_t kMaxPosesBytes = std::size_t{1} << 30;     ///< Poses and calibrations.
 /// Maximum nesting of JSON, small enough for recursive functions over a value. Our reports nest 8 deep.
 inline constexpr int kMaxJsonDepth = 64;
 
 /// Returns the content of a file or a pipe. Throws IoError "cannot be read" or, for example, "has more than
 /// 1048576 bytes"; it never reads more than `max_bytes` + 1 bytes.
-std::string read_text_from_outside(const std::filesystem::path& path, std::size_t max_bytes);
+std::string read_untrusted_text(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Returns the text of the JSON value that begins at `text[at]` or after white space there, and moves `at` to
 /// its end. Only quotes and brackets are inspected, so that the value may be invalid JSON. Returns an empty

@@ -13,7 +13,7 @@ namespace pcl_bv {
 
 /// Returns the message for an error of yaml-cpp: "line 2: is no YAML: ... (column 7)". yaml-cpp itself
 /// refuses nesting deeper than 500 levels, before its recursion can overflow the stack.
-inline std::string yaml_problem(const YAML::Exception& error) {
+inline std::string yaml_error_message(const YAML::Exception& error) {
   const YAML::Mark& at = error.mark;
   std::string what = "a key or a value is of another kind than is wanted";
   if (dynamic_cast<const YAML::DeepRecursion*>(&error) != nullptr) {

@@ -48,7 +48,7 @@ struct OctantScan {
   DistanceCenter center;
   double limit = 0;                       ///< Points with a smaller squared_distance() are ignored.
   FloatFilter filter = FloatFilter::off;  ///< Set to `off` by the scan if floats rejected little.
-  float* bounds = nullptr;                ///< If not null, receives kBlockBounds bounds for list_reaching().
+  float* bounds = nullptr;                ///< If not null, receives kBlockBounds bounds for list_distant_by_bounds().
 
   /// Result: the largest squared_distance() in each octant around the centre; -1 for an octant without a
   /// point of at least `limit`. The index of an octant has bit 0 set if qx > 0, bit 1 if qy > 0, bit 2 if
@@ -61,8 +61,8 @@ struct OctantScan {
 /// points, for points that are not in memory, and for float points if the scale is not 1.
 void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan);
 
-/// The bounds that scan_octants() wrote for a block of floats, and which points list_reaching() may skip.
-struct KeptBounds {
+/// The bounds that scan_octants() wrote for a block of floats, and which points list_distant_by_bounds() may skip.
+struct ScanBounds {
   const float* bounds = nullptr;
   double limit = 0;  ///< Squared distance from the centre of that scan; nearer points may be skipped.
 };
@@ -74,7 +74,7 @@ struct KeptBounds {
 /// Nearer points and infinite points may be listed as well. Cheap if few bounds exceed kept.limit. `isa` must
 /// be the one with which the bounds were written. Throws like scan_octants(), and for a block of doubles or
 /// if the bounds are null.
-std::size_t list_reaching(UsableIsa isa, const PointView& block, const KeptBounds& kept,
+std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& kept,
                           const DistanceCenter& center, double limit, std::uint32_t* positions);
 
 /// Returns the octant of a point, as defined for OctantScan::greatest.

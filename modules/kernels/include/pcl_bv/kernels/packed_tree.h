@@ -49,14 +49,14 @@ struct alignas(64) PointPacket {
 /// The boxes are in a frame of their own, in which all coordinates are between -1 and 1: a point p of the
 /// items is at (p - origin) * scale there. The boxes are rounded outward.
 struct BoxLevels {
-  static constexpr std::size_t kMostLevels = 9;
+  static constexpr std::size_t kMaxLevels = 9;
 
   std::vector<BoxGroup> groups;
   /// For each group, squared and in this frame: the radius of the smallest ball that contains a whole side of
   /// one of its boxes and so certainly one of its points. Only a PackedTree has it; else empty.
-  std::vector<float> least_reached;
-  std::array<std::size_t, kMostLevels + 1> first{};  ///< Index in `groups` of the first group of each level.
-  std::array<std::size_t, kMostLevels + 1>
+  std::vector<float> min_side_radius;
+  std::array<std::size_t, kMaxLevels + 1> first{};  ///< Index in `groups` of the first group of each level.
+  std::array<std::size_t, kMaxLevels + 1>
       below{};             ///< Number of items, of groups of level 0, of groups of level 1, ...
   std::size_t levels = 0;  ///< 0 if there are no items.
   Coordinates origin{};

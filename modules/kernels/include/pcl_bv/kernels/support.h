@@ -20,11 +20,11 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Maximum number of directions in one call: KdopSet::max_size, half the number of points of EPOS-98.
 inline constexpr std::size_t kMaxSupportDirections = 49;
-inline constexpr std::size_t kMaxSupportEnds = 2 * kMaxSupportDirections;
+inline constexpr std::size_t kMaxSupports = 2 * kMaxSupportDirections;
 
 /// The directions of a call. Each direction k has two supports: number 2k is the minimum of the projections
 /// on it, number 2k + 1 the maximum. Identifiers call a support an `end`. Support `end` is the maximum of the
-/// projections on end_direction(end).
+/// projections on support_direction(end).
 struct SupportDirections {
   std::size_t count = 0;
   std::array<Direction, kMaxSupportDirections> exact{};
@@ -40,9 +40,9 @@ struct SupportDirections {
   /// the direction is finite with its largest component from 1e-30 to 1e30 in magnitude.
   void add(const Direction& direction);
   /// Returns the direction whose maximum projection is the given support: exact[end / 2] or its opposite.
-  Direction end_direction(std::size_t end) const;
+  Direction support_direction(std::size_t end) const;
   /// The same for `scaled`.
-  Direction scaled_end_direction(std::size_t end) const;
+  Direction scaled_support_direction(std::size_t end) const;
 };
 
 /// The point with the largest projection on a direction.
@@ -54,27 +54,27 @@ struct SupportPoint {
 
 /// Sets `best` to `other` if the exact projection of `other` on the direction is larger, or if it is equal
 /// and the index smaller.
-void keep_farther(const Direction& direction, const SupportPoint& other, SupportPoint& best);
+void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best);
 
 /// Known lower bounds of a cloud's supports: for each support a value that the projection of another point on
 /// the scaled direction certainly equals or exceeds; -infinity if none is known. Points with smaller
 /// projections need not be found.
-using ReachedSupports = std::array<double, kMaxSupportEnds>;
+using SupportBounds = std::array<double, kMaxSupports>;
 
 /// Returns the bounds if nothing is known: -infinity for each support.
-inline constexpr ReachedSupports nothing_reached() {
-  ReachedSupports reached{};
+inline constexpr SupportBounds no_support_bounds() {
+  SupportBounds reached{};
   for (double& r : reached)
     r = -kInfinity;
   return reached;
 }
 
-/// Returns a lower bound of the exact projection of a point, for use in ReachedSupports.
-double surely_reached(const SupportDirections& set, std::size_t end, const Coordinates& point);
+/// Returns a lower bound of the exact projection of a point, for use in SupportBounds.
+double projection_lower_bound(const SupportDirections& set, std::size_t end, const Coordinates& point);
 
 /// The supports of a chunk. Only the first 2 * count of them are used.
 struct ChunkSupports {
-  std::array<SupportPoint, kMaxSupportEnds> ends{};  ///< Not found: no point is valid or exceeds the bound.
+  std::array<SupportPoint, kMaxSupports> ends{};  ///< Not found: no point is valid or exceeds the bound.
   std::size_t dropped = 0;                           ///< Number of points that are not valid (is_valid()).
 };
 
@@ -87,6 +87,6 @@ struct ChunkSupports {
 /// must hold a FloatEnvironment. Throws std::invalid_argument for more points or directions, and if the
 /// points are not in memory.
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                    const ReachedSupports& reached, ChunkSupports& out);
+                    const SupportBounds& reached, ChunkSupports& out);
 
 }  // namespace pcl_bv

@@ -22,9 +22,9 @@ struct SweptBall {
   Coordinates from, unit;  ///< Start point and unit direction, in the unit of the points.
   double radius;
 
-  /// A point is shown to the visitor if its distance from the line is at most radius + kDoubt |q|_1 + kLeast,
+  /// A point is shown to the visitor if its distance from the line is at most radius + kRelativeMargin |q|_1 + kAbsoluteMargin,
   /// with q the vector from `from` to the point.
-  static constexpr double kDoubt = 0x1p-40, kLeast = 0x1p-400;
+  static constexpr double kRelativeMargin = 0x1p-40, kAbsoluteMargin = 0x1p-400;
 
   /// All arguments must be finite, the direction not 0, the radius at least 0.
   SweptBall(const BoxLevels& boxes, const Coordinates& from, const Coordinates& direction, double radius);

@@ -19,22 +19,22 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// data has exactly the bytes that the points need, row_step is ignored and rows have no padding. Throws
 /// MessageError (serialize.h) if the data is too short for the points, or if x, y or z is missing, of an
 /// unknown type or outside of the record.
-std::optional<PointView> points_in_place(const msg::PointCloud2& cloud);
+std::optional<PointView> view_points(const msg::PointCloud2& cloud);
 
 /// Returns a view of the intensities (see intensity_of()) without a copy. Returns nullopt if there is no
-/// intensity, or if points_in_place() returns nullopt. Throws as points_in_place().
-std::optional<FieldView> intensity_in_place(const msg::PointCloud2& cloud);
+/// intensity, or if view_points() returns nullopt. Throws as view_points().
+std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud);
 
 /// Returns a line for the user about the fields that raw_cloud_of() leaves out, and why; empty if there are
-/// none. Throws as points_in_place().
-std::string unread_fields(const msg::PointCloud2& cloud);
+/// none. Throws as view_points().
+std::string skipped_fields_note(const msg::PointCloud2& cloud);
 
 /// Returns a copy of the cloud: row by row without padding, little-endian, X, Y and Z renamed to x, y and z.
 /// The coordinates become float32 if all have types that float32 represents exactly (float32, integers of 8
 /// or 16 bits), else float64. Other fields keep their types. A field is left out if its type is unknown, if
 /// it exceeds the record, if it is a second x, y or z, or if it would make the new records longer than twice
-/// point_step; `note` is then unread_fields(). A cloud without points gives an empty cloud. Throws as
-/// points_in_place(). O(points).
+/// point_step; `note` is then skipped_fields_note(). A cloud without points gives an empty cloud. Throws as
+/// view_points(). O(points).
 RawCloud raw_cloud_of(const msg::PointCloud2& cloud);
 
 }  // namespace pcl_bv

@@ -12,7 +12,7 @@ inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Largest relative error of one rounding to double (unit roundoff); the U of the error bounds in
 /// docs/numerics.md.
-inline constexpr double kU = 0x1p-53;
+inline constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Smallest normal positive double. Added to an error bound, it covers the underflow of a few products.
 inline constexpr double kSmallestNormal = std::numeric_limits<double>::min();

@@ -35,7 +35,7 @@ void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& bod
 /// Calls body(begin, end) for consecutive ranges of `of_chunk` items that together cover 0 ... items - 1. The
 /// last range may be shorter. Runs and throws like for_each_chunk().
 template <typename Body>
-void for_each_run(const ParallelPolicy& policy, std::size_t items, std::size_t of_chunk, Body&& body) {
+void for_each_range(const ParallelPolicy& policy, std::size_t items, std::size_t of_chunk, Body&& body) {
   for_each_chunk(policy, (items + of_chunk - 1) / of_chunk,
                  [&](std::size_t chunk) { body(chunk * of_chunk, std::min(items, (chunk + 1) * of_chunk)); });
 }
@@ -46,12 +46,12 @@ void for_each_run(const ParallelPolicy& policy, std::size_t items, std::size_t o
 /// Each thread spins for at most 2 ms at a time and occupies its processor meanwhile. Use it around a
 /// sequence of short parallel stages. It has an effect only for the policy Threads, outside of parallel
 /// calls.
-class AwakeThreads {
+class SpinningThreads {
  public:
-  explicit AwakeThreads(const ParallelPolicy& policy);
-  ~AwakeThreads();
-  AwakeThreads(const AwakeThreads&) = delete;
-  AwakeThreads& operator=(const AwakeThreads&) = delete;
+  explicit SpinningThreads(const ParallelPolicy& policy);
+  ~SpinningThreads();
+  SpinningThreads(const SpinningThreads&) = delete;
+  SpinningThreads& operator=(const SpinningThreads&) = delete;
 
  private:
   void* pool_ = nullptr;

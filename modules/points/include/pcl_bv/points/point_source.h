@@ -56,7 +56,7 @@ class LoadedPoints {
     }
   }
   ~LoadedPoints() {
-    if (buffer_.capacity() > 0) give_back();
+    if (buffer_.capacity() > 0) return_buffer();
   }
   LoadedPoints(const LoadedPoints&) = delete;
   LoadedPoints& operator=(const LoadedPoints&) = delete;
@@ -65,7 +65,7 @@ class LoadedPoints {
 
  private:
   void load(const PointView& points, std::size_t begin, std::size_t count);
-  void give_back();
+  void return_buffer();
 
   PointView view_;
   std::vector<std::byte> buffer_;

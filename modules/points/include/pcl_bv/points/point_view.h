@@ -115,7 +115,7 @@ inline PointView packed_points(const std::byte* xyz, ScalarType scalar, std::siz
 
 /// Returns whether both views visit the same memory, or points of the same source, in the same order. If so,
 /// they have the same points unless the memory or the source has changed in between.
-inline bool same_places(const PointView& a, const PointView& b) {
+inline bool same_memory(const PointView& a, const PointView& b) {
   return a.data == b.data && a.stride == b.stride && a.count == b.count && a.indices == b.indices &&
          a.first == b.first && a.scalar == b.scalar && a.order == b.order && a.source == b.source;
 }

@@ -38,7 +38,7 @@ class WarningList {
 
   /// Adds the warnings of `other` except its first `added` ones, each behind `prefix`. Sets `added` to the
   /// number of all warnings of `other`.
-  void add_new_of(const WarningList& other, std::uint64_t& added, const std::string& prefix = {});
+  void append_new(const WarningList& other, std::uint64_t& added, const std::string& prefix = {});
 
   /// Returns the warnings, at most eleven lines.
   const std::vector<std::string>& lines() const { return lines_; }
@@ -76,9 +76,9 @@ class RecordingReader {
  protected:
   /// Adds a warning.
   void remark(std::string line) { warnings_.add(std::move(line)); }
-  /// Adds the new warnings of another list; see WarningList::add_new_of().
+  /// Adds the new warnings of another list; see WarningList::append_new().
   void remark(const WarningList& other, std::uint64_t& added, const std::string& prefix = {}) {
-    warnings_.add_new_of(other, added, prefix);
+    warnings_.append_new(other, added, prefix);
   }
 
  private:

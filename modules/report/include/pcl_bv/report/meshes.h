@@ -55,13 +55,13 @@ struct PvdEntry {
   int part = 0;      ///< Number of the file among those that are shown at the same time.
 };
 
-/// Beginning of a .pvd file, the index of a ParaView time series: pvd_begin, entries, pvd_end.
-inline constexpr std::string_view pvd_begin =
+/// Beginning of a .pvd file, the index of a ParaView time series: kPvdBegin, entries, kPvdEnd.
+inline constexpr std::string_view kPvdBegin =
     "<?xml version=\"1.0\"?>\n"
     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
     "  <Collection>\n";
 /// End of a .pvd file.
-inline constexpr std::string_view pvd_end = "  </Collection>\n</VTKFile>\n";
+inline constexpr std::string_view kPvdEnd = "  </Collection>\n</VTKFile>\n";
 
 /// Returns the line of an entry in a .pvd file. Throws std::invalid_argument for a file name with control
 /// characters, which XML cannot represent, and std::domain_error for a time that is not finite.

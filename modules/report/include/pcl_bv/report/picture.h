@@ -17,8 +17,8 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Labels of points that belong to no cluster: ground, and all others.
-inline constexpr std::uint32_t label_ground = 4294967294;
-inline constexpr std::uint32_t label_none = 4294967295;
+inline constexpr std::uint32_t kLabelGround = 4294967294;
+inline constexpr std::uint32_t kLabelNone = 4294967295;
 
 /// A volume and how it is drawn.
 struct PictureVolume {

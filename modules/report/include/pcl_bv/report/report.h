@@ -91,7 +91,7 @@ struct ClusterSource {
 };
 
 /// Returns a source for the clusters of a vector, which must outlive the source.
-ClusterSource source_of(const std::vector<ClusterEntry>& clusters);
+ClusterSource vector_source(const std::vector<ClusterEntry>& clusters);
 
 /// Receives a text piece by piece. It may modify or move from `piece`; its content is not used afterwards.
 using TextSink = std::function<void(std::string& piece)>;

@@ -17,11 +17,11 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// sphere has a radius and no size. A cylinder or capsule has both, and its axis is its own z. An upright box
 /// (obb-yaw, obb-lshape) has its length, width and height in sx, sy and sz. Columns that a shape does not
 /// have are empty, as are all numbers of an empty volume.
-inline constexpr std::string_view csv_columns =
+inline constexpr std::string_view kCsvColumns =
     "cluster,points,method,cx,cy,cz,sx,sy,sz,qx,qy,qz,qw,radius,volume";
 
 /// Names of the columns of a track: velocity and pose of TrackEntry. Empty for a cluster without a track.
-inline constexpr std::string_view csv_track_columns = "vx,vy,vz,x,y,z,yaw";
+inline constexpr std::string_view kCsvTrackColumns = "vx,vy,vz,x,y,z,yaw";
 
 /// Names of the last columns: full length (along axis 0), width (along axis 1) and height (along axis 2) of
 /// an upright box, and Obb::yaw() in radians. Empty for all other volumes. For a track's box the length is
@@ -29,15 +29,15 @@ inline constexpr std::string_view csv_track_columns = "vx,vy,vz,x,y,z,yaw";
 /// yaw is from -pi/2 to pi/2.
 inline constexpr std::string_view csv_upright_columns = "length,width,height,yaw";
 
-/// Like csv_upright_columns, for lines with csv_track_columns, where "yaw" is already the yaw of the object.
+/// Like csv_upright_columns, for lines with kCsvTrackColumns, where "yaw" is already the yaw of the object.
 inline constexpr std::string_view csv_tracked_upright_columns = "length,width,height,box_yaw";
 
 /// Returns a text as one CSV field (RFC 4180): in double quotes, with inner quotes doubled, if it has a
 /// comma, a quote or a line end; else unchanged.
 std::string csv_field(std::string_view text);
 
-/// Appends a line for each volume of the cluster: `first_columns` (fields joined by commas), csv_columns,
-/// csv_track_columns if `tracked`, and csv_upright_columns. Lines end in "\n". Numbers have the fewest digits
+/// Appends a line for each volume of the cluster: `first_columns` (fields joined by commas), kCsvColumns,
+/// kCsvTrackColumns if `tracked`, and csv_upright_columns. Lines end in "\n". Numbers have the fewest digits
 /// that read back as exactly the same double. Throws std::domain_error if a number is not finite, which does
 /// not occur in fitted volumes.
 void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text,
@@ -49,10 +49,10 @@ std::string report_csv(const Report& report);
 /// Writes the same lines piece by piece, of these clusters instead of the report's.
 void write_report_csv(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
-/// Returns the heading of report_csv(): "file", csv_columns and csv_upright_columns.
+/// Returns the heading of report_csv(): "file", kCsvColumns and csv_upright_columns.
 std::string report_csv_heading();
 
-/// Returns the heading for lines of frames: "seq,stamp_ns,track", csv_columns, csv_track_columns and
+/// Returns the heading for lines of frames: "seq,stamp_ns,track", kCsvColumns, kCsvTrackColumns and
 /// csv_tracked_upright_columns.
 std::string frames_csv_heading();
 

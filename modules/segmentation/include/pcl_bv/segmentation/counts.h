@@ -17,7 +17,7 @@ struct Counts {
   std::size_t large = 0;      ///< In clusters of too many points.
   std::size_t noise = 0;      ///< Neither core points nor near one: see ClusterSettings::min_points.
   std::size_t inside = 0;     ///< Dropped by regions: inside a region to drop, or outside all to keep.
-  std::size_t of_class = 0;   ///< Of a class that is dropped.
+  std::size_t dropped_class = 0;   ///< Of a class that is dropped.
 };
 
 }  // namespace pcl_bv

@@ -36,7 +36,7 @@ struct GroundScratch {
 };
 
 /// Position of the sensor of a cloud: see find_sensor() in sensor_place.h.
-struct SensorPlace {
+struct SensorPosition {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< Position in the frame of the cloud, metres.
   /// Whether the points lie around the assumed position. If not, `at` is estimated.
   bool around = true;
@@ -51,7 +51,7 @@ struct GroundSplit {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double offset = 0;     ///< Metres, in the frame of the cloud.
   /// Only from GroundZones: the centre of its rings. A given position is not checked.
-  SensorPlace sensor{};
+  SensorPosition sensor{};
   /// Only from GroundZones: no plane was found, and level ground at sensor_height was assumed.
   bool level = false;
   /// Indices of the ground points in the cloud (PointView::index()), in the order of the view.

@@ -26,7 +26,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// Returns `said` if the points lie around it. Otherwise returns the mean of the points within 12.5 m of the
 /// densest position, at the height of `said`. The same points give the same bits. O(1) for points in memory.
 /// Throws std::invalid_argument if `up` is 0 or not finite, or `said` is not finite.
-SensorPlace find_sensor(const PointView& points, const Eigen::Vector3d& up, const Eigen::Vector3d& said,
+SensorPosition find_sensor(const PointView& points, const Eigen::Vector3d& up, const Eigen::Vector3d& said,
                         GroundScratch& scratch);
 
 /// An up direction and the share of the points that are ground in it.

@@ -18,11 +18,11 @@ Eigen::Vector3d parse_up(std::string_view text);
 /// Returns a text that parse_up() reads as this vector: the name of an axis for a unit vector along it, else
 /// `X,Y,Z` with the fewest digits that read back exactly. For a vector that is no direction, parse_up()
 /// rejects the text.
-std::string up_text(const Eigen::Vector3d& up);
+std::string format_up(const Eigen::Vector3d& up);
 
 /// Returns the unit vector along `up`, which may have any length above 0. It is exact along an axis, and has
 /// the same bits for all lengths whose ratio is a power of two. Throws std::invalid_argument if `up` is 0 or
 /// not finite.
-Eigen::Vector3d up_direction(const Eigen::Vector3d& up);
+Eigen::Vector3d normalized_up(const Eigen::Vector3d& up);
 
 }  // namespace pcl_bv

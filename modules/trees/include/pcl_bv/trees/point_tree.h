@@ -132,13 +132,13 @@ class PointTree {
  private:
   // Buffers for building, retained for the next cloud. A copy of a tree has buffers of its own.
   struct Scratch;
-  struct KeptScratch {
-    KeptScratch() = default;
-    KeptScratch(const KeptScratch&) {}
+  struct ReusedScratch {
+    ReusedScratch() = default;
+    ReusedScratch(const ReusedScratch&) {}
     // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): each keeps its own.
-    KeptScratch& operator=(const KeptScratch&) { return *this; }
-    KeptScratch(KeptScratch&&) = default;
-    KeptScratch& operator=(KeptScratch&&) = default;
+    ReusedScratch& operator=(const ReusedScratch&) { return *this; }
+    ReusedScratch(ReusedScratch&&) = default;
+    ReusedScratch& operator=(ReusedScratch&&) = default;
     std::shared_ptr<Scratch> scratch;
   };
 
@@ -147,7 +147,7 @@ class PointTree {
   PackedTree tree_;
   UsableIsa isa_ = Isa::scalar;
   std::size_t dropped_ = 0;
-  KeptScratch kept_;
+  ReusedScratch kept_;
 };
 
 }  // namespace pcl_bv

@@ -53,13 +53,13 @@ class SweepWindow {
  private:
   // A queue of two stacks, as a sweep cannot be taken out of a merged Partial. add() pushes to newest_ and
   // merges into newest_merged_. drop_oldest() pops from oldest_, in which each entry is merged with all that
-  // are newer. If oldest_ is empty, turn_over() moves all of newest_ there. So each sweep is merged twice.
+  // are newer. If oldest_ is empty, refill_oldest() moves all of newest_ there. So each sweep is merged twice.
   struct Sweep {
     Partial merged;  // in oldest_: merged with all newer sweeps in oldest_
     std::size_t points;
   };
 
-  void turn_over();
+  void refill_oldest();
 
   std::size_t capacity_;
   std::vector<Sweep> oldest_;  // the last entry is the oldest sweep

@@ -98,7 +98,7 @@ class VolumeTree {
                std::vector<VolumeHit>& hits) const;
 
   /// Lists the volumes whose aabb() overlaps the box.
-  void all_touching(const Aabb& box, std::vector<std::int32_t>& indices) const;
+  void all_with_box_overlapping(const Aabb& box, std::vector<std::int32_t>& indices) const;
 
   /// Lists the volumes that overlap `volume`, as overlaps() of pairs.h decides. Makes a ConvexBody of each
   /// volume whose box overlaps.

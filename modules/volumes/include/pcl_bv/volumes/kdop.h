@@ -154,17 +154,17 @@ class Kdop {
 
  private:
   // The min of all slabs, then the max of all slabs.
-  const double* numbers() const { return many_.empty() ? few_.data() : many_.data(); }
-  double* numbers() { return many_.empty() ? few_.data() : many_.data(); }
+  const double* numbers() const { return heap_numbers_.empty() ? inline_numbers_.data() : heap_numbers_.data(); }
+  double* numbers() { return heap_numbers_.empty() ? inline_numbers_.data() : heap_numbers_.data(); }
   void store(const SlabVector& min, const SlabVector& max);
 
   // Up to 13 slabs (a 26-DOP) are stored inline, without an allocation. Inline capacity for 49 slabs would
   // make every AnyVolume 824 bytes instead of 256, too much for a million clusters.
-  static constexpr std::size_t few_slabs = 13;
+  static constexpr std::size_t max_inline_slabs = 13;
 
   std::shared_ptr<const KdopSet> set_;
-  std::array<double, 2 * few_slabs> few_{};
-  std::vector<double> many_;  // replaces few_ for more than few_slabs slabs, else empty
+  std::array<double, 2 * max_inline_slabs> inline_numbers_{};
+  std::vector<double> heap_numbers_;  // replaces inline_numbers_ for more than max_inline_slabs slabs, else empty
 };
 
 /// Returns whether both have equal sets of directions and equal slabs.

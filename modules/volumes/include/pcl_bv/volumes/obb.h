@@ -157,8 +157,8 @@ class Obb {
   FloatObb cast_float() const;
 
  private:
-  double reach_up(const Eigen::Vector3d& direction) const;  // upper bound of direction . (p - center)
-  bool surely_holds(const Obb& other) const;                // true only if the other box is proven inside
+  double support_value_up(const Eigen::Vector3d& direction) const;  // upper bound of direction . (p - center)
+  bool certainly_contains(const Obb& other) const;                // true only if the other box is proven inside
 
   Eigen::Vector3d center_;
   Eigen::Matrix3d axes_;

@@ -45,12 +45,12 @@ class ConvexBody {
  private:
   friend volumes_internal::Placed;
 
-  // The body is all points within radius_ of a point origin_ + turn_ q, for the q of the shape's core.
+  // The body is all points within radius_ of a point origin_ + rotation_ q, for the q of the shape's core.
   std::shared_ptr<const volumes_internal::Shape> shape_;  // null if empty
-  Eigen::Matrix3d turn_;
+  Eigen::Matrix3d rotation_;
   Eigen::Vector3d origin_;
-  double radius_, size_;  // size_ is an upper bound of |turn_ q|
-  bool turned_;           // false: turn_ is the identity
+  double radius_, size_;  // size_ is an upper bound of |rotation_ q|
+  bool is_rotated_;           // false: rotation_ is the identity
 };
 
 /// Returns whether two volumes have a point in common, by the definitions of their kinds. Conservative: false

@@ -34,7 +34,7 @@ class LiveWindow {
       const bool tracked = cluster < result.tracks.size() && result.tracks[cluster].has_value();
       colours_.push_back(tracked ? result.tracks[cluster]->id : cluster);
     }
-    fresh_ = true;
+    has_new_volumes_ = true;
   }
 
   /// Draws the volumes and handles the window's events for `milliseconds`. Must be called repeatedly from the
@@ -51,8 +51,8 @@ class LiveWindow {
  private:
   void draw() {
     const std::lock_guard lock(mutex_);
-    if (!fresh_) return;
-    fresh_ = false;
+    if (!has_new_volumes_) return;
+    has_new_volumes_ = false;
     window_.removeAllShapes();
     for (std::size_t i = 0; i < volumes_.size(); ++i)
       add(mesh(volumes_[i]), colours_[i], std::to_string(i) + '/');
@@ -77,7 +77,7 @@ class LiveWindow {
   pcl::visualization::PCLVisualizer window_;
   std::vector<AnyVolume> volumes_;
   std::vector<std::size_t> colours_;
-  bool fresh_ = false;
+  bool has_new_volumes_ = false;
 };
 
 }  // namespace pcl_bv
