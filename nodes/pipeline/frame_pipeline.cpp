@@ -55,7 +55,7 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   auto prepared = std::make_shared<Prepared>();
   prepared->methods = config.methods();
   prepared->rules = ClassRules(config);
-  prepared->options = {config.growth, up_direction(config.ground.up)};
+  prepared->options = {config.growth, normalized_up(config.ground.up)};
   prepared->tells_apart = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
   prepared->execution.isa = parse_isa(config.isa);
   prepared->execution.parallel = config.policy();
@@ -239,7 +239,7 @@ PipelineConfig FramePipeline::config() const {
 
 void FramePipeline::process(const Frame& frame, FrameResult& result) {
   const std::shared_ptr<const Prepared> now = state_->current();
-  const AwakeThreads awake(now->execution.parallel);
+  const SpinningThreads awake(now->execution.parallel);
   Watch whole, watch;
   result.header = frame.header;
   result.config = {now, &now->config};

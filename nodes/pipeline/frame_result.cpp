@@ -60,7 +60,7 @@ std::string ground_warning(const FrameResult& result) {
   const Counts& counts = result.counts;
   const std::size_t looked_at = result.points - counts.nonfinite - counts.range - counts.inside;
   if (ground.method == GroundMethod::none || looked_at < kFewPoints) return {};
-  const std::string tried = " (up is " + up_text(ground.up) + ")";
+  const std::string tried = " (up is " + format_up(ground.up) + ")";
   if (counts.ground == 0)
     return "no ground found" + tried +
            ": try ground.up, ground.sensor_height, ground.max_slope_degrees, or ground.method none";

@@ -58,7 +58,7 @@ std::string ground_found(const Found& f) {
   if (const auto other = f.other_up()) {
     const std::string tried = "try ground.up";
     text.insert(text.find(tried) + tried.size(),
-                ' ' + up_text(other->up) + " (" + percent(other->share) + " of the points would be ground)");
+                ' ' + format_up(other->up) + " (" + percent(other->share) + " of the points would be ground)");
   }
   return text;
 }
@@ -70,9 +70,9 @@ std::string little_ground(const Found& f) {
   if (std::exchange(f.searched, true)) return {};
   const auto other = f.other_up();
   if (!other) return {};
-  return "only " + percent(share) + " of the points are ground (up is " + up_text(f.config().ground.up) +
+  return "only " + percent(share) + " of the points are ground (up is " + format_up(f.config().ground.up) +
          "), " + percent(other->share) +
-         " would be with the opposite up: if the cloud is upside down, use ground.up " + up_text(other->up);
+         " would be with the opposite up: if the cloud is upside down, use ground.up " + format_up(other->up);
 }
 
 std::string sensor_elsewhere(const Found& f) {

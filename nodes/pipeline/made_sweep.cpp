@@ -38,7 +38,7 @@ Upright point_on_object(std::size_t i, double sensor_height) {
 }  // namespace
 
 Frame synthetic_sweep(std::size_t points, const PipelineConfig& config) {
-  const Eigen::Vector3d up = up_direction(config.ground.up);
+  const Eigen::Vector3d up = normalized_up(config.ground.up);
   const Eigen::Vector3d side = up.unitOrthogonal(), ahead = up.cross(side);
   const double sensor_height = config.ground.sensor_height.value_or(1.7);
   const auto xyz = std::make_shared<std::vector<float>>();

@@ -123,7 +123,7 @@ void write_anything(py::handle file, py::handle what, py::handle labels) {
   if (extension == ".html") {
     if (!py::isinstance<ResultObject>(what)) raise_type_error("what", "a Result, for a .html file,", what);
     const auto result = what.cast<std::shared_ptr<ResultObject>>();
-    return write_file_atomically(place, page_of_result(*result, kMostPointsOfAPage));
+    return write_file_atomically(place, page_of_result(*result, kMaxPagePoints));
   }
   const Reported found = reported(what);
   if (extension == ".json" || extension == ".jsonl") return write_file_atomically(place, json_text(found));

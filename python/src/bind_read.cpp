@@ -67,7 +67,7 @@ RawCloud load_cloud(const std::string& name, const std::string& topic, std::size
                     std::size_t bin_fields, const ParallelPolicy& policy, std::vector<std::string>& remarks) {
   if (name.rfind("synth:", 0) == 0) return to_raw_cloud(make_synth(parse_synth(name.substr(6))));
   if (has_recorded_clouds(name)) return load_recorded(name, topic, number, remarks);
-  refuse_false_recording(name);
+  check_recording_content(name);
   return read_cloud(name, policy, bin_fields);
 }
 

@@ -285,7 +285,7 @@ void bind_result(py::module_& module) {
           },
           py::kw_only(), "view"_a = "iso", "width"_a = 1600, "height"_a = 1000, result_picture_doc)
       .def(
-          "page", [](const Shared& r) { return page_of_result(*r, kMostPointsOfAPage); }, page_doc)
+          "page", [](const Shared& r) { return page_of_result(*r, kMaxPagePoints); }, page_doc)
       .def("_repr_html_",
            [](const Shared& r) { return in_a_notebook(page_of_result(*r, kMaxCellPoints)); })
       .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })

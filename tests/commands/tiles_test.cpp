@@ -141,7 +141,7 @@ TEST_F(TilesTest, LeavesOutAFileAndNumbersTheRestAnew) {
                     binary("b.pcd", Points(points.begin() + 400, points.begin() + 500)),
                     binary("c.pcd", Points(points.begin() + 500, points.end())), at("nowhere.pcd")});
   EXPECT_EQ(all.used(), 3U);
-  all.leave_out(1, "for a test");
+  all.exclude(1, "for a test");
   EXPECT_EQ(all.used(), 2U);
   ASSERT_EQ(all.xyz().count, 900U);
   const LoadedPoints part(all.xyz(), 400, 500);

@@ -187,7 +187,7 @@ void expect_exact_maxima(const TestCloud<float>& cloud) {
       Rational greatest = test::exact_dot(n, load_point(cloud.view(), 0));
       for (std::size_t k = 1; k < cloud.size(); ++k)
         greatest = std::max(greatest, test::exact_dot(n, load_point(cloud.view(), k)));
-      EXPECT_EQ(tree.reach_up(n), test::least_double_above(greatest));
+      EXPECT_EQ(tree.max_projection_up(n), test::least_double_above(greatest));
     }
   }
 }

@@ -234,7 +234,7 @@ TEST(CloudMessage, WithAFieldThatCannotBeReadIsReadWithoutIt) {
     const RawCloud raw = raw_cloud_of(made.cloud);
     expect_points(raw.xyz(), 8);
     EXPECT_EQ(raw.fields.size(), 3U);
-    EXPECT_EQ(raw.note, unread_fields(made.cloud));
+    EXPECT_EQ(raw.note, skipped_fields_note(made.cloud));
     return raw.note;
   };
   EXPECT_EQ(note_of({"new", 12, 9, 1}), "field 'new' is left out: it is of datatype 9, not 1 to 8");
@@ -244,7 +244,7 @@ TEST(CloudMessage, WithAFieldThatCannotBeReadIsReadWithoutIt) {
   EXPECT_EQ(note_of({"far", 0xFFFFFFFF, PointField::UINT8, 0xFFFFFFFF}),
             "field 'far' is left out: it reaches beyond the point_step of 16");
   EXPECT_EQ(note_of({"x", 12, PointField::FLOAT32, 1}), "field 'x' is left out: it occurs twice");
-  EXPECT_EQ(unread_fields(cloud_of(2).cloud), "");
+  EXPECT_EQ(skipped_fields_note(cloud_of(2).cloud), "");
 }
 
 TEST(CloudMessage, MayCountItsCoordinatesAsItLikes) {
@@ -288,7 +288,7 @@ TEST(CloudMessage, OfNoPointsNeedsNoFieldsNorARecord) {
         if (fields) cloud.fields = {{"x", 0, 7, 1}, {"y", 40, 99, 1}};
         ASSERT_TRUE(view_points(cloud));
         EXPECT_TRUE(view_points(cloud)->empty());
-        EXPECT_EQ(unread_fields(cloud), "");
+        EXPECT_EQ(skipped_fields_note(cloud), "");
         const RawCloud raw = raw_cloud_of(cloud);
         EXPECT_EQ(raw.size(), 0U);
         EXPECT_TRUE(raw.xyz().empty());
@@ -311,20 +311,20 @@ TEST(CloudMessage, KeepsItsOtherFields) {
 
 TEST(IntensityInPlace, IsTheFieldOfThatNameWhereItLies) {
   Made made = cloud_of(5, 2);
-  const auto intensity = intensity_in_place(made.cloud);
+  const auto intensity = view_intensity(made.cloud);
   ASSERT_TRUE(intensity.has_value());
   for (std::size_t i = 0; i < 10; ++i)
     EXPECT_EQ(intensity->at(i), 100 + static_cast<float>(i));
   made.cloud.fields[3] = {"reflectivity", 12, 2, 1};  // UINT8
-  EXPECT_EQ(intensity_in_place(made.cloud)->size, 1U);
-  EXPECT_EQ(intensity_in_place(made.cloud)->at(0), 0);  // the last byte of 100.F is not the first
+  EXPECT_EQ(view_intensity(made.cloud)->size, 1U);
+  EXPECT_EQ(view_intensity(made.cloud)->at(0), 0);  // the last byte of 100.F is not the first
 }
 
 TEST(IntensityInPlace, IsNoneWhereItCannotBeReadThere) {
   const auto without = [](auto change) {
     Made made = cloud_of(5, 2);
     change(made.cloud);
-    return !intensity_in_place(made.cloud).has_value();
+    return !view_intensity(made.cloud).has_value();
   };
   EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields.pop_back(); }));
   EXPECT_TRUE(without([](msg::PointCloud2& cloud) { cloud.fields[3].offset = 13; }));

@@ -321,7 +321,7 @@ TEST(Pipeline, UprightBoxesStandAgainstGravityWhateverItsLength) {
   pipeline.process(frame, result);
   ASSERT_EQ(result.clusters.size(), 1U);
   MethodOptions options;
-  options.up = up_direction(config.ground.up);
+  options.up = normalized_up(config.ground.up);
   for (std::size_t m = 0; m < 2; ++m) {
     AnyVolume expected;
     result.methods[m]->fit(frame.points, expected, {}, options);

@@ -301,13 +301,13 @@ TEST_F(RecordedSource, AReaderOfCloudsSaysWhatReadsRecordings) {
   record({"/points"}, 1);
   EXPECT_EQ(error_of([&] { read_cloud(file()); }),
             "is a recording, not a cloud: read it with open_recording() or RecordedClouds");
-  EXPECT_EQ(error_of([&] { refuse_false_recording(file()); }), "");
+  EXPECT_EQ(error_of([&] { check_recording_content(file()); }), "");
   write("false.mcap", "no recording");
-  EXPECT_THAT(error_of([&] { refuse_false_recording(path_ / "false.mcap"); }),
+  EXPECT_THAT(error_of([&] { check_recording_content(path_ / "false.mcap"); }),
               testing::StartsWith("is no recording that can be read: it does not begin as MCAP"));
   write("empty.bag", "");
-  EXPECT_THAT(error_of([&] { refuse_false_recording(path_ / "empty.bag"); }), testing::HasSubstr("empty"));
-  EXPECT_EQ(error_of([&] { refuse_false_recording(path_ / "gone.pcd"); }), "");
+  EXPECT_THAT(error_of([&] { check_recording_content(path_ / "empty.bag"); }), testing::HasSubstr("empty"));
+  EXPECT_EQ(error_of([&] { check_recording_content(path_ / "gone.pcd"); }), "");
 }
 
 // An index may say fewer clouds than there are: poses are asked for beyond their end.

@@ -27,9 +27,9 @@ using volumes_internal::Placed;
 
 constexpr unsigned kSeed = 5;
 
-// d . (p - origin) <= reach_up(d) + radius |d|.
+// d . (p - origin) <= support_value_up(d) + radius |d|.
 bool holds(const Placed& body, const Vector3d& d, const ExactPoint& p) {
-  const Rational beyond = dot(d, testing::minus(p, testing::exact(body.origin))) - Rational(body.reach_up(d));
+  const Rational beyond = dot(d, testing::minus(p, testing::exact(body.origin))) - Rational(body.support_value_up(d));
   if (beyond <= 0) return true;
   const Rational radius(body.radius);
   return beyond * beyond <= radius * radius * dot(d, testing::exact(d));
@@ -77,7 +77,7 @@ TEST(PairBounds, ReachIsThatOfTheFarthestPointOrAbove) {
     const Rational reach = dot(d, testing::minus(e.point, testing::exact(placed.origin)));
     // The points themselves are off by the rounding of their coordinates.
     const double room = 2e-14 * scale.extent + 0x1p-50 * scale.offset;
-    EXPECT_LE(placed.reach_up(d) + placed.radius - static_cast<double>(reach), room);
+    EXPECT_LE(placed.support_value_up(d) + placed.radius - static_cast<double>(reach), room);
   });
 }
 
@@ -152,7 +152,7 @@ TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
                             static_cast<double>(best[2]));
       const Rational expected = dot(d, best);
       for (const Vector3d& hint : {vertex, Vector3d(Vector3d::Zero())}) {  // a wrong one costs time only
-        const Rational reach(half_spaces.reach_up(d, hint));
+        const Rational reach(half_spaces.support_value_up(d, hint));
         EXPECT_GE(reach, expected);
         EXPECT_LE(static_cast<double>(reach - expected), hint == vertex ? 1e-14 : 1e-9) << width;
       }
@@ -173,7 +173,7 @@ TEST(PairBounds, TheBoxAroundHalfSpacesIsTightWhateverIsGuessed) {
       EXPECT_GE(half_spaces.radius_up(), half.norm() * (1 - 1e-15));
       EXPECT_LE(half_spaces.radius_up(), half.norm() * (1 + 1e-9)) << half.transpose() << ", " << guess;
       for (int k = 0; k < 3; ++k) {
-        const double reach = half_spaces.reach_up(Vector3d::Unit(k), Vector3d::Zero());
+        const double reach = half_spaces.support_value_up(Vector3d::Unit(k), Vector3d::Zero());
         EXPECT_GE(reach, half[k]);
         EXPECT_LE(reach, half[k] + 1e-9 * half.maxCoeff()) << half.transpose() << ", " << guess;
       }

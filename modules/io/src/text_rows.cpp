@@ -183,12 +183,12 @@ class RowReader {
   }
 
  private:
-  // Four successive pieces share a buffer. for_each_run throws the error of the first group that failed,
+  // Four successive pieces share a buffer. for_each_range throws the error of the first group that failed,
   // which is the error of the first bad row.
   template <typename Body>
   void over_pieces(const ParallelPolicy& policy, const Body& body) const {
     constexpr std::size_t group = 4;
-    for_each_run(policy, pieces_.count(), group, [&](std::size_t begin, std::size_t end) {
+    for_each_range(policy, pieces_.count(), group, [&](std::size_t begin, std::size_t end) {
       ByteBuffer text;
       for (std::size_t piece = begin; piece < end; ++piece)
         body(piece, text);

@@ -106,12 +106,12 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   const fs::path metadata = folder / "metadata.yaml";
   std::vector<fs::path> files;
   try {
-    const YAML::Node root = YAML::Load(read_text_from_outside(metadata, kMaxMetadataBytes));
+    const YAML::Node root = YAML::Load(read_untrusted_text(metadata, kMaxMetadataBytes));
     for (const YAML::Node& file : root["rosbag2_bagfile_information"]["relative_file_paths"])
       files.push_back(folder /
                       fs::path(file.as<std::string>()).filename());  // old versions include the folder
   } catch (const YAML::Exception& error) {
-    throw IoError("metadata.yaml: " + yaml_problem(error));
+    throw IoError("metadata.yaml: " + yaml_error_message(error));
   } catch (const IoError& error) {
     throw IoError(std::string("metadata.yaml: ") + error.what());
   }

@@ -16,7 +16,7 @@
 namespace pcl_bv {
 namespace {
 
-using Json = JsonFromOutside;
+using Json = UntrustedJson;
 using Shares = std::vector<std::pair<std::size_t, std::size_t>>;
 
 constexpr std::string_view kFormat = "pcl_bv partial results ";
@@ -72,7 +72,7 @@ std::size_t whole(const Json& number) {
 
 // Throws Json::exception and IoError.
 PartialFile read_partial_header(std::string_view line) {
-  require(line.size() <= kMaxHeadingBytes, "its heading is too long");
+  require(line.size() <= kMaxPartialHeaderBytes, "its heading is too long");
   const Json json = read_json(line);
   PartialFile file;
   file.inputs_hash = whole(json.at("inputs_hash"));
@@ -183,7 +183,7 @@ PartialFile parse_partial_file(std::string_view content) {
 }
 
 void write_partial_file(const std::filesystem::path& path, const PartialFile& file) {
-  make_folder_of(path);
+  create_parent_folders(path);
   write_file_atomically(path, partial_file_content(file));
 }
 

@@ -11,7 +11,7 @@
 namespace pcl_bv {
 namespace {
 
-using Json = JsonFromOutside;
+using Json = UntrustedJson;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
@@ -210,7 +210,7 @@ std::vector<AnyVolume> volumes_in(std::string_view text) {
 
 std::vector<AnyVolume> read_volumes(const std::filesystem::path& file) {
   try {
-    return volumes_in(read_text_from_outside(file, kMaxVolumesBytes));
+    return volumes_in(read_untrusted_text(file, kMaxVolumesBytes));
   } catch (const IoError& error) {
     throw IoError(file.string() + ": " + error.what());
   }

@@ -179,7 +179,7 @@ void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, c
   if (!(r2 > 0)) return;  // nothing is linked
   const CoreSearch<T> search{cells, scratch, r2, min_points, solid};
   const auto in_parts = [&](auto work) {
-    for_each_run(policy, keys.size(), blocks_per_part, [&](std::size_t begin, std::size_t end) {
+    for_each_range(policy, keys.size(), blocks_per_part, [&](std::size_t begin, std::size_t end) {
       const FloatEnvironment environment;
       BlockRows<Key> rows(grid, keys, begin);
       BlocksAround around{};

@@ -26,7 +26,7 @@ std::size_t threads_for_queries(std::size_t count) {
 // Calls ask(begin, end) for blocks of the `count` queries.
 template <typename Ask>
 void query_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
-  for_each_run(limit_threads(execution.parallel, threads_for_queries(count)), count, kBlock,
+  for_each_range(limit_threads(execution.parallel, threads_for_queries(count)), count, kBlock,
                [&](std::size_t begin, std::size_t end) {
                  const FloatEnvironment environment;
                  ask(begin, end);

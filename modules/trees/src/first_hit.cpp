@@ -24,7 +24,7 @@ class FirstHit final : public PacketVisitor {
         ball_(tree.boxes, coordinates(origin), coordinates(direction), radius) {}
 
   std::optional<PointHit> among(UsableIsa isa) {
-    visit_ray_candidates(isa, tree_, ball_, *this);
+    visit_along(isa, tree_, ball_, *this);
     return best_.index < 0 ? std::nullopt : std::optional(best_);
   }
 

@@ -85,7 +85,7 @@ template <typename Shape, typename Item, typename Join>
 void NodeShapes::fill(std::vector<Shape>& shapes, const BoxLevels& levels, const ParallelPolicy& policy,
                       const Item& item, const Join& join) {
   shapes.assign(levels.groups.size() * kTreeWidth, Shape());
-  for_each_run(policy, levels.below[0], kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
+  for_each_range(policy, levels.below[0], kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       shapes[i] = item(i);

@@ -193,7 +193,7 @@ auto key(const Placed& p) {
 
 Placed::Placed(const ConvexBody& body)
     : shape(*body.shape_),
-      turn(body.turned_ ? &body.rotation_ : nullptr),
+      turn(body.is_rotated_ ? &body.rotation_ : nullptr),
       origin(body.origin_),
       size(body.size_),
       radius(body.radius_) {}

@@ -229,7 +229,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
   try {
     if (options.stats) {
-      make_folder_of(*options.stats);
+      create_parent_folders(*options.stats);
       write_file_atomically(*options.stats, stats_json(stats) + '\n');
     }
   } catch (const IoError& error) {

@@ -55,7 +55,7 @@ bool ReportWriter::add(std::string&& piece, bool goes_on) {
 bool ReportWriter::finish() {
   const bool read = format_ != OutputFormat::json || write("\n]\n");
   if (!file_) return read;
-  make_folder_of(*file_);
+  create_parent_folders(*file_);
   write_file_atomically(*file_, std::vector<std::string_view>(pending_.begin(), pending_.end()));
   return true;
 }

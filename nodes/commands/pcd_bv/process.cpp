@@ -63,7 +63,7 @@ void check(const PointView& cloud, const FrameResult& result, const Options& opt
 template <typename Write>
 Status write_file(const std::filesystem::path& path, const Write& write) {
   try {
-    make_folder_of(path);
+    create_parent_folders(path);
     write();
     return Status::done;
   } catch (const std::bad_alloc&) {
@@ -296,7 +296,7 @@ std::string coarse_warning(const Aabb& box, ScalarType scalar) {
 }
 
 MethodOptions method_options(const Options& options) {
-  return {options.pipeline.growth, up_direction(options.pipeline.ground.up)};
+  return {options.pipeline.growth, normalized_up(options.pipeline.ground.up)};
 }
 
 Outcome process(const Job& job, const Options& options, FramePipeline& pipeline) {

@@ -110,7 +110,7 @@ void SettingOptions::apply(StreamConfig& config) const {
                  [&](const std::string& text) { read_setting(setting, text, value); });
     }
     if constexpr (std::is_same_v<decltype(value), std::vector<std::string>&>) keep_first_mentions(value);
-    const std::string problem = exception_message(setting, value);
+    const std::string problem = problem_of(setting, value);
     if (!problem.empty()) throw UsageError(std::string(setting.option) + ": " + problem);
   };
   visit_stream(config, read);

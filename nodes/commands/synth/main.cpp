@@ -102,7 +102,7 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
   } else {
     const SynthSpec spec = parse_synth(scene);
     naming(output, [&] {
-      make_folder_of(output);
+      create_parent_folders(output);
       write_pcd(output, to_raw_cloud(make_synth(spec)));
     });
   }

@@ -28,7 +28,7 @@ std::string text_of(const AnyJson& json) {
   return json.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
 }
 
-using FromClient = JsonFromOutside;
+using FromClient = UntrustedJson;
 
 struct LimitExceeded {
   const char* why;

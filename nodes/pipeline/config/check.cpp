@@ -26,7 +26,7 @@ template <ConfigRow Row>
 std::string problem_of_row(const Row& row) {
   std::string problem;
   visit_row(row, [&](const Setting& field, const auto& value) {
-    const std::string what = exception_message(field, value);
+    const std::string what = problem_of(field, value);
     if (problem.empty() && !what.empty()) problem = std::string(field.key) + ": " + what;
   });
   return problem;
@@ -82,14 +82,14 @@ std::vector<std::string> lines(const Problems& problems) {
 // Returns a visitor that adds the problem of each visited setting to `problems`.
 auto checker(std::vector<ConfigProblem>& problems) {
   return [&](const Setting& setting, const auto& value) {
-    std::string problem = exception_message(setting, value);
+    std::string problem = problem_of(setting, value);
     if (!problem.empty()) problems.push_back({std::string(setting.key), std::move(problem)});
   };
 }
 
 }  // namespace
 
-std::string exception_message(const Setting& setting, double value) {
+std::string problem_of(const Setting& setting, double value) {
   const auto& [least, most, closed, as_float] = setting.range;
   const bool vanishes = as_float && value > 0 && static_cast<float>(value) == 0;
   if (vanishes)
@@ -108,19 +108,19 @@ std::string whole_number_range(const NumberRange& range) {
   return allowed;
 }
 
-std::string exception_message(const Setting& setting, std::size_t value) {
+std::string problem_of(const Setting& setting, std::size_t value) {
   const double least = setting.range.least, most = setting.range.most;
   const auto n = static_cast<double>(value);
   if (n >= least && (n <= most || most == kNoLimit)) return {};
   return to_text(value) + " is not a whole number" + whole_number_range(setting.range);
 }
 
-std::string exception_message(const Setting& /*setting*/, const Eigen::Vector3d& direction) {
+std::string problem_of(const Setting& /*setting*/, const Eigen::Vector3d& direction) {
   if (direction.allFinite() && !direction.isZero(0)) return {};
   return to_text(direction) + " is no direction: three finite numbers, not all 0";
 }
 
-std::string exception_message(const Setting& /*setting*/, const std::string& instruction_set) {
+std::string problem_of(const Setting& /*setting*/, const std::string& instruction_set) {
   try {
     static_cast<void>(UsableIsa(parse_isa(instruction_set)));
   } catch (const std::invalid_argument& error) {
@@ -129,7 +129,7 @@ std::string exception_message(const Setting& /*setting*/, const std::string& ins
   return {};
 }
 
-std::string exception_message(const Setting& /*setting*/, const std::vector<std::string>& methods) {
+std::string problem_of(const Setting& /*setting*/, const std::vector<std::string>& methods) {
   for (auto name = methods.begin(); name != methods.end(); ++name) {
     const Method* const method = find_method(*name);
     if (method == nullptr) return "'" + *name + "' is no method; known are " + known_methods();
@@ -139,11 +139,11 @@ std::string exception_message(const Setting& /*setting*/, const std::vector<std:
   return {};
 }
 
-std::string exception_message(const Setting& /*setting*/, const std::optional<Eigen::Vector3d>& point) {
+std::string problem_of(const Setting& /*setting*/, const std::optional<Eigen::Vector3d>& point) {
   return point && !point->allFinite() ? "a coordinate is not finite" : "";
 }
 
-std::string exception_message(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
+std::string problem_of(const Setting& /*setting*/, const std::vector<RegionConfig>& regions) {
   for (const RegionConfig& region : regions) {
     if (region.file.empty() && region.volumes.empty()) return "a region has neither a file nor volumes";
     std::string problem = problem_of_row(region);
@@ -152,7 +152,7 @@ std::string exception_message(const Setting& /*setting*/, const std::vector<Regi
   return {};
 }
 
-std::string exception_message(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
+std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig>& classes) {
   std::set<std::int64_t> values;
   for (const ClassConfig& own : classes) {
     std::string name = "class " + std::to_string(own.value);
@@ -163,7 +163,7 @@ std::string exception_message(const Setting& /*setting*/, const std::vector<Clas
   return {};
 }
 
-std::string exception_message(const Setting& /*setting*/, const FieldName& field) {
+std::string problem_of(const Setting& /*setting*/, const FieldName& field) {
   return field.name.empty() ? "a field without a name" : "";
 }
 

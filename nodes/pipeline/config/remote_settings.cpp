@@ -97,11 +97,11 @@ Json json_of(const std::optional<Value>& value) {
 }
 
 // Returns the value in the syntax of the configuration file.
-std::string text_of(const JsonFromOutside& value) {
+std::string text_of(const UntrustedJson& value) {
   if (value.is_string()) return value.get<std::string>();
-  if (!value.is_array()) return value.dump(-1, ' ', false, JsonFromOutside::error_handler_t::replace);
+  if (!value.is_array()) return value.dump(-1, ' ', false, UntrustedJson::error_handler_t::replace);
   std::string list;
-  for (const JsonFromOutside& one : value)
+  for (const UntrustedJson& one : value)
     list += (list.empty() ? "" : ",") + text_of(one);
   return list;
 }
@@ -137,7 +137,7 @@ class PipelineSettings final : public RemoteSettings {
   }
 
   std::string change(const std::string& object) override {
-    JsonFromOutside wanted;
+    UntrustedJson wanted;
     try {
       wanted = read_json(object);
     } catch (const IoError& error) {
@@ -158,14 +158,14 @@ class PipelineSettings final : public RemoteSettings {
   }
 
  private:
-  static std::string put(const std::string& key, const JsonFromOutside& value, PipelineConfig& config) {
+  static std::string put(const std::string& key, const UntrustedJson& value, PipelineConfig& config) {
     if (is_fixed(key)) return key + ": cannot be changed while frames come";
     std::string problem = key + ": no such setting";
     visit_pipeline(config, [&](const Setting& setting, auto& field) {
       if (setting.key != key) return;
       try {
         set(setting, text_of(value), field);
-        problem = exception_message(setting, field);
+        problem = problem_of(setting, field);
       } catch (const std::exception& error) {
         problem = error.what();
       }

@@ -239,7 +239,7 @@ std::string to_text(const std::optional<T>& value) {
 }
 
 /// Parse a value; the inverse of to_text(). Throw std::invalid_argument for any other text: "'far' is not a
-/// number". Ranges are checked by exception_message(), not here.
+/// number". Ranges are checked by problem_of(), not here.
 void read_text(std::string_view text, bool& value);
 void read_text(std::string_view text, double& value);
 void read_text(std::string_view text, std::size_t& value);
@@ -262,22 +262,22 @@ void read_text(std::string_view text, std::optional<T>& value) {
 }
 
 /// Return why a value is not allowed, such as "-1 is not at least 0"; empty if it is allowed.
-std::string exception_message(const Setting& setting, double value);
-std::string exception_message(const Setting& setting, std::size_t value);
-std::string exception_message(const Setting& setting, const Eigen::Vector3d& direction);
-std::string exception_message(const Setting& setting, const std::string& instruction_set);
-std::string exception_message(const Setting& setting, const std::vector<std::string>& methods);
-std::string exception_message(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
-std::string exception_message(const Setting& setting, const FieldName& field);
-std::string exception_message(const Setting& setting, const std::vector<RegionConfig>& regions);
-std::string exception_message(const Setting& setting, const std::vector<ClassConfig>& classes);
+std::string problem_of(const Setting& setting, double value);
+std::string problem_of(const Setting& setting, std::size_t value);
+std::string problem_of(const Setting& setting, const Eigen::Vector3d& direction);
+std::string problem_of(const Setting& setting, const std::string& instruction_set);
+std::string problem_of(const Setting& setting, const std::vector<std::string>& methods);
+std::string problem_of(const Setting& setting, const std::optional<Eigen::Vector3d>& point);
+std::string problem_of(const Setting& setting, const FieldName& field);
+std::string problem_of(const Setting& setting, const std::vector<RegionConfig>& regions);
+std::string problem_of(const Setting& setting, const std::vector<ClassConfig>& classes);
 template <typename Choice>
-std::string exception_message(const Setting& /*setting*/, Choice /*any*/) {
+std::string problem_of(const Setting& /*setting*/, Choice /*any*/) {
   return {};
 }
 template <typename T>
-std::string exception_message(const Setting& setting, const std::optional<T>& value) {
-  return value ? exception_message(setting, *value) : std::string();
+std::string problem_of(const Setting& setting, const std::optional<T>& value) {
+  return value ? problem_of(setting, *value) : std::string();
 }
 
 }  // namespace pcl_bv

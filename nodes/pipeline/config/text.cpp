@@ -112,7 +112,7 @@ std::string to_text(std::size_t value) {
   return value == std::numeric_limits<std::size_t>::max() ? "unlimited" : std::to_string(value);
 }
 std::string to_text(const Eigen::Vector3d& direction) {
-  return up_text(direction);
+  return format_up(direction);
 }
 std::string to_text(const std::string& name) {
   return name;

@@ -245,7 +245,7 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
     reader.finish();
     reader.refuse(problems_of(config));
   } catch (const YAML::Exception& error) {
-    fail(name, 0, yaml_problem(error));
+    fail(name, 0, yaml_error_message(error));
   }
   return config;
 }
@@ -253,7 +253,7 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
 StreamConfig read_stream_config(const std::filesystem::path& file, const StreamConfig& defaults) {
   std::string text;
   try {
-    text = read_text_from_outside(file, kMaxConfigBytes);
+    text = read_untrusted_text(file, kMaxConfigBytes);
   } catch (const IoError& error) {
     fail(file.string(), 0, error.what());
   }

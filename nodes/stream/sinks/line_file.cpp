@@ -19,7 +19,7 @@ namespace pcl_bv {
 
 LineFile::LineFile(const std::filesystem::path& file) : descriptor_(STDOUT_FILENO) {
   if (file == "-") return;
-  make_folder_of(file);
+  create_parent_folders(file);
   constexpr int flags = O_WRONLY | O_CREAT | O_CLOEXEC;
   descriptor_ = ::open(file.c_str(), flags | O_EXCL, 0644);
   if (descriptor_ >= 0) {

@@ -48,7 +48,7 @@ std::unique_ptr<FrameSink> open_recording_sink(const SinkDescription& descriptio
 }
 
 std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description) {
-  make_folder_of(description.place);
+  create_parent_folders(description.place);
   return open_recording_sink<McapWriter>(description);
 }
 

@@ -47,8 +47,8 @@ struct SinkGroup::Member {
   LatencyHistogram ms;
 };
 
-SinkGroup::SinkGroup(std::function<void(const std::string&)> say) : say_(std::move(say)) {
-  if (!say_) throw std::invalid_argument("SinkGroup: nobody to tell");
+SinkGroup::SinkGroup(std::function<void(const std::string&)> say) : report_(std::move(say)) {
+  if (!report_) throw std::invalid_argument("SinkGroup: nobody to tell");
 }
 
 // If nothing was written, because another sink could not be opened, no file or folder is left behind.
@@ -77,7 +77,7 @@ void SinkGroup::add(const SinkDescription& description) {
   try {
     add(name, make_sink(description));
     for (const std::string& remark : members_.back()->sink->take_warnings())
-      say_(std::string(name).append(": ").append(remark));
+      report_(std::string(name).append(": ").append(remark));
   } catch (const IoError& error) {
     throw IoError(name + ": " + error.what());
   }
@@ -86,7 +86,7 @@ void SinkGroup::add(const SinkDescription& description) {
 void SinkGroup::complain(Member& member, const std::string& problem) {
   failed_ = true;
   ++member.lacking;
-  if (problem != std::exchange(member.last_problem, problem)) say_(member.name + ": " + problem);
+  if (problem != std::exchange(member.last_problem, problem)) report_(member.name + ": " + problem);
 }
 
 // Returns false if nothing more can be written. A closed pipe is no failure and is not reported.
@@ -132,7 +132,7 @@ void SinkGroup::write(const Frame& frame, const FrameResult& result) {
     const auto begin = std::chrono::steady_clock::now();
     member.sink->write(frame, result);
     for (const std::string& remark : member.sink->take_warnings())
-      say_(member.name + ": " + remark);
+      report_(member.name + ": " + remark);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     const std::lock_guard lock(member.mutex);
     member.ms.add(took.count());
@@ -147,7 +147,7 @@ void SinkGroup::write_lost(const Frame& frame, const std::string& reason) {
 void SinkGroup::close() {
   used_ = true;
   for (const std::unique_ptr<Member>& member : members_) {
-    if (member->lacking > 1) say_(member->name + ": lacks " + std::to_string(member->lacking) + " frames");
+    if (member->lacking > 1) report_(member->name + ": lacks " + std::to_string(member->lacking) + " frames");
     if (member->sink != nullptr) attempt(*member, [](Member& m) { m.sink->close(); });
     member->sink = nullptr;
   }

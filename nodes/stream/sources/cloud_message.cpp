@@ -33,9 +33,9 @@ void read_cloud_message(const msg::PointCloud2& cloud, const std::shared_ptr<con
   const std::optional<PointView> in_place = view_points(cloud);
   if (in_place) {
     frame.points = *in_place;
-    frame.intensity = intensity_in_place(cloud);
+    frame.intensity = view_intensity(cloud);
     frame.owner = owner;
-    frame.note = unread_fields(cloud);
+    frame.note = skipped_fields_note(cloud);
   }
   const bool wants_classes = !class_field.empty();
   if (wants_classes && in_place && in_place->empty()) {

@@ -60,7 +60,7 @@ std::optional<Pose> pose_of_tum(const Numbers& n) {
 
 std::string text_of(const std::filesystem::path& file) {
   try {
-    return read_text_from_outside(file, kMaxPosesBytes);
+    return read_untrusted_text(file, kMaxPosesBytes);
   } catch (const IoError& error) {
     throw IoError(file.string() + ": " + error.what());
   }

@@ -46,13 +46,13 @@ void write_labelled_points(const Frame& frame, const FrameResult& result, std::b
 bool StreamHealth::heeds(const Frame& frame, const FrameResult& result) {
   slowest_ms_ = std::max(slowest_ms_, result.ms.total);
   objects_ = result.clusters.size();
-  if (warned_of_ != result.config) warning_.clear();
-  warned_of_ = result.config;
+  if (warned_config_ != result.config) warning_.clear();
+  warned_config_ = result.config;
   for (const std::string& warning : warnings_.take(frame, result))
     warning_ = warning_.empty() ? warning : warning_;
-  const std::int64_t since = frame.header.stamp_ns - said_ns_;
+  const std::int64_t since = frame.header.stamp_ns - last_message_ns_;
   if (frames_++ > 0 && since >= 0 && since < kSecond) return false;
-  said_ns_ = frame.header.stamp_ns;
+  last_message_ns_ = frame.header.stamp_ns;
   return true;
 }
 

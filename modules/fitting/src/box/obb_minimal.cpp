@@ -103,7 +103,7 @@ void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shap
   constexpr double kSmaller = 1e-9;  // a smaller gain is not worth another round
   const std::size_t looks = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
   const ParallelPolicy policy = worthwhile(execution, Work::look, looks);
-  for_each_run(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
+  for_each_range(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     Silhouette::View view;
     for (std::size_t i = begin; i < end; ++i)

@@ -74,7 +74,7 @@ template <typename Measure>
 void for_each_plane(const Execution& execution, std::size_t planes, const Measure& measure) {
   constexpr std::size_t kTogether = 100;
   const ParallelPolicy policy = worthwhile(execution, Work::hull_plane, planes);
-  for_each_run(policy, planes, kTogether, [&](std::size_t begin, std::size_t end) {
+  for_each_range(policy, planes, kTogether, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       measure(i);

@@ -67,20 +67,20 @@ void refuse_partial(std::string_view fit) {
 SupportSearch::SupportSearch(UsableIsa isa, const SupportDirections& directions, std::size_t points)
     : isa_(isa), directions_(directions), shared_(chunk_count(points) > 1) {
   for (std::size_t end = 0; end < 2 * directions.count; ++end)
-    reached_[end].store(-kInfinity, std::memory_order_relaxed);
+    known_max_[end].store(-kInfinity, std::memory_order_relaxed);
 }
 
 ChunkSupports SupportSearch::find(const PointView& chunk) {
   SupportBounds reached = no_support_bounds();
   for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end)
-    reached[end] = reached_[end].load(std::memory_order_relaxed);
+    reached[end] = known_max_[end].load(std::memory_order_relaxed);
   ChunkSupports found;
   chunk_supports(isa_, chunk, directions_, reached, found);
   for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end) {
     if (!found.ends[end].found) continue;
     const double reach = projection_lower_bound(directions_, end, found.ends[end].point);
     while (reached[end] < reach &&
-           !reached_[end].compare_exchange_weak(reached[end], reach, std::memory_order_relaxed)) {
+           !known_max_[end].compare_exchange_weak(reached[end], reach, std::memory_order_relaxed)) {
     }
   }
   return found;

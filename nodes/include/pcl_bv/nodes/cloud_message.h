@@ -27,7 +27,7 @@ msg::PointCloud2 cloud_in(const CloudMessage& message);
 /// Turns a sensor_msgs/msg/PointCloud2 into a frame.
 ///
 /// Sets points, intensity, owner and frame_id, the stamp unless it is 0, and `note`, which names fields that
-/// cannot be read (unread_fields()). Points stay where they are if they can be read there
+/// cannot be read (skipped_fields_note()). Points stay where they are if they can be read there
 /// (view_points()); otherwise they are copied. If `class_field` is not empty, Frame::classes gets the
 /// values of that integer field. Throws MessageError if the message is not a PointCloud2, and
 /// std::runtime_error if the class field cannot be used (integers_of()).
