@@ -12,7 +12,7 @@
 
 #include "ground_score.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv::bench {
 namespace {

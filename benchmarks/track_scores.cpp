@@ -14,7 +14,7 @@
 
 #include "motion_score.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 #include "track_score.h"
 
 namespace pcl_bv::bench {

@@ -12,7 +12,7 @@
 
 #include "pcl_bv/synth/shapes.h"
 #include "pcl_bv/synth/street.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "ground.h"
-#include "pcl_bv/segmentation/sensor_place.h"
+#include "pcl_bv/segmentation/sensor_position.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/settings.h"
 

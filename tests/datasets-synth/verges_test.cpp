@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The road with verges: its labels are right, what moves moves as it says, and it is as hard as it claims.
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/io/text_from_outside.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

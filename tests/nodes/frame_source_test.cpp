@@ -9,7 +9,7 @@
 
 #include "folder.h"
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv {
 namespace {

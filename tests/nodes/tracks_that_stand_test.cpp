@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "pipeline/track/motion_judge.h"
+#include "pipeline/track/motion_classifier.h"
 #include "pipeline/track/tracker.h"
 
 namespace pcl_bv {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pcl_bv/segmentation/ground_zones.h"
-#include "pcl_bv/segmentation/sensor_place.h"
+#include "pcl_bv/segmentation/sensor_position.h"
 #include "pcl_bv/synth/street.h"
 
 namespace pcl_bv {

@@ -9,7 +9,7 @@
 
 #include "any_volumes.h"
 #include "clouds.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 namespace {

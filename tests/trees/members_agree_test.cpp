@@ -12,7 +12,7 @@
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/trees/region_mask.h"
 #include "pcl_bv/trees/volume_tree.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 #include "uneven_cloud.h"
 #include "vectors.h"
 

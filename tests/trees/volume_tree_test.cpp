@@ -13,7 +13,7 @@
 #include "executions.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/points/chunks.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 #include "scattered_volumes.h"
 
 namespace pcl_bv {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "across.h"
+#include "orthogonal_basis.h"
 #include "local_frame.h"
 #include "map_chunks.h"
 #include "pcl_bv/numeric/vector3.h"

@@ -12,7 +12,7 @@
 
 #include "fields.h"
 #include "las_format.h"
-#include "rest_of_file.h"
+#include "trailing_points.h"
 
 namespace pcl_bv {
 namespace {

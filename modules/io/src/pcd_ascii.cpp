@@ -11,7 +11,7 @@
 #include "pcd_format.h"
 #include "text.h"
 #include "text_rows.h"
-#include "unread_values.h"
+#include "invalid_values.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "fields.h"
 #include "pcd_format.h"
-#include "rest_of_file.h"
+#include "trailing_points.h"
 #include "text.h"
 
 namespace pcl_bv {

@@ -8,7 +8,7 @@
 
 #include "ply_format.h"
 #include "text_rows.h"
-#include "unread_values.h"
+#include "invalid_values.h"
 
 namespace pcl_bv {
 namespace {

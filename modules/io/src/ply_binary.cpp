@@ -9,7 +9,7 @@
 
 #include "fields.h"
 #include "ply_format.h"
-#include "rest_of_file.h"
+#include "trailing_points.h"
 
 namespace pcl_bv {
 namespace {

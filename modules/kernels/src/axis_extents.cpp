@@ -21,7 +21,7 @@
 #include <hwy/highway.h>
 
 #include "load-inl.h"
-#include "reach-inl.h"
+#include "projection_extremes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {

@@ -7,7 +7,7 @@
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
 #include "references.h"
-#include "square.h"
+#include "distance_squared.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -11,7 +11,7 @@
 #include <hwy/foreach_target.h>
 
 #include "axis_extents.cpp"
-#include "chosen_states.cpp"
+#include "region_subset_states.cpp"
 #include "half_spaces.cpp"
 #include "region_states.cpp"
 #include "run_boxes.cpp"

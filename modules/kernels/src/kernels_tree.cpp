@@ -12,7 +12,7 @@
 
 #include "tree_balls.cpp"
 #include "tree_nearest.cpp"
-#include "tree_rays.cpp"
+#include "tree_swept_ball.cpp"
 
 // Each included source redefines this macro; Highway must include this file again for the next instruction
 // set.

@@ -11,7 +11,7 @@
 
 #include "region_tests.h"
 #include "run_extremes.h"
-#include "square.h"
+#include "distance_squared.h"
 
 namespace pcl_bv {
 namespace {

@@ -4,7 +4,7 @@
 // The scalar references: plain loops that define the result of each kernel.
 #pragma once
 
-#include "nearest_kept.h"
+#include "nearest_set.h"
 #include "pcl_bv/kernels/axis_extents.h"
 #include "pcl_bv/kernels/distances.h"
 #include "pcl_bv/kernels/half_spaces.h"

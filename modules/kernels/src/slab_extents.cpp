@@ -17,7 +17,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "gather-inl.h"
+#include "copy_to_groups-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {

@@ -14,8 +14,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "lanes-inl.h"
-#include "reach-inl.h"
+#include "lane_projections-inl.h"
+#include "projection_extremes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_bv {

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "nearest_kept.h"
+#include "nearest_set.h"
 #include "pcl_bv/kernels/packed_tree.h"
 #include "references.h"
 #include "targets.h"

@@ -15,7 +15,7 @@
 #include "db3_pages.h"
 #include "formats.h"
 #include "pcl_bv/io/io_error.h"
-#include "sqlite_problem.h"
+#include "sqlite_error.h"
 
 namespace pcl_bv {
 namespace {

@@ -15,8 +15,8 @@
 #include "formats.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/posix_file.h"
-#include "pcl_bv/io/text_from_outside.h"
-#include "pcl_bv/io/yaml_problem.h"
+#include "pcl_bv/io/untrusted_text.h"
+#include "pcl_bv/io/yaml_error.h"
 
 namespace pcl_bv {
 namespace {

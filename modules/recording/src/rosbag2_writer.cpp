@@ -18,7 +18,7 @@
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/posix_file.h"
-#include "sqlite_problem.h"
+#include "sqlite_error.h"
 
 namespace pcl_bv {
 namespace {

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "written.h"
+#include "formatting.h"
 
 namespace pcl_bv {
 

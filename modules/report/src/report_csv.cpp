@@ -7,7 +7,7 @@
 
 #include "csv_shape.h"
 #include "text_sink.h"
-#include "written.h"
+#include "formatting.h"
 
 namespace pcl_bv {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "pcl_bv/report/report.h"
 #include "text_sink.h"
-#include "written.h"
+#include "formatting.h"
 
 namespace pcl_bv {
 namespace {

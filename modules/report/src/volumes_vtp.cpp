@@ -6,7 +6,7 @@
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/meshes.h"
 #include "volume_cells.h"
-#include "written.h"
+#include "formatting.h"
 
 namespace pcl_bv {
 namespace {

@@ -15,7 +15,7 @@
 #include "cells.h"
 #include "collect.h"
 #include "core_points.h"
-#include "gather.h"
+#include "valid_points.h"
 #include "join_cells.h"
 #include "oversized.h"
 #include "pcl_bv/numeric/float_environment.h"

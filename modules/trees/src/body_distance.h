@@ -6,7 +6,7 @@
 
 #include "box_relation.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 namespace pcl_bv {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grown.h"
+#include "inflated.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"

@@ -8,7 +8,7 @@
 #include "pcl_bv/kernels/swept_ball.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/point_tree.h"
-#include "refusal.h"
+#include "argument_checks.h"
 #include "vectors.h"
 
 namespace pcl_bv {

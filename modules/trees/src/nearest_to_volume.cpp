@@ -10,7 +10,7 @@
 #include "box_walk.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/point_tree.h"
-#include "refusal.h"
+#include "argument_checks.h"
 #include "vectors.h"
 
 namespace pcl_bv {

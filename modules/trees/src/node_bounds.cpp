@@ -17,7 +17,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "reaches.h"
+#include "support_bounds.h"
 #include "vectors.h"
 
 namespace pcl_bv {

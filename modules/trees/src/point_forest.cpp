@@ -9,7 +9,7 @@
 
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "refusal.h"
+#include "argument_checks.h"
 
 namespace pcl_bv {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "refusal.h"
+#include "argument_checks.h"
 #include "tree_build.h"
 #include "vectors.h"
 

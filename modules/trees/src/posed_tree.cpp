@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "box_relation.h"
-#include "grown.h"
+#include "inflated.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "turnable.h"
+#include "rotatable.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,7 +9,7 @@
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "reaches.h"
+#include "support_bounds.h"
 
 namespace pcl_bv {
 namespace {

@@ -4,7 +4,7 @@
 #include "tree_overlap.h"
 
 #include "box_relation.h"
-#include "grown.h"
+#include "inflated.h"
 #include "volume_walk.h"
 
 namespace pcl_bv {

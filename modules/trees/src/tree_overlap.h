@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "image.h"
+#include "transformed_point.h"
 #include "pcl_bv/trees/point_tree.h"
 
 namespace pcl_bv {

@@ -12,7 +12,7 @@
 #include "commands/shared/values.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/list_clouds.h"
-#include "pipeline/config/words.h"
+#include "pipeline/config/names.h"
 
 namespace pcl_bv {
 namespace {

@@ -15,7 +15,7 @@
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pipeline/config/settings.h"
-#include "pipeline/config/words.h"
+#include "pipeline/config/names.h"
 
 namespace pcl_bv {
 namespace {

@@ -8,7 +8,7 @@
 #include <malloc.h>
 
 #include "commands/shared/interruption.h"
-#include "in_order.h"
+#include "ordered_results.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv {

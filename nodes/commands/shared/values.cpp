@@ -3,7 +3,7 @@
 
 #include "values.h"
 
-#include "pipeline/config/words.h"
+#include "pipeline/config/names.h"
 
 namespace pcl_bv {
 

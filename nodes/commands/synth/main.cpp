@@ -16,8 +16,8 @@
 #include "pcl_bv/io/pcd.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
-#include "pcl_bv/synth/verges.h"
-#include "pcl_bv/synth/verges_truth.h"
+#include "pcl_bv/synth/rural_road.h"
+#include "pcl_bv/synth/rural_road_truth.h"
 
 namespace pcl_bv {
 namespace {

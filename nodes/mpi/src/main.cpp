@@ -7,15 +7,15 @@
 #include <functional>
 #include <new>
 
-#include "commands/pcd_bv/in_order.h"
+#include "commands/pcd_bv/ordered_results.h"
 #include "commands/shared/interruption.h"
 #include "commands/shared/messages.h"
 #include "commands/shared/run_command.h"
 #include "commands/shared/values.h"
-#include "dealt.h"
+#include "distributed_jobs.h"
 #include "failures.h"
 #include "ranks.h"
-#include "together.h"
+#include "merged_cloud.h"
 
 namespace pcl_bv {
 namespace {

@@ -7,7 +7,7 @@
 #include "pcl_bv/segmentation/up.h"
 #include "rows.h"
 #include "settings.h"
-#include "words.h"
+#include "names.h"
 
 namespace pcl_bv {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "motion_filter.h"
-#include "motion_judge.h"
+#include "motion_classifier.h"
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/report/report.h"
 #include "pcl_bv/volumes/aabb.h"

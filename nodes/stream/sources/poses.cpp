@@ -10,7 +10,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "pcl_bv/io/text_from_outside.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv {
 namespace {

@@ -15,7 +15,7 @@
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 #include "sources.h"
 
 namespace pcl_bv {

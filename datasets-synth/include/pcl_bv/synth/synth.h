@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "pcl_bv/synth/synth_cloud.h"
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "box/flat_box.h"
+#include "rectangle.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "box/box_frame.h"
-#include "box/flat_box.h"
+#include "rectangle.h"
 #include "box/flush_search.h"
 #include "box/obb_axes.h"
 #include "box/silhouette.h"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "box/flat_box.h"
+#include "rectangle.h"
 #include "box/obb_axes.h"
 #include "box/outline.h"
 #include "pcl_bv/numeric/constants.h"

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "box/flat_box.h"
+#include "rectangle.h"
 #include "box/obb_axes.h"
 #include "map_chunks.h"
 #include "pcl_bv/kernels/half_spaces.h"

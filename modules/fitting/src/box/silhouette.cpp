@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "box/flat_box.h"
+#include "rectangle.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {

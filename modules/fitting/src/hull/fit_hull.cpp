@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "hull/hull_fit.h"
-#include "hull/reach_tree.h"
+#include "support_tree.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"

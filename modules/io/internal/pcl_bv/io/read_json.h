@@ -10,7 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "pcl_bv/io/text_from_outside.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv {
 

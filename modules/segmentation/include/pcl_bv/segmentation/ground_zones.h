@@ -13,7 +13,7 @@
 #include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/segmentation/ground_plane.h"
-#include "pcl_bv/segmentation/sensor_place.h"
+#include "pcl_bv/segmentation/sensor_position.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

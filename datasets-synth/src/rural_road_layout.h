@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "street_layout.h"
-#include "verges_world.h"
+#include "rural_road_world.h"
 
 namespace pcl_bv::verges {
 

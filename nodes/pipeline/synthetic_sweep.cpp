@@ -3,7 +3,7 @@
 
 // Does not use datasets-synth: casting rays would take longer than processing the frames.
 
-#include "made_sweep.h"
+#include "synthetic_sweep.h"
 
 #include <cmath>
 #include <memory>

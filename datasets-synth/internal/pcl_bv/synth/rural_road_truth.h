@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string>
 
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "verges_world.h"
+#include "rural_road_world.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The rural road as a table of rows: each row repeats one kind of object along the infinite road.
-#include "verges_layout.h"
+#include "rural_road_layout.h"
 
 #include <algorithm>
 #include <array>

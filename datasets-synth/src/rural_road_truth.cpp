@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/synth/verges_truth.h"
+#include "pcl_bv/synth/rural_road_truth.h"
 
 #include <array>
 #include <charconv>

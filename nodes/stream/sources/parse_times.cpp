@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "name_times.h"
-#include "pipeline/config/words.h"
+#include "pipeline/config/names.h"
 
 namespace pcl_bv {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "turnable.h"
+#include "rotatable.h"
 
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "motion_judge.h"
+#include "motion_classifier.h"
 
 #include <algorithm>
 #include <cmath>

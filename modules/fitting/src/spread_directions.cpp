@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "scattered.h"
+#include "spread_directions.h"
 
 #include "pcl_bv/numeric/vector3.h"
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 #include "shape.h"
 
 namespace pcl_bv::volumes_internal {

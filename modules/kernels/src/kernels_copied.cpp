@@ -13,7 +13,7 @@
 #include "moments.cpp"
 #include "point_groups.cpp"
 #include "slab_extents.cpp"
-#include "support_own.cpp"
+#include "support_general.cpp"
 
 // Each included source redefines this macro; Highway must include this file again for the next instruction
 // set.

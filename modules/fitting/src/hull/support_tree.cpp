@@ -4,7 +4,7 @@
 // Branch and bound in rounded local coordinates. Points within the error bound of the maximum are compared
 // exactly.
 
-#include "hull/reach_tree.h"
+#include "support_tree.h"
 
 #include <algorithm>
 #include <cmath>

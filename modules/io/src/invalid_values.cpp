@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "unread_values.h"
+#include "invalid_values.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/synth/verges.h"
+#include "pcl_bv/synth/rural_road.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 
 #include "street_cast.h"
 #include "sweep.h"
-#include "verges_layout.h"
-#include "verges_world.h"
+#include "rural_road_layout.h"
+#include "rural_road_world.h"
 
 namespace pcl_bv {
 namespace verges {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "rest_of_file.h"
+#include "trailing_points.h"
 
 #include <algorithm>
 #include <string>

@@ -3,7 +3,7 @@
 
 // Each step rounds up, so that the result holds the inflated volume by exact arithmetic.
 
-#include "grown.h"
+#include "inflated.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pair_search.h"
+#include "gjk.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "simplex.h"
+#include "gjk_simplex.h"
 
 namespace pcl_bv::volumes_internal {
 namespace {

@@ -3,7 +3,7 @@
 
 // Each step rounds up. The bounds along the axes are those of the volume's aabb().
 
-#include "reaches.h"
+#include "support_bounds.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "dealt.h"
+#include "distributed_jobs.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "commands/pcd_bv/in_order.h"
+#include "commands/pcd_bv/ordered_results.h"
 
 namespace pcl_bv {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcl_bv/volumes/pairs.h"
+#include "pcl_bv/volumes/pair_queries.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "bounds.h"
-#include "pair_search.h"
+#include "gjk.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
