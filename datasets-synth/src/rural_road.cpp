@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "street_cast.h"
-#include "sweep.h"
 #include "rural_road_layout.h"
 #include "rural_road_world.h"
+#include "street_cast.h"
+#include "sweep.h"
 
 namespace pcl_bv {
 namespace verges {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "street_layout.h"
 #include "rural_road_world.h"
+#include "street_layout.h"
 
 namespace pcl_bv::verges {
 

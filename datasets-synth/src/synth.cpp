@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/shapes.h"
 #include "pcl_bv/synth/street.h"
-#include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv {
 namespace {

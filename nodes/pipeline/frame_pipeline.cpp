@@ -14,11 +14,11 @@
 #include "class_rules.h"
 #include "filter.h"
 #include "ground.h"
-#include "synthetic_sweep.h"
 #include "pcl_bv/fitting/batch.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/segmentation/sensor_position.h"
 #include "pcl_bv/segmentation/up.h"
+#include "synthetic_sweep.h"
 #include "tracked_volumes.h"
 
 namespace pcl_bv {

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "pcl_bv/io/pcd.h"
+#include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
-#include "pcl_bv/synth/rural_road.h"
 
 namespace pcl_bv {
 namespace {

@@ -10,9 +10,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "orthogonal_basis.h"
 #include "local_frame.h"
 #include "map_chunks.h"
+#include "orthogonal_basis.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/points/point_source.h"
 #include "schedule.h"

@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "pcl_bv/io/io_error.h"
-#include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/read_cloud.h"
 
 namespace pcl_bv {
 namespace {

@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "fields.h"
+#include "invalid_values.h"
 #include "pcd_format.h"
 #include "text.h"
 #include "text_rows.h"
-#include "invalid_values.h"
 
 namespace pcl_bv {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "fields.h"
 #include "pcd_format.h"
-#include "trailing_points.h"
 #include "text.h"
+#include "trailing_points.h"
 
 namespace pcl_bv {
 namespace {

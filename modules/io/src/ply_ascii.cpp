@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "invalid_values.h"
 #include "ply_format.h"
 #include "text_rows.h"
-#include "invalid_values.h"
 
 namespace pcl_bv {
 namespace {

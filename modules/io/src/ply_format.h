@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/parallel/policy.h"
-#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv {
 

@@ -4,10 +4,10 @@
 // Lists the points outside a sphere, for step UPDATESPHERE of EXPANDSPHERE (Karlsson, Winberg and Larsson
 // 2010, Figure 3).
 
+#include "distance_squared.h"
 #include "pcl_bv/kernels/distances.h"
 #include "preconditions.h"
 #include "references.h"
-#include "distance_squared.h"
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -7,7 +7,7 @@
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels_gather.cpp"
+#define HWY_TARGET_INCLUDE "kernels_copied.cpp"
 #include <hwy/foreach_target.h>
 
 #include "moments.cpp"
@@ -18,4 +18,4 @@
 // Each included source redefines this macro; Highway must include this file again for the next instruction
 // set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels_gather.cpp"
+#define HWY_TARGET_INCLUDE "kernels_copied.cpp"

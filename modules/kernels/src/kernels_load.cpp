@@ -11,9 +11,9 @@
 #include <hwy/foreach_target.h>
 
 #include "axis_extents.cpp"
-#include "region_subset_states.cpp"
 #include "half_spaces.cpp"
 #include "region_states.cpp"
+#include "region_subset_states.cpp"
 #include "run_boxes.cpp"
 
 // Each included source redefines this macro; Highway must include this file again for the next instruction

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distance_squared.h"
 #include "region_tests.h"
 #include "run_extremes.h"
-#include "distance_squared.h"
 
 namespace pcl_bv {
 namespace {

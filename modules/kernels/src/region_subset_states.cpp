@@ -9,7 +9,7 @@
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "chosen_states.cpp"
+#define HWY_TARGET_INCLUDE "region_subset_states.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

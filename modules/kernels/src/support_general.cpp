@@ -13,7 +13,7 @@
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "support_own.cpp"
+#define HWY_TARGET_INCLUDE "support_general.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -8,7 +8,7 @@
 #include "targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tree_rays.cpp"
+#define HWY_TARGET_INCLUDE "tree_swept_ball.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

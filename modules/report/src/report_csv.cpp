@@ -6,8 +6,8 @@
 #include <initializer_list>
 
 #include "csv_shape.h"
-#include "text_sink.h"
 #include "formatting.h"
+#include "text_sink.h"
 
 namespace pcl_bv {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "formatting.h"
 #include "pcl_bv/report/report.h"
 #include "text_sink.h"
-#include "formatting.h"
 
 namespace pcl_bv {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <stdexcept>
 
+#include "formatting.h"
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/meshes.h"
 #include "volume_cells.h"
-#include "formatting.h"
 
 namespace pcl_bv {
 namespace {

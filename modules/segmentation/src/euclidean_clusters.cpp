@@ -15,11 +15,11 @@
 #include "cells.h"
 #include "collect.h"
 #include "core_points.h"
-#include "valid_points.h"
 #include "join_cells.h"
 #include "oversized.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "range_levels.h"
+#include "valid_points.h"
 
 namespace pcl_bv {
 namespace {

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "argument_checks.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "argument_checks.h"
 #include "vectors.h"
 
 namespace pcl_bv {

@@ -7,16 +7,16 @@
 #include <bit>
 #include <stdexcept>
 
+#include "argument_checks.h"
 #include "inflated.h"
-#include "transformed_point.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/parallel/policy.h"
 #include "pcl_bv/volumes/pair_queries.h"
-#include "argument_checks.h"
-#include "sphere_around.h"
-#include "tree_overlap.h"
 #include "rotatable.h"
+#include "sphere_around.h"
+#include "transformed_point.h"
+#include "tree_overlap.h"
 #include "vectors.h"
 #include "volume_boxes.h"
 #include "volume_walk.h"

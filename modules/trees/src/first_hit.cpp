@@ -5,10 +5,10 @@
 #include <bit>
 #include <limits>
 
+#include "argument_checks.h"
 #include "pcl_bv/kernels/swept_ball.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/point_tree.h"
-#include "argument_checks.h"
 #include "vectors.h"
 
 namespace pcl_bv {

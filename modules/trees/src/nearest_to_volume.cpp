@@ -6,11 +6,11 @@
 #include <limits>
 #include <tuple>
 
+#include "argument_checks.h"
 #include "body_distance.h"
 #include "box_walk.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/trees/point_tree.h"
-#include "argument_checks.h"
 #include "vectors.h"
 
 namespace pcl_bv {

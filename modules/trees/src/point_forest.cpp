@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "argument_checks.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "argument_checks.h"
 
 namespace pcl_bv {
 namespace {

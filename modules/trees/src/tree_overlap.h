@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "transformed_point.h"
 #include "pcl_bv/trees/point_tree.h"
+#include "transformed_point.h"
 
 namespace pcl_bv {
 

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "double_double.h"
+#include "gjk_simplex.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "gjk_simplex.h"
 
 namespace pcl_bv::volumes_internal {
 namespace {

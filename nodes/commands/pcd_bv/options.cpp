@@ -14,8 +14,8 @@
 #include "commands/shared/values.h"
 #include "pcl_bv/fitting/partial.h"
 #include "pcl_bv/io/read_cloud.h"
-#include "pipeline/config/settings.h"
 #include "pipeline/config/names.h"
+#include "pipeline/config/settings.h"
 
 namespace pcl_bv {
 namespace {

@@ -14,10 +14,10 @@
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/io_error.h"
 #include "pcl_bv/io/pcd.h"
-#include "pcl_bv/synth/street.h"
-#include "pcl_bv/synth/synth.h"
 #include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/rural_road_truth.h"
+#include "pcl_bv/synth/street.h"
+#include "pcl_bv/synth/synth.h"
 
 namespace pcl_bv {
 namespace {

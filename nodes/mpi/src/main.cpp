@@ -14,8 +14,8 @@
 #include "commands/shared/values.h"
 #include "distributed_jobs.h"
 #include "failures.h"
-#include "ranks.h"
 #include "merged_cloud.h"
+#include "ranks.h"
 
 namespace pcl_bv {
 namespace {

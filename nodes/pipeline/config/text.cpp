@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "names.h"
 #include "pcl_bv/fitting/methods.h"
 #include "pcl_bv/segmentation/up.h"
 #include "rows.h"
 #include "settings.h"
-#include "names.h"
 
 namespace pcl_bv {
 namespace {

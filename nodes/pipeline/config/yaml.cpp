@@ -9,11 +9,11 @@
 #include <type_traits>
 
 #include "check.h"
+#include "names.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/io/yaml_error.h"
 #include "rows.h"
 #include "settings.h"
-#include "names.h"
 
 namespace pcl_bv {
 namespace {

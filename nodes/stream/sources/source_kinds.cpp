@@ -13,9 +13,9 @@
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/synth/rural_road.h"
 #include "pcl_bv/synth/street.h"
 #include "pcl_bv/synth/synth.h"
-#include "pcl_bv/synth/rural_road.h"
 #include "sources.h"
 
 namespace pcl_bv {

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "pcl_bv/synth/synth_cloud.h"
 #include "pcl_bv/synth/rural_road.h"
+#include "pcl_bv/synth/synth_cloud.h"
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 

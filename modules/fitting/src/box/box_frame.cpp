@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "rectangle.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "rectangle.h"
 
 namespace pcl_bv {
 

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "box/box_frame.h"
-#include "rectangle.h"
 #include "box/flush_search.h"
 #include "box/obb_axes.h"
 #include "box/silhouette.h"
@@ -22,6 +21,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "rectangle.h"
 #include "schedule.h"
 
 namespace pcl_bv {

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <vector>
 
-#include "rectangle.h"
 #include "box/obb_axes.h"
 #include "box/outline.h"
 #include "pcl_bv/numeric/constants.h"
+#include "rectangle.h"
 #include "same_points.h"
 
 namespace pcl_bv {

@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rectangle.h"
 #include "box/obb_axes.h"
 #include "map_chunks.h"
 #include "pcl_bv/kernels/half_spaces.h"
+#include "rectangle.h"
 #include "same_points.h"
 #include "schedule.h"
 

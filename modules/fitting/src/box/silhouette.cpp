@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "rectangle.h"
 #include "pcl_bv/numeric/vector3.h"
+#include "rectangle.h"
 
 namespace pcl_bv {
 namespace {
