@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "convex_region.h"
-#include "grown.h"
+#include "inflated.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/chunks.h"
 #include "pcl_bv/trees/region_mask.h"

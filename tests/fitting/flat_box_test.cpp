@@ -3,7 +3,7 @@
 
 // The internals behind upright and minimal boxes, against slow judges.
 
-#include "box/flat_box.h"
+#include "box/rectangle.h"
 
 #include <gtest/gtest.h>
 

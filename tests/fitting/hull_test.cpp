@@ -16,7 +16,7 @@
 #include "exact.h"
 #include "executions.h"
 #include "hull/local_hull.h"
-#include "hull/reach_tree.h"
+#include "hull/support_tree.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/fitting/verify.h"
 #include "pcl_bv/numeric/float_environment.h"

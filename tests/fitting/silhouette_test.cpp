@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "box/flat_box.h"
+#include "box/rectangle.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "any_volumes.h"
-#include "grown.h"
+#include "inflated.h"
 #include "vectors.h"
 
 namespace pcl_bv {

@@ -3,7 +3,7 @@
 
 // Grown volumes hold all that is within the padding, in rationals, and no more than is said.
 
-#include "grown.h"
+#include "inflated.h"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 
 #include "any_volumes.h"
 #include "body_distance.h"
-#include "image.h"
+#include "rotatable.h"
 #include "sphere_around.h"
-#include "turnable.h"
+#include "transformed_point.h"
 
 namespace pcl_bv {
 namespace {

@@ -15,7 +15,7 @@
 #include "any_volumes.h"
 #include "clouds.h"
 #include "executions.h"
-#include "grown.h"
+#include "inflated.h"
 #include "pcl_bv/points/chunks.h"
 #include "pcl_bv/points/point_groups.h"
 #include "pcl_bv/trees/region_mask.h"

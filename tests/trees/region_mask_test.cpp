@@ -17,7 +17,7 @@
 #include "clouds.h"
 #include "executions.h"
 #include "flush_to_zero.h"
-#include "grown.h"
+#include "inflated.h"
 #include "pcl_bv/points/point_groups.h"
 #include "sources.h"
 

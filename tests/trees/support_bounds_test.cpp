@@ -4,7 +4,7 @@
 // How far volumes reach along the cube's directions: no less than they do, in rationals, and hardly more.
 // Needles and plates at right angles to a direction show what rounding of their axes amounts to.
 
-#include "reaches.h"
+#include "support_bounds.h"
 
 #include <gtest/gtest.h>
 

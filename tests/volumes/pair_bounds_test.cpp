@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "gjk.h"
 #include "half_spaces.h"
-#include "pair_search.h"
 #include "pair_volumes.h"
 
 namespace pcl_bv {

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "across.h"
-#include "box/flat_box.h"
+#include "box/rectangle.h"
+#include "orthogonal_basis.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/exact_dot.h"
 #include "pcl_bv/numeric/vector3.h"

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "across.h"
+#include "orthogonal_basis.h"
 #include "pcl_bv/fitting/small_ball.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "scattered.h"
+#include "spread_directions.h"
 
 namespace pcl_bv {
 namespace {

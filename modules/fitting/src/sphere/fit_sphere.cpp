@@ -11,10 +11,10 @@
 #include "pcl_bv/fitting/smallest_sphere.h"
 #include "pcl_bv/fitting/supports.h"
 #include "pcl_bv/numeric/float_environment.h"
-#include "scattered.h"
 #include "sphere/distance_scan.h"
 #include "sphere/growth.h"
 #include "sphere/sphere_seed.h"
+#include "spread_directions.h"
 #include "support/support_search.h"
 
 namespace pcl_bv {
