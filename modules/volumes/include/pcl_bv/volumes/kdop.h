@@ -32,7 +32,7 @@ struct FloatKdop {
 };
 
 /// A k-DOP in the frame and unit of its points: the closed convex polytope of all p with
-/// min(i) <= direction(i) . p <= max(i) for each slab i. Karlsson et al. 2010, section 2.
+/// min(i) <= direction(i) . p <= max(i) for each slab i. Karlsson, Winberg and Larsson 2010, section 2.
 ///
 /// The empty k-DOP has min = +infinity and max = -infinity; merging it into another k-DOP changes nothing. A
 /// flat k-DOP (a polygon, a segment or a point) is a valid volume. Coordinates beyond 1e100 are not

@@ -15,7 +15,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// An immutable list of directions of a k-DOP, one per slab; k is twice their number. Directions have any
 /// length. The built-in directions have components 0 and +-1 and are not normalised, so that projections need
-/// no multiplication. Klosowski et al. 1998; Karlsson et al. 2010, section 2.
+/// no multiplication. Klosowski et al. 1998; Karlsson, Winberg and Larsson 2010, section 2.
 class KdopSet {
  public:
   static constexpr std::size_t min_size = 3;
