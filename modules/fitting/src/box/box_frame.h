@@ -27,6 +27,6 @@ Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eige
 /// Rotates the frame about one axis after another, each time to the smallest box that has this axis. Ends
 /// after `times` rotations, or when no rotation reduces the area across its axis by more than the fraction
 /// `smaller`.
-void turn(BoxFrame& frame, int times, double smaller, const Silhouette& shape, Silhouette::View& view);
+void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape, Silhouette::Projection& projection);
 
 }  // namespace pcl_bv

@@ -35,8 +35,8 @@ class GrowingSphere {
     const Eigen::Vector3d old = center_;
     center_ = old + (d - grown) / d * (vector(p) - old);
     const double moved = std::sqrt(squared_distance({old.x(), old.y(), old.z()}, center())) * kOutward;
-    const double reach = std::sqrt(squared_distance(p, center())) * kOutward;
-    radius_ = std::max({grown, (moved + radius_) * kOutward, reach});
+    const double distance = std::sqrt(squared_distance(p, center())) * kOutward;
+    radius_ = std::max({grown, (moved + radius_) * kOutward, distance});
   }
 
   // Adds the margin for points that are outside by no more than kInside.
