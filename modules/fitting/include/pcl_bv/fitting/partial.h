@@ -47,10 +47,10 @@ class Partial {
 
   /// Returns whether the method can be fitted to parts. The exceptions are the spheres that grow and
   /// obb-lshape: points deep inside the cloud can change these.
-  static bool serves(const Method& method);
+  static bool can_fit(const Method& method);
 
   /// Fits the volume around all points; returns their status, rank and counts. O(m log m) for m extreme
-  /// points. Throws std::invalid_argument unless serves(method), and if Execution::supports is set.
+  /// points. Throws std::invalid_argument unless can_fit(method), and if Execution::supports is set.
   EstimationResult fit(const Method& method, AnyVolume& volume, const Execution& execution = {},
                        const MethodOptions& options = {}) const;
 
