@@ -65,10 +65,10 @@ void grow_in_order(const DistanceScan& scan, GrowingSphere& sphere) {
 template <typename Visit>
 void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& sphere, const Visit& visit) {
   const double limit = sphere.squared_radius();
-  BlockMaxima bounds;
-  scan.bound(sphere.center(), limit, bounds);
-  for (std::size_t block = 0; block < bounds.size(); ++block) {
-    if (bounds[block] >= limit) visit(block);
+  BlockMaxima maxima;
+  scan.block_maxima(sphere.center(), limit, maxima);
+  for (std::size_t block = 0; block < maxima.size(); ++block) {
+    if (maxima[block] >= limit) visit(block);
   }
 }
 

@@ -29,8 +29,9 @@ struct Method {
   std::string_view shape;  ///< As shape_name() returns it; empty for `best`, whose shape varies.
   /// Called by fit().
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
-  std::optional<DirectionSet> initial_directions;  ///< The directions whose supports it finds first, if it does.
-  bool upright = false;                     ///< Whether it uses MethodOptions::up.
+  /// The directions whose supports it finds first; null if it needs no supports.
+  std::optional<DirectionSet> initial_directions;
+  bool upright = false;  ///< Whether its boxes are upright: it uses MethodOptions::up.
   bool needs_hull = false;                     ///< Whether it needs the convex hull.
   bool needs_all_points = false;            ///< Whether points deep inside the cloud can change the volume.
 
@@ -47,8 +48,8 @@ const std::vector<Method>& methods();
 /// Returns the method with this name or alias; null if there is none.
 const Method* find_method(std::string_view name);
 
-/// Prepares an execution for fitting several methods to the same points. If two or more of the methods begin
-/// with supports, and not only with those along the coordinate axes, these are found once. If two or more
+/// Prepares an execution for fitting several methods to the same points. If two or more of the methods need
+/// supports, and not only those along the coordinate axes, these are found once. If two or more
 /// need the convex hull, it is computed once, with the supports along dop26. The results are stored in
 /// `supports`, which must outlive the returned execution. If neither applies, the execution is returned
 /// unchanged.
