@@ -69,7 +69,8 @@ TEST(PlanarHull, TurnsAreExactForPointsNearlyInARow) {
       Vector2d c = a + t * along;
       for (std::uint64_t steps = random() % 4; steps > 0; --steps)
         c.y() = std::nextafter(c.y(), i % 2 == 0 ? 1e300 : -1e300);
-      ASSERT_EQ(orientation(a, b, c), exact_orientation(a, b, c)) << "seed 1, size " << size << ", case " << i;
+      ASSERT_EQ(orientation(a, b, c), exact_orientation(a, b, c))
+          << "seed 1, size " << size << ", case " << i;
     }
   }
 }

@@ -15,9 +15,9 @@
 namespace pcl_bv {
 
 /// Calls merge(map(chunk)) for each chunk of the points: map() in parallel, each call under a
-/// FloatEnvironment; merge() in the order of the chunks. At most `max_pending` results exist at a time, so memory is
-/// bounded for clouds of any size. A cloud of one chunk, of which a sweep has many, is handled without
-/// allocation and in the caller's FloatEnvironment.
+/// FloatEnvironment; merge() in the order of the chunks. At most `max_pending` results exist at a time, so
+/// memory is bounded for clouds of any size. A cloud of one chunk, of which a sweep has many, is handled
+/// without allocation and in the caller's FloatEnvironment.
 template <typename Partial, std::size_t max_pending = 256, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);

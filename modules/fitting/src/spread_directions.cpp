@@ -23,7 +23,7 @@ std::vector<Direction> spread_directions() {
 }
 
 std::vector<Eigen::Vector3d> support_points_along(const std::vector<Eigen::Vector3d>& directions,
-                                            const std::vector<Eigen::Vector3d>& points) {
+                                                  const std::vector<Eigen::Vector3d>& points) {
   std::vector<bool> is_support(points.size());
   for (const Eigen::Vector3d& n : directions) {
     std::size_t low = 0, high = 0;

@@ -23,7 +23,8 @@ Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eige
   return high - low;
 }
 
-void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape, Silhouette::Projection& projection) {
+void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape,
+                  Silhouette::Projection& projection) {
   for (; times > 0 && !frame.done(); --times) {
     const int b = (frame.axis + 1) % 3, c = (frame.axis + 2) % 3;
     frame.axis = b;

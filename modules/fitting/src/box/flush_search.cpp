@@ -192,8 +192,8 @@ void FlushSearch::search(const NormalRange& range) {
   const Vector3d n1 = range.first[0] + range.first[1], n2 = range.second[0] + range.second[1],
                  n3 = cross3(n1, n2);
   const SupportGraph::LowHigh supports = graph_.approximate_supports(n3);
-  if (is_proven(range,
-                {across(*range.one), across(*range.other), vertices_[supports.high] - vertices_[supports.low]}))
+  if (is_proven(range, {across(*range.one), across(*range.other),
+                        vertices_[supports.high] - vertices_[supports.low]}))
     return;
   if (is_proven(range, measure(range, 0.5).widths)) return;
   const Measured begin = measure(range, 0), end = measure(range, 1);

@@ -62,8 +62,8 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
 // quadratically.
 constexpr std::size_t kExhaustive = 128;
 
-// Numbers of frames in the search: random frames among the starts, the best starts, which are rotated, and the
-// best frames, which are rotated to the end. If pairs of edges are compared afterwards, a box within some
+// Numbers of frames in the search: random frames among the starts, the best starts, which are rotated, and
+// the best frames, which are rotated to the end. If pairs of edges are compared afterwards, a box within some
 // percent of the minimum is enough.
 struct Effort {
   std::size_t random_starts, rotated_starts, finalists;
@@ -79,8 +79,9 @@ std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSu
   Supports supports = summary.supports;
   supports.set = DirectionSet::dop14;  // the directions of dop14 come first in dop26
   static const std::vector<Eigen::Matrix3d> rotations = random_rotations(kSearch.random_starts);
-  std::vector<Eigen::Matrix3d> frames{dito_axes(support_or_all_points(points, supports, frame), supports, frame),
-                                      principal_axes(summary), Eigen::Matrix3d::Identity()};
+  std::vector<Eigen::Matrix3d> frames{
+      dito_axes(support_or_all_points(points, supports, frame), supports, frame), principal_axes(summary),
+      Eigen::Matrix3d::Identity()};
   add_facets(hull, frames);
   frames.insert(frames.end(), rotations.begin(),
                 rotations.begin() + static_cast<std::ptrdiff_t>(effort.random_starts));
@@ -92,13 +93,15 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
   const Eigen::Vector3d u = hull.axes.col(0), v = hull.axes.col(1);
   for (const HullPoint& vertex : hull.vertices)
     flat.emplace_back(u.dot(vertex.local), v.dot(vertex.local));
-  const Eigen::Vector2d side = smallest_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
+  const Eigen::Vector2d side =
+      smallest_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
   Eigen::Matrix3d axes;
   axes << hull.axes.col(2), side.x() * u + side.y() * v, Eigen::Vector3d::Zero();
   return orthonormal_axes(axes);
 }
 
-void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape, const Execution& execution) {
+void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape,
+                const Execution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
   constexpr double kSmaller = 1e-9;  // a smaller gain is not worth another round
   const std::size_t vertices = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();

@@ -20,9 +20,9 @@ namespace pcl_bv {
 namespace {
 
 // The vertical half-spaces through the polygon's edges. Their margin covers rounding of up to 128 units of
-// the extent (2^-17 for floats, 2^-46 for doubles) and underflow: points this near to a half-space's plane are
-// treated as outside. If rounding drops an outside point nevertheless, the box may get larger, but it still encloses
-// this point.
+// the extent (2^-17 for floats, 2^-46 for doubles) and underflow: points this near to a half-space's plane
+// are treated as outside. If rounding drops an outside point nevertheless, the box may get larger, but it
+// still encloses this point.
 HalfSpaces outline_half_spaces(const PointView& points, const FewPoints& few, const LocalFrame& frame,
                                const Ground& ground) {
   SmallVector<Eigen::Vector2d, 32> corners;

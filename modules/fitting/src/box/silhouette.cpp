@@ -85,7 +85,8 @@ void Silhouette::find_rim(const Eigen::Vector3d& towards, Projection& projection
     projection.next[static_cast<std::size_t>(from)] = to;
 }
 
-bool Silhouette::follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, Projection& projection) const {
+bool Silhouette::follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                            Projection& projection) const {
   std::vector<Eigen::Vector2d>& corners = projection.corners;
   corners.clear();
   if (projection.rim.empty()) return false;
@@ -108,7 +109,7 @@ bool Silhouette::follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, 
 }
 
 const std::vector<Eigen::Vector2d>& Silhouette::project(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
-                                                     Projection& projection) const {
+                                                        Projection& projection) const {
   find_rim(u.cross(v), projection);
   if (follow_rim(u, v, projection)) return projection.corners;
   // Rounding can flip the orientation of thin facets, which makes more than one closed chain of edges. Then

@@ -73,7 +73,8 @@ HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinate
   const Coordinates& a = corners.points[static_cast<std::size_t>(t[0])];
   const double projection = (h.x * (a.x - center.x) + h.y * (a.y - center.y)) + h.z * (a.z - center.z);
   const double error_bound = extent * (0x1p-44 / length + 64 * scalar.unit()) + scalar.underflow_bound();
-  h.limit = scalar.down(projection - error_bound);  // NaN if the triangle has no area: then no point is inside
+  // NaN if the triangle has no area: then no point is inside.
+  h.limit = scalar.down(projection - error_bound);
   return h;
 }
 

@@ -15,8 +15,8 @@
 namespace pcl_bv {
 namespace {
 
-// The orientation in double arithmetic; 0 if rounding could have changed its sign. Each product has three roundings
-// and the difference one, for which 8 2^-53 is enough.
+// The orientation in double arithmetic; 0 if rounding could have changed its sign. Each product has three
+// roundings and the difference one, for which 8 2^-53 is enough.
 int rounded_orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const double left = (b.x() - a.x()) * (c.y() - a.y());
   const double right = (b.y() - a.y()) * (c.x() - a.x());

@@ -127,8 +127,8 @@ double SupportTree::greatest(const Eigen::Vector3d& normal, double known, std::u
   return greatest(normal, known, prefer_second ? first : node.second);
 }
 
-// Raises `projection` to the exact projection, rounded up, of each point below node n with a rounded projection
-// of at least `least`.
+// Raises `projection` to the exact projection, rounded up, of each point below node n with a rounded
+// projection of at least `least`.
 void SupportTree::max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t n,
                                     double& projection) const {
   const Node& node = nodes_[n];

@@ -16,8 +16,8 @@ namespace pcl_bv {
 /// axis-aligned boxes would be so loose that a query inspects hundreds of points, not tens.
 class SupportTree {
  public:
-  /// Keeps a reference to the points. `queries` is the expected number of queries: a small number does not pay
-  /// for a tree. O(m log m).
+  /// Keeps a reference to the points. `queries` is the expected number of queries: a small number does not
+  /// pay for a tree. O(m log m).
   SupportTree(const std::vector<HullPoint>& points, std::size_t queries);
 
   /// Returns the exact maximum of normal . p over the points as stored, rounded up to a double. Components of

@@ -181,8 +181,8 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
     return static_cast<std::size_t>(found - points.begin());
   };
   for (std::size_t k = 0; k < kMaxDirections && state.used > 0; ++k) {
-    supports.along[k] =
-        support_between(SupportDirections::of(supports.set), k, state.support_points[2 * k], state.support_points[2 * k + 1]);
+    supports.along[k] = support_between(SupportDirections::of(supports.set), k, state.support_points[2 * k],
+                                        state.support_points[2 * k + 1]);
     supports.along[k].low_point.index = position(state.support_points[2 * k]);
     supports.along[k].high_point.index = position(state.support_points[2 * k + 1]);
   }

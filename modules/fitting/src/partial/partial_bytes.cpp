@@ -177,8 +177,7 @@ PartialState read_state(Reader& in, ScalarType scalar) {
   state.extreme = read_points(in);
   state.blocks = read_tree(in);
   require(in.left() == 0, "unexpected bytes at the end");
-  require(state.used <= std::numeric_limits<std::size_t>::max() - state.dropped,
-          "inconsistent point counts");
+  require(state.used <= std::numeric_limits<std::size_t>::max() - state.dropped, "inconsistent point counts");
   require(state.stores_all() ? state.loose.size() <= Partial::kMaxStored : state.size() > Partial::kMaxStored,
           "inconsistent point counts");
   require((state.used > 0) != state.extreme.empty(), "inconsistent point counts");

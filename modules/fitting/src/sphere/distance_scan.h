@@ -33,8 +33,8 @@ class DistanceScan {
   /// Returns whether a pass over all points would run in one thread.
   bool serial() const;
 
-  /// Sets `maxima` to the largest squared distance of a valid point in each block that is at least `limit`; -1
-  /// if the block has no such point.
+  /// Sets `maxima` to the largest squared distance of a valid point in each block that is at least `limit`;
+  /// -1 if the block has no such point.
   void block_maxima(const DistanceCenter& center, double limit, BlockMaxima& maxima) const;
 
   /// Returns the largest squared distance of a valid point, or `at_least` if that is larger.

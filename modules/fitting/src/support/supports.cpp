@@ -156,7 +156,7 @@ Supports find_supports(const PointView& points, DirectionSet set, SupportDetail 
 }
 
 CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
-                          const Execution& execution) {
+                             const Execution& execution) {
   const FloatEnvironment environment;
   require_matching_supports(points, execution);
   if (directions.empty()) throw std::invalid_argument("find_supports: no directions");

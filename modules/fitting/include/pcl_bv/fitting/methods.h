@@ -31,9 +31,9 @@ struct Method {
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
   /// The directions whose supports it finds first; null if it needs no supports.
   std::optional<DirectionSet> initial_directions;
-  bool upright = false;  ///< Whether its boxes are upright: it uses MethodOptions::up.
-  bool needs_hull = false;                     ///< Whether it needs the convex hull.
-  bool needs_all_points = false;            ///< Whether points deep inside the cloud can change the volume.
+  bool upright = false;           ///< Whether its boxes are upright: it uses MethodOptions::up.
+  bool needs_hull = false;        ///< Whether it needs the convex hull.
+  bool needs_all_points = false;  ///< Whether points deep inside the cloud can change the volume.
 
   /// Fits the method to the points; the result is as for the function in fit.h or fit_obb.h.
   EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,

@@ -23,9 +23,9 @@ struct PartialState;
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
 /// the serialised bytes. The volumes have the bits of a fit to the whole cloud. There are two exceptions, for
-/// more than kMaxStored points: sphere-exact and obb-yaw are fitted to the extreme points only. These determine
-/// both volumes, but in a fit to all points, points within rounding of the extreme ones can change the last
-/// bits.
+/// more than kMaxStored points: sphere-exact and obb-yaw are fitted to the extreme points only. These
+/// determine both volumes, but in a fit to all points, points within rounding of the extreme ones can change
+/// the last bits.
 class Partial {
  public:
   /// Maximum number of points that are all stored.
