@@ -29,7 +29,7 @@ struct Method {
   std::string_view shape;  ///< As shape_name() returns it; empty for `best`, whose shape varies.
   /// Called by fit().
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
-  /// The directions whose supports it finds first; null if it needs no supports.
+  /// The directions whose supports it finds first; empty if it begins with another pass.
   std::optional<DirectionSet> initial_directions;
   bool upright = false;           ///< Whether its boxes are upright: it uses MethodOptions::up.
   bool needs_hull = false;        ///< Whether it needs the convex hull.
@@ -48,10 +48,10 @@ const std::vector<Method>& methods();
 /// Returns the method with this name or alias; null if there is none.
 const Method* find_method(std::string_view name);
 
-/// Prepares an execution for fitting several methods to the same points. If two or more of the methods need
-/// supports, and not only those along the coordinate axes, these are found once. If two or more
-/// need the convex hull, it is computed once, with the supports along dop26. The results are stored in
-/// `supports`, which must outlive the returned execution. If neither applies, the execution is returned
+/// Prepares an execution for fitting several methods to the same points. If two or more of the methods find
+/// supports first (initial_directions), and not only along the coordinate axes, these are found once. If two
+/// or more need the convex hull, it is computed once, with the supports along dop26. The results are stored
+/// in `supports`, which must outlive the returned execution. If neither applies, the execution is returned
 /// unchanged.
 Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
                          const Execution& execution, Supports& supports);
