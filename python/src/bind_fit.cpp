@@ -180,12 +180,12 @@ void bind_fit(py::module_& module) {
           "outside", [](const VerificationObject& v) { return v.outside; },
           "Of them, those outside by exact arithmetic.")
       .def_property_readonly(
-          "worst", [](const VerificationObject& v) { return v.worst; },
+          "worst", [](const VerificationObject& v) { return v.max_violation; },
           "The greatest distance past a face or surface, in the points' unit; 0 if none.")
       .def("__repr__", [](const VerificationObject& v) {
         char text[160];
         std::snprintf(text, sizeof text, "Verification(checked=%zu, outside=%zu, worst=%.6g)", v.checked,
-                      v.outside, v.worst);
+                      v.outside, v.max_violation);
         return std::string(text);
       });
   module.def("verify", verify_volume, "volume"_a, "points"_a, py::kw_only(), "threads"_a = 1, verify_doc);

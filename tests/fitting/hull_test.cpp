@@ -178,8 +178,8 @@ TEST(LocalHull, OfCosphericalPointsHasAllOfThem) {
 void expect_exact_maxima(const TestCloud<float>& cloud) {
   SCOPED_TRACE(cloud.name);
   const LocalHull hull = hull_of(cloud.view());
-  for (const std::size_t questions : {1u, 1000u}) {
-    const SupportTree tree(hull.candidates, questions);
+  for (const std::size_t queries : {1u, 1000u}) {
+    const SupportTree tree(hull.candidates, queries);
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     for (int i = 0; i < 50; ++i) {

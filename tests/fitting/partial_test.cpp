@@ -25,7 +25,7 @@ using test::TestCloud;
 std::vector<const Method*> served() {
   std::vector<const Method*> found;
   for (const Method& method : methods()) {
-    if (Partial::serves(method)) found.push_back(&method);
+    if (Partial::can_fit(method)) found.push_back(&method);
   }
   return found;
 }
@@ -267,7 +267,7 @@ TEST(Partial, RefusesMethodsThatNeedAllPoints) {
   for (const char* name :
        {"sphere-ritter", "sphere-epos6", "sphere-epos14", "sphere-epos26", "sphere-epos98", "obb-lshape"}) {
     AnyVolume volume;
-    ASSERT_FALSE(Partial::serves(*find_method(name)));
+    ASSERT_FALSE(Partial::can_fit(*find_method(name)));
     EXPECT_THROW(all.fit(*find_method(name), volume), std::invalid_argument) << name;
   }
 }

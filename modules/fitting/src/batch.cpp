@@ -49,7 +49,8 @@ void for_each_view(const std::vector<PointView>& views, const Execution& executi
   // The time of one view of middle size predicts the time of the others; only the number of threads depends
   // on it. The largest view would predict better, but while it is fitted all other threads wait.
   const Execution serial{Serial{}, execution.isa};
-  const std::size_t probe = thread_count(execution.parallel) == 1 ? small : small + (views.size() - small) / 2;
+  const std::size_t probe =
+      thread_count(execution.parallel) == 1 ? small : small + (views.size() - small) / 2;
   const double took = seconds([&] { fit(nth(probe), serial); });
   const auto weight = [&](std::size_t n) { return static_cast<double>(views[nth(n)].count + 1); };
   double points = -weight(probe);

@@ -15,19 +15,19 @@
 namespace pcl_bv {
 
 /// Calls merge(map(chunk)) for each chunk of the points: map() in parallel, each call under a
-/// FloatEnvironment; merge() in the order of the chunks. At most `most` results exist at a time, so memory is
-/// bounded for clouds of any size. A cloud of one chunk, of which a sweep has many, is handled without
-/// allocation and in the caller's FloatEnvironment.
-template <typename Partial, std::size_t most = 256, typename Map, typename Merge>
+/// FloatEnvironment; merge() in the order of the chunks. At most `max_pending` results exist at a time, so
+/// memory is bounded for clouds of any size. A cloud of one chunk, of which a sweep has many, is handled
+/// without allocation and in the caller's FloatEnvironment.
+template <typename Partial, std::size_t max_pending = 256, typename Map, typename Merge>
 void map_chunks(const PointView& points, const ParallelPolicy& policy, Map&& map, Merge&& merge) {
   const std::size_t chunks = chunk_count(points.count);
   if (chunks <= 1) {
     if (chunks == 1) merge(map(load_chunk(points, 0).view()));
     return;
   }
-  std::vector<Partial> partials(std::min(chunks, most));
-  for (std::size_t first = 0; first < chunks; first += most) {
-    const std::size_t count = std::min(most, chunks - first);
+  std::vector<Partial> partials(std::min(chunks, max_pending));
+  for (std::size_t first = 0; first < chunks; first += max_pending) {
+    const std::size_t count = std::min(max_pending, chunks - first);
     for_each_chunk(policy, count, [&](std::size_t chunk) {
       const FloatEnvironment environment;
       partials[chunk] = map(load_chunk(points, first + chunk).view());

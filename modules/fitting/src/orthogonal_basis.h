@@ -12,13 +12,13 @@
 namespace pcl_bv {
 
 /// Two unit vectors perpendicular to a unit vector; (u, v, axis) is right-handed.
-struct Across {
-  explicit Across(const Eigen::Vector3d& axis) {
-    Eigen::Vector3d least = Eigen::Vector3d::UnitX();
-    if (std::abs(axis.y()) < std::abs(axis.x())) least = Eigen::Vector3d::UnitY();
+struct PlaneBasis {
+  explicit PlaneBasis(const Eigen::Vector3d& axis) {
+    Eigen::Vector3d least_aligned = Eigen::Vector3d::UnitX();
+    if (std::abs(axis.y()) < std::abs(axis.x())) least_aligned = Eigen::Vector3d::UnitY();
     if (std::abs(axis.z()) < std::abs(axis.x()) && std::abs(axis.z()) < std::abs(axis.y()))
-      least = Eigen::Vector3d::UnitZ();
-    u = unit3(cross3(least, axis));
+      least_aligned = Eigen::Vector3d::UnitZ();
+    u = unit3(cross3(least_aligned, axis));
     v = cross3(axis, u);
   }
   Eigen::Vector3d u, v;

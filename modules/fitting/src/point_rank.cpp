@@ -123,7 +123,7 @@ Outermost farthest(const PointView& points, const Execution& execution, const Me
 // Completes the axes by those that the points do not span.
 void complete_axes(Span& span) {
   const Eigen::Vector3d first = span.axes.col(0);
-  if (span.rank == 1) span.axes.col(1) = Across(first).u;
+  if (span.rank == 1) span.axes.col(1) = PlaneBasis(first).u;
   span.axes.col(2) = unit3(cross3(first, span.axes.col(1)));
 }
 
@@ -152,7 +152,7 @@ Span span_of(const PointView& points, double scale, const Execution& execution) 
     for (int k = 0; k < span.rank; ++k)
       q -= dot3(span.axes.col(k), q) * span.axes.col(k);
     span.axes.col(span.rank) = unit3(q);
-    span.reach[span.rank] = distance;
+    span.distances[span.rank] = distance;
   }
   complete_axes(span);
   return span;

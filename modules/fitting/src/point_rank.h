@@ -27,7 +27,7 @@ struct Span {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
   /// The three distances in local units; kFlat for each distance that is not above it.
-  Eigen::Vector3d reach = Eigen::Vector3d::Constant(kFlat);
+  Eigen::Vector3d distances = Eigen::Vector3d::Constant(kFlat);
 };
 
 /// Computes the span of a cloud with at least one valid point; `scale` is LocalFrame::scale() of the cloud.

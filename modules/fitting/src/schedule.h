@@ -29,7 +29,7 @@ enum class Work {
   rank,
   verify,
   hull_plane,
-  look  ///< A hull's vertex in a silhouette and in the rotating calipers.
+  silhouette  ///< A hull's vertex in a silhouette and in the rotating calipers.
 };
 
 /// Returns the time that one thread needs, in nanoseconds: for each point; for supports for each point and

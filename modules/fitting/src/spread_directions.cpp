@@ -23,19 +23,19 @@ std::vector<Direction> spread_directions() {
 }
 
 std::vector<Eigen::Vector3d> support_points_along(const std::vector<Eigen::Vector3d>& directions,
-                                            const std::vector<Eigen::Vector3d>& points) {
-  std::vector<bool> farthest(points.size());
+                                                  const std::vector<Eigen::Vector3d>& points) {
+  std::vector<bool> is_support(points.size());
   for (const Eigen::Vector3d& n : directions) {
     std::size_t low = 0, high = 0;
     for (std::size_t i = 1; i < points.size(); ++i) {
       if (dot3(n, points[i]) < dot3(n, points[low])) low = i;
       if (dot3(n, points[i]) > dot3(n, points[high])) high = i;
     }
-    farthest[low] = farthest[high] = true;
+    is_support[low] = is_support[high] = true;
   }
   std::vector<Eigen::Vector3d> found;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (farthest[i]) found.push_back(points[i]);
+    if (is_support[i]) found.push_back(points[i]);
   }
   return found;
 }

@@ -19,6 +19,6 @@ std::vector<Direction> spread_directions();
 /// Returns the points with the minimum or the maximum projection along one of the directions, in the order of
 /// `points`.
 std::vector<Eigen::Vector3d> support_points_along(const std::vector<Eigen::Vector3d>& directions,
-                                            const std::vector<Eigen::Vector3d>& points);
+                                                  const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace pcl_bv

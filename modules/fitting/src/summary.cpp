@@ -32,13 +32,13 @@ void finish(Moments moments, CloudSummary& summary) {
   if (moments.count == 0) return;
   const double extent = widest_side(summary.supports);
   if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
-  summary.scale = std::ldexp(1.0, moments.exponent);
+  summary.covariance_scale = std::ldexp(1.0, moments.exponent);
   const double n = static_cast<double>(moments.count);
   const double from[3] = {moments.origin.x, moments.origin.y, moments.origin.z};
   double mean[3];
   for (int axis = 0; axis < 3; ++axis) {
     mean[axis] = moments.sum[axis] / n;
-    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.scale,
+    summary.centroid[axis] = std::clamp(from[axis] + mean[axis] / summary.covariance_scale,
                                         summary.supports.along[axis].low, summary.supports.along[axis].high) +
                              0.0;
   }

@@ -36,7 +36,7 @@ ExactVector difference(const ExactVector& a, const ExactVector& b) {
 
 // Converts an exact excess to a distance, excess / scale. The result is 0 only if the excess is not positive,
 // so only if the point is inside by exact arithmetic.
-double positive(const Rational& excess, double scale) {
+double excess_distance(const Rational& excess, double scale) {
   if (excess <= 0) return 0.0;
   return std::max(static_cast<double>(excess) / scale, std::numeric_limits<double>::denorm_min());
 }
@@ -45,8 +45,8 @@ double violation(const Aabb& box, const Eigen::Vector3d& p) {
   if ((p.array() >= box.min().array()).all() && (p.array() <= box.max().array()).all()) return 0.0;
   double worst = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    worst = std::max(worst, positive(Rational(box.min()[axis]) - Rational(p[axis]), 1.0));
-    worst = std::max(worst, positive(Rational(p[axis]) - Rational(box.max()[axis]), 1.0));
+    worst = std::max(worst, excess_distance(Rational(box.min()[axis]) - Rational(p[axis]), 1.0));
+    worst = std::max(worst, excess_distance(Rational(p[axis]) - Rational(box.max()[axis]), 1.0));
   }
   return worst;
 }
@@ -63,8 +63,8 @@ double violation(const Kdop& kdop, const Eigen::Vector3d& p) {
     const double rounded = dot3(n, p), bound = dot_error(n, p);
     if (rounded - bound >= kdop.min(k) && rounded + bound <= kdop.max(k)) continue;
     const Rational along = dot3(exact(n), exact(p));
-    worst = std::max(worst, positive(Rational(kdop.min(k)) - along, n.norm()));
-    worst = std::max(worst, positive(along - Rational(kdop.max(k)), n.norm()));
+    worst = std::max(worst, excess_distance(Rational(kdop.min(k)) - along, n.norm()));
+    worst = std::max(worst, excess_distance(along - Rational(kdop.max(k)), n.norm()));
   }
   return worst;
 }
@@ -95,7 +95,7 @@ double violation(const Obb& box, const Eigen::Vector3d& p) {
     for (int k = 0; k < 3; ++k)
       exact += Rational(a[k]) * (Rational(p[k]) - Rational(box.center()[k]));
     const Rational limit(box.half_extents()[i]);
-    worst = std::max(worst, positive((exact < 0 ? Rational(-exact) : exact) - limit, 1.0));
+    worst = std::max(worst, excess_distance((exact < 0 ? Rational(-exact) : exact) - limit, 1.0));
   }
   return worst;
 }
@@ -107,7 +107,7 @@ double violation(const Hull& hull, const Eigen::Vector3d& p) {
     const double rounded = dot3(n, p), bound = dot_error(n, p);
     if (rounded + bound <= plane.offset) continue;
     const Rational along = dot3(exact(n), exact(p));
-    worst = std::max(worst, positive(along - Rational(plane.offset), n.norm()));
+    worst = std::max(worst, excess_distance(along - Rational(plane.offset), n.norm()));
   }
   return worst;
 }
@@ -118,9 +118,9 @@ double violation(const Cylinder& cylinder, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - cylinder.center();
   const Eigen::Vector3d& axis = cylinder.axis();
   const double along = std::abs(q.dot(axis)), across = q.cross(axis).stableNorm();
-  const double doubt = 32 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
+  const double error_bound = 32 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
   const double r = cylinder.radius(), h = cylinder.half_height();
-  if (along + doubt <= h && across + doubt <= r) return 0.0;
+  if (along + error_bound <= h && across + error_bound <= r) return 0.0;
   const ExactVector exact_q = difference(exact(p), exact(cylinder.center())), a = exact(axis);
   const Rational squared_axis = dot3(a, a), projection = dot3(exact_q, a), squared = projection * projection;
   const bool too_far = squared > Rational(h) * Rational(h) * squared_axis;
@@ -153,10 +153,10 @@ double violation(const Capsule& capsule, const Eigen::Vector3d& p) {
 double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = p - ellipsoid.center();
   const Eigen::Vector3d& radii = ellipsoid.radii();
-  const double doubt = 16 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
+  const double error_bound = 16 * kUnitRoundoff * taxicab3(q) + kSmallestNormal;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const double ratio = (std::abs(q.dot(ellipsoid.axes().col(i))) + doubt) / radii[i];
+    const double ratio = (std::abs(q.dot(ellipsoid.axes().col(i))) + error_bound) / radii[i];
     sum += ratio * ratio;
   }
   if (sum <= 1 - 16 * kUnitRoundoff) return 0.0;
@@ -179,7 +179,7 @@ double violation(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p) {
 void merge(Verification& all, const Verification& part) {
   all.checked += part.checked;
   all.outside += part.outside;
-  all.worst = std::max(all.worst, part.worst);
+  all.max_violation = std::max(all.max_violation, part.max_violation);
 }
 
 template <typename Volume>
@@ -192,7 +192,7 @@ Verification verify_chunk(const Volume& volume, const PointView& points) {
     ++result.checked;
     const double out = volume.empty() ? kInfinity : violation(volume, Eigen::Vector3d(p.x, p.y, p.z));
     if (out > 0) ++result.outside;
-    result.worst = std::max(result.worst, out);
+    result.max_violation = std::max(result.max_violation, out);
   }
   return result;
 }

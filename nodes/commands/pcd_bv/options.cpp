@@ -185,7 +185,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
   if (options.partial && !options.merge)
     refuse(options.origin.asked && !options.origin.at, "--origin auto: each share would have its own");
   for (const Method* method : config.methods()) {
-    if (!Partial::serves(*method))
+    if (!Partial::can_fit(*method))
       throw UsageError(std::string("--volume: ")
                            .append(method->name)
                            .append(" needs all points, not only partial results: use --together"));

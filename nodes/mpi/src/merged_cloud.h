@@ -16,8 +16,9 @@ namespace pcl_bv {
 
 /// Collective call: fits each method to the points of all tiles.
 ///
-/// - Methods that Partial::serves() are fitted to the merged partial results of all ranks. Exception:
-///   `sphere-exact` of more than Partial::kMaxStored points runs in rounds of queries to all ranks.
+/// - Methods for which Partial::can_fit() holds are fitted to the merged partial results of all ranks.
+///   Exception: `sphere-exact` of more than Partial::kMaxStored points runs in rounds of queries to all
+///   ranks.
 /// - Each method that needs all points is fitted on one rank, which reads all points.
 ///
 /// If an input fails on any rank, all ranks leave it out and start again without it. `report` and the

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "box/rectangle.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
-#include "rectangle.h"
 
 namespace pcl_bv {
 
@@ -23,12 +23,13 @@ Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eige
   return high - low;
 }
 
-void turn(BoxFrame& frame, int times, double smaller, const Silhouette& shape, Silhouette::View& view) {
+void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape,
+                  Silhouette::Projection& projection) {
   for (; times > 0 && !frame.done(); --times) {
     const int b = (frame.axis + 1) % 3, c = (frame.axis + 2) % 3;
     frame.axis = b;
     const Eigen::Vector3d u = frame.axes.col(b), v = frame.axes.col(c);
-    const std::vector<Eigen::Vector2d>& corners = shape.look(u, v, view);
+    const std::vector<Eigen::Vector2d>& corners = shape.project(u, v, projection);
     const Rectangle box = smallest_rectangle(corners.data(), corners.size());
     if (!(box.area() < frame.size[b] * frame.size[c] * (1 - smaller))) {
       ++frame.stuck_axes;

@@ -15,7 +15,7 @@ struct BoxFrame {
   Eigen::Matrix3d axes;
   Eigen::Vector3d size;  ///< Extents along the axes.
   int axis = 0;          ///< The next rotation is about this axis.
-  int stuck_axes = 0;       ///< Number of axes in a row about which no rotation shrinks the box.
+  int stuck_axes = 0;    ///< Number of axes in a row about which no rotation shrinks the box.
 
   double volume() const { return size.prod(); }
   bool done() const { return stuck_axes == 3; }
@@ -27,6 +27,7 @@ Eigen::Vector3d extents(const std::vector<Eigen::Vector3d>& vertices, const Eige
 /// Rotates the frame about one axis after another, each time to the smallest box that has this axis. Ends
 /// after `times` rotations, or when no rotation reduces the area across its axis by more than the fraction
 /// `smaller`.
-void turn(BoxFrame& frame, int times, double smaller, const Silhouette& shape, Silhouette::View& view);
+void shrink_frame(BoxFrame& frame, int times, double smaller, const Silhouette& shape,
+                  Silhouette::Projection& projection);
 
 }  // namespace pcl_bv

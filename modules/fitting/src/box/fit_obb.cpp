@@ -132,8 +132,8 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
 
 Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const Execution& execution) {
-  constexpr std::size_t support_or_all_points = 2048;
-  return supports.used + supports.dropped <= support_or_all_points ? measure_few(axes, points, supports, execution.isa)
+  constexpr std::size_t few_points = 2048;
+  return supports.used + supports.dropped <= few_points ? measure_few(axes, points, supports, execution.isa)
                                                         : measure_many(axes, points, supports, execution);
 }
 

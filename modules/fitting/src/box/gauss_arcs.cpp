@@ -74,7 +74,7 @@ void GaussArcs::measure(const std::vector<Eigen::Vector3d>& vertices, SupportGra
   std::vector<std::int32_t> farthest;
   farthest.reserve(nodes.size());
   for (const Eigen::Vector3d& n : nodes)
-    farthest.push_back(graph.ends(n).low);
+    farthest.push_back(graph.support_vertices(n).low);
   width = kInfinity;
   for (Arc& arc : arcs) {
     const auto over = [&](std::int32_t vertex) {

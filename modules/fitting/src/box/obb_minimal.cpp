@@ -15,13 +15,13 @@
 #include "box/box_frame.h"
 #include "box/flush_search.h"
 #include "box/obb_axes.h"
+#include "box/rectangle.h"
 #include "box/silhouette.h"
 #include "hull/local_hull.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
-#include "rectangle.h"
 #include "schedule.h"
 
 namespace pcl_bv {
@@ -62,15 +62,15 @@ void add_facets(const LocalHull& hull, std::vector<Eigen::Matrix3d>& frames) {
 // quadratically.
 constexpr std::size_t kExhaustive = 128;
 
-// Numbers of frames in the search: random ones among the starts, the best starts that are rotated, and those
-// that are rotated to the end. If pairs of edges are compared afterwards, a box within some percent of the
-// minimum is enough.
+// Numbers of frames in the search: random frames among the starts, the best starts, which are rotated, and
+// the best frames, which are rotated to the end. If pairs of edges are compared afterwards, a box within some
+// percent of the minimum is enough.
 struct Effort {
-  std::size_t scattered, beginners, finalists;
+  std::size_t random_starts, rotated_starts, finalists;
 };
 constexpr Effort kSearch = {60, 40, 8}, kBeforePairs = {8, 6, 2};
 
-// The first starts, DiTO, PCA and the coordinate axes: the result must not be larger than their boxes.
+// The first starts are DiTO, PCA and the coordinate axes: the result must not be larger than their boxes.
 constexpr std::size_t kGuaranteedStarts = 3;
 
 std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSummary& summary,
@@ -78,12 +78,13 @@ std::vector<Eigen::Matrix3d> start_frames(const PointView& points, const CloudSu
                                           const Effort& effort) {
   Supports supports = summary.supports;
   supports.set = DirectionSet::dop14;  // the directions of dop14 come first in dop26
-  static const std::vector<Eigen::Matrix3d> scattered = random_rotations(kSearch.scattered);
-  std::vector<Eigen::Matrix3d> frames{dito_axes(support_or_all_points(points, supports, frame), supports, frame),
-                                      principal_axes(summary), Eigen::Matrix3d::Identity()};
+  static const std::vector<Eigen::Matrix3d> rotations = random_rotations(kSearch.random_starts);
+  std::vector<Eigen::Matrix3d> frames{
+      dito_axes(support_or_all_points(points, supports, frame), supports, frame), principal_axes(summary),
+      Eigen::Matrix3d::Identity()};
   add_facets(hull, frames);
-  frames.insert(frames.end(), scattered.begin(),
-                scattered.begin() + static_cast<std::ptrdiff_t>(effort.scattered));
+  frames.insert(frames.end(), rotations.begin(),
+                rotations.begin() + static_cast<std::ptrdiff_t>(effort.random_starts));
   return frames;
 }
 
@@ -92,48 +93,50 @@ Eigen::Matrix3d flat_axes(const LocalHull& hull) {
   const Eigen::Vector3d u = hull.axes.col(0), v = hull.axes.col(1);
   for (const HullPoint& vertex : hull.vertices)
     flat.emplace_back(u.dot(vertex.local), v.dot(vertex.local));
-  const Eigen::Vector2d side = smallest_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
+  const Eigen::Vector2d side =
+      smallest_rectangle(flat.data(), to_convex_chain(flat.data(), flat.size())).side;
   Eigen::Matrix3d axes;
   axes << hull.axes.col(2), side.x() * u + side.y() * v, Eigen::Vector3d::Zero();
   return orthonormal_axes(axes);
 }
 
-void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape, const Execution& execution) {
+void shrink_all(std::vector<BoxFrame>& frames, int times, const Silhouette& shape,
+                const Execution& execution) {
   constexpr std::size_t kFramesPerChunk = 4;
   constexpr double kSmaller = 1e-9;  // a smaller gain is not worth another round
-  const std::size_t looks = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
-  const ParallelPolicy policy = worthwhile(execution, Work::look, looks);
+  const std::size_t vertices = frames.size() * static_cast<std::size_t>(times) * shape.vertices().size();
+  const ParallelPolicy policy = worthwhile(execution, Work::silhouette, vertices);
   for_each_range(policy, frames.size(), kFramesPerChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
-    Silhouette::View view;
+    Silhouette::Projection projection;
     for (std::size_t i = begin; i < end; ++i)
-      turn(frames[i], times, kSmaller, shape, view);
+      shrink_frame(frames[i], times, kSmaller, shape, projection);
   });
 }
 
 BoxFrame found_box(const Silhouette& shape, const std::vector<Eigen::Matrix3d>& starts, const Effort& effort,
                    const Execution& execution) {
-  constexpr int kTurns = 3, kLastTurns = 90;
+  constexpr int kRotations = 3, kLastRotations = 90;
   std::vector<BoxFrame> frames;
   frames.reserve(starts.size());
   for (const Eigen::Matrix3d& axes : starts)
     frames.push_back({axes, extents(shape.vertices(), axes)});
-  const std::vector<BoxFrame> sure(frames.begin(), frames.begin() + kGuaranteedStarts);
+  const std::vector<BoxFrame> guaranteed(frames.begin(), frames.begin() + kGuaranteedStarts);
   const auto smaller = [](const BoxFrame& a, const BoxFrame& b) { return a.volume() < b.volume(); };
   const auto keep = [&](std::size_t count) {
     std::stable_sort(frames.begin(), frames.end(), smaller);
     frames.resize(std::min(count, frames.size()));
   };
-  keep(effort.beginners);
+  keep(effort.rotated_starts);
   while (frames.size() > effort.finalists) {
-    shrink_all(frames, kTurns, shape, execution);
+    shrink_all(frames, kRotations, shape, execution);
     keep(std::max(effort.finalists, frames.size() / 2));
   }
-  shrink_all(frames, kLastTurns, shape, execution);
+  shrink_all(frames, kLastRotations, shape, execution);
   BoxFrame best = *std::min_element(frames.begin(), frames.end(), smaller);
   best.size = extents(shape.vertices(), best.axes);  // over all vertices, without the rounding of silhouettes
-  const BoxFrame& surest = *std::min_element(sure.begin(), sure.end(), smaller);
-  return smaller(surest, best) ? surest : best;
+  const BoxFrame& best_guaranteed = *std::min_element(guaranteed.begin(), guaranteed.end(), smaller);
+  return smaller(best_guaranteed, best) ? best_guaranteed : best;
 }
 
 Eigen::Matrix3d solid_axes(const PointView& points, const CloudSummary& summary, const LocalFrame& frame,

@@ -11,8 +11,8 @@
 
 #include "box/obb_axes.h"
 #include "box/outline.h"
+#include "box/rectangle.h"
 #include "pcl_bv/numeric/constants.h"
-#include "rectangle.h"
 #include "same_points.h"
 
 namespace pcl_bv {
@@ -107,13 +107,14 @@ class Closeness {
   float near_;
 };
 
-struct Turn {
+// A candidate angle, as the t of direction(), with its closeness.
+struct AngleScore {
   double t;
   double closeness;
 };
 
 // Refines an angle by ever smaller steps to either side; a step is taken if it increases the closeness.
-Turn refined(Turn best, const Closeness& closeness, const Sample& sample) {
+AngleScore refined(AngleScore best, const Closeness& closeness, const Sample& sample) {
   best.closeness = closeness(sample, direction(best.t));
   double step = 0.5 / static_cast<double>(kCoarseSteps);
   for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
@@ -144,18 +145,18 @@ Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, c
   if (outline.size() < 3) return ground.axes_along(rectangle.side);
   const Closeness closeness(outline, rectangle.diagonal());
   const Sample coarse(points, supports, frame, ground, outline[0], kCoarsePoints);
-  std::array<Turn, kCoarseSteps> turns;
+  std::array<AngleScore, kCoarseSteps> scores;
   for (std::size_t k = 0; k < kCoarseSteps; ++k) {
     const double t = static_cast<double>(k) / static_cast<double>(kCoarseSteps);
-    turns[k] = {t, closeness(coarse, direction(t))};
+    scores[k] = {t, closeness(coarse, direction(t))};
   }
-  std::stable_sort(turns.begin(), turns.end(),
-                   [](const Turn& a, const Turn& b) { return a.closeness > b.closeness; });
+  std::stable_sort(scores.begin(), scores.end(),
+                   [](const AngleScore& a, const AngleScore& b) { return a.closeness > b.closeness; });
   const Sample fine(points, supports, frame, ground, outline[0], kFinePoints);
-  Turn best{0, -1};
+  AngleScore best{0, -1};
   for (std::size_t k = 0; k < kStarts; ++k) {
-    const Turn turn = refined(turns[k], closeness, fine);
-    if (turn.closeness > best.closeness) best = turn;
+    const AngleScore score = refined(scores[k], closeness, fine);
+    if (score.closeness > best.closeness) best = score;
   }
   return ground.axes_along(direction(best.t));
 }

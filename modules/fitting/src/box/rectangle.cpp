@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "rectangle.h"
+#include "box/rectangle.h"
 
 #include <algorithm>
 #include <cmath>

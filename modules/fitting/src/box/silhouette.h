@@ -22,8 +22,8 @@ class Silhouette {
     std::int32_t from, to;  ///< Vertices.
   };
 
-  /// Result of look(), with its working memory.
-  struct View {
+  /// Result of project(), with its working memory.
+  struct Projection {
     std::vector<double> facing;            ///< For each facet: positive if it faces the viewer.
     std::vector<Step> rim;                 ///< Edges of the silhouette, in the order of edges().
     std::vector<std::int32_t> next;        ///< For each vertex of the silhouette: the vertex after it.
@@ -47,15 +47,15 @@ class Silhouette {
     return {normals_[0][facet], normals_[1][facet], normals_[2][facet]};
   }
 
-  /// Returns view.corners: the corners of the silhouette along u x v, counter-clockwise, in the coordinates
-  /// (u, v). The polygon is convex up to rounding. Its edges are the edges between a facet that faces the
-  /// viewer and a facet that does not, so nothing needs to be sorted: O(vertices).
-  const std::vector<Eigen::Vector2d>& look(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
-                                           View& view) const;
+  /// Returns projection.corners: the corners of the silhouette along u x v, counter-clockwise, in the
+  /// coordinates (u, v). The polygon is convex up to rounding. Its edges are the edges between a facet that
+  /// faces the viewer and a facet that does not, so nothing needs to be sorted: O(vertices).
+  const std::vector<Eigen::Vector2d>& project(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                                              Projection& projection) const;
 
  private:
-  void find_rim(const Eigen::Vector3d& towards, View& view) const;
-  bool follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, View& view) const;
+  void find_rim(const Eigen::Vector3d& towards, Projection& projection) const;
+  bool follow_rim(const Eigen::Vector3d& u, const Eigen::Vector3d& v, Projection& projection) const;
 
   std::vector<Eigen::Vector3d> vertices_;
   std::array<std::vector<double>, 3> normals_;  // x, y and z of the facets' normals

@@ -31,7 +31,7 @@ class SupportGraph {
 
   /// Returns the vertices with the minimum and the maximum projection along the direction, as climb() finds
   /// them.
-  LowHigh ends(const Eigen::Vector3d& direction) {
+  LowHigh support_vertices(const Eigen::Vector3d& direction) {
     const auto [low, high] = approximate_supports(direction);
     return {climb(low, -direction), climb(high, direction)};
   }
@@ -51,7 +51,7 @@ class SupportGraph {
 
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<std::int32_t> first_, neighbours_;   // the neighbours of vertex i begin at position first_[i]
-  std::array<LowHigh, 3 * kCells * kCells> near_;  // approximate_supports() of each cell; opposite cells share an entry
+  std::array<LowHigh, 3 * kCells * kCells> near_;  // of each cell; opposite cells share an entry
 };
 
 }  // namespace pcl_bv

@@ -17,7 +17,7 @@ namespace {
 bool in_line(const std::vector<Coordinates>& points, std::size_t a, std::size_t b, std::size_t c) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto flat = [&](std::size_t i) { return Eigen::Vector2d(points[i][k], points[i][(k + 1) % 3]); };
-    if (turn(flat(a), flat(b), flat(c)) != 0) return false;
+    if (orientation(flat(a), flat(b), flat(c)) != 0) return false;
   }
   return true;
 }
@@ -90,7 +90,7 @@ std::vector<std::size_t> extreme_in_plane(const std::vector<Coordinates>& points
   std::size_t dropped = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto flat = [&](std::size_t i) { return Eigen::Vector2d(at(i)[(k + 1) % 3], at(i)[(k + 2) % 3]); };
-    const bool spans = corners.size() < 3 ? flat(0) != flat(1) : turn(flat(0), flat(1), flat(2)) != 0;
+    const bool spans = corners.size() < 3 ? flat(0) != flat(1) : orientation(flat(0), flat(1), flat(2)) != 0;
     if (spans) dropped = k;
   }
   std::vector<Eigen::Vector2d> flat;

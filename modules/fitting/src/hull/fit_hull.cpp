@@ -7,12 +7,12 @@
 #include <tuple>
 
 #include "hull/hull_fit.h"
+#include "hull/support_tree.h"
 #include "pcl_bv/fitting/fit.h"
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "schedule.h"
-#include "support_tree.h"
 
 namespace pcl_bv {
 namespace {

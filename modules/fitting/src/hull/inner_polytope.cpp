@@ -38,7 +38,7 @@ struct Scalar {
 
   bool is_float;
   double unit() const { return is_float ? 0x1p-24 : kUnitRoundoff; }
-  double least() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // more than products underflow by
+  double underflow_bound() const { return is_float ? 0x1p-140 : 0x1p-1000; }  // products underflow by less
 
   double nearest(double x) const { return is_float ? static_cast<double>(static_cast<float>(x)) : x; }
   double down(double x) const { return is_float ? static_cast<double>(float_down(x)) : x; }
@@ -71,9 +71,10 @@ HalfSpace half_space(const Corners& corners, const Triangle& t, const Coordinate
   HalfSpace h{scalar.nearest(m.x() / length), scalar.nearest(m.y() / length), scalar.nearest(m.z() / length),
               0};
   const Coordinates& a = corners.points[static_cast<std::size_t>(t[0])];
-  const double reach = (h.x * (a.x - center.x) + h.y * (a.y - center.y)) + h.z * (a.z - center.z);
-  const double doubt = extent * (0x1p-44 / length + 64 * scalar.unit()) + scalar.least();
-  h.limit = scalar.down(reach - doubt);  // NaN if the triangle has no area: then no point is inside
+  const double projection = (h.x * (a.x - center.x) + h.y * (a.y - center.y)) + h.z * (a.z - center.z);
+  const double error_bound = extent * (0x1p-44 / length + 64 * scalar.unit()) + scalar.underflow_bound();
+  // NaN if the triangle has no area: then no point is inside.
+  h.limit = scalar.down(projection - error_bound);
   return h;
 }
 

@@ -51,12 +51,12 @@ struct LocalHull : Span {
     return local;
   }
 
-  /// Returns the coordinates of a point along the axes, each divided by the candidates' `reach` along that
+  /// Returns the coordinates of a point along the axes, each divided by the entry of `distances` for that
   /// axis. They are about 1, and no cloud is thin in them.
   Eigen::Vector3d spread(const Eigen::Vector3d& local) const {
     const Eigen::Vector3d q = local - candidates.front().local;
     return Eigen::Vector3d(dot3(axes.col(0), q), dot3(axes.col(1), q), dot3(axes.col(2), q))
-        .cwiseQuotient(reach);
+        .cwiseQuotient(distances);
   }
 };
 

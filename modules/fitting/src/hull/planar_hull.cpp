@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Double arithmetic decides nearly every turn, rational arithmetic the others.
+// Double arithmetic decides nearly every orientation, rational arithmetic the others.
 
 #include "hull/planar_hull.h"
 
@@ -15,8 +15,8 @@
 namespace pcl_bv {
 namespace {
 
-// The turn in double arithmetic; 0 if rounding could have changed its sign. Each product has three roundings
-// and the difference one, for which 8 2^-53 is enough.
+// The orientation in double arithmetic; 0 if rounding could have changed its sign. Each product has three
+// roundings and the difference one, for which 8 2^-53 is enough.
 int rounded_orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const double left = (b.x() - a.x()) * (c.y() - a.y());
   const double right = (b.y() - a.y()) * (c.x() - a.x());
@@ -64,7 +64,7 @@ std::vector<std::size_t> outside_octagon(const std::vector<Eigen::Vector2d>& poi
 void extend_chain(const std::vector<Eigen::Vector2d>& points, std::size_t next, std::size_t first,
                   std::vector<std::size_t>& chain) {
   while (chain.size() >= first + 2 &&
-         turn(points[chain[chain.size() - 2]], points[chain.back()], points[next]) <= 0)
+         orientation(points[chain[chain.size() - 2]], points[chain.back()], points[next]) <= 0)
     chain.pop_back();
   chain.push_back(next);
 }
@@ -75,8 +75,8 @@ int compare(double a, double b) {
 
 }  // namespace
 
-int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  if (const int clear = rounded_orientation(a, b, c)) return clear;
+int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  if (const int certain = rounded_orientation(a, b, c)) return certain;
   // Points of lattices are often collinear, and their differences are doubles. Then each product is the sum
   // of its rounded value and a rounding error, both doubles: the rounded values decide, and if they are
   // equal, the errors.

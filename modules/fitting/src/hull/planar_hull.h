@@ -18,6 +18,6 @@ std::vector<std::size_t> planar_hull(const std::vector<Eigen::Vector2d>& points)
 
 /// Returns the sign of (b - a) x (c - a), exactly: 1 if c is to the left of a -> b, -1 if to the right, 0 if
 /// on the line.
-int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
+int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
 
 }  // namespace pcl_bv

@@ -46,8 +46,8 @@ std::vector<std::size_t> Quickhull::faces() const {
     while (!stack.empty()) {
       const Facet& facet = facets_[stack.back()];
       stack.pop_back();
-      for (const std::int32_t beside : facet.beside) {
-        const auto g = static_cast<std::size_t>(beside);
+      for (const std::int32_t neighbour : facet.neighbours) {
+        const auto g = static_cast<std::size_t>(neighbour);
         if (face[g] == f || !in_plane(facet, facets_[g])) continue;
         face[g] = f;
         stack.push_back(g);
@@ -104,7 +104,7 @@ std::int32_t Quickhull::farthest(const Facet& facet) const {
 // the horizon; appends the points above them to `waiting`.
 std::vector<Quickhull::Edge> Quickhull::remove_seen(std::int32_t point, std::int32_t start,
                                                     std::vector<std::int32_t>& waiting) {
-  std::vector<Edge> around;
+  std::vector<Edge> horizon_edges;
   std::vector<std::int32_t> stack{start};
   facet(start).removed = true;
   while (!stack.empty()) {
@@ -113,38 +113,38 @@ std::vector<Quickhull::Edge> Quickhull::remove_seen(std::int32_t point, std::int
     waiting.insert(waiting.end(), seen.above.begin(), seen.above.end());
     std::vector<std::int32_t>().swap(seen.above);
     for (std::size_t k = 0; k < 3; ++k) {
-      Facet& other = facet(seen.beside[k]);
+      Facet& other = facet(seen.neighbours[k]);
       if (other.removed) continue;
       if (other.visited != point && sees(point, other)) {
         other.removed = true;
-        stack.push_back(seen.beside[k]);
+        stack.push_back(seen.neighbours[k]);
         continue;
       }
       other.visited = point;  // so that sees() is called once
-      around.push_back({seen.corners[k], seen.corners[(k + 1) % 3], seen.beside[k]});
+      horizon_edges.push_back({seen.corners[k], seen.corners[(k + 1) % 3], seen.neighbours[k]});
     }
   }
-  return around;
+  return horizon_edges;
 }
 
 void Quickhull::add_farthest(std::int32_t start) {
   const std::int32_t point = farthest(facet(start));
   std::vector<std::int32_t> waiting;
-  const std::vector<Edge> around = remove_seen(point, start, waiting);
+  const std::vector<Edge> horizon_edges = remove_seen(point, start, waiting);
   const std::size_t first = facets_.size();
-  for (std::size_t i = 0; i < around.size(); ++i)
-    facet_from_[static_cast<std::size_t>(around[i].from)] = static_cast<std::int32_t>(first + i);
-  for (const Edge& edge : around) {
+  for (std::size_t i = 0; i < horizon_edges.size(); ++i)
+    facet_from_[static_cast<std::size_t>(horizon_edges[i].from)] = static_cast<std::int32_t>(first + i);
+  for (const Edge& edge : horizon_edges) {
     const auto number = static_cast<std::int32_t>(facets_.size());
     facets_.push_back({{edge.from, edge.to, point}, {edge.kept, -1, -1}, {}});
     Facet& kept = facet(edge.kept);
     for (std::size_t k = 0; k < 3; ++k)
-      if (kept.corners[k] == edge.to) kept.beside[k] = number;
+      if (kept.corners[k] == edge.to) kept.neighbours[k] = number;
   }
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    const std::int32_t next = facet_from_[static_cast<std::size_t>(around[i].to)];
-    facets_[first + i].beside[1] = next;
-    facet(next).beside[2] = static_cast<std::int32_t>(first + i);
+  for (std::size_t i = 0; i < horizon_edges.size(); ++i) {
+    const std::int32_t next = facet_from_[static_cast<std::size_t>(horizon_edges[i].to)];
+    facets_[first + i].neighbours[1] = next;
+    facet(next).neighbours[2] = static_cast<std::int32_t>(first + i);
   }
   assign_points(waiting, first);
 }

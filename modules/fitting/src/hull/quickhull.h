@@ -33,7 +33,7 @@ class Quickhull {
  private:
   struct Facet {
     Triangle corners;
-    Triangle beside;                  // the neighbours at the edges from corner k to corner k + 1
+    Triangle neighbours;              // the facets at the edges from corner k to corner k + 1
     std::vector<std::int32_t> above;  // points that see the facet and are still to be added
     std::int32_t visited = -1;        // the last point found not to see the facet
     bool removed = false;

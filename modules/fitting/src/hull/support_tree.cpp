@@ -4,7 +4,7 @@
 // Branch and bound in rounded local coordinates. Points within the error bound of the maximum are compared
 // exactly.
 
-#include "support_tree.h"
+#include "hull/support_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,14 +28,14 @@ constexpr double kErrorBound = 0x1p-44;
 
 }  // namespace
 
-SupportTree::SupportTree(const std::vector<HullPoint>& points, std::size_t questions)
+SupportTree::SupportTree(const std::vector<HullPoint>& points, std::size_t queries)
     : points_(points), order_(points.size()) {
   std::iota(order_.begin(), order_.end(), 0U);
-  const bool few = questions <= kFewQueries;
+  const bool few = queries <= kFewQueries;
   build(0, static_cast<std::uint32_t>(points.size()), few ? points.size() : kLeafPoints);
 }
 
-double SupportTree::Node::reach(const Eigen::Vector3d& normal) const {
+double SupportTree::Node::projection_bound(const Eigen::Vector3d& normal) const {
   const Eigen::Vector3d along(dot3(axes.col(0), normal), dot3(axes.col(1), normal),
                               dot3(axes.col(2), normal));
   return dot3(normal, center) + dot3(along.cwiseAbs(), half) + kErrorBound;
@@ -61,7 +61,7 @@ Eigen::Matrix3d SupportTree::sides(std::uint32_t begin, std::uint32_t end) const
   const Eigen::Vector3d first = farthest(Eigen::Vector3d::Zero());
   if (negligible(first)) return Eigen::Matrix3d::Identity();
   const Eigen::Vector3d u = unit3(first), second = farthest(u);
-  Eigen::Vector3d v = negligible(second) ? Across(u).u : unit3(second);
+  Eigen::Vector3d v = negligible(second) ? PlaneBasis(u).u : unit3(second);
   v = unit3(v - dot3(v, u) * u);
   // For so few points a rectangle takes longer than it saves: the hull of 300 points of a Gaussian takes
   // 213 us without rectangles and 253 us with them.
@@ -84,9 +84,9 @@ SupportTree::Node SupportTree::box(std::uint32_t begin, std::uint32_t end) const
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;
   for (std::uint32_t i = begin; i < end; ++i) {
     const Eigen::Vector3d q = point(i).local - start;
-    const Eigen::Vector3d seen(dot3(axes.col(0), q), dot3(axes.col(1), q), dot3(axes.col(2), q));
-    low = low.cwiseMin(seen);
-    high = high.cwiseMax(seen);
+    const Eigen::Vector3d along(dot3(axes.col(0), q), dot3(axes.col(1), q), dot3(axes.col(2), q));
+    low = low.cwiseMin(along);
+    high = high.cwiseMax(along);
   }
   const Eigen::Vector3d middle = (low + high) / 2;
   const Eigen::Vector3d center =
@@ -115,26 +115,27 @@ void SupportTree::build(std::uint32_t begin, std::uint32_t end, std::size_t leaf
 // Returns the maximum rounded projection of the points below node n, or `known` if that is larger.
 double SupportTree::greatest(const Eigen::Vector3d& normal, double known, std::uint32_t n) const {
   const Node& node = nodes_[n];
-  if (node.reach(normal) < known) return known;
+  if (node.projection_bound(normal) < known) return known;
   if (node.second == 0) {
     for (std::uint32_t i = node.begin; i < node.end; ++i)
       known = std::max(known, dot3(normal, point(i).local));
     return known;
   }
   const std::uint32_t first = n + 1;
-  const bool second_reaches = dot3(normal, nodes_[node.second].center) > dot3(normal, nodes_[first].center);
-  known = greatest(normal, known, second_reaches ? node.second : first);
-  return greatest(normal, known, second_reaches ? first : node.second);
+  const bool prefer_second = dot3(normal, nodes_[node.second].center) > dot3(normal, nodes_[first].center);
+  known = greatest(normal, known, prefer_second ? node.second : first);
+  return greatest(normal, known, prefer_second ? first : node.second);
 }
 
-// Raises `reach` to the exact projection, rounded up, of each point below node n with a rounded projection of
-// at least `least`.
-void SupportTree::max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t n, double& reach) const {
+// Raises `projection` to the exact projection, rounded up, of each point below node n with a rounded
+// projection of at least `least`.
+void SupportTree::max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t n,
+                                    double& projection) const {
   const Node& node = nodes_[n];
-  if (node.reach(normal) < least) return;
+  if (node.projection_bound(normal) < least) return;
   if (node.second != 0) {
-    max_projection_up(normal, least, n + 1, reach);
-    max_projection_up(normal, least, node.second, reach);
+    max_projection_up(normal, least, n + 1, projection);
+    max_projection_up(normal, least, node.second, projection);
     return;
   }
   const Direction direction{normal.x(), normal.y(), normal.z()};
@@ -142,17 +143,17 @@ void SupportTree::max_projection_up(const Eigen::Vector3d& normal, double least,
     if (dot3(normal, point(i).local) < least) continue;
     const Coordinates& p = point(i).point;
     const double x = normal.x() * p.x, y = normal.y() * p.y, z = normal.z() * p.z;
-    const double doubt = 0x1p-50 * (std::abs(x) + std::abs(y) + std::abs(z)) + kSmallestNormal;
-    if (((x + y) + z) + doubt <= reach) continue;
-    reach = std::max(reach, project_up(direction, p));
+    const double error_bound = 0x1p-50 * (std::abs(x) + std::abs(y) + std::abs(z)) + kSmallestNormal;
+    if (((x + y) + z) + error_bound <= projection) continue;
+    projection = std::max(projection, project_up(direction, p));
   }
 }
 
 double SupportTree::max_projection_up(const Eigen::Vector3d& normal) const {
   const double known = greatest(normal, -kInfinity, 0);
-  double reach = -kInfinity;
-  max_projection_up(normal, known - 2 * kErrorBound, 0, reach);
-  return reach;
+  double projection = -kInfinity;
+  max_projection_up(normal, known - 2 * kErrorBound, 0, projection);
+  return projection;
 }
 
 }  // namespace pcl_bv

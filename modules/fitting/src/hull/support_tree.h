@@ -16,9 +16,9 @@ namespace pcl_bv {
 /// axis-aligned boxes would be so loose that a query inspects hundreds of points, not tens.
 class SupportTree {
  public:
-  /// Keeps a reference to the points. `questions` is the expected number of queries: a small number does not
+  /// Keeps a reference to the points. `queries` is the expected number of queries: a small number does not
   /// pay for a tree. O(m log m).
-  SupportTree(const std::vector<HullPoint>& points, std::size_t questions);
+  SupportTree(const std::vector<HullPoint>& points, std::size_t queries);
 
   /// Returns the exact maximum of normal . p over the points as stored, rounded up to a double. Components of
   /// the normal must be at most 2 in magnitude. O(log m) if few points have nearly the maximum projection.
@@ -31,7 +31,7 @@ class SupportTree {
     std::uint32_t begin, end;      // range of its points in order_
     std::uint32_t second;          // position of the second child; 0: a leaf. The first child is next
 
-    double reach(const Eigen::Vector3d& normal) const;
+    double projection_bound(const Eigen::Vector3d& normal) const;  // upper bound for its points
   };
 
   Eigen::Matrix3d sides(std::uint32_t begin, std::uint32_t end) const;
@@ -39,7 +39,8 @@ class SupportTree {
 
   void build(std::uint32_t begin, std::uint32_t end, std::size_t leaf_points);
   double greatest(const Eigen::Vector3d& normal, double known, std::uint32_t node) const;
-  void max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t node, double& reach) const;
+  void max_projection_up(const Eigen::Vector3d& normal, double least, std::uint32_t node,
+                         double& projection) const;
   const HullPoint& point(std::uint32_t i) const { return points_[order_[i]]; }
 
   const std::vector<HullPoint>& points_;

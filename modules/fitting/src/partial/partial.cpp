@@ -29,11 +29,11 @@ void add_extremes(const PointView& points, const Execution& execution, const Num
   state.dropped = supports.dropped;
   if (supports.used == 0) return;
   for (std::size_t k = 0; k < kMaxDirections; ++k) {
-    state.ends[2 * k] = supports.along[k].low_point;
-    state.ends[2 * k + 1] = supports.along[k].high_point;
+    state.support_points[2 * k] = supports.along[k].low_point;
+    state.support_points[2 * k + 1] = supports.along[k].high_point;
   }
-  for (SupportPoint& end : state.ends)
-    end.index = number(end.index);
+  for (SupportPoint& p : state.support_points)
+    p.index = number(p.index);
   for (const HullPoint& p : local_hull(points, supports, LocalFrame(supports), execution).candidates)
     state.extreme.push_back({number(p.index), p.point});
 }
@@ -75,9 +75,9 @@ PartialState state_of(const PointView& points, std::size_t first, const Executio
 // The state of the same points in the form of more than kMaxStored points.
 PartialState reduced(PartialState state) {
   if (!state.stores_all() || state.loose.empty()) return state;
-  const PackedPoints held(state.loose, state.scalar);
+  const PackedPoints packed(state.loose, state.scalar);
   add_extremes(
-      held.view(), {}, [&](std::size_t index) { return state.loose[index].number; }, state);
+      packed.view(), {}, [&](std::size_t index) { return state.loose[index].number; }, state);
   return state;
 }
 
@@ -132,9 +132,9 @@ PartialState merged(const PartialState& one, const PartialState& other) {
     const PartialState a = reduced(one), b = reduced(other);
     both.used = a.used + b.used;
     both.dropped = a.dropped + b.dropped;
-    for (std::size_t end = 0; end < both.ends.size(); ++end) {
-      both.ends[end] = a.ends[end];
-      keep_larger_projection(directions.support_direction(end), b.ends[end], both.ends[end]);
+    for (std::size_t i = 0; i < both.support_points.size(); ++i) {
+      both.support_points[i] = a.support_points[i];
+      keep_larger_projection(directions.support_direction(i), b.support_points[i], both.support_points[i]);
     }
     both.extreme = merged(a.extreme, b.extreme);
     keep_extreme(both.extreme);
@@ -150,8 +150,8 @@ PartialState merged(const PartialState& one, const PartialState& other) {
 // point may be any point of the side, so it need not be an extreme point.
 NumberedPoints representative_points(const PartialState& state) {
   NumberedPoints points = state.extreme;
-  for (const SupportPoint& end : state.ends) {
-    if (end.found) points.push_back({end.index, end.point});
+  for (const SupportPoint& p : state.support_points) {
+    if (p.found) points.push_back({p.index, p.point});
   }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end(), same_number), points.end());
@@ -176,15 +176,15 @@ Supports supports_of(const PartialState& state, const NumberedPoints& points, co
   supports.dropped = state.dropped;
   supports.points = view;
   supports.moments = moments_of_all(state);
-  const auto position = [&](const SupportPoint& end) {
-    const auto found = std::lower_bound(points.begin(), points.end(), NumberedPoint{end.index, {}});
+  const auto position = [&](const SupportPoint& p) {
+    const auto found = std::lower_bound(points.begin(), points.end(), NumberedPoint{p.index, {}});
     return static_cast<std::size_t>(found - points.begin());
   };
   for (std::size_t k = 0; k < kMaxDirections && state.used > 0; ++k) {
-    supports.along[k] =
-        support_between(SupportDirections::of(supports.set), k, state.ends[2 * k], state.ends[2 * k + 1]);
-    supports.along[k].low_point.index = position(state.ends[2 * k]);
-    supports.along[k].high_point.index = position(state.ends[2 * k + 1]);
+    supports.along[k] = support_between(SupportDirections::of(supports.set), k, state.support_points[2 * k],
+                                        state.support_points[2 * k + 1]);
+    supports.along[k].low_point.index = position(state.support_points[2 * k]);
+    supports.along[k].high_point.index = position(state.support_points[2 * k + 1]);
   }
   supports.rank = point_rank(view, supports, execution);
   return supports;
@@ -210,30 +210,30 @@ void Partial::merge(const Partial& other) {
   const FloatEnvironment environment;
   if (other.size() == 0) return;
   if (size() > 0 && state_->scalar != other.state_->scalar)
-    throw std::invalid_argument("Partial::merge: one has floats, the other doubles");
+    throw std::invalid_argument("Partial::merge: cannot merge float and double points");
   state_ = size() == 0 ? other.state_ : std::make_shared<PartialState>(merged(*state_, *other.state_));
 }
 
-bool Partial::serves(const Method& method) {
+bool Partial::can_fit(const Method& method) {
   return !method.needs_all_points;
 }
 
 EstimationResult Partial::fit(const Method& method, AnyVolume& volume, const Execution& execution,
                               const MethodOptions& options) const {
   const FloatEnvironment environment;
-  if (!serves(method)) refuse_partial(method.name);
+  if (!can_fit(method)) refuse_partial(method.name);
   if (execution.supports != nullptr)
-    throw std::invalid_argument("Execution::supports are those of other points");
+    throw std::invalid_argument("Execution::supports were found for other points");
   if (state_->stores_all()) {
     const PackedPoints all(state_->loose, state_->scalar);
     return method.fit(all.view(), volume, execution, options);
   }
   const NumberedPoints points = representative_points(*state_);
-  const PackedPoints held(points, state_->scalar);
-  const Supports supports = supports_of(*state_, points, held.view(), execution);
+  const PackedPoints packed(points, state_->scalar);
+  const Supports supports = supports_of(*state_, points, packed.view(), execution);
   Execution informed = execution;
   informed.supports = &supports;
-  return method.fit(held.view(), volume, informed, options);
+  return method.fit(packed.view(), volume, informed, options);
 }
 
 EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate& certificate,
@@ -245,11 +245,11 @@ EstimationResult Partial::fit_smallest_sphere(Sphere& sphere, SphereCertificate&
     return pcl_bv::fit_smallest_sphere(all.view(), sphere, certificate, execution);
   }
   const NumberedPoints points = representative_points(*state_);
-  const PackedPoints held(points, state_->scalar);
-  Supports supports = supports_of(*state_, points, held.view(), execution);
+  const PackedPoints packed(points, state_->scalar);
+  Supports supports = supports_of(*state_, points, packed.view(), execution);
   for (std::size_t k = 0; k < kMaxDirections && state_->used > 0; ++k) {  // with indices in the whole cloud
-    supports.along[k].low_point.index = state_->ends[2 * k].index;
-    supports.along[k].high_point.index = state_->ends[2 * k + 1].index;
+    supports.along[k].low_point.index = state_->support_points[2 * k].index;
+    supports.along[k].high_point.index = state_->support_points[2 * k + 1].index;
   }
   sphere = smallest_sphere(supports, farthest, certificate);
   return result_of(supports);

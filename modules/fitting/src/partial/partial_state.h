@@ -27,8 +27,8 @@ struct PartialState {
   // Only if there are more than Partial::kMaxStored points:
   std::size_t used = 0;
   std::size_t dropped = 0;
-  std::array<SupportPoint, 2 * kMaxDirections>
-      ends{};              ///< Support points, ordered as in SupportDirections; indices in the whole cloud.
+  /// Ordered as in SupportDirections; the indices are those in the whole cloud.
+  std::array<SupportPoint, 2 * kMaxDirections> support_points{};
   NumberedPoints extreme;  ///< The extreme points of all points, loose or not.
   MomentTree blocks;       ///< The moments of complete blocks.
 

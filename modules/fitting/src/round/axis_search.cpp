@@ -36,13 +36,13 @@ void improve(Rated& best, double step, double last_step,
   constexpr int kMostMoves = 400;
   double c = 1, s = 0;
   for (int moves = 0; step > last_step && moves < kMostMoves;) {
-    const Across across(best.axis);
+    const PlaneBasis plane(best.axis);
     Rated found = best;
     for (int k = 0; k < 8; ++k) {
       static constexpr double x[] = {1, -1, 0, 0, 0.7, -0.7, 0.7, -0.7},
                               y[] = {0, 0, 1, -1, 0.7, -0.7, -0.7, 0.7};
       const double right = step * (c * x[k] - s * y[k]), up = step * (s * x[k] + c * y[k]);
-      const Eigen::Vector3d axis = unit3(best.axis + (right * across.u + up * across.v));
+      const Eigen::Vector3d axis = unit3(best.axis + (right * plane.u + up * plane.v));
       const double rated = size(axis);
       if (rated < found.size) found = {rated, axis};
     }
@@ -60,24 +60,24 @@ void improve(Rated& best, double step, double last_step,
 
 }  // namespace
 
-void Profile::look(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points) {
-  const Across across(axis);
+void Profile::project(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points) {
+  const PlaneBasis plane(axis);
   flat_.clear();
-  along.clear();
+  projections.clear();
   low = high = dot3(axis, points.front());
   for (const Eigen::Vector3d& p : points) {
-    flat_.emplace_back(dot3(across.u, p), dot3(across.v, p), 0.0);
-    along.push_back(dot3(axis, p));
-    low = std::min(low, along.back());
-    high = std::max(high, along.back());
+    flat_.emplace_back(dot3(plane.u, p), dot3(plane.v, p), 0.0);
+    projections.push_back(dot3(axis, p));
+    low = std::min(low, projections.back());
+    high = std::max(high, projections.back());
   }
   const SmallBall circle = smallest_ball(flat_.data(), flat_.size());
   middle_ = circle.center;
-  foot = circle.center.x() * across.u + circle.center.y() * across.v;
+  foot = circle.center.x() * plane.u + circle.center.y() * plane.v;
   squared_radius = circle.squared_radius;
 }
 
-void Profile::measure() {
+void Profile::measure_distances() {
   squared.clear();
   for (const Eigen::Vector3d& f : flat_) {
     const double x = f.x() - middle_.x(), y = f.y() - middle_.y();

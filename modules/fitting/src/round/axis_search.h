@@ -15,15 +15,15 @@ namespace pcl_bv {
 /// Points in local coordinates, projected onto an axis and onto the plane perpendicular to it.
 struct Profile {
   /// Projects the points, and replaces the results of the call before. O(points).
-  void look(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points);
+  void project(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points);
 
   Eigen::Vector3d foot;       ///< Centre of the points' smallest circle, in the plane through the origin.
   double squared_radius = 0;  ///< Squared radius of that circle.
   double low = 0, high = 0;   ///< Minimum and maximum projection on the axis.
-  std::vector<double> along;  ///< Projection of each point on the axis.
+  std::vector<double> projections;  ///< Projection of each point on the axis.
 
   /// Fills `squared`: the squared distance of each point from the line along the axis through `foot`.
-  void measure();
+  void measure_distances();
   std::vector<double> squared;
 
  private:

@@ -20,14 +20,15 @@ struct Candidate {
   double volume() const { return radius * radius * ((high - low) + 4 * radius / 3); }  // divided by pi
 };
 
-// The shortest capsule of this radius: each cap's centre is as far inward as the points allow.
+// The shortest capsule of this radius: each cap's centre is as far inward as the points allow. At a point's
+// distance from the axis, a cap extends by `cap_length` beyond its centre.
 Candidate shortest(const Profile& profile, double squared_radius) {
-  double low = profile.along.front(), high = low;
+  double low = profile.projections.front(), high = low;
   bool first = true;
-  for (std::size_t i = 0; i < profile.along.size(); ++i) {
-    const double reach = std::sqrt(std::max(0.0, squared_radius - profile.squared[i]));
-    low = first ? profile.along[i] + reach : std::min(low, profile.along[i] + reach);
-    high = first ? profile.along[i] - reach : std::max(high, profile.along[i] - reach);
+  for (std::size_t i = 0; i < profile.projections.size(); ++i) {
+    const double cap_length = std::sqrt(std::max(0.0, squared_radius - profile.squared[i]));
+    low = first ? profile.projections[i] + cap_length : std::min(low, profile.projections[i] + cap_length);
+    high = first ? profile.projections[i] - cap_length : std::max(high, profile.projections[i] - cap_length);
     first = false;
   }
   if (low > high) low = high = low + (high - low) / 2;
@@ -71,16 +72,16 @@ Capsule find_capsule(const LocalHull& hull, const LocalFrame& frame) {
   Profile profile;
   Eigen::Vector3d axis = hull.axes.col(0);
   if (hull.rank >= 2) {
-    const std::vector<Eigen::Vector3d> essential = search_vertices(hull);
+    const std::vector<Eigen::Vector3d> searched = search_vertices(hull);
     axis = search_axis(hull, [&](const Eigen::Vector3d& tried) {
-      profile.look(tried, essential);
-      profile.measure();
+      profile.project(tried, searched);
+      profile.measure_distances();
       return shortest(profile, profile.squared_radius).volume();
     });
   }
   const std::vector<Eigen::Vector3d> vertices = hull.local_vertices();
-  profile.look(axis, vertices);
-  profile.measure();
+  profile.project(axis, vertices);
+  profile.measure_distances();
   const Candidate best = widened(profile);
   const SmallBall ball = smallest_ball(vertices.data(), vertices.size());
   if (ball.squared_radius * std::sqrt(ball.squared_radius) * 4 / 3 <= best.volume()) {

@@ -18,7 +18,7 @@ Eigen::Vector3d find_axis(const LocalHull& hull, const std::vector<Eigen::Vector
   if (hull.rank < 2) return hull.axes.col(0);
   Profile profile;
   return search_axis(hull, [&](const Eigen::Vector3d& axis) {
-    profile.look(axis, vertices);
+    profile.project(axis, vertices);
     return profile.squared_radius * (profile.high - profile.low);
   });
 }
@@ -44,7 +44,7 @@ EstimationResult fit_cylinder(const PointView& points, Cylinder& cylinder, const
     const std::vector<Eigen::Vector3d> vertices = search_vertices(hull);
     const Eigen::Vector3d axis = find_axis(hull, vertices);
     Profile profile;
-    profile.look(axis, hull.local_vertices());
+    profile.project(axis, hull.local_vertices());
     const Eigen::Vector3d middle = profile.foot + (profile.low + profile.high) / 2 * axis;
     cylinder = measured_cylinder(hull, frame, frame.global(middle), axis);
   });

@@ -57,18 +57,18 @@ Axes scaled(const LocalHull& hull, const LocalFrame& frame, const Eigen::Vector3
 
 // Fills in the certificate. `ratio` compares volumes, areas or lengths, as many dimensions as the points
 // span. The margin of the bound covers rounding, which moved the spread points by 2^-48 divided by the
-// smallest reach.
+// smallest entry of hull.distances.
 void certify(const LocalHull& hull, const LocalFrame& frame, const WeightedEllipsoid& weighted,
              const Axes& body, EllipsoidCertificate& certificate) {
   const SymmetricEigen spread = symmetric_eigen(weighted.covariance);
   double ratio = 1, bound = 4 * std::numbers::pi / 3;
   for (int k = 0; k < hull.rank; ++k) {
-    const double radius = std::sqrt(hull.rank * std::max(spread.values[k], 0.0)) * hull.reach[k];
+    const double radius = std::sqrt(hull.rank * std::max(spread.values[k], 0.0)) * hull.distances[k];
     ratio *= body.radii[k] / radius;
     bound *= frame.length_down(radius);
   }
   certificate.excess = std::max(0.0, ratio - 1);
-  certificate.lower_bound = hull.rank == 3 ? bound * (1 - 0x1p-40 / std::min(1.0, hull.reach[2])) : 0;
+  certificate.lower_bound = hull.rank == 3 ? bound * (1 - 0x1p-40 / std::min(1.0, hull.distances[2])) : 0;
   for (std::size_t i = 0; i < hull.vertices.size(); ++i) {
     if (weighted.weights[i] == 0) continue;
     certificate.support.push_back(hull.vertices[i].index);
@@ -93,7 +93,7 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
       return;
     }
     const WeightedEllipsoid weighted = solve(hull);
-    const Eigen::Matrix3d unspread = hull.reach.asDiagonal();
+    const Eigen::Matrix3d unspread = hull.distances.asDiagonal();
     const SymmetricEigen spread = symmetric_eigen(unspread * weighted.covariance * unspread);
     Axes body;
     Eigen::Vector3d center = hull.candidates.front().local;
@@ -101,7 +101,7 @@ EstimationResult fit_ellipsoid(const PointView& points, Ellipsoid& ellipsoid,
       body.axes.col(k) = (hull.axes.col(0) * spread.vectors(0, k) + hull.axes.col(1) * spread.vectors(1, k)) +
                          hull.axes.col(2) * spread.vectors(2, k);
       body.radii[k] = std::sqrt(hull.rank * std::max(spread.values[k], 0.0));
-      center += weighted.center[k] * hull.reach[k] * hull.axes.col(k);
+      center += weighted.center[k] * hull.distances[k] * hull.axes.col(k);
     }
     body.radii = body.radii.cwiseMax(kThinRadius * body.radii[0]);
     center = frame.global(center);

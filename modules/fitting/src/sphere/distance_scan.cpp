@@ -85,14 +85,14 @@ void DistanceScan::visit_chunks(std::size_t expected, const Visit& visit) const 
   });
 }
 
-void DistanceScan::bound(const DistanceCenter& center, double limit, BlockMaxima& bounds) const {
-  bounds.resize(blocks_);
+void DistanceScan::block_maxima(const DistanceCenter& center, double limit, BlockMaxima& maxima) const {
+  maxima.resize(blocks_);
   visit_chunks(blocks_, [&](std::size_t, std::size_t first, std::size_t count) {
     const LoadedPoints points = blocks(first, count);
     OctantScan scan{center, limit, filter_};
     for (std::size_t b = 0; b < count; ++b) {
       scan_octants(isa_, block_of(points.view(), b), scan);
-      bounds[first + b] = *std::max_element(scan.greatest.begin(), scan.greatest.end());
+      maxima[first + b] = *std::max_element(scan.greatest.begin(), scan.greatest.end());
     }
   });
 }
@@ -208,13 +208,13 @@ bool DistanceScan::list_shell(const DistanceCenter& center, double distance) {
   shell_distance_ = distance - moved / 8;
   const double least = (shell_distance_ - moved) * kRoundDown;
   if (!(least > 0)) return false;
-  ScanBounds kept{nullptr, least * least * kRoundDown};
+  ScanBounds scan_bounds{nullptr, least * least * kRoundDown};
   const double limit = shell_distance_ * shell_distance_ * kRoundDown;
   std::array<std::uint32_t, kBlockPoints> positions;
   for (std::size_t block = 0; block < blocks_; ++block) {
-    kept.bounds = &bounds_[block * kBlockBounds];
+    scan_bounds.bounds = &bounds_[block * kBlockBounds];
     const std::size_t count =
-        list_distant_by_bounds(isa_, blocks(block, 1).view(), kept, center, limit, positions.data());
+        list_distant_by_bounds(isa_, blocks(block, 1).view(), scan_bounds, center, limit, positions.data());
     for (std::size_t i = 0; i < count; ++i)
       shell_.push_back(block * kBlockPoints + positions[i]);
     if (shell_.size() > 64 + points_.count / 16) return false;

@@ -18,7 +18,7 @@
 
 namespace pcl_bv {
 
-/// One number for each block of points.
+/// For each block of points the largest squared distance of a point.
 using BlockMaxima = SmallVector<double, 16>;
 
 /// Scans of a cloud for points far from a centre. All squared distances are squared_distance() of the
@@ -33,9 +33,9 @@ class DistanceScan {
   /// Returns whether a pass over all points would run in one thread.
   bool serial() const;
 
-  /// Writes for each block the largest squared distance of a valid point that is at least `limit`; -1 if
-  /// there is no such point.
-  void bound(const DistanceCenter& center, double limit, BlockMaxima& bounds) const;
+  /// Sets `maxima` to the largest squared distance of a valid point in each block that is at least `limit`;
+  /// -1 if the block has no such point.
+  void block_maxima(const DistanceCenter& center, double limit, BlockMaxima& maxima) const;
 
   /// Returns the largest squared distance of a valid point, or `at_least` if that is larger.
   double greatest(const DistanceCenter& center, double at_least) const;

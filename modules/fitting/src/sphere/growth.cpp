@@ -35,8 +35,8 @@ class GrowingSphere {
     const Eigen::Vector3d old = center_;
     center_ = old + (d - grown) / d * (vector(p) - old);
     const double moved = std::sqrt(squared_distance({old.x(), old.y(), old.z()}, center())) * kOutward;
-    const double reach = std::sqrt(squared_distance(p, center())) * kOutward;
-    radius_ = std::max({grown, (moved + radius_) * kOutward, reach});
+    const double distance = std::sqrt(squared_distance(p, center())) * kOutward;
+    radius_ = std::max({grown, (moved + radius_) * kOutward, distance});
   }
 
   // Adds the margin for points that are outside by no more than kInside.
@@ -65,10 +65,10 @@ void grow_in_order(const DistanceScan& scan, GrowingSphere& sphere) {
 template <typename Visit>
 void for_each_block_outside(const DistanceScan& scan, const GrowingSphere& sphere, const Visit& visit) {
   const double limit = sphere.squared_radius();
-  BlockMaxima bounds;
-  scan.bound(sphere.center(), limit, bounds);
-  for (std::size_t block = 0; block < bounds.size(); ++block) {
-    if (bounds[block] >= limit) visit(block);
+  BlockMaxima maxima;
+  scan.block_maxima(sphere.center(), limit, maxima);
+  for (std::size_t block = 0; block < maxima.size(); ++block) {
+    if (maxima[block] >= limit) visit(block);
   }
 }
 

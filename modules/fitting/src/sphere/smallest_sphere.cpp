@@ -84,7 +84,7 @@ void update_farthest(const OctantPoints& other, OctantPoints& best) {
 bool answer_farthest(const PointView& points, const DistanceCenter& center, double limit, OctantPoints& found,
                      const Execution& execution) {
   const FloatEnvironment environment;
-  if (points.indices != nullptr) throw std::invalid_argument("farthest_points: the view has an index list");
+  if (points.indices != nullptr) throw std::invalid_argument("answer_farthest: the view has an index list");
   return DistanceScan(points, execution).farthest(center, limit, found);
 }
 

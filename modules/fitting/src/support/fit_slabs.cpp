@@ -32,7 +32,7 @@ EstimationResult fit_built_in(const PointView& points, DirectionSet directions,
 }
 
 EstimationResult fit_custom(const PointView& points, const std::shared_ptr<const KdopSet>& set, Kdop& kdop,
-                         SlabPoints* touching, const Execution& execution) {
+                            SlabPoints* touching, const Execution& execution) {
   std::vector<std::array<double, 3>> directions;
   for (std::size_t k = 0; k < set->size(); ++k)
     directions.push_back({set->direction(k).x(), set->direction(k).y(), set->direction(k).z()});

@@ -72,8 +72,8 @@ Support support_between(const SupportDirections& directions, std::size_t k, cons
 /// rank is not set.
 Supports supports_of_search(const SupportSearch& search, DirectionSet set, const PointView& points);
 
-/// The supports of a box, built chunk by chunk: empty_bounds() starts without a point, merge_bounds() adds the
-/// box of a chunk, finish_bounds() sets the counts.
+/// The supports of a box, built chunk by chunk: empty_bounds() starts without a point, merge_bounds() adds
+/// the box of a chunk, finish_bounds() sets the counts.
 Supports empty_bounds(const PointView& points);
 void merge_bounds(const AxisExtents& part, Supports& supports);
 void finish_bounds(Supports& supports);

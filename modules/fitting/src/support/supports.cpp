@@ -53,7 +53,7 @@ Supports find_points(const PointView& points, DirectionSet set, const Execution&
 
 void require_matching_supports(const PointView& points, const Execution& execution) {
   if (execution.supports != nullptr && !same_memory(execution.supports->points, points))
-    throw std::invalid_argument("Execution::supports are those of other points");
+    throw std::invalid_argument("Execution::supports were found for other points");
 }
 
 void require_all_points(const Execution& execution, const char* fit) {
@@ -71,16 +71,16 @@ SupportSearch::SupportSearch(UsableIsa isa, const SupportDirections& directions,
 }
 
 ChunkSupports SupportSearch::find(const PointView& chunk) {
-  SupportBounds reached = no_support_bounds();
+  SupportBounds known_max = no_support_bounds();
   for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end)
-    reached[end] = known_max_[end].load(std::memory_order_relaxed);
+    known_max[end] = known_max_[end].load(std::memory_order_relaxed);
   ChunkSupports found;
-  chunk_supports(isa_, chunk, directions_, reached, found);
+  chunk_supports(isa_, chunk, directions_, known_max, found);
   for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end) {
     if (!found.ends[end].found) continue;
-    const double reach = projection_lower_bound(directions_, end, found.ends[end].point);
-    while (reached[end] < reach &&
-           !known_max_[end].compare_exchange_weak(reached[end], reach, std::memory_order_relaxed)) {
+    const double projection = projection_lower_bound(directions_, end, found.ends[end].point);
+    while (known_max[end] < projection &&
+           !known_max_[end].compare_exchange_weak(known_max[end], projection, std::memory_order_relaxed)) {
     }
   }
   return found;
@@ -156,7 +156,7 @@ Supports find_supports(const PointView& points, DirectionSet set, SupportDetail 
 }
 
 CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
-                          const Execution& execution) {
+                             const Execution& execution) {
   const FloatEnvironment environment;
   require_matching_supports(points, execution);
   if (directions.empty()) throw std::invalid_argument("find_supports: no directions");

@@ -90,7 +90,7 @@ struct EllipsoidCertificate {
 ///
 /// Empty input, or no finite point: an empty box and `no_valid_points`. One point: a box of that point. O(n),
 /// one pass; flat points take up to six passes, for their rank (find_supports()). Throws
-/// std::invalid_argument if Execution::supports are those of other points. Exceptions of the points' source
+/// std::invalid_argument if Execution::supports were found for other points. Exceptions of the points' source
 /// (PointView::source) are passed on.
 EstimationResult fit_aabb(const PointView& points, Aabb& box, const Execution& execution = {});
 

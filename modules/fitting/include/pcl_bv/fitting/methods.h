@@ -29,10 +29,11 @@ struct Method {
   std::string_view shape;  ///< As shape_name() returns it; empty for `best`, whose shape varies.
   /// Called by fit().
   EstimationResult (*fit_with)(const PointView&, const MethodOptions&, AnyVolume&, const Execution&);
-  std::optional<DirectionSet> initial_directions;  ///< The directions whose supports it finds first, if it does.
-  bool upright = false;                     ///< Whether it uses MethodOptions::up.
-  bool needs_hull = false;                     ///< Whether it needs the convex hull.
-  bool needs_all_points = false;            ///< Whether points deep inside the cloud can change the volume.
+  /// The directions whose supports it finds first; empty if it begins with another pass.
+  std::optional<DirectionSet> initial_directions;
+  bool upright = false;           ///< Whether its boxes are upright: it uses MethodOptions::up.
+  bool needs_hull = false;        ///< Whether it needs the convex hull.
+  bool needs_all_points = false;  ///< Whether points deep inside the cloud can change the volume.
 
   /// Fits the method to the points; the result is as for the function in fit.h or fit_obb.h.
   EstimationResult fit(const PointView& points, AnyVolume& volume, const Execution& execution,
@@ -47,10 +48,10 @@ const std::vector<Method>& methods();
 /// Returns the method with this name or alias; null if there is none.
 const Method* find_method(std::string_view name);
 
-/// Prepares an execution for fitting several methods to the same points. If two or more of the methods begin
-/// with supports, and not only with those along the coordinate axes, these are found once. If two or more
-/// need the convex hull, it is computed once, with the supports along dop26. The results are stored in
-/// `supports`, which must outlive the returned execution. If neither applies, the execution is returned
+/// Prepares an execution for fitting several methods to the same points. If two or more of the methods find
+/// supports first (initial_directions), and not only along the coordinate axes, these are found once. If two
+/// or more need the convex hull, it is computed once, with the supports along dop26. The results are stored
+/// in `supports`, which must outlive the returned execution. If neither applies, the execution is returned
 /// unchanged.
 Execution share_supports(const PointView& points, const std::vector<const Method*>& among,
                          const Execution& execution, Supports& supports);

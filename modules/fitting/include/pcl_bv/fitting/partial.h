@@ -23,9 +23,9 @@ struct PartialState;
 ///
 /// How the cloud was cut into parts, and in which order they were merged, changes no bit of the volumes or of
 /// the serialised bytes. The volumes have the bits of a fit to the whole cloud. There are two exceptions, for
-/// more than kMaxStored points: sphere-exact and obb-yaw are fitted to the extreme points only. These determine
-/// both volumes, but in a fit to all points, points within rounding of the extreme ones can change the last
-/// bits.
+/// more than kMaxStored points: sphere-exact and obb-yaw are fitted to the extreme points only. These
+/// determine both volumes, but in a fit to all points, points within rounding of the extreme ones can change
+/// the last bits.
 class Partial {
  public:
   /// Maximum number of points that are all stored.
@@ -47,10 +47,10 @@ class Partial {
 
   /// Returns whether the method can be fitted to parts. The exceptions are the spheres that grow and
   /// obb-lshape: points deep inside the cloud can change these.
-  static bool serves(const Method& method);
+  static bool can_fit(const Method& method);
 
   /// Fits the volume around all points; returns their status, rank and counts. O(m log m) for m extreme
-  /// points. Throws std::invalid_argument unless serves(method), and if Execution::supports is set.
+  /// points. Throws std::invalid_argument unless can_fit(method), and if Execution::supports is set.
   EstimationResult fit(const Method& method, AnyVolume& volume, const Execution& execution = {},
                        const MethodOptions& options = {}) const;
 

@@ -25,16 +25,16 @@ struct CloudSummary {
   /// most (175 + 30 b) 2^-53 of the extent, plus one rounding of the coordinate itself.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
 
-  /// Covariance of the valid points about their centroid, times scale². It is symmetric, and the population
-  /// covariance: divided by n, not n - 1. The error of entry (i, j) is at most 3 (175 + 30 b) 2^-53 of the
-  /// product of the extents along i and j: 6e-14 for one block, 2e-13 for 30 million points (and 2^-1073 more
-  /// if it underflows). Exactly 0 along an axis on which all points agree.
+  /// Covariance of the valid points about their centroid, times covariance_scale². It is symmetric, and the
+  /// population covariance: divided by n, not n - 1. The error of entry (i, j) is at most 3 (175 + 30 b)
+  /// 2^-53 of the product of the extents along i and j: 6e-14 for one block, 2e-13 for 30 million points (and
+  /// 2^-1073 more if it underflows). Exactly 0 along an axis on which all points agree.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// Factor by which the points were multiplied for the covariance. It is 1, except for clouds of doubles
   /// whose largest extent is below 1e-99: their squares could underflow, so it is a larger power of two. The
   /// eigenvectors of the covariance do not depend on it.
-  double scale = 1;
+  double covariance_scale = 1;
 
   /// Returns the axis-aligned box of the points.
   Aabb aabb() const { return aabb_of(supports); }

@@ -60,8 +60,8 @@ struct Supports {
 ///
 /// One SIMD pass over the points in chunks; the few points of each chunk that can be extreme are compared
 /// exactly (docs/numerics.md). No pass if Execution::supports already has the supports; throws
-/// std::invalid_argument if those are of other points. The rank takes up to five more passes if the points
-/// are flat to 2^-30 of their extent, unless their plane is perpendicular to a coordinate axis.
+/// std::invalid_argument if these were found for other points. The rank takes up to five more passes if the
+/// points are flat to 2^-30 of their extent, unless their plane is perpendicular to a coordinate axis.
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const Execution& execution);
 
@@ -85,8 +85,8 @@ struct CustomSupports {
 /// 50 ns for each point and direction.
 ///
 /// Throws std::invalid_argument unless there are 1 to 49 directions, each finite with its largest component
-/// between 1e-30 and 1e30 in magnitude, and if Execution::supports are those of other points.
+/// between 1e-30 and 1e30 in magnitude, and if Execution::supports were found for other points.
 CustomSupports find_supports(const PointView& points, const std::vector<std::array<double, 3>>& directions,
-                          const Execution& execution = {});
+                             const Execution& execution = {});
 
 }  // namespace pcl_bv

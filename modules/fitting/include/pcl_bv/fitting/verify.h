@@ -18,7 +18,7 @@ struct Verification {
   std::size_t outside = 0;  ///< Number of these points that are outside by exact arithmetic.
   /// The largest distance from an outside point to the face or surface that it is beyond, in the points'
   /// unit. 0 if no point is outside; infinity if the volume is empty and there is a valid point.
-  double worst = 0;
+  double max_violation = 0;
 };
 
 /// Checks for every valid point whether it is inside the volume, by the exact predicates of the volume on the

@@ -45,7 +45,7 @@ class SweepWindow {
   std::size_t points() const { return points_; }  ///< Number of points of these sweeps, valid or not.
   std::uint64_t first() const { return first_; }  ///< Index of the first point in the window.
 
-  /// Returns the Partial of all points in the window: fit() takes any method for which Partial::serves()
+  /// Returns the Partial of all points in the window: fit() takes any method for which Partial::can_fit()
   /// holds. It has no points if there is no sweep. The first call after a change costs one merge, later calls
   /// nothing. The reference is valid until the window changes.
   const Partial& all() const;
