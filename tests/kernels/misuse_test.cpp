@@ -68,7 +68,7 @@ const std::vector<Kernel>& kernels() {
          OctantScan scan;
          scan_octants(isa, points, scan);
        }},
-      {"list_reaching", kBlockPoints,
+      {"list_distant_by_bounds", kBlockPoints,
        [](Isa isa, const PointView& points) {
          const std::vector<float> bounds(kBlockBounds, 1.0F);
          list_distant_by_bounds(isa, points, {bounds.data(), 0}, {}, 1, room(points).data());

@@ -26,7 +26,7 @@ inline ChunkSupports by_definition(const PointView& points, const SupportDirecti
       continue;
     }
     for (std::size_t end = 0; end < 2 * set.count; ++end) {
-      SupportPoint& best = out.ends[end];
+      SupportPoint& best = out.supports[end];
       const int order = best.found ? compare_along(set.support_direction(end), p, best.point) : 1;
       if (order > 0 || (order == 0 && points.index(i) < best.index)) best = {true, p, points.index(i)};
     }
@@ -38,8 +38,8 @@ inline void expect_same(const ChunkSupports& a, const ChunkSupports& b, std::siz
   EXPECT_EQ(a.dropped, b.dropped);
   for (std::size_t end = 0; end < 2 * directions; ++end) {
     SCOPED_TRACE("end " + std::to_string(end));
-    ASSERT_EQ(a.ends[end].found, b.ends[end].found);
-    EXPECT_EQ(a.ends[end].index, b.ends[end].index);
+    ASSERT_EQ(a.supports[end].found, b.supports[end].found);
+    EXPECT_EQ(a.supports[end].index, b.supports[end].index);
   }
 }
 
@@ -48,11 +48,11 @@ inline void expect_found_unless_beyond(Isa isa, const PointView& points, const S
   const ChunkSupports all = run(isa, points, set);
   SupportBounds same = no_support_bounds(), beyond = same;
   for (std::size_t end = 0; end < 2 * set.count; ++end) {
-    same[end] = projection_lower_bound(set, end, all.ends[end].point);
+    same[end] = projection_lower_bound(set, end, all.supports[end].point);
     beyond[end] = same[end] + 1;
   }
   expect_same(run(isa, points, set, same), all, set.count);
-  for (const SupportPoint& end : run(isa, points, set, beyond).ends)
+  for (const SupportPoint& end : run(isa, points, set, beyond).supports)
     EXPECT_FALSE(end.found);
 }
 

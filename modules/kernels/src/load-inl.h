@@ -309,7 +309,7 @@ HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) 
 /// Keeps a loop's integer accumulator in its register. g++ 12 does not see that the float vector and the
 /// integer vector are one register, and moves and spills it: 2600 Mpt/s became 4500 (26-DOP, AVX-512).
 template <class Vector>
-HWY_INLINE void hold(Vector& v) {
+HWY_INLINE void keep_in_register(Vector& v) {
 #if HWY_ARCH_X86
   asm("" : "+v"(v.raw));
 #else

@@ -34,7 +34,7 @@ void run_boxes_reference(const PointView& points, RunBox* boxes);
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);
 
 void scan_octants_reference(const PointView& block, OctantScan& scan);
-std::size_t list_reaching_reference(const PointView& block, const ScanBounds& kept,
+std::size_t list_distant_by_bounds_reference(const PointView& block, const ScanBounds& scanned,
                                     const DistanceCenter& center, double limit, std::uint32_t* positions);
 std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
                                    FloatFilter filter, std::uint32_t* positions);
