@@ -107,8 +107,8 @@ bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, co
   return all_valid;
 }
 
-// If three of a block's first four runs are not rejected, the others are expected not to be rejected either (as on the
-// surface of a sphere), and the filter is switched off.
+// If three of a block's first four runs are not rejected (as on the surface of a sphere), the remaining runs
+// are unlikely to be rejected, and the filter is switched off.
 constexpr std::size_t kProbedRuns = 4;
 constexpr std::size_t kMaxUnrejectedRuns = 3;
 

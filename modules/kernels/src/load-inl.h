@@ -226,8 +226,8 @@ HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t fi
   load_padded(d, points, first, points.count - first, pad, x, y, z);
 }
 
-/// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail(). `positions` has
-/// `count` entries before; returns the number of entries after.
+/// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail().
+/// `positions` has `count` entries before; returns the number of entries after.
 template <Layout layout, class D>
 std::size_t append_marked(D d, const bool* marked, const PointView& points, std::size_t first,
                           std::uint32_t* positions, std::size_t count) {

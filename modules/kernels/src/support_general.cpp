@@ -38,9 +38,9 @@ struct Workspace {
   T directions[3 * kMaxSupportDirections];
 };
 
-// Copies a block relative to the centre and raises `max_magnitude` to the largest magnitudes. Returns whether all
-// points are valid; if not, the copy is meaningless and `max_magnitude` unchanged. With `masked`, invalid points are
-// replaced by the centre and counted.
+// Copies a block relative to the centre and raises `max_magnitude` to the largest magnitudes. Returns whether
+// all points are valid; if not, the copy is meaningless and `max_magnitude` unchanged. With `masked`, invalid
+// points are replaced by the centre and counted.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
 bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& max_magnitude,
                 std::size_t& dropped) {
@@ -165,8 +165,8 @@ std::size_t project_part(const PointView& part, std::size_t count, const LanePro
   return dropped;
 }
 
-// Finds the supports of a part, which is as many points as `projections` has capacity for. If `more` parts follow,
-// `bounds` receives lower bounds of the supports found, so that later parts compare fewer points.
+// Finds the supports of a part, which has as many points as `projections` has capacity for. If `more` parts
+// follow, `bounds` receives lower bounds of the supports found, so that later parts compare fewer points.
 template <Layout layout, typename T>
 void supports_of_part(const PointView& part, const SupportDirections& set, const LaneProjections<T>& projections,
                       bool more, Workspace<T>& work, SupportBounds& bounds, ChunkSupports& out) {

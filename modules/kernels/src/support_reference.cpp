@@ -145,7 +145,8 @@ void search(const PointView& block, const SupportDirections& set, std::size_t su
   }
 }
 
-// `first` is the number of the first support of `set` in a Block: GeneralProjections projects on the three axes before.
+// `first` is the number of the first support of `set` in a Block: 6 for GeneralProjections, which projects on
+// the three axes first.
 template <typename T, typename Project>
 void supports(const PointView& chunk, const SupportDirections& set, const Project& project, std::size_t first,
               const SupportBounds& bounds, ChunkSupports& out) {

@@ -48,7 +48,7 @@ struct OctantScan {
   DistanceCenter center;
   double limit = 0;                       ///< Points with a smaller squared_distance() are ignored.
   FloatFilter filter = FloatFilter::off;  ///< Set to `off` by the scan if floats rejected little.
-  float* bounds = nullptr;                ///< If not null, receives kBlockBounds bounds for list_distant_by_bounds().
+  float* bounds = nullptr;                ///< Null, or kBlockBounds bounds to write (see ScanBounds).
 
   /// Result: the largest squared_distance() in each octant around the centre; -1 for an octant without a
   /// point of at least `limit`. The index of an octant has bit 0 set if qx > 0, bit 1 if qy > 0, bit 2 if
@@ -61,7 +61,8 @@ struct OctantScan {
 /// points, for points that are not in memory, and for float points if the scale is not 1.
 void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan);
 
-/// The bounds that scan_octants() wrote for a block of floats, and which points list_distant_by_bounds() may skip.
+/// The bounds that scan_octants() wrote for a block of floats, and which points list_distant_by_bounds() may
+/// skip.
 struct ScanBounds {
   const float* bounds = nullptr;
   double limit = 0;  ///< Squared distance from the centre of that scan; nearer points may be skipped.

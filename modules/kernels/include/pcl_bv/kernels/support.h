@@ -76,7 +76,7 @@ double projection_lower_bound(const SupportDirections& set, std::size_t support,
 /// The supports of a chunk. Only the first 2 * count of them are used.
 struct ChunkSupports {
   std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found: no point is valid or exceeds the bound.
-  std::size_t dropped = 0;                                ///< Number of points that are not valid (is_valid()).
+  std::size_t dropped = 0;                            ///< Number of points that are not valid (is_valid()).
 };
 
 /// Finds the support points of at most kChunkPoints points: the points with the largest exact projections; of
