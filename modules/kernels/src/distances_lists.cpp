@@ -26,7 +26,7 @@ namespace HWY_NAMESPACE {
 // Inspects the kBoundPoints points of each lane whose bound exceeds the limit.
 template <Layout layout>
 std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, const DistanceCenter& center,
-                     double limit, std::uint32_t* positions) {
+                           double limit, std::uint32_t* positions) {
   const Tag<float> d;
   const std::size_t lanes = hn::Lanes(d);
   const float* bounds = scanned.bounds;
@@ -97,8 +97,8 @@ std::size_t list_of(const PointView& points, const DistanceCenter& center, doubl
   return count;
 }
 
-std::size_t list_distant_by_bounds(const PointView& block, const ScanBounds& scanned, const DistanceCenter& center,
-                          double limit, std::uint32_t* positions) {
+std::size_t list_distant_by_bounds(const PointView& block, const ScanBounds& scanned,
+                                   const DistanceCenter& center, double limit, std::uint32_t* positions) {
   return for_layout(block, [&]<Layout layout, typename>() {
     return list_by_bounds<layout>(block, scanned, center, limit, positions);
   });
@@ -121,8 +121,9 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& scanned,
-                          const DistanceCenter& center, double limit, std::uint32_t* positions) {
-  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_distant_by_bounds, &list_distant_by_bounds_reference);
+                                   const DistanceCenter& center, double limit, std::uint32_t* positions) {
+  static constexpr KernelTable kTable =
+      PCL_BV_KERNEL_TABLE(list_distant_by_bounds, &list_distant_by_bounds_reference);
   require_distances(block, center, kBlockPoints);
   require_scan_bounds(block, scanned);
   return kTable[isa](block, scanned, center, limit, positions);

@@ -91,15 +91,15 @@ bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, co
     if constexpr (filtered) {
       if (rejects(d, in_float.center, in_float.limit, x, y, z)) continue;
     }
-#define PCL_BV_STEP(x, y, z)                                     \
-  [[maybe_unused]] const auto counts = valid_lanes(dd, x, y, z); \
-  subtract<sizeof(T) == 8>(dd, scan.center, x, y, z);            \
-  auto d2 = sum_of_squares(x, y, z);                             \
-  if constexpr (masked) d2 = hn::IfThenElse(counts, d2, none);   \
-  const auto far = hn::Ge(d2, least);                            \
-  if (!hn::AllFalse(dd, far)) {                                  \
-    all_valid = all_valid && hn::AllFalse(dd, hn::Ge(d2, infinity));       \
-    octants.compete(dd, x, y, z, hn::IfThenElse(far, d2, none)); \
+#define PCL_BV_STEP(x, y, z)                                         \
+  [[maybe_unused]] const auto counts = valid_lanes(dd, x, y, z);     \
+  subtract<sizeof(T) == 8>(dd, scan.center, x, y, z);                \
+  auto d2 = sum_of_squares(x, y, z);                                 \
+  if constexpr (masked) d2 = hn::IfThenElse(counts, d2, none);       \
+  const auto far = hn::Ge(d2, least);                                \
+  if (!hn::AllFalse(dd, far)) {                                      \
+    all_valid = all_valid && hn::AllFalse(dd, hn::Ge(d2, infinity)); \
+    octants.compete(dd, x, y, z, hn::IfThenElse(far, d2, none));     \
   }
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP

@@ -43,7 +43,10 @@ inline std::size_t packets_per_block(std::size_t packets) {
 template <typename T>
 struct LaneProjections {
   LaneProjections(T* first, std::size_t supports, std::size_t packets = kPackets)
-      : values(first), lanes(hn::Lanes(Tag<T>())), block_points(packets * lanes), per_block(supports * lanes) {}
+      : values(first),
+        lanes(hn::Lanes(Tag<T>())),
+        block_points(packets * lanes),
+        per_block(supports * lanes) {}
 
   T* values;
   std::size_t lanes;
@@ -64,13 +67,14 @@ double max_over_lanes(const LaneProjections<T>& projections, std::size_t support
 /// Calls search(first, n, last) for the points first, first + n, ... below `last` behind each lane of a block
 /// whose maximum projection is at least the threshold, a value of type T.
 template <Layout layout, typename T, typename Search>
-void search_lanes(const PointView& points, const LaneProjections<T>& projections, std::size_t support, double threshold,
-                  const Search& search) {
+void search_lanes(const PointView& points, const LaneProjections<T>& projections, std::size_t support,
+                  double threshold, const Search& search) {
   const Tag<T> d;
   const std::size_t n = projections.lanes;
   const auto least = hn::Set(d, static_cast<T>(threshold));
   const T* lanes = projections.values + support * n;
-  for (std::size_t begin = 0; begin < points.count; begin += projections.block_points, lanes += projections.per_block) {
+  for (std::size_t begin = 0; begin < points.count;
+       begin += projections.block_points, lanes += projections.per_block) {
     const auto candidates = hn::Not(hn::Lt(hn::Load(d, lanes), least));  // an overflowing sum may be NaN
     if (HWY_LIKELY(hn::AllFalse(d, candidates))) continue;
     const std::size_t count = HWY_MIN(projections.block_points, points.count - begin);
@@ -92,13 +96,14 @@ void search_lanes(const PointView& points, const LaneProjections<T>& projections
 /// Updates the supports in `out` with the points of a part, given the maximum projections of its lanes. If
 /// `later` is not null, it receives lower bounds of the supports found, for the parts that follow.
 template <Layout layout, typename T>
-void search_supports(const PointView& part, const SupportDirections& set, const LaneProjections<T>& projections,
-                 const CenteredExtent& extent, const SupportBounds& bounds, SupportBounds* later,
-                 ChunkSupports& out) {
+void search_supports(const PointView& part, const SupportDirections& set,
+                     const LaneProjections<T>& projections, const CenteredExtent& extent,
+                     const SupportBounds& bounds, SupportBounds* later, ChunkSupports& out) {
   std::optional<SupportPlan> plan;  // for both supports of a direction
   for (std::size_t support = 0; support < 2 * set.count; ++support) {
     if (support % 2 == 0) plan.emplace(set, support / 2, extent, part.scalar);
-    const SupportCandidates candidates = plan->of(support % 2 != 0, max_over_lanes(projections, support, part.count), bounds[support]);
+    const SupportCandidates candidates =
+        plan->of(support % 2 != 0, max_over_lanes(projections, support, part.count), bounds[support]);
     if (candidates.kind == SupportCandidates::Kind::none) continue;
     SupportPoint& best = out.supports[support];
     if (candidates.kind == SupportCandidates::Kind::every) {

@@ -136,7 +136,7 @@ HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y,
 /// zeros).
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void load_padded(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad,
-                         V<D>& x, V<D>& y, V<D>& z) {
+                            V<D>& x, V<D>& y, V<D>& z) {
   HWY_ALIGN T lanes[3][kGroupBytes / sizeof(T)];
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
     T v[3] = {};
@@ -216,7 +216,8 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 /// Loads the packet from `first` on. An incomplete last packet is loaded in order and padded with the view's
 /// first point.
 template <Layout layout, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y, V<D>& z) {
+HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
+                                    V<D>& z) {
   if (first + hn::Lanes(d) <= points.count) {
     load_packet<layout>(d, points, first, x, y, z);
     return;

@@ -99,7 +99,8 @@ Moments moments_of(const PointView& block) {
   out.origin = load_point(block, first);
   const T pad[3] = {static_cast<T>(out.origin.x), static_cast<T>(out.origin.y), static_cast<T>(out.origin.z)};
   out.count = copy_to_groups<layout, true>(block, pad, groups);
-  sum_without_underflow(block.scalar, out, [&](Moments& moments) { add_lanes(groups, block.count, moments); });
+  sum_without_underflow(block.scalar, out,
+                        [&](Moments& moments) { add_lanes(groups, block.count, moments); });
   return out;
 }
 

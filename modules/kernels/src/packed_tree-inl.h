@@ -189,7 +189,8 @@ HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit&
   open[level] = {0, 0};
   for (std::size_t first = 0; first < boxes.child_counts[level]; first += kTreeWidth) {
     const BoxGroup& group = boxes.groups[boxes.first[level] + first / kTreeWidth];
-    const std::uint64_t near = near_boxes(group, probe, HWY_MIN(boxes.child_counts[level] - first, kTreeWidth));
+    const std::uint64_t near =
+        near_boxes(group, probe, HWY_MIN(boxes.child_counts[level] - first, kTreeWidth));
     open[level].bits |= near << first;
     next |= std::uint64_t{visit.preferred_box(group)} << first;
   }

@@ -17,7 +17,8 @@ namespace pcl_bv {
 inline constexpr std::size_t kMaxPositions = std::size_t{1} << 32;
 
 /// Throws std::invalid_argument unless the points are in memory and at most `maximum`.
-void require_in_memory(const PointView& points, std::size_t maximum = std::numeric_limits<std::size_t>::max());
+void require_in_memory(const PointView& points,
+                       std::size_t maximum = std::numeric_limits<std::size_t>::max());
 
 /// Throws std::invalid_argument unless the origin is valid and can be stored as a point of the view.
 void require_origin(const PointView& points, const Coordinates& origin);

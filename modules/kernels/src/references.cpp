@@ -109,7 +109,8 @@ RegionState state_in_planes(const RegionTest<T>& test, const T (&q)[3]) {
 
 template <typename T>
 RegionState state_in(const RegionTest<T>& test, const T (&p)[3]) {
-  const bool by_head = !test.undecidable && test.shape != RegionShape::box && test.shape != RegionShape::planes;
+  const bool by_head =
+      !test.undecidable && test.shape != RegionShape::box && test.shape != RegionShape::planes;
   T q[3];
   for (std::size_t k = 0; k < 3; ++k) {
     q[k] = p[k] - test.head[k];
@@ -240,7 +241,8 @@ Moments block_moments_reference(const PointView& block) {
     if (out.count == 0) out.origin = p;
     ++out.count;
   }
-  if (out.count > 0) sum_without_underflow(block.scalar, out, [&](Moments& moments) { sum_block(block, moments); });
+  if (out.count > 0)
+    sum_without_underflow(block.scalar, out, [&](Moments& moments) { sum_block(block, moments); });
   return out;
 }
 
@@ -265,7 +267,8 @@ void scan_octants_reference(const PointView& block, OctantScan& scan) {
 
 // The bounds only save work: the reference ignores them.
 std::size_t list_distant_by_bounds_reference(const PointView& block, const ScanBounds& /*scanned*/,
-                                    const DistanceCenter& center, double limit, std::uint32_t* positions) {
+                                             const DistanceCenter& center, double limit,
+                                             std::uint32_t* positions) {
   return list_if(block.count, positions,
                  [&](std::size_t i) { return distance_squared(load_as<float>(block, i), center) >= limit; });
 }

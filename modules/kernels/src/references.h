@@ -35,7 +35,8 @@ void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* 
 
 void scan_octants_reference(const PointView& block, OctantScan& scan);
 std::size_t list_distant_by_bounds_reference(const PointView& block, const ScanBounds& scanned,
-                                    const DistanceCenter& center, double limit, std::uint32_t* positions);
+                                             const DistanceCenter& center, double limit,
+                                             std::uint32_t* positions);
 std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
                                    FloatFilter filter, std::uint32_t* positions);
 

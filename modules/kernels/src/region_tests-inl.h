@@ -45,14 +45,14 @@ HWY_INLINE V<D> along(D d, const T (&n)[3], V<D> x, V<D> y, V<D> z) {
 // no test are meaningless. Two masks instead of a struct, since SVE vectors cannot be members.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void classify_squares(D d, const RegionTest<T>& test, V<D> squares, hn::Mask<D>& inside,
-                              hn::Mask<D>& outside) {
+                                 hn::Mask<D>& outside) {
   inside = hn::Le(squares, hn::Set(d, test.square_inner));
   outside = hn::Gt(squares, hn::Set(d, test.square_outer));
 }
 
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void classify_ball(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
-                           hn::Mask<D>& outside) {
+                              hn::Mask<D>& outside) {
   classify_squares(d, test, hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)), inside, outside);
 }
 
@@ -65,7 +65,7 @@ HWY_INLINE V<D> square_beyond(D d, const SlabTest<T>& slab, V<D> projection) {
 
 template <bool slabs_only, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void classify_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<D> z, hn::Mask<D>& inside,
-                           hn::Mask<D>& outside) {
+                              hn::Mask<D>& outside) {
   const auto& [a, b, c] = test.slabs;
   const auto along_a = hn::Abs(along(d, a.axis, x, y, z));
   const auto along_b = hn::Abs(along(d, b.axis, x, y, z));
@@ -87,8 +87,9 @@ HWY_INLINE void classify_body(D d, const RegionTest<T>& test, V<D> x, V<D> y, V<
 
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void classify_planes(D d, const RegionTest<T>& test, hn::Mask<D> tested, V<D> x, V<D> y, V<D> z,
-                             hn::Mask<D>& inside, hn::Mask<D>& outside) {
-  const auto error_bound = hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, test.slope));
+                                hn::Mask<D>& inside, hn::Mask<D>& outside) {
+  const auto error_bound =
+      hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, test.slope));
   inside = tested;
   outside = hn::AndNot(tested, tested);
   for (std::size_t k = 0; k < test.planes.size();) {
@@ -121,8 +122,8 @@ HWY_INLINE void test_region(D d, const RegionTest<T>& test, hn::Mask<D> near, V<
   z = hn::Sub(z, hn::Set(d, test.head[2]));
   if (test.shape == RegionShape::slabs || test.shape == RegionShape::rounded) {
     tested = hn::And(hn::And(tested, hn::Le(hn::Abs(x), hn::Set(d, test.max_offset[0]))),
-                    hn::And(hn::Le(hn::Abs(y), hn::Set(d, test.max_offset[1])),
-                            hn::Le(hn::Abs(z), hn::Set(d, test.max_offset[2]))));
+                     hn::And(hn::Le(hn::Abs(y), hn::Set(d, test.max_offset[1])),
+                             hn::Le(hn::Abs(z), hn::Set(d, test.max_offset[2]))));
   }
   if (hn::AllFalse(d, tested)) return;
   x = hn::Sub(x, hn::Set(d, test.tail[0]));

@@ -61,7 +61,8 @@ double set_center(const ConvexRegion& region, RegionTest<T>& test) {
     test.head[k] = static_cast<T>(region.center[k]);
     const double rest = region.center[k] - static_cast<double>(test.head[k]);
     test.tail[k] = static_cast<T>(rest);
-    test.max_offset[k] = up<T>((max_offset(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kSmallestDenormal<T>);
+    test.max_offset[k] =
+        up<T>((max_offset(region, k) + std::abs(rest)) * (1 + kSlope<T>)+2 * kSmallestDenormal<T>);
     lost += std::abs(rest - static_cast<double>(test.tail[k])) + kSlope<T> * std::abs(rest);
   }
   // Sphere::contains() adds 2^-500 to a radius.
@@ -90,7 +91,8 @@ void set_body(const ConvexRegion& region, double off, RegionTest<T>& test) {
   const double error_bound = 2 * steepest * error + 4 * kSmallestDenormal<T>;
   const double narrow = (region.radius - error_bound) * (1 - kSlope<T>);
   const double wide = (region.radius + error_bound) * (1 + kSlope<T>);
-  test.square_inner = narrow > 0 ? down<T>(narrow * narrow * (1 - 0x1p-50) - 8 * kSmallestDenormal<T>) : T(-1);
+  test.square_inner =
+      narrow > 0 ? down<T>(narrow * narrow * (1 - 0x1p-50) - 8 * kSmallestDenormal<T>) : T(-1);
   test.square_outer = up<T>(wide * wide * (1 + 0x1p-50) + 8 * kSmallestDenormal<T>);
 }
 

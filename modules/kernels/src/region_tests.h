@@ -30,9 +30,9 @@ struct RegionTest {
   T head[3], tail[3];  ///< The centre rounded to T, and the remainder.
   T max_offset[3];     ///< Largest |p - head| in the box, by axis.
   SlabTest<T> slabs[3];
-  T error;  ///< Error bound of distances along axes.
+  T error;                       ///< Error bound of distances along axes.
   T square_inner, square_outer;  ///< For ball and rounded: squared radii, as `inner` and `outer` of a plane.
-  T slope;  ///< For planes: the error bound grows by this times |q|_1 of the point.
+  T slope;                       ///< For planes: the error bound grows by this times |q|_1 of the point.
   std::vector<PlaneTest<T>> planes;
 };
 

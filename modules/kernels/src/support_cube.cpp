@@ -45,15 +45,15 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
   [[maybe_unused]] auto low##i = zero_minimum(d); \
   [[maybe_unused]] auto high##i = zero_maximum(d);
 
-#define PCL_BV_STEP(i, projection)         \
-  if constexpr (slot(set, i) >= 0) {       \
-    const V<D> p = projection;             \
-    low##i = update_minimum(d, low##i, p);    \
+#define PCL_BV_STEP(i, projection)           \
+  if constexpr (slot(set, i) >= 0) {         \
+    const V<D> p = projection;               \
+    low##i = update_minimum(d, low##i, p);   \
     high##i = update_maximum(d, high##i, p); \
   }
 
-#define PCL_BV_STORE(i, projection)                                           \
-  if constexpr (slot(set, i) >= 0) {                                          \
+#define PCL_BV_STORE(i, projection)                                                         \
+  if constexpr (slot(set, i) >= 0) {                                                        \
     hn::Store(minimum_magnitude(d, low##i), d, projections + 2 * slot(set, i) * n);         \
     hn::Store(maximum_projection(d, high##i), d, projections + (2 * slot(set, i) + 1) * n); \
   }
@@ -94,7 +94,8 @@ std::size_t project_blocks(const PointView& chunk, const T* center, const LanePr
   std::size_t dropped = 0;
   bool clean = true;  // where one point is invalid, others follow
   T* out = projections.values;
-  for (std::size_t begin = 0; begin < chunk.count; begin += projections.block_points, out += projections.per_block) {
+  for (std::size_t begin = 0; begin < chunk.count;
+       begin += projections.block_points, out += projections.per_block) {
     const PointView block = chunk.slice(begin, HWY_MIN(projections.block_points, chunk.count - begin));
     std::size_t bad = 0;
     if (!clean || !project_lanes<layout, set, false>(d, block, center, out, bad)) {
@@ -118,11 +119,12 @@ void supports_of_chunk(const PointView& chunk, const SupportBounds& bounds, Chun
   constexpr std::size_t supports = 2 * direction_count(set);
   // A 26-DOP takes 104 KiB for floats and 208 KiB for doubles, whatever the width of vectors.
   HWY_ALIGN T values[kChunkPoints / kPackets * supports];
-  const LaneProjections<T> projections(values, supports, packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
+  const LaneProjections<T> projections(values, supports,
+                                       packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
   out.dropped = project_blocks<layout, set>(chunk, c, projections);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     extent.max_magnitude[axis] = HWY_MAX(max_over_lanes(projections, 2 * axis, chunk.count),
-                                    max_over_lanes(projections, 2 * axis + 1, chunk.count));
+                                         max_over_lanes(projections, 2 * axis + 1, chunk.count));
   }
   search_supports<layout>(chunk, SupportDirections::of(set), projections, extent, bounds, nullptr, out);
 }

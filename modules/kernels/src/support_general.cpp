@@ -94,12 +94,12 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
 #define PCL_BV_STEP(i)                                                         \
   if constexpr (i < count) {                                                   \
     const V<D> p = hn::MulAdd(c##i, z, hn::MulAdd(b##i, y, hn::Mul(a##i, x))); \
-    low##i = update_minimum(d, low##i, p);                                        \
-    high##i = update_maximum(d, high##i, p);                                     \
+    low##i = update_minimum(d, low##i, p);                                     \
+    high##i = update_maximum(d, high##i, p);                                   \
   }
 
-#define PCL_BV_STORE(i)                                             \
-  if constexpr (i < count) {                                        \
+#define PCL_BV_STORE(i)                                                     \
+  if constexpr (i < count) {                                                \
     hn::Store(minimum_magnitude(d, low##i), d, values + 2 * i * n);         \
     hn::Store(maximum_projection(d, high##i), d, values + (2 * i + 1) * n); \
   }
@@ -107,7 +107,7 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
 // Computes the maximum projections of the lanes of copied packets for `count` directions, from `values` on.
 template <std::size_t count, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void project_group(D d, const T* points, std::size_t packets, const T* directions,
-                               std::size_t per_block, T* values) {
+                              std::size_t per_block, T* values) {
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_OF_GROUP(PCL_BV_DIRECTION)
   for (std::size_t begin = 0; begin < packets; begin += kPackets, values += per_block) {
@@ -130,7 +130,7 @@ HWY_INLINE void project_group(D d, const T* points, std::size_t packets, const T
 
 template <class D, typename T = hn::TFromD<D>>
 void project_copy(D d, const T* points, std::size_t packets, std::size_t count, const T* directions,
-                   std::size_t per_block, T* values) {
+                  std::size_t per_block, T* values) {
   const std::size_t per_group = 2 * kGroup * hn::Lanes(d);
   for (; count >= kGroup; count -= kGroup, directions += 3 * kGroup, values += per_group)
     project_group<kGroup>(d, points, packets, directions, per_block, values);
@@ -142,7 +142,7 @@ void project_copy(D d, const T* points, std::size_t packets, std::size_t count, 
 // Passes over the points of a part. Returns the number of dropped points.
 template <Layout layout, typename T>
 std::size_t project_part(const PointView& part, std::size_t count, const LaneProjections<T>& projections,
-                          Workspace<T>& work, CenteredExtent& extent) {
+                         Workspace<T>& work, CenteredExtent& extent) {
   const Tag<T> d;
   const T center[3] = {static_cast<T>(extent.center.x), static_cast<T>(extent.center.y),
                        static_cast<T>(extent.center.z)};
@@ -168,8 +168,9 @@ std::size_t project_part(const PointView& part, std::size_t count, const LanePro
 // Finds the supports of a part, which has as many points as `projections` has capacity for. If `more` parts
 // follow, `bounds` receives lower bounds of the supports found, so that later parts compare fewer points.
 template <Layout layout, typename T>
-void supports_of_part(const PointView& part, const SupportDirections& set, const LaneProjections<T>& projections,
-                      bool more, Workspace<T>& work, SupportBounds& bounds, ChunkSupports& out) {
+void supports_of_part(const PointView& part, const SupportDirections& set,
+                      const LaneProjections<T>& projections, bool more, Workspace<T>& work,
+                      SupportBounds& bounds, ChunkSupports& out) {
   CenteredExtent extent;
   if (!central_point(part, extent.center)) {
     out.dropped += part.count;
@@ -198,7 +199,7 @@ void supports_of(const PointView& chunk, const SupportDirections& set, SupportBo
 }
 
 void general_supports(const PointView& chunk, const SupportDirections& set, const SupportBounds& bounds,
-                  ChunkSupports& out) {
+                      ChunkSupports& out) {
   for_layout(chunk, [&]<Layout layout, typename T>() { supports_of<layout, T>(chunk, set, bounds, out); });
 }
 
@@ -212,7 +213,7 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                  const SupportBounds& bounds, ChunkSupports& out) {
+                      const SupportBounds& bounds, ChunkSupports& out) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(general_supports, &chunk_supports_reference);
   kTable[isa](chunk, set, bounds, out);
 }

@@ -109,9 +109,11 @@ T loaded(const std::byte* from) {
 }  // namespace
 
 template <typename T>
-ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const SupportDirections& set, std::size_t support,
-                            const RoundedFilter& filter)
-    : points_(points), direction_(set.support_direction(support)), threshold_(static_cast<T>(filter.threshold)) {
+ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const SupportDirections& set,
+                                          std::size_t support, const RoundedFilter& filter)
+    : points_(points),
+      direction_(set.support_direction(support)),
+      threshold_(static_cast<T>(filter.threshold)) {
   const Direction scaled = set.scaled_support_direction(support);
   const Coordinates& center = filter.center;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -124,7 +126,7 @@ ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const Support
 template <typename T>
 template <typename Address>
 void ExactSupportSearch<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
-                                  std::size_t step, std::size_t last, SupportPoint& best) const {
+                                         std::size_t step, std::size_t last, SupportPoint& best) const {
   const T a = scaled_[0], b = scaled_[1], c = scaled_[2];
   const T x = center_[0], y = center_[1], z = center_[2];
   const T threshold = threshold_;
@@ -151,7 +153,7 @@ void ExactSupportSearch<T>::compete(std::size_t i, SupportPoint& best) const {
 
 template <typename T>
 void ExactSupportSearch<T>::operator()(std::size_t first, std::size_t step, std::size_t last,
-                                SupportPoint& best) const {
+                                       SupportPoint& best) const {
   if (first >= last) return;
   if (points_.order == PointOrder::records && points_.indices == nullptr) {
     const auto address = [data = points_.data, stride = points_.stride](std::size_t i) {

@@ -49,7 +49,8 @@ struct SupportCandidates {
 /// The searches that follow for the two supports of a direction. Stores references to the set and the extent.
 class SupportPlan {
  public:
-  SupportPlan(const SupportDirections& set, std::size_t direction, const CenteredExtent& extent, ScalarType scalar);
+  SupportPlan(const SupportDirections& set, std::size_t direction, const CenteredExtent& extent,
+              ScalarType scalar);
 
   /// Returns the search for the maximum if `high`, else for the minimum. `top` is the largest rounded
   /// projection of p - center on that side, `bound` the value of SupportBounds.
@@ -83,7 +84,7 @@ template <typename T>
 class ExactSupportSearch {
  public:
   ExactSupportSearch(const PointView& points, const SupportDirections& set, std::size_t support,
-              const RoundedFilter& filter);
+                     const RoundedFilter& filter);
 
   /// Updates `best` with the valid points among first, first + step, ... below `last` that pass the filter.
   void operator()(std::size_t first, std::size_t step, std::size_t last, SupportPoint& best) const;
@@ -104,6 +105,6 @@ class ExactSupportSearch {
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
                    const SupportBounds& bounds, ChunkSupports& out);
 void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                  const SupportBounds& bounds, ChunkSupports& out);
+                      const SupportBounds& bounds, ChunkSupports& out);
 
 }  // namespace pcl_bv

@@ -34,7 +34,9 @@ struct AnyPoint {
   bool test_group(std::size_t group) const {
     return probe.inner >= boxes.min_side_radius[group] && contains_near_point(boxes.groups[group], probe);
   }
-  bool visit_packet(std::size_t packet) const { return near_points(packets[packet], center, limit, nullptr) != 0; }
+  bool visit_packet(std::size_t packet) const {
+    return near_points(packets[packet], center, limit, nullptr) != 0;
+  }
 };
 
 template <typename T>

@@ -89,8 +89,8 @@ bool is_near_line(const Coordinates& p, const SweptBall& ball) {
   const double x = p.x - ball.from.x, y = p.y - ball.from.y, z = p.z - ball.from.z;
   const double u = y * ball.unit.z - z * ball.unit.y, v = z * ball.unit.x - x * ball.unit.z,
                w = x * ball.unit.y - y * ball.unit.x;
-  const double far =
-      SweptBall::kRelativeMargin * ((std::abs(x) + std::abs(y)) + std::abs(z)) + (ball.radius + SweptBall::kAbsoluteMargin);
+  const double far = SweptBall::kRelativeMargin * ((std::abs(x) + std::abs(y)) + std::abs(z)) +
+                     (ball.radius + SweptBall::kAbsoluteMargin);
   return (u * u + v * v) + w * w <= far * far;
 }
 

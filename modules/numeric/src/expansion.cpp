@@ -49,9 +49,9 @@ class ExpansionParts {
     return parts_[size_ - 1] > 0 ? 1 : -1;
   }
 
-  // Makes each part the rounded sum of itself and all smaller ones (the first pass of Shewchuk's COMPRESS), so
-  // that each is at most 2^-52 of the next larger one: the 2098 binary digits of a double hold at most 41 such
-  // parts.
+  // Makes each part the rounded sum of itself and all smaller ones (the first pass of Shewchuk's COMPRESS),
+  // so that each is at most 2^-52 of the next larger one: the 2098 binary digits of a double hold at most 41
+  // such parts.
   void compress() {
     if (size_ == 0) return;
     std::size_t lowest = size_ - 1;
@@ -62,7 +62,8 @@ class ExpansionParts {
       rounded = error != 0 ? error : sum;
     }
     parts_[lowest] = rounded;
-    std::copy(parts_.begin() + static_cast<std::ptrdiff_t>(lowest), parts_.begin() + static_cast<std::ptrdiff_t>(size_), parts_.begin());
+    std::copy(parts_.begin() + static_cast<std::ptrdiff_t>(lowest),
+              parts_.begin() + static_cast<std::ptrdiff_t>(size_), parts_.begin());
     size_ -= lowest;
   }
 

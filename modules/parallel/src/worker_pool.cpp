@@ -131,11 +131,14 @@ void WorkerPool::serve() {
   adopt_main_thread_scheduling(avoided_);
   for (;;) {
     Task* task = find_open_task();
-    while (task == nullptr && !ended_ && spin_requests_ > 0 && spinning_ < max_spinning_ && spin_for_task(lock))
+    while (task == nullptr && !ended_ && spin_requests_ > 0 && spinning_ < max_spinning_ &&
+           spin_for_task(lock))
       task = find_open_task();
     if (task == nullptr) {
       const std::uint64_t requests = spin_request_count_;
-      work_.wait(lock, [&] { return ended_ || spin_request_count_ != requests || (task = find_open_task()) != nullptr; });
+      work_.wait(lock, [&] {
+        return ended_ || spin_request_count_ != requests || (task = find_open_task()) != nullptr;
+      });
     }
     if (ended_) return;
     if (task == nullptr) continue;

@@ -68,7 +68,7 @@ class WorkerPool {
   std::vector<Task*> tasks_;
   std::vector<std::thread> threads_;
   bool ended_ = false;
-  int avoided_ = -1;  // processor that the threads avoid, or -1; guarded by mutex_
+  int avoided_ = -1;                          // processor that the threads avoid, or -1; guarded by mutex_
   unsigned spinning_ = 0, max_spinning_ = 0;  // threads that spin, and the maximum of them; guarded by mutex_
   std::uint64_t spin_request_count_ = 0;      // number of calls of start_spinning(); guarded by mutex_
   std::atomic<unsigned> spin_requests_{0};    // calls of start_spinning() not yet ended by stop_spinning()

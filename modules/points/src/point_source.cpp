@@ -20,7 +20,8 @@ thread_local std::vector<std::vector<std::byte>> spares;
 }  // namespace
 
 void LoadedPoints::load(const PointView& points, std::size_t begin, std::size_t count) {
-  if (points.indices != nullptr) throw std::invalid_argument("LoadedPoints: a view of a PointSource cannot have an index list");
+  if (points.indices != nullptr)
+    throw std::invalid_argument("LoadedPoints: a view of a PointSource cannot have an index list");
   if (count > kChunkPoints)
     throw std::invalid_argument("LoadedPoints: " + std::to_string(count) +
                                 " points of a PointSource are too many; at most " +

@@ -63,7 +63,8 @@ class Planes {
     const double length = normal.stableNorm();
     const Eigen::Vector3d n = normal / length;
     region_.planes.push_back({n.x(), n.y(), n.z(), offset / length - dot3(n, center_)});
-    region_.surface_error = std::max(region_.surface_error, 0x1p-45 * (std::abs(offset / length) + taxicab3(center_)));
+    region_.surface_error =
+        std::max(region_.surface_error, 0x1p-45 * (std::abs(offset / length) + taxicab3(center_)));
     bound(n, offset / length, region_.low.x, region_.high.x, 0);
     bound(n, offset / length, region_.low.y, region_.high.y, 1);
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
@@ -130,7 +131,8 @@ ConvexRegion region_of(const Obb& box) {
 }
 
 ConvexRegion region_of(const Cylinder& cylinder) {
-  ConvexRegion region = around(cylinder, RegionShape::rounded, cylinder.center(), axes_about(cylinder.axis()));
+  ConvexRegion region =
+      around(cylinder, RegionShape::rounded, cylinder.center(), axes_about(cylinder.axis()));
   region.slab[0] = cylinder.half_height();
   region.weight = {0, 1, 1};
   region.radius = cylinder.radius();

@@ -65,7 +65,8 @@ class VolumeWalk {
   bool visit(std::size_t level, std::size_t number) const {
     const BoxLevels& boxes = tree_.boxes;
     const BoxGroup& group = boxes.groups[boxes.first[level] + number];
-    const std::size_t first = number * kTreeWidth, end = std::min(first + kTreeWidth, boxes.child_counts[level]);
+    const std::size_t first = number * kTreeWidth,
+                      end = std::min(first + kTreeWidth, boxes.child_counts[level]);
     for (std::size_t item = first; item < end; ++item) {
       switch (volume_.relation_to(boxes, group, item - first)) {
         case Relation::apart:

@@ -56,9 +56,9 @@ struct OctantScan {
   std::array<double, 8> max_squared{};
 };
 
-/// Scans one block of at most kBlockPoints points. `max_squared` is the same for every `isa`; `filter` and the
-/// bounds may differ. O(n). The caller must hold a FloatEnvironment. Throws std::invalid_argument for more
-/// points, for points that are not in memory, and for float points if the scale is not 1.
+/// Scans one block of at most kBlockPoints points. `max_squared` is the same for every `isa`; `filter` and
+/// the bounds may differ. O(n). The caller must hold a FloatEnvironment. Throws std::invalid_argument for
+/// more points, for points that are not in memory, and for float points if the scale is not 1.
 void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan);
 
 /// The bounds that scan_octants() wrote for a block of floats, and which points list_distant_by_bounds() may
@@ -71,10 +71,10 @@ struct ScanBounds {
 /// Lists the points that have a squared_distance() of at least `limit` from `center`. Writes their positions
 /// in the block, in any order, and returns their number; `positions` needs a capacity of kBlockPoints.
 ///
-/// All valid points whose squared_distance() from the centre of the scan is at least scanned.limit are listed.
-/// Nearer points and infinite points may be listed as well. Cheap if few bounds exceed scanned.limit. `isa` must
-/// be the one with which the bounds were written. Throws like scan_octants(), and for a block of doubles or
-/// if the bounds are null.
+/// All valid points whose squared_distance() from the centre of the scan is at least scanned.limit are
+/// listed. Nearer points and infinite points may be listed as well. Cheap if few bounds exceed scanned.limit.
+/// `isa` must be the one with which the bounds were written. Throws like scan_octants(), and for a block of
+/// doubles or if the bounds are null.
 std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& scanned,
                                    const DistanceCenter& center, double limit, std::uint32_t* positions);
 
