@@ -133,7 +133,8 @@ class DistanceParity : public testing::TestWithParam<Isa> {
   void expect_reached(const PointView& block, const DistanceCenter& center, double limit,
                       const float* bounds) {
     std::vector<std::uint32_t> reached(kBlockPoints);
-    reached.resize(list_distant_by_bounds(GetParam(), block, {bounds, limit}, center, -infinity, reached.data()));
+    reached.resize(
+        list_distant_by_bounds(GetParam(), block, {bounds, limit}, center, -infinity, reached.data()));
     std::sort(reached.begin(), reached.end());
     EXPECT_EQ(std::adjacent_find(reached.begin(), reached.end()), reached.end());
     const std::vector<std::uint32_t> expected = list(Isa::scalar, block, center, limit, FloatFilter::off);

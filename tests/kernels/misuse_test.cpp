@@ -169,7 +169,8 @@ TEST(Misuse, DistancesOfFloatsHaveNoUnitOfTheirOwnAndBoundsBelongToFloats) {
   std::uint32_t positions[10];
   EXPECT_THROW(list_distant_by_bounds(Isa::scalar, doubles.view(), {bounds.data(), 0}, {}, 0, positions),
                std::invalid_argument);
-  EXPECT_THROW(list_distant_by_bounds(Isa::scalar, cloud.view(), {}, {}, 0, positions), std::invalid_argument);
+  EXPECT_THROW(list_distant_by_bounds(Isa::scalar, cloud.view(), {}, {}, 0, positions),
+               std::invalid_argument);
 }
 
 TEST(Misuse, APolytopeHasNoMoreHalfSpacesThanThereIsRoomFor) {

@@ -19,9 +19,9 @@ TEST(SupportPoint, IsTheExactlyGreatestWithTheSmallestIndex) {
     const SupportDirections& set = SupportDirections::of(DirectionSet::dop26);
     ChunkSupports supports;
     chunk_supports(Isa::automatic, cloud.view(), set, no_support_bounds(), supports);
-    for (std::size_t end = 0; end < 2 * set.count; ++end) {
-      const Direction direction = set.support_direction(end);
-      const SupportPoint& best = supports.supports[end];
+    for (std::size_t support = 0; support < 2 * set.count; ++support) {
+      const Direction direction = set.support_direction(support);
+      const SupportPoint& best = supports.supports[support];
       bool found = false;
       Rational greatest;
       std::size_t index = 0;

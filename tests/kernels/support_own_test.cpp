@@ -267,7 +267,8 @@ TEST(SupportDirections, WhatIsSurelyReachedIsReachedInExactArithmetic) {
           c = random() % 3 == 0 ? 0 : size * unit(random) * (random() % 4 == 0 ? 1e-20 : 1);
         const Coordinates point = {p[0], p[1], p[2]};
         const Rational exact = test::exact_dot(direction, point) * scale;
-        ASSERT_TRUE(Rational(projection_lower_bound(set, 1, point)) <= exact) << "seed 21, " << i << ", along " << by;
+        ASSERT_TRUE(Rational(projection_lower_bound(set, 1, point)) <= exact)
+            << "seed 21, " << i << ", along " << by;
         ASSERT_TRUE(Rational(projection_lower_bound(set, 0, point)) <= -exact)
             << "seed 21, " << i << ", along " << by;
       }

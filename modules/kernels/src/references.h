@@ -19,7 +19,7 @@ namespace pcl_bv {
 
 AxisExtents axis_extents_reference(const PointView& points);
 void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
-                              const SupportBounds& reached, ChunkSupports& out);
+                              const SupportBounds& bounds, ChunkSupports& out);
 SlabExtents slab_extents_reference(const PointView& points, const Coordinates& origin,
                                    const std::array<Direction, 3>& axes);
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,

@@ -17,8 +17,8 @@ double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double position = (center[axis] - boxes.origin[axis]) * boxes.scale;
     const double gap = std::max(group.low[axis][k] - position, position - group.high[axis][k]);
-    const double sure = (gap - 0x1p-50 * std::abs(position)) / boxes.scale;
-    if (sure > 0) sum += sure * sure;
+    const double lower_bound = (gap - 0x1p-50 * std::abs(position)) / boxes.scale;
+    if (lower_bound > 0) sum += lower_bound * lower_bound;
   }
   return sum * (1 - 0x1p-40);
 }
