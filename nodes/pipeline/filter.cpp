@@ -144,7 +144,8 @@ void PointFilter::select(const PointView& points, std::int32_t* kept, FilterPart
 }
 
 void PointFilter::select(const PointView& points, const ParallelPolicy& policy,
-                         std::vector<std::int32_t>& kept, Parts<FilterPart>& parts, Counts& counts) const {
+                         std::vector<std::int32_t>& kept, PointParts<FilterPart>& parts,
+                         Counts& counts) const {
   if (points.count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw std::length_error("more than 2147483647 points: too many to select from");
   kept.resize(points.count);

@@ -52,7 +52,7 @@ class PointFilter {
   /// Replaces `kept` by the numbers of the points that are kept, in the order of the view, and adds the
   /// others to `counts`. Throws std::length_error for more than 2^31 - 1 points.
   void select(const PointView& points, const ParallelPolicy& policy, std::vector<std::int32_t>& kept,
-              Parts<FilterPart>& parts, Counts& counts) const;
+              PointParts<FilterPart>& parts, Counts& counts) const;
 
  private:
   template <typename T, typename Take>

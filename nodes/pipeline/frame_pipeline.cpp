@@ -84,7 +84,7 @@ struct FramePipeline::State {
   mutable std::mutex mutex;
   std::shared_ptr<const Prepared> prepared;
 
-  Parts<FilterPart> parts;
+  PointParts<FilterPart> parts;
   GroundZones zones;
   EuclideanClusterer clusterer;
   ClassClusterer class_clusterer;

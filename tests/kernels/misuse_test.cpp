@@ -68,7 +68,7 @@ const std::vector<Kernel>& kernels() {
          OctantScan scan;
          scan_octants(isa, points, scan);
        }},
-      {"list_reaching", kBlockPoints,
+      {"list_distant_by_bounds", kBlockPoints,
        [](Isa isa, const PointView& points) {
          const std::vector<float> bounds(kBlockBounds, 1.0F);
          list_distant_by_bounds(isa, points, {bounds.data(), 0}, {}, 1, room(points).data());
@@ -169,7 +169,8 @@ TEST(Misuse, DistancesOfFloatsHaveNoUnitOfTheirOwnAndBoundsBelongToFloats) {
   std::uint32_t positions[10];
   EXPECT_THROW(list_distant_by_bounds(Isa::scalar, doubles.view(), {bounds.data(), 0}, {}, 0, positions),
                std::invalid_argument);
-  EXPECT_THROW(list_distant_by_bounds(Isa::scalar, cloud.view(), {}, {}, 0, positions), std::invalid_argument);
+  EXPECT_THROW(list_distant_by_bounds(Isa::scalar, cloud.view(), {}, {}, 0, positions),
+               std::invalid_argument);
 }
 
 TEST(Misuse, APolytopeHasNoMoreHalfSpacesThanThereIsRoomFor) {

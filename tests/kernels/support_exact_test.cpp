@@ -19,9 +19,9 @@ TEST(SupportPoint, IsTheExactlyGreatestWithTheSmallestIndex) {
     const SupportDirections& set = SupportDirections::of(DirectionSet::dop26);
     ChunkSupports supports;
     chunk_supports(Isa::automatic, cloud.view(), set, no_support_bounds(), supports);
-    for (std::size_t end = 0; end < 2 * set.count; ++end) {
-      const Direction direction = set.support_direction(end);
-      const SupportPoint& best = supports.ends[end];
+    for (std::size_t support = 0; support < 2 * set.count; ++support) {
+      const Direction direction = set.support_direction(support);
+      const SupportPoint& best = supports.supports[support];
       bool found = false;
       Rational greatest;
       std::size_t index = 0;
@@ -50,7 +50,7 @@ TEST(SupportPoint, NamesTheCloudsIndexUnderAnIndexListAndBreaksTiesByIt) {
   const SupportDirections& set = SupportDirections::of(DirectionSet::dop26);
   ChunkSupports supports;
   chunk_supports(Isa::automatic, view, set, no_support_bounds(), supports);
-  EXPECT_EQ(supports.ends[2 * 11 + 1].index, 1U);  // (0, 1, 1)
+  EXPECT_EQ(supports.supports[2 * 11 + 1].index, 1U);  // (0, 1, 1)
 }
 
 }  // namespace

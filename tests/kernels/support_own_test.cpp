@@ -170,7 +170,7 @@ TEST_P(CustomSupports, OfEqualPointsAreTheSmallestIndexWhateverTheOrder) {
   const std::vector<std::int32_t> indices = {50, 7, 99, 3, 8};
   const PointView view = PointView::of(xyz.data(), 12, indices.size(), indices.data());
   expect_definition(view, test::nasty_directions());
-  EXPECT_EQ(run(GetParam(), view, set_of({{1, 2, 3}})).ends[0].index, 3U);
+  EXPECT_EQ(run(GetParam(), view, set_of({{1, 2, 3}})).supports[0].index, 3U);
 }
 
 template <typename T>
@@ -200,8 +200,8 @@ TEST_P(CustomSupports, AreRightWherePartialSumsOverflow) {
   cloud.xyz.insert(cloud.xyz.begin() + 3 * 60, {2.1e38F, -2.4e38F, 1e36F});
   expect_definition(cloud.view(), {{1.9, 1.9, 1.9}});
   const ChunkSupports farthest = run(GetParam(), cloud.view(), set_of({{1.9, 1.9, 1.9}}));
-  EXPECT_EQ(farthest.ends[0].index, 60U);
-  EXPECT_EQ(farthest.ends[1].index, 30U);
+  EXPECT_EQ(farthest.supports[0].index, 60U);
+  EXPECT_EQ(farthest.supports[1].index, 30U);
 }
 
 template <typename T>
@@ -267,7 +267,8 @@ TEST(SupportDirections, WhatIsSurelyReachedIsReachedInExactArithmetic) {
           c = random() % 3 == 0 ? 0 : size * unit(random) * (random() % 4 == 0 ? 1e-20 : 1);
         const Coordinates point = {p[0], p[1], p[2]};
         const Rational exact = test::exact_dot(direction, point) * scale;
-        ASSERT_TRUE(Rational(projection_lower_bound(set, 1, point)) <= exact) << "seed 21, " << i << ", along " << by;
+        ASSERT_TRUE(Rational(projection_lower_bound(set, 1, point)) <= exact)
+            << "seed 21, " << i << ", along " << by;
         ASSERT_TRUE(Rational(projection_lower_bound(set, 0, point)) <= -exact)
             << "seed 21, " << i << ", along " << by;
       }

@@ -49,7 +49,7 @@ LongVector reach_along_axes(const ConvexRegion& region, const PlainBox& box) {
 Long margin(const ConvexRegion& region, const PlainBox& box) {
   const Long size = box.low.cast<Long>().lpNorm<1>() + box.high.cast<Long>().lpNorm<1>() +
                     vector(region.center).cast<Long>().lpNorm<1>() + Long(region.radius);
-  return 0x1p-38L * size + 4 * Long(region.doubt) + 0x1p-480L;
+  return 0x1p-38L * size + 4 * Long(region.surface_error) + 0x1p-480L;
 }
 
 constexpr int kRounds = test::kEmulated ? 1000 : 20'000;
@@ -67,7 +67,7 @@ class Cases {
           round % 3 == 0 ? Eigen::Matrix3d::Identity().eval() : random_.isometry(1).linear().eval();
       for (int i = 0; i < 3; ++i)
         region.axes[static_cast<std::size_t>(i)] = {axes(0, i), axes(1, i), axes(2, i)};
-      if (round % 4 == 0) region.doubt = 1e-11 * size();
+      if (round % 4 == 0) region.surface_error = 1e-11 * size();
       Vector3d half = random_.vector(extent).cwiseAbs();
       if (round % 5 == 0) half[round % 3] = 0;
       if (round % 7 == 0) half.setZero();
@@ -185,7 +185,7 @@ TEST(BoxRelation, ToARoundBodyIsClearBeyondTheMargin) {
   Cases cases;
   int apart = 0;
   cases.each([&](ConvexRegion region, const PlainBox& box) {
-    region.shape = RegionShape::body;
+    region.shape = RegionShape::rounded;
     const LongVector at = along_axes(region, box);
     for (std::size_t i = 0; i < 3; ++i) {
       region.weight[i] = std::array{0.0, 1e-3, 1.0, 1.0, 1e3}[static_cast<std::size_t>(cases.uniform(0, 5))];
@@ -218,7 +218,7 @@ TEST(BoxRelation, AtTheMarginIsNotClear) {
   const PlainBox box = {{1, 0, 0}, {1, 0, 0}};
   ConvexRegion region;
   region.axes = {Direction{1, 0, 0}, Direction{0, 1, 0}, Direction{0, 0, 1}};
-  for (const RegionShape shape : {RegionShape::ball, RegionShape::body}) {
+  for (const RegionShape shape : {RegionShape::ball, RegionShape::rounded}) {
     region.shape = shape;
     for (const double radius : {1 - 0x3p-38, 1 + 0x3p-38}) {
       region.radius = radius;
@@ -243,9 +243,9 @@ TEST(BoxRelation, AtTheMarginIsNotClear) {
 // A flat ellipsoid: z is the margin itself, by 8 * 2^-38 and four doubts.
 TEST(BoxRelation, ToAFlatBodyIsByItsOtherAxesWhereItCannotBeToldAlongOne) {
   ConvexRegion disk;
-  disk.shape = RegionShape::body;
+  disk.shape = RegionShape::rounded;
   disk.axes = {Direction{1, 0, 0}, Direction{0, 1, 0}, Direction{0, 0, 1}};
-  disk.doubt = 0.25;
+  disk.surface_error = 0.25;
   disk.weight[2] = kInfinity;
   const Vector3d at(3 - 0x1p-35, 0, 1 + 0x1p-35);
   EXPECT_EQ(relation(disk, {at, at}), Relation::apart);

@@ -115,7 +115,7 @@ struct Tree {
       expected[item].tolerance = 0x1p-21L;
     }
     for (std::size_t level = 1; level < levels.levels; ++level) {
-      for (std::size_t i = 0; i < levels.below[level]; ++i) {
+      for (std::size_t i = 0; i < levels.child_counts[level]; ++i) {
         Shape& shape = expected[levels.first[level] * kTreeWidth + i];
         shape = joined(&expected[(levels.first[level - 1] + i) * kTreeWidth]);
         shape.tolerance = 0x1p-21L * static_cast<Real>(level + 1);

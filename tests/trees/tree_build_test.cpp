@@ -121,7 +121,7 @@ TYPED_TEST(TreeBuildOf, MakesBoxesThatTouchTheirPointsFromAllSides) {
     const PointView points = tree.packed().view();
     std::size_t width = kTreeWidth;
     for (std::size_t level = 0; level < boxes.levels; ++level, width *= kTreeWidth) {
-      for (std::size_t item = 0; item < boxes.below[level]; ++item) {
+      for (std::size_t item = 0; item < boxes.child_counts[level]; ++item) {
         Aabb around;
         for (std::size_t i = item * width; i < std::min((item + 1) * width, points.count); ++i) {
           const Coordinates p = load_point(points, i);
@@ -143,7 +143,7 @@ TYPED_TEST(TreeBuildOf, NamesNothingWhereAPacketLacksPoints) {
   const auto cloud = test::gaussian<TypeParam>(21, 1);
   PointTree tree(test::gaussian<TypeParam>(32, 2).view());
   tree.assign(cloud.view());
-  const std::vector<std::int32_t>& numbers = tree.packed().numbers;
+  const std::vector<std::int32_t>& numbers = tree.packed().indices;
   ASSERT_EQ(numbers.size(), 32U);
   EXPECT_EQ(std::count(numbers.begin(), numbers.end(), -1), 11);
 }
@@ -155,7 +155,7 @@ TEST(BoxLevels, HaveOneGroupAtTheTopAndSixteenBelowEach) {
     std::size_t below = items, first = 0;
     for (std::size_t level = 0; level < boxes.levels; ++level) {
       EXPECT_EQ(boxes.first[level], first);
-      EXPECT_EQ(boxes.below[level], below);
+      EXPECT_EQ(boxes.child_counts[level], below);
       below = (below + 15) / 16;
       first += below;
     }

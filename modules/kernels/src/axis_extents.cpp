@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Minimum and maximum of each coordinate. Registers are compared in the order of memory; the axis of each
-// lane matters only at the end. Floats are compared as integers (reach-inl.h says why): the largest signed,
-// the largest unsigned and the smallest unsigned one together determine minimum and maximum, whatever the
-// signs.
+// lane matters only at the end. Floats are compared as integers (projection_extremes-inl.h says why): the
+// largest signed, the largest unsigned and the smallest unsigned one together determine minimum and maximum,
+// whatever the signs.
 
 #include "pcl_bv/kernels/axis_extents.h"
 
@@ -99,9 +99,9 @@ struct Lanes {
     above##r = hn::Max(above##r, hn::BitCast(di, v##r)); \
     below##r = hn::Max(below##r, hn::BitCast(du, v##r)); \
     near##r = hn::Min(near##r, hn::BitCast(du, v##r));   \
-    hold(above##r);                                      \
-    hold(below##r);                                      \
-    hold(near##r);                                       \
+    keep_in_register(above##r);                          \
+    keep_in_register(below##r);                          \
+    keep_in_register(near##r);                           \
   }
 #define PCL_BV_CHECK(r)                                                                                \
   if constexpr (r < 3 || whole) {                                                                      \

@@ -34,19 +34,19 @@ struct BoxProbe {
     set(0, (center.x - boxes.origin.x) * boxes.scale);
     set(1, (center.y - boxes.origin.y) * boxes.scale);
     set(2, (center.z - boxes.origin.z) * boxes.scale);
-    narrow(limit);
+    set_limit(limit);
     constexpr double most = std::numeric_limits<float>::max();
     inner = static_cast<float>(std::min(limit * unit * (1 - 0x1p-19) - 0x1p-120, most));
   }
 
-  void narrow(double limit) { outer = static_cast<float>(limit * unit * (1 + 0x1p-19) + 0x1p-140); }
+  void set_limit(double limit) { outer = static_cast<float>(limit * unit * (1 + 0x1p-19) + 0x1p-140); }
 
  private:
-  [[gnu::always_inline]] void set(std::size_t axis, double place) {
-    const float near = static_cast<float>(std::max(std::min(place, 0x1p100), -0x1p100));
-    const float doubt = std::abs(near) * 0x1p-22F + std::numeric_limits<float>::min();
-    low[axis] = near - doubt;
-    high[axis] = near + doubt;
+  [[gnu::always_inline]] void set(std::size_t axis, double position) {
+    const float near = static_cast<float>(std::max(std::min(position, 0x1p100), -0x1p100));
+    const float error_bound = std::abs(near) * 0x1p-22F + std::numeric_limits<float>::min();
+    low[axis] = near - error_bound;
+    high[axis] = near + error_bound;
   }
 };
 

@@ -36,7 +36,7 @@ HWY_INLINE V<D> load_as_double(D d, const double* p) {
 /// Writes the points as groups. The valid point `pad` fills the rest of the last group and, with `masked`,
 /// replaces each invalid point. Returns the number of valid points if `masked`, else 0.
 template <Layout layout, bool masked, typename T>
-std::size_t gather(const PointView& points, const T* pad, T* groups) {
+std::size_t copy_to_groups(const PointView& points, const T* pad, T* groups) {
   constexpr std::size_t per_group = kGroupBytes / sizeof(T);
   const Tag<T> d;
   const std::size_t n = hn::Lanes(d);

@@ -16,7 +16,7 @@ inline Coordinates load_as(const PointView& points, std::size_t i) {
   return {v[0], v[1], v[2]};
 }
 
-inline double square(const Coordinates& p, const DistanceCenter& center) {
+inline double distance_squared(const Coordinates& p, const DistanceCenter& center) {
   const Coordinates q = {(p.x - center.x) * center.scale, (p.y - center.y) * center.scale,
                          (p.z - center.z) * center.scale};
   return dot3(q, q);

@@ -25,12 +25,12 @@ namespace HWY_NAMESPACE {
 
 // Inspects the kBoundPoints points of each lane whose bound exceeds the limit.
 template <Layout layout>
-std::size_t reaching(const PointView& block, const ScanBounds& kept, const DistanceCenter& center,
-                     double limit, std::uint32_t* positions) {
+std::size_t list_by_bounds(const PointView& block, const ScanBounds& scanned, const DistanceCenter& center,
+                           double limit, std::uint32_t* positions) {
   const Tag<float> d;
   const std::size_t lanes = hn::Lanes(d);
-  const float* bounds = kept.bounds;
-  const float least = float_limit(kept.limit);
+  const float* bounds = scanned.bounds;
+  const float least = float_limit(scanned.limit);
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < block.count; begin += kBoundPoints * lanes, bounds += lanes) {
     if (hn::AllFalse(d, hn::Gt(hn::LoadU(d, bounds), hn::Set(d, least)))) continue;
@@ -42,7 +42,7 @@ std::size_t reaching(const PointView& block, const ScanBounds& kept, const Dista
             packet + (packet + lanes <= block.count ? point_of_lane<layout>(lane, lanes) : lane);
         if (i >= block.count) break;
         positions[count] = static_cast<std::uint32_t>(i);
-        count += square(load_as<float>(block, i), center) >= limit;
+        count += distance_squared(load_as<float>(block, i), center) >= limit;
       }
     }
   }
@@ -97,10 +97,10 @@ std::size_t list_of(const PointView& points, const DistanceCenter& center, doubl
   return count;
 }
 
-std::size_t list_distant_by_bounds(const PointView& block, const ScanBounds& kept, const DistanceCenter& center,
-                          double limit, std::uint32_t* positions) {
+std::size_t list_distant_by_bounds(const PointView& block, const ScanBounds& scanned,
+                                   const DistanceCenter& center, double limit, std::uint32_t* positions) {
   return for_layout(block, [&]<Layout layout, typename>() {
-    return reaching<layout>(block, kept, center, limit, positions);
+    return list_by_bounds<layout>(block, scanned, center, limit, positions);
   });
 }
 
@@ -120,12 +120,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_bv {
 
-std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& kept,
-                          const DistanceCenter& center, double limit, std::uint32_t* positions) {
-  static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(list_distant_by_bounds, &list_reaching_reference);
+std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& scanned,
+                                   const DistanceCenter& center, double limit, std::uint32_t* positions) {
+  static constexpr KernelTable kTable =
+      PCL_BV_KERNEL_TABLE(list_distant_by_bounds, &list_distant_by_bounds_reference);
   require_distances(block, center, kBlockPoints);
-  require_scan_bounds(block, kept);
-  return kTable[isa](block, kept, center, limit, positions);
+  require_scan_bounds(block, scanned);
+  return kTable[isa](block, scanned, center, limit, positions);
 }
 
 std::size_t list_distant(UsableIsa isa, const PointView& points, const DistanceCenter& center, double limit,

@@ -66,9 +66,9 @@ struct LaneOctants {
   }
 
   template <class D>
-  void reduce(D d, std::array<double, 8>& greatest) const {
+  void reduce(D d, std::array<double, 8>& max_squared) const {
     for (std::size_t o = 0; o < 8; ++o)
-      greatest[o] = hn::GetLane(hn::MaxOfLanes(d, hn::Load(d, best + o * lanes)));
+      max_squared[o] = hn::GetLane(hn::MaxOfLanes(d, hn::Load(d, best + o * lanes)));
   }
 
   HWY_ALIGN double best[8 * lanes];
@@ -84,31 +84,31 @@ bool octants_of_run(const PointView& points, Run run, const OctantScan& scan, co
   const auto none = hn::Set(dd, -1.0);
   const auto least = hn::Set(dd, scan.limit);
   const auto infinity = hn::Set(dd, std::numeric_limits<double>::infinity());
-  bool fine = true;
+  bool all_valid = true;
   for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     V<decltype(d)> x, y, z;
     load_packet_or_tail<layout>(d, points, i, x, y, z);
     if constexpr (filtered) {
       if (rejects(d, in_float.center, in_float.limit, x, y, z)) continue;
     }
-#define PCL_BV_STEP(x, y, z)                                     \
-  [[maybe_unused]] const auto counts = valid_lanes(dd, x, y, z); \
-  subtract<sizeof(T) == 8>(dd, scan.center, x, y, z);            \
-  auto d2 = sum_of_squares(x, y, z);                             \
-  if constexpr (masked) d2 = hn::IfThenElse(counts, d2, none);   \
-  const auto far = hn::Ge(d2, least);                            \
-  if (!hn::AllFalse(dd, far)) {                                  \
-    fine = fine && hn::AllFalse(dd, hn::Ge(d2, infinity));       \
-    octants.compete(dd, x, y, z, hn::IfThenElse(far, d2, none)); \
+#define PCL_BV_STEP(x, y, z)                                         \
+  [[maybe_unused]] const auto counts = valid_lanes(dd, x, y, z);     \
+  subtract<sizeof(T) == 8>(dd, scan.center, x, y, z);                \
+  auto d2 = sum_of_squares(x, y, z);                                 \
+  if constexpr (masked) d2 = hn::IfThenElse(counts, d2, none);       \
+  const auto far = hn::Ge(d2, least);                                \
+  if (!hn::AllFalse(dd, far)) {                                      \
+    all_valid = all_valid && hn::AllFalse(dd, hn::Ge(d2, infinity)); \
+    octants.compete(dd, x, y, z, hn::IfThenElse(far, d2, none));     \
   }
     PCL_BV_IN_DOUBLE(T, d, dd, x, y, z, PCL_BV_STEP);
 #undef PCL_BV_STEP
   }
-  return fine;
+  return all_valid;
 }
 
-// If three of a block's first four runs are not rejected, the others are not expected to be either (as on the
-// surface of a sphere), and the filter is switched off.
+// If three of a block's first four runs are not rejected (as on the surface of a sphere), the remaining runs
+// are unlikely to be rejected, and the filter is switched off.
 constexpr std::size_t kProbedRuns = 4;
 constexpr std::size_t kMaxUnrejectedRuns = 3;
 
@@ -119,7 +119,7 @@ bool octants_of(const PointView& points, OctantScan& scan) {
   const FloatRejection in_float(scan.center, scan.limit);
   const T infinity = std::numeric_limits<T>::infinity();
   LaneOctants octants;
-  std::size_t asked = 0, kept = 0;
+  std::size_t probed = 0, unrejected = 0;
   float* bounds = scan.bounds;
   bool filtered = sizeof(T) == 4 && scan.filter == FloatFilter::reject;
   for (Run run = run_at(d, 0, points.count); run.begin < points.count;
@@ -128,9 +128,9 @@ bool octants_of(const PointView& points, OctantScan& scan) {
       if (filtered) {
         const auto greatest = greatest_in_float<layout>(d, points, run, in_float.center);
         if (bounds != nullptr) hn::StoreU(greatest, d, bounds);
-        ++asked;
+        ++probed;
         if (hn::AllFalse(d, hn::Gt(greatest, hn::Set(d, in_float.limit)))) continue;
-        if (++kept == kMaxUnrejectedRuns && asked <= kProbedRuns) filtered = false;
+        if (++unrejected == kMaxUnrejectedRuns && probed <= kProbedRuns) filtered = false;
         if (!octants_of_run<layout, T, masked, true>(points, run, scan, in_float, octants)) return false;
         continue;
       }
@@ -139,7 +139,7 @@ bool octants_of(const PointView& points, OctantScan& scan) {
     if (!octants_of_run<layout, T, masked, false>(points, run, scan, in_float, octants)) return false;
   }
   if (!filtered) scan.filter = FloatFilter::off;
-  octants.reduce(Tag<double>(), scan.greatest);
+  octants.reduce(Tag<double>(), scan.max_squared);
   return true;
 }
 

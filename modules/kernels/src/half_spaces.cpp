@@ -33,10 +33,10 @@ HWY_INLINE hn::Mask<D> inside_lanes(D d, const HalfSpaces& inside, const T (*pla
   for (std::size_t k = 0; k < inside.count;) {
     const std::size_t end = HWY_MIN(k + kTestsPerCheck, inside.count);
     for (; k < end; ++k) {
-      const auto reach =
+      const auto projection =
           hn::Add(hn::Add(hn::Mul(hn::Set(d, planes[k][0]), x), hn::Mul(hn::Set(d, planes[k][1]), y)),
                   hn::Mul(hn::Set(d, planes[k][2]), z));
-      in = hn::And(in, hn::Lt(reach, hn::Set(d, planes[k][3])));
+      in = hn::And(in, hn::Lt(projection, hn::Set(d, planes[k][3])));
     }
     if (hn::AllFalse(d, in)) break;
   }

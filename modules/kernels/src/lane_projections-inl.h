@@ -42,8 +42,11 @@ inline std::size_t packets_per_block(std::size_t packets) {
 /// lane.
 template <typename T>
 struct LaneProjections {
-  LaneProjections(T* first, std::size_t ends, std::size_t packets = kPackets)
-      : values(first), lanes(hn::Lanes(Tag<T>())), block_points(packets * lanes), per_block(ends * lanes) {}
+  LaneProjections(T* first, std::size_t supports, std::size_t packets = kPackets)
+      : values(first),
+        lanes(hn::Lanes(Tag<T>())),
+        block_points(packets * lanes),
+        per_block(supports * lanes) {}
 
   T* values;
   std::size_t lanes;
@@ -52,39 +55,40 @@ struct LaneProjections {
 };
 
 template <typename T>
-double max_over_lanes(const LaneProjections<T>& reach, std::size_t end, std::size_t points) {
+double max_over_lanes(const LaneProjections<T>& projections, std::size_t support, std::size_t points) {
   const Tag<T> d;
-  const T* lanes = reach.values + end * reach.lanes;
+  const T* lanes = projections.values + support * projections.lanes;
   auto greatest = hn::Load(d, lanes);
-  for (std::size_t begin = reach.block_points; begin < points; begin += reach.block_points)
-    greatest = hn::Max(greatest, hn::Load(d, lanes += reach.per_block));
+  for (std::size_t begin = projections.block_points; begin < points; begin += projections.block_points)
+    greatest = hn::Max(greatest, hn::Load(d, lanes += projections.per_block));
   return hn::GetLane(hn::MaxOfLanes(d, greatest));
 }
 
-/// Calls look(first, n, last) for the points first, first + n, ... below `last` behind each lane of a block
+/// Calls search(first, n, last) for the points first, first + n, ... below `last` behind each lane of a block
 /// whose maximum projection is at least the threshold, a value of type T.
-template <Layout layout, typename T, typename Look>
-void search_lanes(const PointView& points, const LaneProjections<T>& reach, std::size_t end, double threshold,
-                  const Look& look) {
+template <Layout layout, typename T, typename Search>
+void search_lanes(const PointView& points, const LaneProjections<T>& projections, std::size_t support,
+                  double threshold, const Search& search) {
   const Tag<T> d;
-  const std::size_t n = reach.lanes;
+  const std::size_t n = projections.lanes;
   const auto least = hn::Set(d, static_cast<T>(threshold));
-  const T* lanes = reach.values + end * n;
-  for (std::size_t begin = 0; begin < points.count; begin += reach.block_points, lanes += reach.per_block) {
+  const T* lanes = projections.values + support * n;
+  for (std::size_t begin = 0; begin < points.count;
+       begin += projections.block_points, lanes += projections.per_block) {
     const auto candidates = hn::Not(hn::Lt(hn::Load(d, lanes), least));  // an overflowing sum may be NaN
     if (HWY_LIKELY(hn::AllFalse(d, candidates))) continue;
-    const std::size_t count = HWY_MIN(reach.block_points, points.count - begin);
+    const std::size_t count = HWY_MIN(projections.block_points, points.count - begin);
     const std::size_t whole = begin + count / n * n;
     std::uint64_t bits = bits_of_mask(d, candidates);
     for (; bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       const std::size_t point = point_of_lane<layout>(lane, n);
-      look(begin + point, n, whole);
+      search(begin + point, n, whole);
       if (whole == begin + count) continue;
       // The last packet was loaded either in order or as the last n points, which may begin in an earlier
-      // block: look at both.
-      look(whole + lane, n, begin + count);
-      if (begin + count >= n) look(begin + count - n + point, n, begin + count);
+      // block: both are searched.
+      search(whole + lane, n, begin + count);
+      if (begin + count >= n) search(begin + count - n + point, n, begin + count);
     }
   }
 }
@@ -92,29 +96,30 @@ void search_lanes(const PointView& points, const LaneProjections<T>& reach, std:
 /// Updates the supports in `out` with the points of a part, given the maximum projections of its lanes. If
 /// `later` is not null, it receives lower bounds of the supports found, for the parts that follow.
 template <Layout layout, typename T>
-void search_supports(const PointView& part, const SupportDirections& set, const LaneProjections<T>& reach,
-                 const Spread& spread, const SupportBounds& reached, SupportBounds* later,
-                 ChunkSupports& out) {
+void search_supports(const PointView& part, const SupportDirections& set,
+                     const LaneProjections<T>& projections, const CenteredExtent& extent,
+                     const SupportBounds& bounds, SupportBounds* later, ChunkSupports& out) {
   std::optional<SupportPlan> plan;  // for both supports of a direction
-  for (std::size_t end = 0; end < 2 * set.count; ++end) {
-    if (end % 2 == 0) plan.emplace(set, end / 2, spread, part.scalar);
-    const SupportCandidates what = plan->of(end % 2 != 0, max_over_lanes(reach, end, part.count), reached[end]);
-    if (what.kind == SupportCandidates::Kind::none) continue;
-    SupportPoint& best = out.ends[end];
-    if (what.kind == SupportCandidates::Kind::every) {
-      keep_larger_projection(set.support_direction(end), first_valid_point(part), best);
+  for (std::size_t support = 0; support < 2 * set.count; ++support) {
+    if (support % 2 == 0) plan.emplace(set, support / 2, extent, part.scalar);
+    const SupportCandidates candidates =
+        plan->of(support % 2 != 0, max_over_lanes(projections, support, part.count), bounds[support]);
+    if (candidates.kind == SupportCandidates::Kind::none) continue;
+    SupportPoint& best = out.supports[support];
+    if (candidates.kind == SupportCandidates::Kind::every) {
+      keep_larger_projection(set.support_direction(support), first_valid_point(part), best);
     } else {
-      const ExactSupportSearch<T> look(part, set, end, {spread.center, what.threshold});
-      if (what.threshold <= 0) {  // which every lane passes
-        look(0, 1, part.count, best);
+      const ExactSupportSearch<T> search(part, set, support, {extent.center, candidates.threshold});
+      if (candidates.threshold <= 0) {  // which every lane passes
+        search(0, 1, part.count, best);
       } else {
         search_lanes<layout>(
-            part, reach, end, what.threshold,
-            [&](std::size_t first, std::size_t step, std::size_t last) { look(first, step, last, best); });
+            part, projections, support, candidates.threshold,
+            [&](std::size_t first, std::size_t step, std::size_t last) { search(first, step, last, best); });
       }
     }
     if (later != nullptr && best.found)
-      (*later)[end] = HWY_MAX((*later)[end], projection_lower_bound(set, end, best.point));
+      (*later)[support] = HWY_MAX((*later)[support], projection_lower_bound(set, support, best.point));
   }
 }
 

@@ -136,7 +136,7 @@ HWY_INLINE void transpose(D d, V<D> a, V<D> b, V<D> c, V<D> e, V<D>& x, V<D>& y,
 /// zeros).
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void load_padded(D d, const PointView& points, std::size_t first, std::size_t count, const T* pad,
-                         V<D>& x, V<D>& y, V<D>& z) {
+                            V<D>& x, V<D>& y, V<D>& z) {
   HWY_ALIGN T lanes[3][kGroupBytes / sizeof(T)];
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
     T v[3] = {};
@@ -216,7 +216,8 @@ HWY_INLINE void load_packet_in_order(D d, const PointView& points, std::size_t f
 /// Loads the packet from `first` on. An incomplete last packet is loaded in order and padded with the view's
 /// first point.
 template <Layout layout, class D, typename T = hn::TFromD<D>>
-HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y, V<D>& z) {
+HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t first, V<D>& x, V<D>& y,
+                                    V<D>& z) {
   if (first + hn::Lanes(d) <= points.count) {
     load_packet<layout>(d, points, first, x, y, z);
     return;
@@ -226,8 +227,8 @@ HWY_INLINE void load_packet_or_tail(D d, const PointView& points, std::size_t fi
   load_padded(d, points, first, points.count - first, pad, x, y, z);
 }
 
-/// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail(). `positions` has
-/// `count` entries before; returns the number of entries after.
+/// Appends the positions of the marked points of a packet, which was loaded by load_packet_or_tail().
+/// `positions` has `count` entries before; returns the number of entries after.
 template <Layout layout, class D>
 std::size_t append_marked(D d, const bool* marked, const PointView& points, std::size_t first,
                           std::uint32_t* positions, std::size_t count) {
@@ -309,7 +310,7 @@ HWY_INLINE void prefetch_ahead(D d, const PointView& points, std::size_t first) 
 /// Keeps a loop's integer accumulator in its register. g++ 12 does not see that the float vector and the
 /// integer vector are one register, and moves and spills it: 2600 Mpt/s became 4500 (26-DOP, AVX-512).
 template <class Vector>
-HWY_INLINE void hold(Vector& v) {
+HWY_INLINE void keep_in_register(Vector& v) {
 #if HWY_ARCH_X86
   asm("" : "+v"(v.raw));
 #else

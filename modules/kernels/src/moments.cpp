@@ -98,8 +98,9 @@ Moments moments_of(const PointView& block) {
   if (first == block.count) return out;
   out.origin = load_point(block, first);
   const T pad[3] = {static_cast<T>(out.origin.x), static_cast<T>(out.origin.y), static_cast<T>(out.origin.z)};
-  out.count = gather<layout, true>(block, pad, groups);
-  sum_without_underflow(block.scalar, out, [&](Moments& moments) { add_lanes(groups, block.count, moments); });
+  out.count = copy_to_groups<layout, true>(block, pad, groups);
+  sum_without_underflow(block.scalar, out,
+                        [&](Moments& moments) { add_lanes(groups, block.count, moments); });
   return out;
 }
 

@@ -50,13 +50,13 @@ class NearestSet {
     } else {
       kept_.push_back(candidate);
       const bool first = kept_.size() == most_ && !full_;
-      if (first || kept_.size() >= most_ + most_ / 2) choose();
+      if (first || kept_.size() >= most_ + most_ / 2) select_nearest();
     }
   }
 
   void finish() {
     if (most_ <= kFew) return;
-    if (kept_.size() > most_) choose();
+    if (kept_.size() > most_) select_nearest();
     std::sort(kept_.begin(), kept_.end());
   }
 
@@ -69,14 +69,14 @@ class NearestSet {
     } else if (!(candidate < kept_.back())) {
       return;
     }
-    std::size_t place = kept_.size() - 1;
-    for (; place > 0 && candidate < kept_[place - 1]; --place)
-      kept_[place] = kept_[place - 1];
-    kept_[place] = candidate;
+    std::size_t position = kept_.size() - 1;
+    for (; position > 0 && candidate < kept_[position - 1]; --position)
+      kept_[position] = kept_[position - 1];
+    kept_[position] = candidate;
     if (kept_.size() == most_) limit_ = kept_.back().squared_distance;
   }
 
-  void choose() {
+  void select_nearest() {
     const auto last = kept_.begin() + static_cast<std::ptrdiff_t>(most_) - 1;
     std::nth_element(kept_.begin(), last, kept_.end());
     kept_.resize(most_);

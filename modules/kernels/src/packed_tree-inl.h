@@ -123,8 +123,8 @@ HWY_INLINE std::uint32_t boxes_around(const BoxGroup& group, const BoxProbe& pro
 HWY_INLINE bool contains_near_point(const BoxGroup& group, const BoxProbe& probe) {
   const Floats d;
   for (std::size_t k = 0; k < kTreeWidth; k += hn::Lanes(d)) {
-    const auto reached = nearest_point_bounds(d, group, probe, k);
-    if (!hn::AllFalse(d, hn::Le(reached, hn::Set(d, probe.inner)))) return true;
+    const auto bounds = nearest_point_bounds(d, group, probe, k);
+    if (!hn::AllFalse(d, hn::Le(bounds, hn::Set(d, probe.inner)))) return true;
   }
   return false;
 }
@@ -164,15 +164,16 @@ HWY_INLINE std::uint32_t near_points(const PointPacket<T>& packet, const Coordin
 
 constexpr std::size_t kMaxStartBoxes = 64;  // width of Open::bits
 
-/// Walks down a tree. Calls visit.take(packet) for each packet whose box may have a point within the limit.
-/// Before the boxes of a group are visited, calls visit.look(group) if any of them may have one, except for
-/// the groups at the start. Returns true as soon as one of these calls returns true, else false at the end.
+/// Walks down a tree. Calls visit.visit_packet(packet) for each packet whose box may have a point within the
+/// limit. Before the boxes of a group are visited, calls visit.test_group(group) if any of them may have one,
+/// except for the groups at the start. Returns true as soon as one of these calls returns true, else false at
+/// the end.
 ///
 /// The walk starts at the lowest level with at most 64 boxes: testing them all takes less time than finding
 /// out on the levels above which of their groups are near.
 ///
-/// The lowest bit of visit.first(group), if any, is the box that is visited before the others of the group,
-/// near or not. The others follow in their order.
+/// The lowest bit of visit.preferred_box(group), if any, is the box that is visited before the others of the
+/// group, near or not. The others follow in their order.
 template <typename Visit>
 HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit& visit) {
   struct Open {
@@ -181,16 +182,17 @@ HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit&
   };
   Open open[BoxLevels::kMaxLevels];
   std::size_t level = boxes.levels - 1;
-  while (level > 0 && boxes.below[level - 1] <= kMaxStartBoxes)
+  while (level > 0 && boxes.child_counts[level - 1] <= kMaxStartBoxes)
     --level;
   const std::size_t start = level;
   std::uint64_t next = 0;
   open[level] = {0, 0};
-  for (std::size_t first = 0; first < boxes.below[level]; first += kTreeWidth) {
+  for (std::size_t first = 0; first < boxes.child_counts[level]; first += kTreeWidth) {
     const BoxGroup& group = boxes.groups[boxes.first[level] + first / kTreeWidth];
-    const std::uint64_t near = near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth));
+    const std::uint64_t near =
+        near_boxes(group, probe, HWY_MIN(boxes.child_counts[level] - first, kTreeWidth));
     open[level].bits |= near << first;
-    next |= std::uint64_t{visit.first(group)} << first;
+    next |= std::uint64_t{visit.preferred_box(group)} << first;
   }
   for (;;) {
     while (next == 0) {
@@ -202,15 +204,15 @@ HWY_INLINE bool walk(const BoxLevels& boxes, const BoxProbe& probe, const Visit&
     open[level].bits &= ~(std::uint64_t{1} << k);
     next = 0;
     if (level == 0) {
-      if (visit.take(item)) return true;
+      if (visit.visit_packet(item)) return true;
       continue;
     }
     --level;
     const std::size_t number = boxes.first[level] + item, first = item * kTreeWidth;
     const BoxGroup& group = boxes.groups[number];
-    next = visit.first(group);
-    open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.below[level] - first, kTreeWidth))};
-    if (open[level].bits != 0 && visit.look(number)) return true;
+    next = visit.preferred_box(group);
+    open[level] = {first, near_boxes(group, probe, HWY_MIN(boxes.child_counts[level] - first, kTreeWidth))};
+    if (open[level].bits != 0 && visit.test_group(number)) return true;
   }
 }
 

@@ -27,7 +27,7 @@ void fill_groups(const PointView& points, std::size_t pad, std::byte* groups) {
   for_layout(points, [&]<Layout layout, typename T>() {
     T point[3];
     load_point(points, pad, point);
-    gather<layout, false>(points, point, reinterpret_cast<T*>(groups));
+    copy_to_groups<layout, false>(points, point, reinterpret_cast<T*>(groups));
   });
 }
 

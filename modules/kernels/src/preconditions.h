@@ -16,8 +16,9 @@ namespace pcl_bv {
 /// Maximum number of points whose positions fit into 32 bits.
 inline constexpr std::size_t kMaxPositions = std::size_t{1} << 32;
 
-/// Throws std::invalid_argument unless the points are in memory and at most `most`.
-void require_in_memory(const PointView& points, std::size_t most = std::numeric_limits<std::size_t>::max());
+/// Throws std::invalid_argument unless the points are in memory and at most `maximum`.
+void require_in_memory(const PointView& points,
+                       std::size_t maximum = std::numeric_limits<std::size_t>::max());
 
 /// Throws std::invalid_argument unless the origin is valid and can be stored as a point of the view.
 void require_origin(const PointView& points, const Coordinates& origin);
@@ -25,13 +26,13 @@ void require_origin(const PointView& points, const Coordinates& origin);
 /// As require_in_memory(). Also throws for float points if the scale is not 1: then instruction sets would
 /// give different results.
 void require_distances(const PointView& points, const DistanceCenter& center,
-                       std::size_t most = std::numeric_limits<std::size_t>::max());
+                       std::size_t maximum = std::numeric_limits<std::size_t>::max());
 
 /// Throws std::invalid_argument unless the points are floats and there are bounds: only scans of float points
 /// write them.
-void require_scan_bounds(const PointView& block, const ScanBounds& kept);
+void require_scan_bounds(const PointView& block, const ScanBounds& scanned);
 
-/// Throws std::invalid_argument, naming `what` and the maximum, if `count` exceeds `most`.
-void require_at_most(std::size_t most, std::size_t count, const char* what);
+/// Throws std::invalid_argument, naming `what` and both numbers, if `count` exceeds `maximum`.
+void require_at_most(std::size_t maximum, std::size_t count, const char* what);
 
 }  // namespace pcl_bv

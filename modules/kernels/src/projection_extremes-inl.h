@@ -63,35 +63,35 @@ HWY_INLINE V<Low<D>> zero_minimum(D d) {
   return hn::BitCast(Low<D>(), hn::SignBit(d));
 }
 template <class D>
-HWY_INLINE V<High<D>> update_maximum(D, V<High<D>> reach, V<D> p) {
-  reach = hn::Max(reach, hn::BitCast(High<D>(), p));
-  if constexpr (kIsFloat<D>) hold(reach);
-  return reach;
+HWY_INLINE V<High<D>> update_maximum(D, V<High<D>> maximum, V<D> p) {
+  maximum = hn::Max(maximum, hn::BitCast(High<D>(), p));
+  if constexpr (kIsFloat<D>) keep_in_register(maximum);
+  return maximum;
 }
 template <class D>
-HWY_INLINE V<Low<D>> update_minimum(D, V<Low<D>> reach, V<D> p) {
-  if constexpr (!kIsFloat<D>) return hn::Min(reach, p);
-  reach = hn::Max(reach, hn::BitCast(Low<D>(), p));
-  hold(reach);
-  return reach;
+HWY_INLINE V<Low<D>> update_minimum(D, V<Low<D>> minimum, V<D> p) {
+  if constexpr (!kIsFloat<D>) return hn::Min(minimum, p);
+  minimum = hn::Max(minimum, hn::BitCast(Low<D>(), p));
+  keep_in_register(minimum);
+  return minimum;
 }
 /// The projections as numbers >= 0.
 template <class D>
-HWY_INLINE V<D> maximum_projection(D d, V<High<D>> reach) {
-  return hn::BitCast(d, reach);
+HWY_INLINE V<D> maximum_projection(D d, V<High<D>> maximum) {
+  return hn::BitCast(d, maximum);
 }
 template <class D>
-HWY_INLINE V<D> minimum_magnitude(D d, V<Low<D>> reach) {
-  return hn::Abs(hn::BitCast(d, reach));
+HWY_INLINE V<D> minimum_magnitude(D d, V<Low<D>> minimum) {
+  return hn::Abs(hn::BitCast(d, minimum));
 }
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE bool all_within(D d, [[maybe_unused]] T room, V<Low<D>> low, V<High<D>> high) {
+HWY_INLINE bool all_within(D d, [[maybe_unused]] T distance, V<Low<D>> low, V<High<D>> high) {
   if constexpr (kIsFloat<D>) {
     const auto greatest = hn::Set(Signed<D>(), 0x7F7FFFFF);  // largest finite float
     const auto low_magnitude = hn::BitCast(Signed<D>(), minimum_magnitude(d, low));
     return hn::AllFalse(Signed<D>(), hn::Gt(hn::Max(high, low_magnitude), greatest));
   } else {
-    const auto limit = hn::Set(d, room);
+    const auto limit = hn::Set(d, distance);
     return hn::AllTrue(d, hn::And(hn::Le(hn::Abs(low), limit), hn::Le(high, limit)));
   }
 }

@@ -19,7 +19,7 @@ namespace pcl_bv {
 
 AxisExtents axis_extents_reference(const PointView& points);
 void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
-                              const SupportBounds& reached, ChunkSupports& out);
+                              const SupportBounds& bounds, ChunkSupports& out);
 SlabExtents slab_extents_reference(const PointView& points, const Coordinates& origin,
                                    const std::array<Direction, 3>& axes);
 std::size_t list_outside_reference(const PointView& points, const HalfSpaces& inside,
@@ -34,8 +34,9 @@ void run_boxes_reference(const PointView& points, RunBox* boxes);
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups);
 
 void scan_octants_reference(const PointView& block, OctantScan& scan);
-std::size_t list_reaching_reference(const PointView& block, const ScanBounds& kept,
-                                    const DistanceCenter& center, double limit, std::uint32_t* positions);
+std::size_t list_distant_by_bounds_reference(const PointView& block, const ScanBounds& scanned,
+                                             const DistanceCenter& center, double limit,
+                                             std::uint32_t* positions);
 std::size_t list_distant_reference(const PointView& points, const DistanceCenter& center, double limit,
                                    FloatFilter filter, std::uint32_t* positions);
 

@@ -31,7 +31,7 @@ void chosen_states(const PointView& points, const RegionTests::Prepared& regions
           for (std::size_t k = 0; k < chosen.count;) {
             const std::size_t end = HWY_MIN(k + kTestsPerCheck, chosen.count);
             for (; k < end; ++k)
-              test_region(d, all.regions[chosen.places[k]], near, x, y, z, inside, unclear);
+              test_region(d, all.regions[chosen.indices[k]], near, x, y, z, inside, unclear);
             if (hn::AllFalse(d, hn::AndNot(inside, near))) break;
           }
         });

@@ -71,7 +71,7 @@ SlabExtents extents_of(const PointView& points, const Coordinates& origin,
   const T pad[3] = {static_cast<T>(origin.x), static_cast<T>(origin.y), static_cast<T>(origin.z)};
   for (std::size_t b = 0; b < block_count(points.count); ++b) {
     const PointView block = block_of(points, b);
-    gather<layout, true>(block, pad, groups);
+    copy_to_groups<layout, true>(block, pad, groups);
     grow_over_groups(groups, block.count, origin, axes, result);
   }
   return result;

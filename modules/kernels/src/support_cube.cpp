@@ -45,24 +45,24 @@ constexpr int slot(DirectionSet set, std::size_t direction) {
   [[maybe_unused]] auto low##i = zero_minimum(d); \
   [[maybe_unused]] auto high##i = zero_maximum(d);
 
-#define PCL_BV_STEP(i, projection)         \
-  if constexpr (slot(set, i) >= 0) {       \
-    const V<D> p = projection;             \
-    low##i = update_minimum(d, low##i, p);    \
+#define PCL_BV_STEP(i, projection)           \
+  if constexpr (slot(set, i) >= 0) {         \
+    const V<D> p = projection;               \
+    low##i = update_minimum(d, low##i, p);   \
     high##i = update_maximum(d, high##i, p); \
   }
 
-#define PCL_BV_STORE(i, projection)                                           \
-  if constexpr (slot(set, i) >= 0) {                                          \
-    hn::Store(minimum_magnitude(d, low##i), d, reach + 2 * slot(set, i) * n);         \
-    hn::Store(maximum_projection(d, high##i), d, reach + (2 * slot(set, i) + 1) * n); \
+#define PCL_BV_STORE(i, projection)                                                         \
+  if constexpr (slot(set, i) >= 0) {                                                        \
+    hn::Store(minimum_magnitude(d, low##i), d, projections + 2 * slot(set, i) * n);         \
+    hn::Store(maximum_projection(d, high##i), d, projections + (2 * slot(set, i) + 1) * n); \
   }
 
 // Computes the maximum projection of each lane of a block for each support: lanes(d) numbers per support,
-// support after support. Returns whether all points are valid; if not, `reach` is meaningless. With `masked`,
-// invalid points are replaced by the centre, whose projection is 0, and counted.
+// support after support. Returns whether all points are valid; if not, `projections` is meaningless. With
+// `masked`, invalid points are replaced by the centre, whose projection is 0, and counted.
 template <Layout layout, DirectionSet set, bool masked, class D, typename T = hn::TFromD<D>>
-bool project_lanes(D d, const PointView& block, const T* center, T* reach, std::size_t& dropped) {
+bool project_lanes(D d, const PointView& block, const T* center, T* projections, std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_DIRECTION(PCL_BV_DECLARE)
   [[maybe_unused]] auto total = hn::Zero(d);
@@ -82,20 +82,21 @@ bool project_lanes(D d, const PointView& block, const T* center, T* reach, std::
     return true;
   }
   dropped = 0;
-  const T room = valid_distance<T>(center);
-  return all_within(d, room, low0, high0) && all_within(d, room, low1, high1) &&
-         all_within(d, room, low2, high2) && sum_is_finite(d, total);
+  const T distance = valid_distance<T>(center);
+  return all_within(d, distance, low0, high0) && all_within(d, distance, low1, high1) &&
+         all_within(d, distance, low2, high2) && sum_is_finite(d, total);
 }
 
 // Passes over the blocks of a chunk. Returns the number of dropped points.
 template <Layout layout, DirectionSet set, typename T>
-std::size_t project_blocks(const PointView& chunk, const T* center, const LaneProjections<T>& reach) {
+std::size_t project_blocks(const PointView& chunk, const T* center, const LaneProjections<T>& projections) {
   const Tag<T> d;
   std::size_t dropped = 0;
   bool clean = true;  // where one point is invalid, others follow
-  T* out = reach.values;
-  for (std::size_t begin = 0; begin < chunk.count; begin += reach.block_points, out += reach.per_block) {
-    const PointView block = chunk.slice(begin, HWY_MIN(reach.block_points, chunk.count - begin));
+  T* out = projections.values;
+  for (std::size_t begin = 0; begin < chunk.count;
+       begin += projections.block_points, out += projections.per_block) {
+    const PointView block = chunk.slice(begin, HWY_MIN(projections.block_points, chunk.count - begin));
     std::size_t bad = 0;
     if (!clean || !project_lanes<layout, set, false>(d, block, center, out, bad)) {
       project_lanes<layout, set, true>(d, block, center, out, bad);
@@ -107,43 +108,44 @@ std::size_t project_blocks(const PointView& chunk, const T* center, const LanePr
 }
 
 template <Layout layout, DirectionSet set, typename T>
-void supports_of_chunk(const PointView& chunk, const SupportBounds& reached, ChunkSupports& out) {
-  Spread spread;
-  if (!central_point(chunk, spread.center)) {
+void supports_of_chunk(const PointView& chunk, const SupportBounds& bounds, ChunkSupports& out) {
+  CenteredExtent extent;
+  if (!central_point(chunk, extent.center)) {
     out.dropped = chunk.count;
     return;
   }
-  const T c[3] = {static_cast<T>(spread.center.x), static_cast<T>(spread.center.y),
-                  static_cast<T>(spread.center.z)};
-  constexpr std::size_t ends = 2 * direction_count(set);
+  const T c[3] = {static_cast<T>(extent.center.x), static_cast<T>(extent.center.y),
+                  static_cast<T>(extent.center.z)};
+  constexpr std::size_t supports = 2 * direction_count(set);
   // A 26-DOP takes 104 KiB for floats and 208 KiB for doubles, whatever the width of vectors.
-  HWY_ALIGN T values[kChunkPoints / kPackets * ends];
-  const LaneProjections<T> reach(values, ends, packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
-  out.dropped = project_blocks<layout, set>(chunk, c, reach);
+  HWY_ALIGN T values[kChunkPoints / kPackets * supports];
+  const LaneProjections<T> projections(values, supports,
+                                       packets_per_block(chunk.count / hn::Lanes(Tag<T>())));
+  out.dropped = project_blocks<layout, set>(chunk, c, projections);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    spread.greatest[axis] = HWY_MAX(max_over_lanes(reach, 2 * axis, chunk.count),
-                                    max_over_lanes(reach, 2 * axis + 1, chunk.count));
+    extent.max_magnitude[axis] = HWY_MAX(max_over_lanes(projections, 2 * axis, chunk.count),
+                                         max_over_lanes(projections, 2 * axis + 1, chunk.count));
   }
-  search_supports<layout>(chunk, SupportDirections::of(set), reach, spread, reached, nullptr, out);
+  search_supports<layout>(chunk, SupportDirections::of(set), projections, extent, bounds, nullptr, out);
 }
 
 template <DirectionSet set>
-void supports_of(const PointView& chunk, const SupportBounds& reached, ChunkSupports& out) {
+void supports_of(const PointView& chunk, const SupportBounds& bounds, ChunkSupports& out) {
   for_layout(chunk,
-             [&]<Layout layout, typename T>() { supports_of_chunk<layout, set, T>(chunk, reached, out); });
+             [&]<Layout layout, typename T>() { supports_of_chunk<layout, set, T>(chunk, bounds, out); });
 }
 
-void cube_supports(const PointView& chunk, const SupportDirections& set, const SupportBounds& reached,
+void cube_supports(const PointView& chunk, const SupportDirections& set, const SupportBounds& bounds,
                    ChunkSupports& out) {
   switch (*set.cube) {
     case DirectionSet::dop6:
-      return supports_of<DirectionSet::dop6>(chunk, reached, out);
+      return supports_of<DirectionSet::dop6>(chunk, bounds, out);
     case DirectionSet::dop14:
-      return supports_of<DirectionSet::dop14>(chunk, reached, out);
+      return supports_of<DirectionSet::dop14>(chunk, bounds, out);
     case DirectionSet::dop18:
-      return supports_of<DirectionSet::dop18>(chunk, reached, out);
+      return supports_of<DirectionSet::dop18>(chunk, bounds, out);
     case DirectionSet::dop26:
-      return supports_of<DirectionSet::dop26>(chunk, reached, out);
+      return supports_of<DirectionSet::dop26>(chunk, bounds, out);
   }
 }
 
@@ -157,9 +159,9 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                   const SupportBounds& reached, ChunkSupports& out) {
+                   const SupportBounds& bounds, ChunkSupports& out) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(cube_supports, &chunk_supports_reference);
-  kTable[isa](chunk, set, reached, out);
+  kTable[isa](chunk, set, bounds, out);
 }
 
 }  // namespace pcl_bv

@@ -55,12 +55,12 @@ void SupportDirections::add(const Direction& direction) {
   ++count;
 }
 
-Direction SupportDirections::support_direction(std::size_t end) const {
-  return opposite_if(end % 2 == 0, exact[end / 2]);
+Direction SupportDirections::support_direction(std::size_t support) const {
+  return opposite_if(support % 2 == 0, exact[support / 2]);
 }
 
-Direction SupportDirections::scaled_support_direction(std::size_t end) const {
-  return opposite_if(end % 2 == 0, scaled[end / 2]);
+Direction SupportDirections::scaled_support_direction(std::size_t support) const {
+  return opposite_if(support % 2 == 0, scaled[support / 2]);
 }
 
 void keep_larger_projection(const Direction& direction, const SupportPoint& other, SupportPoint& best) {
@@ -72,8 +72,8 @@ void keep_larger_projection(const Direction& direction, const SupportPoint& othe
   if (order > 0 || (order == 0 && other.index < best.index)) best = other;
 }
 
-double projection_lower_bound(const SupportDirections& set, std::size_t end, const Coordinates& point) {
-  const Direction scaled = set.scaled_support_direction(end);
+double projection_lower_bound(const SupportDirections& set, std::size_t support, const Coordinates& point) {
+  const Direction scaled = set.scaled_support_direction(support);
   return dot3(scaled, point) - double_error(scaled, point);
 }
 

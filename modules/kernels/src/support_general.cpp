@@ -34,18 +34,18 @@ inline constexpr std::size_t kGroup = 4;  // directions on which a block is proj
 template <typename T>
 struct Workspace {
   HWY_ALIGN T points[3 * kBlockPoints];
-  HWY_ALIGN T reach[104 * 1024 / sizeof(T)];
+  HWY_ALIGN T projections[104 * 1024 / sizeof(T)];
   T directions[3 * kMaxSupportDirections];
 };
 
-// Copies a block relative to the centre and raises `spread` to the largest magnitudes. Returns whether all
-// points are valid; if not, the copy is meaningless and `spread` unchanged. With `masked`, invalid points are
-// replaced by the centre and counted.
+// Copies a block relative to the centre and raises `max_magnitude` to the largest magnitudes. Returns whether
+// all points are valid; if not, the copy is meaningless and `max_magnitude` unchanged. With `masked`, invalid
+// points are replaced by the centre and counted.
 template <Layout layout, bool masked, class D, typename T = hn::TFromD<D>>
-bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& spread,
+bool copy_block(D d, const PointView& block, const T* center, T* points, std::array<double, 3>& max_magnitude,
                 std::size_t& dropped) {
   const std::size_t n = hn::Lanes(d);
-  auto spread_x = zero_maximum(d), spread_y = zero_maximum(d), spread_z = zero_maximum(d);
+  auto max_x = zero_maximum(d), max_y = zero_maximum(d), max_z = zero_maximum(d);
   [[maybe_unused]] auto total = hn::Zero(d);
   std::size_t valid_count = 0;
   for (std::size_t i = 0; i < block.count; i += n, points += 3 * n) {
@@ -55,26 +55,26 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
     hn::Store(y, d, points + n);
     hn::Store(z, d, points + 2 * n);
     if constexpr (!masked && sizeof(T) == 8) total = hn::Add(total, hn::Add(hn::Add(x, y), z));
-    spread_x = update_maximum(d, spread_x, hn::Abs(x));
-    spread_y = update_maximum(d, spread_y, hn::Abs(y));
-    spread_z = update_maximum(d, spread_z, hn::Abs(z));
+    max_x = update_maximum(d, max_x, hn::Abs(x));
+    max_y = update_maximum(d, max_y, hn::Abs(y));
+    max_z = update_maximum(d, max_z, hn::Abs(z));
   }
   dropped = masked ? (block.count + n - 1) / n * n - valid_count : 0;
   if constexpr (!masked) {
-    const T room = valid_distance<T>(center);
+    const T distance = valid_distance<T>(center);
     const auto low = zero_minimum(d);
-    if (!all_within(d, room, low, spread_x) || !all_within(d, room, low, spread_y) ||
-        !all_within(d, room, low, spread_z) || !sum_is_finite(d, total)) {
+    if (!all_within(d, distance, low, max_x) || !all_within(d, distance, low, max_y) ||
+        !all_within(d, distance, low, max_z) || !sum_is_finite(d, total)) {
       return false;
     }
   }
-  const auto grow = [&](std::size_t axis, V<High<D>> reach) {
-    const double greatest = hn::GetLane(hn::MaxOfLanes(d, maximum_projection(d, reach)));
-    spread[axis] = HWY_MAX(spread[axis], greatest);
+  const auto grow = [&](std::size_t axis, V<High<D>> maximum) {
+    const double magnitude = hn::GetLane(hn::MaxOfLanes(d, maximum_projection(d, maximum)));
+    max_magnitude[axis] = HWY_MAX(max_magnitude[axis], magnitude);
   };
-  grow(0, spread_x);
-  grow(1, spread_y);
-  grow(2, spread_z);
+  grow(0, max_x);
+  grow(1, max_y);
+  grow(2, max_z);
   return true;
 }
 
@@ -94,12 +94,12 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
 #define PCL_BV_STEP(i)                                                         \
   if constexpr (i < count) {                                                   \
     const V<D> p = hn::MulAdd(c##i, z, hn::MulAdd(b##i, y, hn::Mul(a##i, x))); \
-    low##i = update_minimum(d, low##i, p);                                        \
-    high##i = update_maximum(d, high##i, p);                                     \
+    low##i = update_minimum(d, low##i, p);                                     \
+    high##i = update_maximum(d, high##i, p);                                   \
   }
 
-#define PCL_BV_STORE(i)                                             \
-  if constexpr (i < count) {                                        \
+#define PCL_BV_STORE(i)                                                     \
+  if constexpr (i < count) {                                                \
     hn::Store(minimum_magnitude(d, low##i), d, values + 2 * i * n);         \
     hn::Store(maximum_projection(d, high##i), d, values + (2 * i + 1) * n); \
   }
@@ -107,7 +107,7 @@ bool copy_block(D d, const PointView& block, const T* center, T* points, std::ar
 // Computes the maximum projections of the lanes of copied packets for `count` directions, from `values` on.
 template <std::size_t count, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void project_group(D d, const T* points, std::size_t packets, const T* directions,
-                               std::size_t per_block, T* values) {
+                              std::size_t per_block, T* values) {
   const std::size_t n = hn::Lanes(d);
   PCL_BV_EACH_OF_GROUP(PCL_BV_DIRECTION)
   for (std::size_t begin = 0; begin < packets; begin += kPackets, values += per_block) {
@@ -130,7 +130,7 @@ HWY_INLINE void project_group(D d, const T* points, std::size_t packets, const T
 
 template <class D, typename T = hn::TFromD<D>>
 void project_copy(D d, const T* points, std::size_t packets, std::size_t count, const T* directions,
-                   std::size_t per_block, T* values) {
+                  std::size_t per_block, T* values) {
   const std::size_t per_group = 2 * kGroup * hn::Lanes(d);
   for (; count >= kGroup; count -= kGroup, directions += 3 * kGroup, values += per_group)
     project_group<kGroup>(d, points, packets, directions, per_block, values);
@@ -141,65 +141,66 @@ void project_copy(D d, const T* points, std::size_t packets, std::size_t count, 
 
 // Passes over the points of a part. Returns the number of dropped points.
 template <Layout layout, typename T>
-std::size_t project_part(const PointView& part, std::size_t count, const LaneProjections<T>& reach,
-                          Workspace<T>& work, Spread& spread) {
+std::size_t project_part(const PointView& part, std::size_t count, const LaneProjections<T>& projections,
+                         Workspace<T>& work, CenteredExtent& extent) {
   const Tag<T> d;
-  const T center[3] = {static_cast<T>(spread.center.x), static_cast<T>(spread.center.y),
-                       static_cast<T>(spread.center.z)};
-  const std::size_t blocks = kBlockPoints / reach.block_points;  // copied at a time
-  const std::size_t step = blocks * reach.block_points;
+  const T center[3] = {static_cast<T>(extent.center.x), static_cast<T>(extent.center.y),
+                       static_cast<T>(extent.center.z)};
+  const std::size_t blocks = kBlockPoints / projections.block_points;  // copied at a time
+  const std::size_t step = blocks * projections.block_points;
   std::size_t dropped = 0;
   bool clean = true;  // where one point is invalid, others follow
-  T* values = reach.values;
-  for (std::size_t begin = 0; begin < part.count; begin += step, values += blocks * reach.per_block) {
+  T* values = projections.values;
+  for (std::size_t begin = 0; begin < part.count; begin += step, values += blocks * projections.per_block) {
     const PointView block = part.slice(begin, HWY_MIN(step, part.count - begin));
     std::size_t bad = 0;
-    if (!clean || !copy_block<layout, false>(d, block, center, work.points, spread.greatest, bad)) {
-      copy_block<layout, true>(d, block, center, work.points, spread.greatest, bad);
+    if (!clean || !copy_block<layout, false>(d, block, center, work.points, extent.max_magnitude, bad)) {
+      copy_block<layout, true>(d, block, center, work.points, extent.max_magnitude, bad);
       clean = bad == 0;
     }
     dropped += bad;
-    const std::size_t packets = (block.count + reach.lanes - 1) / reach.lanes;
-    project_copy(d, work.points, packets, count, work.directions, reach.per_block, values);
+    const std::size_t packets = (block.count + projections.lanes - 1) / projections.lanes;
+    project_copy(d, work.points, packets, count, work.directions, projections.per_block, values);
   }
   return dropped;
 }
 
-// Finds the supports of a part, which is as many points as `reach` has capacity for. If `more` parts follow,
-// `reached` receives lower bounds of the supports found, so that later parts compare fewer points.
+// Finds the supports of a part, which has as many points as `projections` has capacity for. If `more` parts
+// follow, `bounds` receives lower bounds of the supports found, so that later parts compare fewer points.
 template <Layout layout, typename T>
-void supports_of_part(const PointView& part, const SupportDirections& set, const LaneProjections<T>& reach,
-                      bool more, Workspace<T>& work, SupportBounds& reached, ChunkSupports& out) {
-  Spread spread;
-  if (!central_point(part, spread.center)) {
+void supports_of_part(const PointView& part, const SupportDirections& set,
+                      const LaneProjections<T>& projections, bool more, Workspace<T>& work,
+                      SupportBounds& bounds, ChunkSupports& out) {
+  CenteredExtent extent;
+  if (!central_point(part, extent.center)) {
     out.dropped += part.count;
     return;
   }
-  out.dropped += project_part<layout>(part, set.count, reach, work, spread);
-  search_supports<layout>(part, set, reach, spread, reached, more ? &reached : nullptr, out);
+  out.dropped += project_part<layout>(part, set.count, projections, work, extent);
+  search_supports<layout>(part, set, projections, extent, bounds, more ? &bounds : nullptr, out);
 }
 
 template <Layout layout, typename T>
-void supports_of(const PointView& chunk, const SupportDirections& set, SupportBounds reached,
+void supports_of(const PointView& chunk, const SupportDirections& set, SupportBounds bounds,
                  ChunkSupports& out) {
   Workspace<T> work;
   for (std::size_t k = 0; k < set.count; ++k) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       work.directions[3 * k + axis] = static_cast<T>(set.scaled[k][axis]);
   }
-  const LaneProjections<T> reach(work.reach, 2 * set.count);
-  const std::size_t per_copy = kBlockPoints / reach.block_points;
-  const std::size_t copies = sizeof(work.reach) / sizeof(T) / reach.per_block / per_copy;
-  const std::size_t part_points = copies * per_copy * reach.block_points;
+  const LaneProjections<T> projections(work.projections, 2 * set.count);
+  const std::size_t per_copy = kBlockPoints / projections.block_points;
+  const std::size_t copies = sizeof(work.projections) / sizeof(T) / projections.per_block / per_copy;
+  const std::size_t part_points = copies * per_copy * projections.block_points;
   for (std::size_t begin = 0; begin < chunk.count; begin += part_points) {
     const PointView part = chunk.slice(begin, HWY_MIN(part_points, chunk.count - begin));
-    supports_of_part<layout>(part, set, reach, begin + part_points < chunk.count, work, reached, out);
+    supports_of_part<layout>(part, set, projections, begin + part_points < chunk.count, work, bounds, out);
   }
 }
 
-void general_supports(const PointView& chunk, const SupportDirections& set, const SupportBounds& reached,
-                  ChunkSupports& out) {
-  for_layout(chunk, [&]<Layout layout, typename T>() { supports_of<layout, T>(chunk, set, reached, out); });
+void general_supports(const PointView& chunk, const SupportDirections& set, const SupportBounds& bounds,
+                      ChunkSupports& out) {
+  for_layout(chunk, [&]<Layout layout, typename T>() { supports_of<layout, T>(chunk, set, bounds, out); });
 }
 
 #endif  // HWY_TARGET != HWY_SCALAR
@@ -212,9 +213,9 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_bv {
 
 void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                  const SupportBounds& reached, ChunkSupports& out) {
+                      const SupportBounds& bounds, ChunkSupports& out) {
   static constexpr KernelTable kTable = PCL_BV_KERNEL_TABLE(general_supports, &chunk_supports_reference);
-  kTable[isa](chunk, set, reached, out);
+  kTable[isa](chunk, set, bounds, out);
 }
 
 }  // namespace pcl_bv

@@ -49,17 +49,17 @@ bool central_point(const PointView& points, Coordinates& center) {
   return false;
 }
 
-SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread,
+SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, const CenteredExtent& extent,
                          ScalarType scalar)
-    : scaled_(set.scaled[direction]), center_(spread.center), is_float_(scalar == ScalarType::float32) {
+    : scaled_(set.scaled[direction]), center_(extent.center), is_float_(scalar == ScalarType::float32) {
   const double unit = is_float_ ? 0x1p-24 : kUnitRoundoff;
   const double least = is_float_ ? 0x1p-149 : 0x1p-1074;
   const double greatest = is_float_ ? static_cast<double>(std::numeric_limits<float>::max()) : 1e300;
-  const auto& s = spread.greatest;
+  const auto& s = extent.max_magnitude;
   const auto flat = [&](std::size_t axis) { return set.exact[direction][axis] == 0 || s[axis] == 0; };
   constant_ = flat(0) && flat(1) && flat(2);  // p - c rounds to 0 only if p is c
   size_ = dot3(magnitudes(scaled_), s);
-  overflow_ = !(size_ <= 0.99 * greatest);  // size_ may be NaN for infinite spreads
+  overflow_ = !(size_ <= 0.99 * greatest);  // size_ may be NaN for infinite extents
   if (set.cube) {
     // Projections need additions only. Those of one term keep the order of points, since x - c is monotone.
     const double terms = taxicab3(scaled_);
@@ -71,17 +71,17 @@ SupportPlan::SupportPlan(const SupportDirections& set, std::size_t direction, co
   }
 }
 
-bool SupportPlan::reaches(bool high, double top, double reached) const {
-  if (reached == -kInfinity) return true;
+bool SupportPlan::may_exceed(bool high, double top, double bound) const {
+  if (bound == -kInfinity) return true;
   const double offset = dot3(scaled_, center_);
   const double error = error_ + 0x1p-49 * size_ + double_error(scaled_, center_);
-  return !(top + (high ? offset : -offset) + error < reached);
+  return !(top + (high ? offset : -offset) + error < bound);
 }
 
-SupportCandidates SupportPlan::of(bool high, double top, double reached) const {
+SupportCandidates SupportPlan::of(bool high, double top, double bound) const {
   if (constant_) return {SupportCandidates::Kind::every, 0};
   if (overflow_) return {SupportCandidates::Kind::some, -kInfinity};  // overflowing sums decide nothing
-  if (!reaches(high, top, reached)) return {SupportCandidates::Kind::none, 0};
+  if (!may_exceed(high, top, bound)) return {SupportCandidates::Kind::none, 0};
   const double threshold = top - pair_error_;
   return {SupportCandidates::Kind::some, is_float_ ? float_down(threshold) : threshold};
 }
@@ -109,10 +109,12 @@ T loaded(const std::byte* from) {
 }  // namespace
 
 template <typename T>
-ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const SupportDirections& set, std::size_t end,
-                            const RoundedFilter& filter)
-    : points_(points), direction_(set.support_direction(end)), threshold_(static_cast<T>(filter.threshold)) {
-  const Direction scaled = set.scaled_support_direction(end);
+ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const SupportDirections& set,
+                                          std::size_t support, const RoundedFilter& filter)
+    : points_(points),
+      direction_(set.support_direction(support)),
+      threshold_(static_cast<T>(filter.threshold)) {
+  const Direction scaled = set.scaled_support_direction(support);
   const Coordinates& center = filter.center;
   for (std::size_t axis = 0; axis < 3; ++axis)
     scaled_[axis] = static_cast<T>(scaled[axis]);
@@ -124,7 +126,7 @@ ExactSupportSearch<T>::ExactSupportSearch(const PointView& points, const Support
 template <typename T>
 template <typename Address>
 void ExactSupportSearch<T>::find_passing(const Address& address, std::size_t gap, std::size_t first,
-                                  std::size_t step, std::size_t last, SupportPoint& best) const {
+                                         std::size_t step, std::size_t last, SupportPoint& best) const {
   const T a = scaled_[0], b = scaled_[1], c = scaled_[2];
   const T x = center_[0], y = center_[1], z = center_[2];
   const T threshold = threshold_;
@@ -151,7 +153,7 @@ void ExactSupportSearch<T>::compete(std::size_t i, SupportPoint& best) const {
 
 template <typename T>
 void ExactSupportSearch<T>::operator()(std::size_t first, std::size_t step, std::size_t last,
-                                SupportPoint& best) const {
+                                       SupportPoint& best) const {
   if (first >= last) return;
   if (points_.order == PointOrder::records && points_.indices == nullptr) {
     const auto address = [data = points_.data, stride = points_.stride](std::size_t i) {
@@ -168,11 +170,11 @@ template class ExactSupportSearch<float>;
 template class ExactSupportSearch<double>;
 
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                    const SupportBounds& reached, ChunkSupports& out) {
+                    const SupportBounds& bounds, ChunkSupports& out) {
   require_in_memory(chunk, kChunkPoints);
   require_at_most(kMaxSupportDirections, set.count, "directions");
   out = ChunkSupports();
-  (set.cube ? cube_supports : general_supports)(isa, chunk, set, reached, out);
+  (set.cube ? cube_supports : general_supports)(isa, chunk, set, bounds, out);
 }
 
 }  // namespace pcl_bv

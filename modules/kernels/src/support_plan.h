@@ -30,15 +30,15 @@ inline double double_error(const Direction& scaled, const Coordinates& p) {
 bool central_point(const PointView& points, Coordinates& center);
 
 /// The centre and the extent of the points that a pass has projected.
-struct Spread {
+struct CenteredExtent {
   Coordinates center{};
-  std::array<double, 3> greatest{};  ///< Largest magnitudes of p - center, as rounded.
+  std::array<double, 3> max_magnitude{};  ///< Largest magnitudes of p - center, as rounded.
 };
 
 /// Which points must be compared exactly for one support.
 struct SupportCandidates {
   enum class Kind {
-    none,   ///< No point: the support cannot exceed its bound in `reached`.
+    none,   ///< No point: the support cannot exceed its bound.
     every,  ///< All valid points have exactly the same projection.
     some    ///< The points whose rounded projection is at least the threshold.
   };
@@ -46,17 +46,18 @@ struct SupportCandidates {
   double threshold = 0;  ///< Of the view's scalar type.
 };
 
-/// The searches that follow for the two supports of a direction. Stores references to the set and the spread.
+/// The searches that follow for the two supports of a direction. Stores references to the set and the extent.
 class SupportPlan {
  public:
-  SupportPlan(const SupportDirections& set, std::size_t direction, const Spread& spread, ScalarType scalar);
+  SupportPlan(const SupportDirections& set, std::size_t direction, const CenteredExtent& extent,
+              ScalarType scalar);
 
   /// Returns the search for the maximum if `high`, else for the minimum. `top` is the largest rounded
-  /// projection of p - center on that side, `reached` the bound of SupportBounds.
-  SupportCandidates of(bool high, double top, double reached) const;
+  /// projection of p - center on that side, `bound` the value of SupportBounds.
+  SupportCandidates of(bool high, double top, double bound) const;
 
  private:
-  bool reaches(bool high, double top, double reached) const;
+  bool may_exceed(bool high, double top, double bound) const;
 
   const Direction& scaled_;
   const Coordinates& center_;
@@ -82,8 +83,8 @@ SupportPoint first_valid_point(const PointView& points);
 template <typename T>
 class ExactSupportSearch {
  public:
-  ExactSupportSearch(const PointView& points, const SupportDirections& set, std::size_t end,
-              const RoundedFilter& filter);
+  ExactSupportSearch(const PointView& points, const SupportDirections& set, std::size_t support,
+                     const RoundedFilter& filter);
 
   /// Updates `best` with the valid points among first, first + step, ... below `last` that pass the filter.
   void operator()(std::size_t first, std::size_t step, std::size_t last, SupportPoint& best) const;
@@ -102,8 +103,8 @@ class ExactSupportSearch {
 
 /// The kernels of chunk_supports(): for the directions of the cube and for others.
 void cube_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                   const SupportBounds& reached, ChunkSupports& out);
+                   const SupportBounds& bounds, ChunkSupports& out);
 void general_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                  const SupportBounds& reached, ChunkSupports& out);
+                      const SupportBounds& bounds, ChunkSupports& out);
 
 }  // namespace pcl_bv

@@ -69,15 +69,17 @@ struct Block {
   T low[3 + kMaxSupportDirections] = {};
   T high[3 + kMaxSupportDirections] = {};
 
-  double reach(std::size_t end) const { return end % 2 == 0 ? -low[end / 2] : high[end / 2]; }
+  double support_value(std::size_t support) const {
+    return support % 2 == 0 ? -low[support / 2] : high[support / 2];
+  }
 };
 
-template <typename T, typename Along, typename Load>
-std::size_t project_block(std::size_t points, const Load& load, const Along& along, Block<T>& out) {
+template <typename T, typename Project, typename Load>
+std::size_t project_block(std::size_t points, const Load& load, const Project& project, Block<T>& out) {
   T low[3 + kMaxSupportDirections];
   T high[3 + kMaxSupportDirections];
-  std::fill_n(low, along.count, std::numeric_limits<T>::infinity());
-  std::fill_n(high, along.count, -std::numeric_limits<T>::infinity());
+  std::fill_n(low, project.count, std::numeric_limits<T>::infinity());
+  std::fill_n(high, project.count, -std::numeric_limits<T>::infinity());
   std::size_t dropped = 0;
   for (std::size_t i = 0; i < points; ++i) {
     T v[3];
@@ -89,32 +91,32 @@ std::size_t project_block(std::size_t points, const Load& load, const Along& alo
       continue;
     }
     T p[3 + kMaxSupportDirections];
-    along(v[0], v[1], v[2], p);
-    for (std::size_t k = 0; k < along.count; ++k) {
+    project(v[0], v[1], v[2], p);
+    for (std::size_t k = 0; k < project.count; ++k) {
       low[k] = p[k] < low[k] ? p[k] : low[k];
       high[k] = p[k] > high[k] ? p[k] : high[k];
     }
   }
-  std::copy_n(low, along.count, out.low);
-  std::copy_n(high, along.count, out.high);
+  std::copy_n(low, project.count, out.low);
+  std::copy_n(high, project.count, out.high);
   return dropped;
 }
 
 // T may be double for float points.
-template <typename T, typename Along>
-std::size_t project_block(const PointView& points, const Along& along, Block<T>& out) {
+template <typename T, typename Project>
+std::size_t project_block(const PointView& points, const Project& project, Block<T>& out) {
   const bool stored = points.scalar == (sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64);
   if (stored && points.order == PointOrder::records && points.indices == nullptr) {
     const auto load = [data = points.data, stride = points.stride](std::size_t i, T(&v)[3]) {
       std::memcpy(v, data + stride * i, sizeof v);
     };
-    return project_block<T>(points.count, load, along, out);
+    return project_block<T>(points.count, load, project, out);
   }
   const auto load = [&](std::size_t i, T(&v)[3]) {
     const Coordinates p = load_point(points, i);
     v[0] = static_cast<T>(p.x), v[1] = static_cast<T>(p.y), v[2] = static_cast<T>(p.z);
   };
-  return project_block<T>(points.count, load, along, out);
+  return project_block<T>(points.count, load, project, out);
 }
 
 // Bounds the error of the difference of the projections of two points, whose coordinates are at most `m` in
@@ -133,9 +135,9 @@ double pair_error(const SupportDirections& set, std::size_t k, const Coordinates
   return (terms == 2 ? 4.1 : 6.1) * (sizeof(T) == 4 ? 0x1p-24 : 0x1p-53) * size;
 }
 
-void search(const PointView& block, const SupportDirections& set, std::size_t end, double threshold,
+void search(const PointView& block, const SupportDirections& set, std::size_t support, double threshold,
             SupportPoint& best) {
-  const Direction exact = set.support_direction(end), d = set.scaled_support_direction(end);
+  const Direction exact = set.support_direction(support), d = set.scaled_support_direction(support);
   for (std::size_t i = 0; i < block.count; ++i) {
     const Coordinates p = load_point(block, i);
     if (!is_valid(p) || (d[0] * p.x + d[1] * p.y) + d[2] * p.z < threshold) continue;
@@ -143,42 +145,43 @@ void search(const PointView& block, const SupportDirections& set, std::size_t en
   }
 }
 
-// `first` is the number of the first support of `set` in a Block: GeneralProjections projects on the three axes before.
-template <typename T, typename Along>
-void supports(const PointView& chunk, const SupportDirections& set, const Along& along, std::size_t first,
-              const SupportBounds& reached, ChunkSupports& out) {
+// `first` is the number of the first support of `set` in a Block: 6 for GeneralProjections, which projects on
+// the three axes first.
+template <typename T, typename Project>
+void supports(const PointView& chunk, const SupportDirections& set, const Project& project, std::size_t first,
+              const SupportBounds& bounds, ChunkSupports& out) {
   Block<T> blocks[kChunkPoints / kBlockPoints];
   const std::size_t count = block_count(chunk.count);
   for (std::size_t b = 0; b < count; ++b)
-    out.dropped += project_block(block_of(chunk, b), along, blocks[b]);
+    out.dropped += project_block(block_of(chunk, b), project, blocks[b]);
   if (out.dropped == chunk.count) return;
-  const auto top = [&](std::size_t end) {
-    double greatest = blocks[0].reach(end);
+  const auto top = [&](std::size_t support) {
+    double greatest = blocks[0].support_value(support);
     for (std::size_t b = 1; b < count; ++b)
-      greatest = std::max(greatest, blocks[b].reach(end));
+      greatest = std::max(greatest, blocks[b].support_value(support));
     return greatest;
   };
   const auto magnitude = [&](std::size_t axis) {
     return std::max(std::abs(top(2 * axis)), std::abs(top(2 * axis + 1)));
   };
   const Coordinates greatest{magnitude(0), magnitude(1), magnitude(2)};
-  for (std::size_t end = 0; end < 2 * set.count; ++end) {
-    const double reach = top(first + end), error = pair_error<T>(set, end / 2, greatest);
-    if (reach + error < reached[end]) continue;
-    const double threshold = std::isinf(error) ? -error : reach - error;
+  for (std::size_t support = 0; support < 2 * set.count; ++support) {
+    const double maximum = top(first + support), error = pair_error<T>(set, support / 2, greatest);
+    if (maximum + error < bounds[support]) continue;
+    const double threshold = std::isinf(error) ? -error : maximum - error;
     for (std::size_t b = 0; b < count; ++b) {
-      if (blocks[b].reach(first + end) >= threshold)
-        search(block_of(chunk, b), set, end, threshold, out.ends[end]);
+      if (blocks[b].support_value(first + support) >= threshold)
+        search(block_of(chunk, b), set, support, threshold, out.supports[support]);
     }
   }
 }
 
 template <DirectionSet cube>
-void supports_of(const PointView& chunk, const SupportDirections& set, const SupportBounds& reached,
+void supports_of(const PointView& chunk, const SupportDirections& set, const SupportBounds& bounds,
                  ChunkSupports& out) {
   if (chunk.scalar == ScalarType::float32)
-    return supports<float>(chunk, set, CubeProjections<cube>(), 0, reached, out);
-  supports<double>(chunk, set, CubeProjections<cube>(), 0, reached, out);
+    return supports<float>(chunk, set, CubeProjections<cube>(), 0, bounds, out);
+  supports<double>(chunk, set, CubeProjections<cube>(), 0, bounds, out);
 }
 
 template <typename T>
@@ -196,17 +199,17 @@ AxisExtents axis_extents_of(const PointView& points) {
 }  // namespace
 
 void chunk_supports_reference(const PointView& chunk, const SupportDirections& set,
-                              const SupportBounds& reached, ChunkSupports& out) {
-  if (!set.cube) return supports<double>(chunk, set, GeneralProjections{set}, 6, reached, out);
+                              const SupportBounds& bounds, ChunkSupports& out) {
+  if (!set.cube) return supports<double>(chunk, set, GeneralProjections{set}, 6, bounds, out);
   switch (*set.cube) {
     case DirectionSet::dop6:
-      return supports_of<DirectionSet::dop6>(chunk, set, reached, out);
+      return supports_of<DirectionSet::dop6>(chunk, set, bounds, out);
     case DirectionSet::dop14:
-      return supports_of<DirectionSet::dop14>(chunk, set, reached, out);
+      return supports_of<DirectionSet::dop14>(chunk, set, bounds, out);
     case DirectionSet::dop18:
-      return supports_of<DirectionSet::dop18>(chunk, set, reached, out);
+      return supports_of<DirectionSet::dop18>(chunk, set, bounds, out);
     case DirectionSet::dop26:
-      return supports_of<DirectionSet::dop26>(chunk, set, reached, out);
+      return supports_of<DirectionSet::dop26>(chunk, set, bounds, out);
   }
 }
 

@@ -52,7 +52,7 @@ HWY_INLINE std::size_t open_group(const BoxLevels& boxes, const Bound& bound, fl
     least = hn::Min(least, bounds);
   }
   const float nearest = hn::GetLane(hn::MinOfLanes(d, least));
-  const std::uint32_t there = (1U << HWY_MIN(boxes.below[level] - open.first, kTreeWidth)) - 1;
+  const std::uint32_t there = (1U << HWY_MIN(boxes.child_counts[level] - open.first, kTreeWidth)) - 1;
   open.bits = 0;
   if (!(nearest <= limit)) return kTreeWidth;
   const auto k = static_cast<std::size_t>(std::countr_zero(bits_within(open.bounds, nearest) & there));

@@ -22,17 +22,17 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 
 template <typename T>
-HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers,
+HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* indices,
                              const Coordinates& center, NearestSet& kept) {
   HWY_ALIGN double squares[kTreeWidth];
   for (std::uint32_t bits = near_points(packet, center, kept.limit(), squares); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-    if (squares[lane] <= kept.limit()) kept.offer({numbers[lane], squares[lane]});
+    if (squares[lane] <= kept.limit()) kept.offer({indices[lane], squares[lane]});
   }
 }
 
 template <typename T>
-HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* numbers,
+HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* indices,
                              const Coordinates& center, NearestOne& kept) {
   const Doubles d;
   HWY_ALIGN double squares[kTreeWidth];
@@ -45,7 +45,7 @@ HWY_INLINE void offer_packet(const PointPacket<T>& packet, const std::int32_t* n
   const double nearest = hn::GetLane(hn::MinOfLanes(d, least));
   if (!(nearest <= kept.limit())) return;
   for (std::size_t lane = 0; lane < kTreeWidth; ++lane) {
-    if (squares[lane] == nearest) kept.offer({numbers[lane], nearest});
+    if (squares[lane] == nearest) kept.offer({indices[lane], nearest});
   }
 }
 
@@ -58,8 +58,8 @@ void nearest_of(const PackedTree& tree, const std::vector<PointPacket<T>>& packe
       [&](Floats d, const BoxGroup& group, std::size_t k) { return nearest_squares(d, group, probe, k); },
       probe.outer,
       [&](std::size_t packet) {
-        offer_packet(packets[packet], tree.numbers.data() + packet * kTreeWidth, center, kept);
-        probe.narrow(kept.limit());
+        offer_packet(packets[packet], tree.indices.data() + packet * kTreeWidth, center, kept);
+        probe.set_limit(kept.limit());
       });
 }
 

@@ -15,10 +15,10 @@ namespace {
 double least_square(const BoxLevels& boxes, const BoxGroup& group, std::size_t k, const Coordinates& center) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double place = (center[axis] - boxes.origin[axis]) * boxes.scale;
-    const double gap = std::max(group.low[axis][k] - place, place - group.high[axis][k]);
-    const double sure = (gap - 0x1p-50 * std::abs(place)) / boxes.scale;
-    if (sure > 0) sum += sure * sure;
+    const double position = (center[axis] - boxes.origin[axis]) * boxes.scale;
+    const double gap = std::max(group.low[axis][k] - position, position - group.high[axis][k]);
+    const double lower_bound = (gap - 0x1p-50 * std::abs(position)) / boxes.scale;
+    if (lower_bound > 0) sum += lower_bound * lower_bound;
   }
   return sum * (1 - 0x1p-40);
 }
@@ -31,7 +31,7 @@ bool visit_packets(const BoxLevels& boxes, std::size_t level, std::size_t item, 
   if (level == 0) return take(item);
   const std::size_t first = item * kTreeWidth;
   const BoxGroup& group = boxes.groups[boxes.first[level - 1] + item];
-  for (std::size_t k = 0; k < kTreeWidth && first + k < boxes.below[level - 1]; ++k) {
+  for (std::size_t k = 0; k < kTreeWidth && first + k < boxes.child_counts[level - 1]; ++k) {
     if (near(group, k) && visit_packets(boxes, level - 1, first + k, near, take)) return true;
   }
   return false;
@@ -57,7 +57,7 @@ bool visit_ball(const PackedTree& tree, const Coordinates& center, const Limit& 
       const Coordinates p = point_of(tree, packet, lane);
       const double x = p.x - center.x, y = p.y - center.y, z = p.z - center.z;
       const double square = (x * x + y * y) + z * z;
-      if (square <= limit() && take(Neighbor{tree.numbers[first + lane], square})) return true;
+      if (square <= limit() && take(Neighbor{tree.indices[first + lane], square})) return true;
     }
     return false;
   });
@@ -77,8 +77,8 @@ void visit_nearest(const PackedTree& tree, const Coordinates& center, Kept& kept
 float enter_time(const BoxGroup& group, std::size_t k, const SweptBall& ball) {
   float enter = 0, leave = std::numeric_limits<float>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float to_low = (group.low[axis][k] - ball.pad - ball.origin[axis]) * ball.inverse[axis];
-    const float to_high = (group.high[axis][k] + ball.pad - ball.origin[axis]) * ball.inverse[axis];
+    const float to_low = (group.low[axis][k] - ball.margin - ball.origin[axis]) * ball.inverse[axis];
+    const float to_high = (group.high[axis][k] + ball.margin - ball.origin[axis]) * ball.inverse[axis];
     enter = std::max(enter, std::min(to_low, to_high));
     leave = std::min(leave, std::max(to_low, to_high));
   }
@@ -89,8 +89,8 @@ bool is_near_line(const Coordinates& p, const SweptBall& ball) {
   const double x = p.x - ball.from.x, y = p.y - ball.from.y, z = p.z - ball.from.z;
   const double u = y * ball.unit.z - z * ball.unit.y, v = z * ball.unit.x - x * ball.unit.z,
                w = x * ball.unit.y - y * ball.unit.x;
-  const double far =
-      SweptBall::kRelativeMargin * ((std::abs(x) + std::abs(y)) + std::abs(z)) + (ball.radius + SweptBall::kAbsoluteMargin);
+  const double far = SweptBall::kRelativeMargin * ((std::abs(x) + std::abs(y)) + std::abs(z)) +
+                     (ball.radius + SweptBall::kAbsoluteMargin);
   return (u * u + v * v) + w * w <= far * far;
 }
 

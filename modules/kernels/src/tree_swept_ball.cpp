@@ -25,19 +25,19 @@ HWY_INLINE V<Floats> enter_times(Floats d, const BoxGroup& group, const SweptBal
   auto enter = hn::Zero(d), leave = hn::Inf(d);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool up = ball.inverse[axis] > 0;
-    const float pad = up ? ball.pad : -ball.pad;
+    const float margin = up ? ball.margin : -ball.margin;
     const auto origin = hn::Set(d, ball.origin[axis]), inverse = hn::Set(d, ball.inverse[axis]);
     const auto low = hn::Load(d, (up ? group.low : group.high)[axis] + k);
     const auto high = hn::Load(d, (up ? group.high : group.low)[axis] + k);
-    enter = hn::Max(enter, hn::Mul(hn::Sub(hn::Sub(low, hn::Set(d, pad)), origin), inverse));
-    leave = hn::Min(leave, hn::Mul(hn::Sub(hn::Add(high, hn::Set(d, pad)), origin), inverse));
+    enter = hn::Max(enter, hn::Mul(hn::Sub(hn::Sub(low, hn::Set(d, margin)), origin), inverse));
+    leave = hn::Min(leave, hn::Mul(hn::Sub(hn::Add(high, hn::Set(d, margin)), origin), inverse));
   }
   return hn::IfThenElse(hn::Le(enter, leave), enter, hn::Inf(d));
 }
 
 // Returns, as bits, the points that may be within the radius of the whole line; a NaN never is. With q from
-// the origin to the point, |q x d| is off by less than 2^-48 |q|_1 |d|. kRelativeMargin |q|_1 covers this and the
-// margin that Sphere::intersect() adds to a radius.
+// the origin to the point, |q x d| is off by less than 2^-48 |q|_1 |d|. kRelativeMargin |q|_1 covers this and
+// the margin that Sphere::intersect() adds to a radius.
 template <typename T>
 HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const SweptBall& ball) {
   const Doubles d;
@@ -51,9 +51,9 @@ HWY_INLINE std::uint32_t near_line(const PointPacket<T>& packet, const SweptBall
     const auto square = sum_of_squares<Doubles>(hn::Sub(hn::Mul(y, unit_z), hn::Mul(z, unit_y)),
                                                 hn::Sub(hn::Mul(z, unit_x), hn::Mul(x, unit_z)),
                                                 hn::Sub(hn::Mul(x, unit_y), hn::Mul(y, unit_x)));
-    const auto doubt =
+    const auto error_bound =
         hn::Mul(hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)), hn::Set(d, SweptBall::kRelativeMargin));
-    const auto far = hn::Add(doubt, hn::Set(d, ball.radius + SweptBall::kAbsoluteMargin));
+    const auto far = hn::Add(error_bound, hn::Set(d, ball.radius + SweptBall::kAbsoluteMargin));
     bits |= bits_of_lanes(d, hn::Le(square, hn::Mul(far, far))) << k;
   }
   return bits;

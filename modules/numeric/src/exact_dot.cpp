@@ -69,12 +69,12 @@ struct Rounded {
   const Coordinates scaled{scale * p.x, scale * p.y, scale * p.z};
   const Coordinates other{-scale * q.x, -scale * q.y, -scale * q.z};
   const Expansion exact = Expansion().add_dot(n, scaled).add_dot(n, other);
-  return exact.certain() ? exact.sign() : (exact_dot(n, p) - exact_dot(n, q)).sign();
+  return exact.is_lossless() ? exact.sign() : (exact_dot(n, p) - exact_dot(n, q)).sign();
 }
 
 [[gnu::noinline]] double project_exactly_up(const Direction& n, const Coordinates& p) {
   const Expansion exact = Expansion().add_dot(n, p);
-  return (exact.certain() ? exact.up() : rounded_up(exact_dot(n, p))) + 0.0;
+  return (exact.is_lossless() ? exact.up() : rounded_up(exact_dot(n, p))) + 0.0;
 }
 
 }  // namespace
@@ -91,9 +91,9 @@ int compare_along(const Direction& n, const Coordinates& p, const Coordinates& q
   const Rounded b(n, q);
   const double difference = a.value() - b.value();
   // kSmallestNormal covers products that underflow.
-  const double doubt = 0x1p-51 * (a.magnitude() + b.magnitude()) + kSmallestNormal;
-  if (difference > doubt) return 1;
-  if (difference < -doubt) return -1;
+  const double error_bound = 0x1p-51 * (a.magnitude() + b.magnitude()) + kSmallestNormal;
+  if (difference > error_bound) return 1;
+  if (difference < -error_bound) return -1;
   // Products of floats with small integers or powers of two are exact. Such a tie takes 20 ns here, 48 ns by
   // expansions.
   if (a.has_exact_products(n, p) && b.has_exact_products(n, q)) return compare(a.sum(), b.sum());

@@ -16,9 +16,9 @@ namespace {
 constexpr double kLossyProduct = 0x1p-960;
 
 // A non-overlapping expansion, parts ordered by increasing magnitude.
-class Parts {
+class ExpansionParts {
  public:
-  Parts(const double* terms, std::size_t count) {
+  ExpansionParts(const double* terms, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
       add(terms[i]);
   }
@@ -49,8 +49,9 @@ class Parts {
     return parts_[size_ - 1] > 0 ? 1 : -1;
   }
 
-  // Makes each part the rounded sum of itself and all smaller ones (the first pass of Shewchuk's COMPRESS), so that
-  // each is at most 2^-52 of the next larger one: the 2098 binary digits of a double hold at most 41 such parts.
+  // Makes each part the rounded sum of itself and all smaller ones (the first pass of Shewchuk's COMPRESS),
+  // so that each is at most 2^-52 of the next larger one: the 2098 binary digits of a double hold at most 41
+  // such parts.
   void compress() {
     if (size_ == 0) return;
     std::size_t lowest = size_ - 1;
@@ -61,7 +62,8 @@ class Parts {
       rounded = error != 0 ? error : sum;
     }
     parts_[lowest] = rounded;
-    std::copy(parts_.begin() + static_cast<std::ptrdiff_t>(lowest), parts_.begin() + static_cast<std::ptrdiff_t>(size_), parts_.begin());
+    std::copy(parts_.begin() + static_cast<std::ptrdiff_t>(lowest),
+              parts_.begin() + static_cast<std::ptrdiff_t>(size_), parts_.begin());
     size_ -= lowest;
   }
 
@@ -99,7 +101,7 @@ Expansion& Expansion::add_product(double a, double b) {
 
 // Sums of differences can have more terms than there is capacity for. compress() always leaves free capacity.
 void Expansion::compact() {
-  Parts parts(terms_.data(), size_);
+  ExpansionParts parts(terms_.data(), size_);
   parts.compress();
   size_ = 0;
   head_ = low_ = magnitude_ = 0;
@@ -107,28 +109,28 @@ void Expansion::compact() {
     add(parts[i]);
 }
 
-// Bounds what head_ + low_ lacks of the sum. low_ is the sum of at most 44 errors, each at most 2^-53 of the
-// magnitude; adding them up made 44 errors of at most 2^-53 of their sum. Together that is 44^2 2^-106 < 2^-95 of
-// the magnitude. A product below 2^-960 lost less than that if the magnitude exceeds 2^-900. The result is NaN
-// for smaller magnitudes, and near the largest double, where partial sums may overflow: then no comparison
-// with it holds and the expansion decides.
-double Expansion::missing() const {
+// Bounds the difference between the sum and head_ + low_. low_ is the sum of at most 44 errors, each at most
+// 2^-53 of the magnitude; adding them up made 44 errors of at most 2^-53 of their sum. Together that is
+// 44^2 2^-106 < 2^-95 of the magnitude. A product below 2^-960 lost less than that if the magnitude exceeds
+// 2^-900. The result is NaN for smaller magnitudes, and near the largest double, where partial sums may
+// overflow: then no comparison with it holds and the expansion decides.
+double Expansion::error_bound() const {
   return magnitude_ > 0x1p-900 && magnitude_ < 0x1p1000 ? 0x1p-95 * magnitude_ : kNan;
 }
 
 double Expansion::value() const {
-  return Parts(terms_.data(), size_).value();
+  return ExpansionParts(terms_.data(), size_).value();
 }
 
 int Expansion::sign() const {
-  if (std::abs(head_) > std::abs(low_) + missing()) return head_ > 0 ? 1 : -1;
-  return Parts(terms_.data(), size_).sign();
+  if (std::abs(head_) > std::abs(low_) + error_bound()) return head_ > 0 ? 1 : -1;
+  return ExpansionParts(terms_.data(), size_).sign();
 }
 
 double Expansion::up() const {
-  const double least = sum_up(head_, low_ - missing());
-  if (least == sum_up(head_, low_ + missing())) return least;
-  Parts parts(terms_.data(), size_);
+  const double least = sum_up(head_, low_ - error_bound());
+  if (least == sum_up(head_, low_ + error_bound())) return least;
+  ExpansionParts parts(terms_.data(), size_);
   double result = parts.value();
   if (parts.size() <= 1 && !lossy_) return result;
   if (!std::isfinite(result)) return kInfinity;

@@ -103,11 +103,11 @@ void WorkerPool::start(unsigned threads) {
 // Some systems place threads on few processors, to save power or to pack virtual machines. They wake a helper
 // on its caller's processor, where it waits for milliseconds until the caller stops, while other processors
 // are idle.
-void WorkerPool::avoid(int processor) {
+void WorkerPool::exclude_processor(int processor) {
   if (std::exchange(avoided_, processor) != processor) avoid_processor(processor, threads_);
 }
 
-WorkerPool::Task* WorkerPool::wanting() {
+WorkerPool::Task* WorkerPool::find_open_task() {
   const auto found =
       std::find_if(tasks_.begin(), tasks_.end(), [](const Task* task) { return task->wanted > 0; });
   return found == tasks_.end() ? nullptr : *found;
@@ -130,12 +130,15 @@ void WorkerPool::serve() {
   std::unique_lock lock(mutex_);
   adopt_main_thread_scheduling(avoided_);
   for (;;) {
-    Task* task = wanting();
-    while (task == nullptr && !ended_ && spin_requests_ > 0 && spinning_ < max_spinning_ && spin_for_task(lock))
-      task = wanting();
+    Task* task = find_open_task();
+    while (task == nullptr && !ended_ && spin_requests_ > 0 && spinning_ < max_spinning_ &&
+           spin_for_task(lock))
+      task = find_open_task();
     if (task == nullptr) {
-      const std::uint64_t wakes = spin_request_count_;
-      work_.wait(lock, [&] { return ended_ || spin_request_count_ != wakes || (task = wanting()) != nullptr; });
+      const std::uint64_t requests = spin_request_count_;
+      work_.wait(lock, [&] {
+        return ended_ || spin_request_count_ != requests || (task = find_open_task()) != nullptr;
+      });
     }
     if (ended_) return;
     if (task == nullptr) continue;
@@ -153,7 +156,7 @@ void WorkerPool::start_spinning(unsigned helpers) {
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
-    if (tasks_.empty()) avoid(current_processor());
+    if (tasks_.empty()) exclude_processor(current_processor());
     max_spinning_ = std::max(max_spinning_, helpers);
     ++spin_requests_;
     ++spin_request_count_;
@@ -173,7 +176,7 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   {
     const std::lock_guard lock(mutex_);
     if (!ended_ && threads_.size() < helpers) start(helpers);
-    if (tasks_.empty()) avoid(current_processor());
+    if (tasks_.empty()) exclude_processor(current_processor());
     tasks_.push_back(&task);
     ++run_count_;
     sleeping = helpers - std::min(helpers, spinning_);
@@ -185,7 +188,7 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
     work();
   }
   if (current != this)
-    throw std::logic_error("a child forked inside a parallel call cannot finish that call");
+    throw std::logic_error("a forked child must not return from the body of a parallel call");
   std::unique_lock lock(mutex_);
   tasks_.erase(std::find(tasks_.begin(), tasks_.end(), &task));
   if (spin_requests_ > 0 && task.active > 0) {
@@ -195,7 +198,7 @@ void WorkerPool::run(unsigned helpers, const std::function<void()>& work) {
   }
   const auto done = [&] { return task.active == 0; };
   if (done_.wait_for(lock, kSpinTime, done)) return;
-  avoid(-1);  // the caller now leaves its processor, while the others may be busy
+  exclude_processor(-1);  // the caller now leaves its processor, while the others may be busy
   done_.wait(lock, done);
 }
 

@@ -40,8 +40,8 @@ class WorkerPool {
   /// is lost there.
   void run(unsigned helpers, const std::function<void()>& work);
 
-  /// From now on up to `helpers` threads spin for new tasks instead of sleeping, until stop_spinning() has been
-  /// called as often as start_spinning().
+  /// From now on up to `helpers` threads spin for new tasks instead of sleeping, until stop_spinning() has
+  /// been called as often as start_spinning().
   void start_spinning(unsigned helpers);
 
   /// Ends one start_spinning(). Does nothing if `pool` is that of the parent process.
@@ -58,8 +58,8 @@ class WorkerPool {
   };
 
   void start(unsigned threads);
-  void avoid(int processor);
-  Task* wanting();
+  void exclude_processor(int processor);
+  Task* find_open_task();
   void serve();
   bool spin_for_task(std::unique_lock<std::mutex>& lock);
 
@@ -68,11 +68,11 @@ class WorkerPool {
   std::vector<Task*> tasks_;
   std::vector<std::thread> threads_;
   bool ended_ = false;
-  int avoided_ = -1;                         // processor that the threads avoid, or -1; guarded by mutex_
+  int avoided_ = -1;                          // processor that the threads avoid, or -1; guarded by mutex_
   unsigned spinning_ = 0, max_spinning_ = 0;  // threads that spin, and the maximum of them; guarded by mutex_
-  std::uint64_t spin_request_count_ = 0;                  // number of calls of start_spinning(); guarded by mutex_
-  std::atomic<unsigned> spin_requests_{0};           // calls of start_spinning() that stop_spinning() has not ended
-  std::atomic<std::uint64_t> run_count_{0};     // number of calls of run()
+  std::uint64_t spin_request_count_ = 0;      // number of calls of start_spinning(); guarded by mutex_
+  std::atomic<unsigned> spin_requests_{0};    // calls of start_spinning() not yet ended by stop_spinning()
+  std::atomic<std::uint64_t> run_count_{0};   // number of calls of run()
 };
 
 }  // namespace pcl_bv::internal

@@ -20,18 +20,20 @@ thread_local std::vector<std::vector<std::byte>> spares;
 }  // namespace
 
 void LoadedPoints::load(const PointView& points, std::size_t begin, std::size_t count) {
-  if (points.indices != nullptr) throw std::invalid_argument("LoadedPoints: a view has a source or indices");
+  if (points.indices != nullptr)
+    throw std::invalid_argument("LoadedPoints: a view of a PointSource cannot have an index list");
   if (count > kChunkPoints)
-    throw std::invalid_argument("at most " + std::to_string(kChunkPoints) +
-                                " points of a source at a time, not " + std::to_string(count));
+    throw std::invalid_argument("LoadedPoints: " + std::to_string(count) +
+                                " points of a PointSource are too many; at most " +
+                                std::to_string(kChunkPoints) + " are allowed");
   if (!spares.empty()) {
     buffer_ = std::move(spares.back());
     spares.pop_back();
   }
   view_ = points.source->load(points.first + begin, count, buffer_);
-  const bool asked_for = view_.source == nullptr && view_.count == count && view_.scalar == points.scalar;
-  if (!asked_for || (count > 0 && view_.index(0) != points.first + begin))
-    throw std::invalid_argument("PointSource::load() gives other points than it was asked for");
+  const bool as_requested = view_.source == nullptr && view_.count == count && view_.scalar == points.scalar;
+  if (!as_requested || (count > 0 && view_.index(0) != points.first + begin))
+    throw std::invalid_argument("PointSource::load() returned other points than requested");
 }
 
 void LoadedPoints::return_buffer() {

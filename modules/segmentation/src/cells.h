@@ -76,7 +76,7 @@ constexpr std::size_t free_memory_from_blocks = 1 << 18;
 template <typename Key>
 struct BlockKeys {
   std::vector<Key> keys;  ///< Key of each block, ascending.
-  Parts<CellPart<Key>> parts;
+  PointParts<CellPart<Key>> parts;
   std::vector<KeyedPoint<Key>> order, spare;
   BlockIndex<Key> index;
   /// Position of each block in `keys`, by its number in `index`; `occupied` likewise.

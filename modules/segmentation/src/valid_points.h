@@ -28,7 +28,7 @@ struct ValidPoints {
   std::vector<std::int32_t> numbers;      ///< Index in the cloud of each point; strictly ascending.
   Box<T> box;                             ///< Box of the points; undefined if there are none.
   std::vector<std::int32_t> sorted_list;  ///< Buffer for a sorted copy of the view's index list.
-  Parts<CopyPart<T>> parts;
+  PointParts<CopyPart<T>> parts;
 };
 
 /// Fills `valid` with each valid point of `view`, once. T is the scalar type of the view. Throws

@@ -61,7 +61,7 @@ struct ZonePart {
 /// The valid points of a view, part by part, in its order.
 class ZonePoints {
  public:
-  Parts<ZonePart> parts;
+  PointParts<ZonePart> parts;
   std::vector<std::int32_t> number;  ///< Index in the cloud.
   std::vector<std::uint16_t> cell;
   std::vector<float> range;  ///< Horizontal distance from the sensor, metres.

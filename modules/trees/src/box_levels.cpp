@@ -48,17 +48,17 @@ float min_side_radius(const BoxGroup& group) {
 
 void reset_levels(BoxLevels& boxes, std::size_t items, const PositionBounds& bounds) {
   boxes.levels = 0;
-  boxes.below[0] = items;
+  boxes.child_counts[0] = items;
   if (items == 0) {
     boxes.groups.clear();
     return;
   }
   do {
-    const std::size_t groups = groups_of(boxes.below[boxes.levels]);
+    const std::size_t groups = groups_of(boxes.child_counts[boxes.levels]);
     ++boxes.levels;
     boxes.first[boxes.levels] = boxes.first[boxes.levels - 1] + groups;
-    boxes.below[boxes.levels] = groups;
-  } while (boxes.below[boxes.levels] > 1);
+    boxes.child_counts[boxes.levels] = groups;
+  } while (boxes.child_counts[boxes.levels] > 1);
   boxes.groups.assign(boxes.first[boxes.levels], empty_group());
   if (!(bounds.low.x <= bounds.high.x)) return;  // items without any position
   double half = 0;
@@ -87,7 +87,7 @@ void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, co
 
 void raise_levels(BoxLevels& boxes) {
   for (std::size_t level = 1; level < boxes.levels; ++level) {
-    for (std::size_t item = 0; item < boxes.below[level]; ++item) {
+    for (std::size_t item = 0; item < boxes.child_counts[level]; ++item) {
       const BoxGroup& from = boxes.groups[boxes.first[level - 1] + item];
       BoxGroup& to = boxes.groups[boxes.first[level] + item / kTreeWidth];
       for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -22,7 +22,7 @@ struct CenteredBox {
   CenteredBox(const ConvexRegion& region, const PlainBox& box)
       : center(0.5 * (box.low + box.high) - vector(region.center)), half(0.5 * (box.high - box.low)) {
     const double size = taxicab3(box.low) + taxicab3(box.high) + taxicab3(region.center);
-    margin = 0x1p-38 * (size + region.radius) + 4 * region.doubt + 0x1p-480;
+    margin = 0x1p-38 * (size + region.radius) + 4 * region.surface_error + 0x1p-480;
   }
 
   double along(const Direction& n) const { return dot3(n, center); }

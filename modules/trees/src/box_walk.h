@@ -45,7 +45,8 @@ void descend(const BoxLevels& boxes, std::size_t level, std::size_t group, const
   };
   std::array<Child, kTreeWidth> children;
   const auto of_boxes = bounds(boxes.first[level] + group);
-  const std::size_t first = group * kTreeWidth, count = std::min(kTreeWidth, boxes.below[level] - first);
+  const std::size_t first = group * kTreeWidth,
+                    count = std::min(kTreeWidth, boxes.child_counts[level] - first);
   const double most = std::min<double>(limit(), std::numeric_limits<double>::max());
   std::size_t kept = 0;
   for (std::size_t k = 0; k < count; ++k) {

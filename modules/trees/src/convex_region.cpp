@@ -63,7 +63,8 @@ class Planes {
     const double length = normal.stableNorm();
     const Eigen::Vector3d n = normal / length;
     region_.planes.push_back({n.x(), n.y(), n.z(), offset / length - dot3(n, center_)});
-    region_.doubt = std::max(region_.doubt, 0x1p-45 * (std::abs(offset / length) + taxicab3(center_)));
+    region_.surface_error =
+        std::max(region_.surface_error, 0x1p-45 * (std::abs(offset / length) + taxicab3(center_)));
     bound(n, offset / length, region_.low.x, region_.high.x, 0);
     bound(n, offset / length, region_.low.y, region_.high.y, 1);
     bound(n, offset / length, region_.low.z, region_.high.z, 2);
@@ -130,7 +131,8 @@ ConvexRegion region_of(const Obb& box) {
 }
 
 ConvexRegion region_of(const Cylinder& cylinder) {
-  ConvexRegion region = around(cylinder, RegionShape::body, cylinder.center(), axes_about(cylinder.axis()));
+  ConvexRegion region =
+      around(cylinder, RegionShape::rounded, cylinder.center(), axes_about(cylinder.axis()));
   region.slab[0] = cylinder.half_height();
   region.weight = {0, 1, 1};
   region.radius = cylinder.radius();
@@ -141,15 +143,15 @@ ConvexRegion region_of(const Capsule& capsule) {
   const Eigen::Vector3d edge = capsule.b() - capsule.a();
   const double length = edge.stableNorm();
   const Eigen::Vector3d unit = length > 0 ? Eigen::Vector3d(edge / length) : Eigen::Vector3d::UnitX();
-  ConvexRegion region = around(capsule, RegionShape::body, capsule.a() + 0.5 * edge, axes_about(unit));
-  region.doubt = 0x1p-50 * (taxicab3(capsule.a()) + taxicab3(capsule.b()));
+  ConvexRegion region = around(capsule, RegionShape::rounded, capsule.a() + 0.5 * edge, axes_about(unit));
+  region.surface_error = 0x1p-50 * (taxicab3(capsule.a()) + taxicab3(capsule.b()));
   region.core[0] = 0.5 * length;
   region.radius = capsule.radius();
   return region;
 }
 
 ConvexRegion region_of(const Ellipsoid& ellipsoid) {
-  ConvexRegion region = around(ellipsoid, RegionShape::body, ellipsoid.center(), ellipsoid.axes());
+  ConvexRegion region = around(ellipsoid, RegionShape::rounded, ellipsoid.center(), ellipsoid.axes());
   region.radius = ellipsoid.radii().maxCoeff();
   for (int i = 0; i < 3; ++i) {
     const double r = ellipsoid.radii()[i];

@@ -34,10 +34,10 @@ class FirstHit final : public PacketVisitor {
       const auto inside =
           Sphere(vector(load_point(places_, at)), ball_.radius).intersect(origin_, direction_);
       if (!inside) continue;
-      const PointHit hit{tree_.numbers[at], inside->enter};
+      const PointHit hit{tree_.indices[at], inside->enter};
       if (best_.index < 0 || hit.t < best_.t || (hit.t == best_.t && hit.index < best_.index)) best_ = hit;
     }
-    return best_.index < 0 ? std::numeric_limits<float>::max() : ball_.latest(best_.t);
+    return best_.index < 0 ? std::numeric_limits<float>::max() : ball_.latest_entry(best_.t);
   }
 
  private:

@@ -44,7 +44,7 @@ class NearestToVolume {
       const std::size_t i = packet * kTreeWidth + k;
       const Coordinates p = load_point(points, i);
       if (!is_valid(p)) continue;
-      const PointDistance found{tree_.numbers[i], body_.of(vector(p))};
+      const PointDistance found{tree_.indices[i], body_.of(vector(p))};
       if (std::tie(found.distance, found.index) < std::tie(best_.distance, best_.index)) best_ = found;
     }
   }

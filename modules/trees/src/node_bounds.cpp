@@ -85,13 +85,13 @@ template <typename Shape, typename Item, typename Join>
 void NodeShapes::fill(std::vector<Shape>& shapes, const BoxLevels& levels, const ParallelPolicy& policy,
                       const Item& item, const Join& join) {
   shapes.assign(levels.groups.size() * kTreeWidth, Shape());
-  for_each_range(policy, levels.below[0], kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
+  for_each_range(policy, levels.child_counts[0], kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
     const FloatEnvironment environment;
     for (std::size_t i = begin; i < end; ++i)
       shapes[i] = item(i);
   });
   for (std::size_t level = 1; level < levels.levels; ++level) {
-    for (std::size_t i = 0; i < levels.below[level]; ++i) {
+    for (std::size_t i = 0; i < levels.child_counts[level]; ++i) {
       const Shape* const below = shapes.data() + (levels.first[level - 1] + i) * kTreeWidth;
       shapes[levels.first[level] * kTreeWidth + i] = join(below, kTreeWidth);
     }

@@ -23,7 +23,7 @@ void write_points(const PackedTree& tree, T* rows) {
   const PointView points = tree.view();
   for (std::size_t place = 0; place < tree.count; ++place) {
     const Coordinates p = load_point(points, place);
-    T* const row = rows + 3 * static_cast<std::size_t>(tree.numbers[place]);
+    T* const row = rows + 3 * static_cast<std::size_t>(tree.indices[place]);
     for (std::size_t axis = 0; axis < 3; ++axis)
       row[axis] = static_cast<T>(p[axis]);
   }

@@ -60,8 +60,8 @@ void PointTree::refit(const PointView& cloud, const Execution& execution) {
   const auto lacks = [&](std::int32_t number) {
     return number >= 0 && static_cast<std::size_t>(number) - cloud.first >= cloud.count;
   };
-  if (const auto at = std::find_if(tree_.numbers.begin(), tree_.numbers.end(), lacks);
-      at != tree_.numbers.end()) {
+  if (const auto at = std::find_if(tree_.indices.begin(), tree_.indices.end(), lacks);
+      at != tree_.indices.end()) {
     throw std::invalid_argument("PointTree: refit() to a cloud that has no point " + std::to_string(*at));
   }
   refit_tree(cloud, execution.parallel, scratch(), tree_);

@@ -46,7 +46,7 @@ void load_part(const PointView& points, LoadPart& part, PositionedItem<T>* to) {
 
 // Loads the valid points and returns their number.
 template <typename T>
-std::size_t load(const PointView& points, const ParallelPolicy& policy, Parts<LoadPart>& parts,
+std::size_t load(const PointView& points, const ParallelPolicy& policy, PointParts<LoadPart>& parts,
                  PositionedItem<T>* to) {
   parts.cut(points.count, policy);
   parts.for_each(policy, [&](LoadPart& part) { load_part(points, part, to); });
@@ -70,7 +70,7 @@ PositionBounds bounds_of(const PointPacket<T>& packet) {
 
 // Calls fill(p, packet) for all packets, and then sets the boxes around their points.
 template <typename T, typename Fill>
-void fill_packets(PackedTree& tree, const ParallelPolicy& policy, Parts<PacketPart>& parts,
+void fill_packets(PackedTree& tree, const ParallelPolicy& policy, PointParts<PacketPart>& parts,
                   const Fill& fill) {
   std::vector<PointPacket<T>>& packets = packets_of<T>(tree);
   parts.cut(packets.size(), policy);
@@ -102,19 +102,19 @@ void build(const PointView& points, const ParallelPolicy& policy, TreeScratch& s
   order.sort(tree.count, policy);
   const std::size_t packets = (tree.count + kTreeWidth - 1) / kTreeWidth;
   packets_of<T>(tree).resize(packets);
-  tree.numbers.resize(packets * kTreeWidth);
+  tree.indices.resize(packets * kTreeWidth);
   fill_packets<T>(tree, policy, scratch.packets, [&](std::size_t p, PointPacket<T>& packet) {
     const std::size_t first = p * kTreeWidth, count = std::min(kTreeWidth, tree.count - first);
     for (std::size_t k = 0; k < count; ++k) {
       const PositionedItem<T>& item = order[first + k];
       for (std::size_t axis = 0; axis < 3; ++axis)
         *packet.at(axis, k) = item.place[axis];
-      tree.numbers[first + k] = static_cast<std::int32_t>(item.number);
+      tree.indices[first + k] = static_cast<std::int32_t>(item.number);
     }
     for (std::size_t k = count; k < kTreeWidth; ++k) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         *packet.at(axis, k) = std::numeric_limits<T>::quiet_NaN();
-      tree.numbers[first + k] = -1;
+      tree.indices[first + k] = -1;
     }
   });
 }
@@ -124,7 +124,7 @@ void refit(const PointView& cloud, const ParallelPolicy& policy, TreeScratch& sc
   fill_packets<T>(tree, policy, scratch.packets, [&](std::size_t p, PointPacket<T>& packet) {
     for (std::size_t k = 0; k < kTreeWidth && p * kTreeWidth + k < tree.count; ++k) {
       T xyz[3];
-      load_point(cloud, static_cast<std::size_t>(tree.numbers[p * kTreeWidth + k]) - cloud.first, xyz);
+      load_point(cloud, static_cast<std::size_t>(tree.indices[p * kTreeWidth + k]) - cloud.first, xyz);
       const bool valid = is_valid({xyz[0], xyz[1], xyz[2]});
       for (std::size_t axis = 0; axis < 3; ++axis)
         *packet.at(axis, k) = valid ? xyz[axis] : std::numeric_limits<T>::quiet_NaN();

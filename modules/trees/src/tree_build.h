@@ -26,8 +26,8 @@ struct PacketPart {
 
 /// Buffers for building and refitting, reused for the next cloud.
 struct TreeScratch {
-  Parts<LoadPart> loads;
-  Parts<PacketPart> packets;
+  PointParts<LoadPart> loads;
+  PointParts<PacketPart> packets;
   SpatialOrder<float> floats;
   SpatialOrder<double> doubles;
 };

@@ -65,7 +65,8 @@ class VolumeWalk {
   bool visit(std::size_t level, std::size_t number) const {
     const BoxLevels& boxes = tree_.boxes;
     const BoxGroup& group = boxes.groups[boxes.first[level] + number];
-    const std::size_t first = number * kTreeWidth, end = std::min(first + kTreeWidth, boxes.below[level]);
+    const std::size_t first = number * kTreeWidth,
+                      end = std::min(first + kTreeWidth, boxes.child_counts[level]);
     for (std::size_t item = first; item < end; ++item) {
       switch (volume_.relation_to(boxes, group, item - first)) {
         case Relation::apart:
@@ -85,7 +86,7 @@ class VolumeWalk {
 
   bool report_all(std::size_t level, std::size_t item) const {
     const std::size_t packets = std::size_t{1} << 4 * level;
-    const std::size_t end = std::min((item + 1) * packets, tree_.boxes.below[0]);
+    const std::size_t end = std::min((item + 1) * packets, tree_.boxes.child_counts[0]);
     for (std::size_t packet = item * packets; packet < end; ++packet) {
       if (take(packet, valid_points(packet))) return true;
     }

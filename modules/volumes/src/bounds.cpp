@@ -59,7 +59,7 @@ bool within(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double
   for (int i = 0; i < 3; ++i)
     add_square_of_difference(excess, a[i], b[i], 1);
   add_square_of_difference(excess, r, s, -1);
-  return excess.sign() <= 0 && excess.certain();
+  return excess.sign() <= 0 && excess.is_lossless();
 }
 
 Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half) {

@@ -31,7 +31,7 @@ bool add_triple(double a, double b, double c, Expansion& sum) {
   if (product == 0) return a == 0 || b == 0;
   if (std::abs(product) < 0x1p-900) return false;
   sum.add_product(product, c).add_product(std::fma(a, b, -product), c);
-  return sum.certain();
+  return sum.is_lossless();
 }
 
 // The exponents of the lowest and the highest bit that the coordinates have together. One coordinate must not

@@ -92,7 +92,7 @@ void DistanceScan::block_maxima(const DistanceCenter& center, double limit, Bloc
     OctantScan scan{center, limit, filter_};
     for (std::size_t b = 0; b < count; ++b) {
       scan_octants(isa_, block_of(points.view(), b), scan);
-      maxima[first + b] = *std::max_element(scan.greatest.begin(), scan.greatest.end());
+      maxima[first + b] = *std::max_element(scan.max_squared.begin(), scan.max_squared.end());
     }
   });
 }
@@ -105,7 +105,7 @@ double DistanceScan::greatest(const DistanceCenter& center, double at_least) con
     for (std::size_t b = 0; b < count; ++b) {
       scan.limit = greatest.load(std::memory_order_relaxed);
       scan_octants(isa_, block_of(points.view(), b), scan);
-      raise(greatest, *std::max_element(scan.greatest.begin(), scan.greatest.end()));
+      raise(greatest, *std::max_element(scan.max_squared.begin(), scan.max_squared.end()));
     }
   });
   return greatest;
@@ -162,8 +162,8 @@ void DistanceScan::scan_chunk(std::size_t first, std::size_t count, const Distan
     scan.bounds = bounds_ == nullptr ? nullptr : &bounds_[(first + b) * kBlockBounds];
     scan.limit = std::max(limit, best.least());
     scan_octants(isa_, block_of(points.view(), b), scan);
-    greatest[b] = scan.greatest;
-    best.raise(scan.greatest);
+    greatest[b] = scan.max_squared;
+    best.raise(scan.max_squared);
   }
   if (scan.filter == FloatFilter::reject) best.filtered();
   // The points are found while the chunk is in memory. To find them later, a source would have to load the

@@ -77,8 +77,8 @@ ChunkSupports SupportSearch::find(const PointView& chunk) {
   ChunkSupports found;
   chunk_supports(isa_, chunk, directions_, known_max, found);
   for (std::size_t end = 0; shared_ && end < 2 * directions_.count; ++end) {
-    if (!found.ends[end].found) continue;
-    const double projection = projection_lower_bound(directions_, end, found.ends[end].point);
+    if (!found.supports[end].found) continue;
+    const double projection = projection_lower_bound(directions_, end, found.supports[end].point);
     while (known_max[end] < projection &&
            !known_max_[end].compare_exchange_weak(known_max[end], projection, std::memory_order_relaxed)) {
     }
@@ -89,7 +89,7 @@ ChunkSupports SupportSearch::find(const PointView& chunk) {
 void SupportSearch::merge(const ChunkSupports& part) {
   all_.dropped += part.dropped;
   for (std::size_t end = 0; end < 2 * directions_.count; ++end)
-    keep_larger_projection(directions_.support_direction(end), part.ends[end], all_.ends[end]);
+    keep_larger_projection(directions_.support_direction(end), part.supports[end], all_.supports[end]);
 }
 
 void SupportSearch::run(const PointView& points, const Execution& execution) {
@@ -100,7 +100,7 @@ void SupportSearch::run(const PointView& points, const Execution& execution) {
 }
 
 Support SupportSearch::along(std::size_t k) const {
-  return support_between(directions_, k, all_.ends[2 * k], all_.ends[2 * k + 1]);
+  return support_between(directions_, k, all_.supports[2 * k], all_.supports[2 * k + 1]);
 }
 
 Support support_between(const SupportDirections& directions, std::size_t k, const SupportPoint& low,

@@ -48,20 +48,21 @@ struct OctantScan {
   DistanceCenter center;
   double limit = 0;                       ///< Points with a smaller squared_distance() are ignored.
   FloatFilter filter = FloatFilter::off;  ///< Set to `off` by the scan if floats rejected little.
-  float* bounds = nullptr;                ///< If not null, receives kBlockBounds bounds for list_distant_by_bounds().
+  float* bounds = nullptr;                ///< Null, or kBlockBounds bounds to write (see ScanBounds).
 
   /// Result: the largest squared_distance() in each octant around the centre; -1 for an octant without a
   /// point of at least `limit`. The index of an octant has bit 0 set if qx > 0, bit 1 if qy > 0, bit 2 if
   /// qz > 0.
-  std::array<double, 8> greatest{};
+  std::array<double, 8> max_squared{};
 };
 
-/// Scans one block of at most kBlockPoints points. `greatest` is the same for every `isa`; `filter` and the
-/// bounds may differ. O(n). The caller must hold a FloatEnvironment. Throws std::invalid_argument for more
-/// points, for points that are not in memory, and for float points if the scale is not 1.
+/// Scans one block of at most kBlockPoints points. `max_squared` is the same for every `isa`; `filter` and
+/// the bounds may differ. O(n). The caller must hold a FloatEnvironment. Throws std::invalid_argument for
+/// more points, for points that are not in memory, and for float points if the scale is not 1.
 void scan_octants(UsableIsa isa, const PointView& block, OctantScan& scan);
 
-/// The bounds that scan_octants() wrote for a block of floats, and which points list_distant_by_bounds() may skip.
+/// The bounds that scan_octants() wrote for a block of floats, and which points list_distant_by_bounds() may
+/// skip.
 struct ScanBounds {
   const float* bounds = nullptr;
   double limit = 0;  ///< Squared distance from the centre of that scan; nearer points may be skipped.
@@ -70,14 +71,14 @@ struct ScanBounds {
 /// Lists the points that have a squared_distance() of at least `limit` from `center`. Writes their positions
 /// in the block, in any order, and returns their number; `positions` needs a capacity of kBlockPoints.
 ///
-/// All valid points whose squared_distance() from the centre of the scan is at least kept.limit are listed.
-/// Nearer points and infinite points may be listed as well. Cheap if few bounds exceed kept.limit. `isa` must
-/// be the one with which the bounds were written. Throws like scan_octants(), and for a block of doubles or
-/// if the bounds are null.
-std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& kept,
-                          const DistanceCenter& center, double limit, std::uint32_t* positions);
+/// All valid points whose squared_distance() from the centre of the scan is at least scanned.limit are
+/// listed. Nearer points and infinite points may be listed as well. Cheap if few bounds exceed scanned.limit.
+/// `isa` must be the one with which the bounds were written. Throws like scan_octants(), and for a block of
+/// doubles or if the bounds are null.
+std::size_t list_distant_by_bounds(UsableIsa isa, const PointView& block, const ScanBounds& scanned,
+                                   const DistanceCenter& center, double limit, std::uint32_t* positions);
 
-/// Returns the octant of a point, as defined for OctantScan::greatest.
+/// Returns the octant of a point, as defined for OctantScan::max_squared.
 std::size_t octant(const Coordinates& p, const DistanceCenter& center);
 
 /// Lists the valid points that have a squared_distance() of at least `limit`. Writes their positions in the

@@ -56,8 +56,8 @@ struct BoxLevels {
   /// one of its boxes and so certainly one of its points. Only a PackedTree has it; else empty.
   std::vector<float> min_side_radius;
   std::array<std::size_t, kMaxLevels + 1> first{};  ///< Index in `groups` of the first group of each level.
-  std::array<std::size_t, kMaxLevels + 1>
-      below{};             ///< Number of items, of groups of level 0, of groups of level 1, ...
+  /// Number of children on each level: of items on level 0, of groups of level n - 1 on level n.
+  std::array<std::size_t, kMaxLevels + 1> child_counts{};
   std::size_t levels = 0;  ///< 0 if there are no items.
   Coordinates origin{};
   double scale = 1;  ///< A power of two.
@@ -69,7 +69,7 @@ struct PackedTree {
   BoxLevels boxes;
   std::vector<PointPacket<float>> floats;    ///< Packets of a float cloud.
   std::vector<PointPacket<double>> doubles;  ///< Packets of a double cloud.
-  std::vector<std::int32_t> numbers;         ///< Index of each point in its cloud, by packet and lane.
+  std::vector<std::int32_t> indices;         ///< Index of each point in its cloud, by packet and lane.
   std::size_t count = 0;                     ///< Number of points.
   ScalarType scalar = ScalarType::float32;
 

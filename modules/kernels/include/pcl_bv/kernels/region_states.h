@@ -20,11 +20,11 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// The shape of a region within its box low <= p <= high, with q = p - center.
 enum class RegionShape : std::uint8_t {
-  box,    ///< The whole box, exactly.
-  slabs,  ///< |axes[i] . q| <= slab[i] for each i.
-  ball,   ///< |q| <= radius.
-  body,   ///< As slabs; and the sum of (weight[i] max(0, |axes[i] . q| - core[i]))^2 is at most radius^2.
-  planes  ///< n . q <= limit for each half-space.
+  box,      ///< The whole box, exactly.
+  slabs,    ///< |axes[i] . q| <= slab[i] for each i.
+  ball,     ///< |q| <= radius.
+  rounded,  ///< As slabs; and the sum of (weight[i] max(0, |axes[i] . q| - core[i]))^2 is at most radius^2.
+  planes    ///< n . q <= limit for each half-space.
 };
 
 /// A convex region: a shape within a box. RegionShape says which members a shape uses.
@@ -33,8 +33,8 @@ struct ConvexRegion {
   Coordinates low{}, high{};  ///< A box that contains the region; infinite only for boxes and planes.
   Coordinates center{};
 
-  /// Error bound: the surface may be off by this much, and by 2^-43 of |q|_1 and of the radius.
-  double doubt = 0;
+  /// Error bound of the surface: it may be off by this much plus 2^-43 of |q|_1 and of the radius.
+  double surface_error = 0;
 
   std::array<Direction, 3> axes{};  ///< Unit vectors to within 1e-11, like the normals of planes.
   std::array<double, 3> slab = {std::numeric_limits<double>::infinity(),
@@ -73,7 +73,7 @@ void region_states(UsableIsa isa, const PointView& points, const RegionTests& re
 
 /// A subset of the regions of a RegionTests, given by their indices.
 struct ChosenRegions {
-  const std::uint32_t* places;
+  const std::uint32_t* indices;
   std::size_t count;
 };
 

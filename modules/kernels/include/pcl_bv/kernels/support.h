@@ -23,8 +23,8 @@ inline constexpr std::size_t kMaxSupportDirections = 49;
 inline constexpr std::size_t kMaxSupports = 2 * kMaxSupportDirections;
 
 /// The directions of a call. Each direction k has two supports: number 2k is the minimum of the projections
-/// on it, number 2k + 1 the maximum. Identifiers call a support an `end`. Support `end` is the maximum of the
-/// projections on support_direction(end).
+/// on it, number 2k + 1 the maximum. Each support is the maximum of the projections on its
+/// support_direction(), which for a minimum is the opposite direction.
 struct SupportDirections {
   std::size_t count = 0;
   std::array<Direction, kMaxSupportDirections> exact{};
@@ -39,10 +39,11 @@ struct SupportDirections {
   /// Appends a direction. Throws std::invalid_argument if there are kMaxSupportDirections already, and unless
   /// the direction is finite with its largest component from 1e-30 to 1e30 in magnitude.
   void add(const Direction& direction);
-  /// Returns the direction whose maximum projection is the given support: exact[end / 2] or its opposite.
-  Direction support_direction(std::size_t end) const;
+  /// Returns the direction whose maximum projection is the given support: exact[support / 2] or
+  /// its opposite.
+  Direction support_direction(std::size_t support) const;
   /// The same for `scaled`.
-  Direction scaled_support_direction(std::size_t end) const;
+  Direction scaled_support_direction(std::size_t support) const;
 };
 
 /// The point with the largest projection on a direction.
@@ -63,23 +64,23 @@ using SupportBounds = std::array<double, kMaxSupports>;
 
 /// Returns the bounds if nothing is known: -infinity for each support.
 inline constexpr SupportBounds no_support_bounds() {
-  SupportBounds reached{};
-  for (double& r : reached)
-    r = -kInfinity;
-  return reached;
+  SupportBounds bounds{};
+  for (double& bound : bounds)
+    bound = -kInfinity;
+  return bounds;
 }
 
 /// Returns a lower bound of the exact projection of a point, for use in SupportBounds.
-double projection_lower_bound(const SupportDirections& set, std::size_t end, const Coordinates& point);
+double projection_lower_bound(const SupportDirections& set, std::size_t support, const Coordinates& point);
 
 /// The supports of a chunk. Only the first 2 * count of them are used.
 struct ChunkSupports {
-  std::array<SupportPoint, kMaxSupports> ends{};  ///< Not found: no point is valid or exceeds the bound.
-  std::size_t dropped = 0;                           ///< Number of points that are not valid (is_valid()).
+  std::array<SupportPoint, kMaxSupports> supports{};  ///< Not found: no point is valid or exceeds the bound.
+  std::size_t dropped = 0;                            ///< Number of points that are not valid (is_valid()).
 };
 
 /// Finds the support points of at most kChunkPoints points: the points with the largest exact projections; of
-/// equal projections the smallest index. A support that cannot exceed its bound in `reached` may or may not
+/// equal projections the smallest index. A support that cannot exceed its bound in `bounds` may or may not
 /// be found, depending on `isa`; every support that is found is the same for all `isa`.
 ///
 /// O(n * count). For directions other than the cube's, all points are compared exactly if floats over- or
@@ -87,6 +88,6 @@ struct ChunkSupports {
 /// must hold a FloatEnvironment. Throws std::invalid_argument for more points or directions, and if the
 /// points are not in memory.
 void chunk_supports(UsableIsa isa, const PointView& chunk, const SupportDirections& set,
-                    const SupportBounds& reached, ChunkSupports& out);
+                    const SupportBounds& bounds, ChunkSupports& out);
 
 }  // namespace pcl_bv

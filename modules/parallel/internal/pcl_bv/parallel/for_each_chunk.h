@@ -32,12 +32,13 @@ void for_each_chunk(const ParallelPolicy& policy, std::size_t chunks, Body&& bod
   internal::run_chunks(policy, chunks, std::ref(body));
 }
 
-/// Calls body(begin, end) for consecutive ranges of `of_chunk` items that together cover 0 ... items - 1. The
-/// last range may be shorter. Runs and throws like for_each_chunk().
+/// Calls body(begin, end) for consecutive ranges of `chunk_items` items that together cover 0 ... items - 1.
+/// The last range may be shorter. Runs and throws like for_each_chunk().
 template <typename Body>
-void for_each_range(const ParallelPolicy& policy, std::size_t items, std::size_t of_chunk, Body&& body) {
-  for_each_chunk(policy, (items + of_chunk - 1) / of_chunk,
-                 [&](std::size_t chunk) { body(chunk * of_chunk, std::min(items, (chunk + 1) * of_chunk)); });
+void for_each_range(const ParallelPolicy& policy, std::size_t items, std::size_t chunk_items, Body&& body) {
+  for_each_chunk(policy, (items + chunk_items - 1) / chunk_items, [&](std::size_t chunk) {
+    body(chunk * chunk_items, std::min(items, (chunk + 1) * chunk_items));
+  });
 }
 
 /// Keeps the library's threads spinning between parallel calls while the object lives, so that they need not

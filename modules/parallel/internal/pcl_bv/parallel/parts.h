@@ -16,7 +16,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// The points 0 ... count - 1, cut into consecutive parts. A Part has members `begin` and `end`, and any
 /// members for the results of its task. Parts and the memory they own are reused by the next cut().
 template <typename Part>
-class Parts {
+class PointParts {
  public:
   /// Sets `begin` and `end` of each part. A part has at least 8192 points (or all points): a smaller one
   /// would be done before another thread has started. There are two parts per thread, so that a thread that

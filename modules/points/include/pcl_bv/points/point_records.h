@@ -33,7 +33,7 @@ PointView view_records(const Record* records, std::size_t count) {
                 "the point type must have members x, y and z, all float or all double");
   if (count == 0) return {};
   if (&records->y != &records->x + 1 || &records->z != &records->x + 2) {
-    throw std::invalid_argument("the point type does not hold x, y, z one after another");
+    throw std::invalid_argument("the members x, y, z of the point type must be adjacent in this order");
   }
   PointView view = PointView::of(&records->x, sizeof(Record), count);
   view.readable -= static_cast<std::size_t>(view.data - reinterpret_cast<const std::byte*>(records));

@@ -48,7 +48,7 @@ class LoadedPoints {
   /// returns other points than requested.
   LoadedPoints(const PointView& points, std::size_t begin, std::size_t count) {
     if (begin > points.count || count > points.count - begin)
-      throw std::out_of_range("LoadedPoints: the view does not have these points");
+      throw std::out_of_range("LoadedPoints: the requested points are outside the view");
     if (points.source == nullptr) {
       view_ = points.slice(begin, count);
     } else {
