@@ -32,7 +32,7 @@ TEST_F(HostileFiles, JsonNestedWithoutEndIsALine) {
   const std::string open(20'000, '['), close(20'000, ']');
   expect_refused(drop_inside(R"({"volumes":)" + open + close + "}"), 1, "nested more than 64 deep");
   expect_refused(drop_inside(R"({"volumes":)" + open), 1, "nested more than 64 deep");
-  expect_refused(drop_inside("{\"a\": tru}"), 1, "f.json: line 1, column 10: is no JSON");
+  expect_refused(drop_inside("{\"a\": tru}"), 1, "f.json: line 1, column 10: invalid JSON");
 }
 
 TEST_F(HostileFiles, AnEntryThatIsNoVolumeIsNamedAndNoPointReturns) {

@@ -19,7 +19,7 @@ using Json = UntrustedJson;
 
 // Throws an error such as "radius: three numbers are wanted, not [1,2]".
 [[noreturn]] void refuse(const char* key, const char* wanted, const Json& value) {
-  refuse(std::string(key) + ": " + wanted + ", not " + shown(value));
+  refuse(std::string(key) + ": " + wanted + ", not " + abbreviated(value));
 }
 
 double number_of(const char* key, const Json& value) {
@@ -108,7 +108,7 @@ AnyVolume read_shape(const Json& json) {
   if (shape == "capsule") return Capsule(point("a"), point("b"), number("radius"));
   if (shape == "ellipsoid") return Ellipsoid(point("center"), axes("axes"), point("radii"));
   if (shape == "hull") return read_hull(json);
-  refuse(shown(name) + " is no shape");
+  refuse(abbreviated(name) + " is no shape");
 }
 
 // The path of an entry, such as "clusters[0].volumes[2]".
@@ -128,7 +128,7 @@ enum class Found : std::uint8_t { nothing, volumes, volume };
 
 void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
   if (const auto failed = json.find("failed"); failed != json.end())
-    refuse("is no volume: its fit failed, " + shown(*failed));
+    refuse("is no volume: its fit failed, " + abbreviated(*failed));
   if (const auto is_empty = json.find("empty"); is_empty != json.end()) {
     if (!is_empty->is_boolean()) refuse("empty", "true or false is wanted", *is_empty);
     if (is_empty->get<bool>()) return;
@@ -140,7 +140,8 @@ void read_volume(const Json& json, std::vector<AnyVolume>& volumes) {
 
 // Throws the error for an entry that should be a volume but is not.
 [[noreturn]] void refuse_entry(const Json& entry, const Place& place) {
-  refuse(place.text() + ": is no volume: " + (entry.is_object() ? "it has no \"shape\"" : shown(entry)));
+  refuse(place.text() +
+         ": is no volume: " + (entry.is_object() ? "it has no \"shape\"" : abbreviated(entry)));
 }
 
 // Appends all volumes in a JSON value. Entries that may have been meant as volumes must be volumes or contain
