@@ -231,7 +231,7 @@ TEST_F(RecordedSource, SaysWhatIsDamaged) {
   const auto source = open_source(file(), as_recorded());
   EXPECT_EQ(frames_of(*source).size(), 5U);
   EXPECT_THAT(source->take_warnings(),
-              testing::ElementsAre("without an index (it is cut): all of it was looked through"));
+              testing::ElementsAre("no usable index (the file is truncated): the whole file was scanned"));
   EXPECT_TRUE(source->take_warnings().empty());
 }
 

@@ -109,9 +109,9 @@ class Files(unittest.TestCase):
         middle = len(content) // 2
         content[middle:middle + 40] = b"\x55" * 40
         path.write_bytes(content)
-        with self.assertWarnsRegex(UserWarning, "damaged.mcap: passed over "):
+        with self.assertWarnsRegex(UserWarning, "damaged.mcap: skipped the "):
             pcl_bv.read(path, number=4)
-        with self.assertRaisesRegex(OSError, "ends before this cloud; passed over "):
+        with self.assertRaisesRegex(OSError, "ends before this cloud; skipped the "):
             pcl_bv.read(path, number=5)
 
     def test_a_capture_of_two_sensors_is_a_warning(self):

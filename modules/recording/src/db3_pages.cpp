@@ -44,7 +44,7 @@ class PageBytes {
     }
     return value << 8U | std::to_integer<std::uint64_t>(*take(1));
   }
-  bool ends_before(std::uint64_t place) const { return at_ < place; }
+  bool ends_before(std::uint64_t position) const { return at_ < position; }
 
  private:
   const std::vector<std::byte>& page_;
