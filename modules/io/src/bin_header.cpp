@@ -66,7 +66,8 @@ std::size_t better_field_count(const std::vector<float>& values, std::size_t fie
 
 void require_plausible(const InputFile& file, std::size_t fields) {
   const std::vector<float> values = sample_of(file);
-  const auto bad = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_implausible_coordinate));
+  const auto bad =
+      static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_implausible_coordinate));
   const std::string prefix = "with " + std::to_string(fields) + " floats per point, ";
   if (2 * bad > values.size())
     throw IoError(prefix + "most values are not plausible coordinates: probably not a .bin point cloud");

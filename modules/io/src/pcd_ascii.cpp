@@ -45,7 +45,8 @@ class PointRow {
   void operator()(TextRows& rows, std::byte* to) const {
     std::size_t read = 0;
     for (const PointField& run : runs_) {
-      rows.read_all(run, to, [&](std::uint32_t found, std::byte* at) { replace_value(rows, read + found, at); });
+      rows.read_all(run, to,
+                    [&](std::uint32_t found, std::byte* at) { replace_value(rows, read + found, at); });
       read += run.count;
       to += run.bytes();
     }

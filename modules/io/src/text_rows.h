@@ -77,8 +77,8 @@ inline constexpr std::size_t kTextPieceBytes = 256 << 10;
 /// The rows of a file.
 struct TextBody {
   const InputFile& file;
-  std::size_t begin;                             ///< Byte offset of the first row.
-  bool cr_ends_row;                         ///< A carriage return alone ends a row, too.
+  std::size_t begin;                          ///< Byte offset of the first row.
+  bool cr_ends_row;                           ///< A carriage return alone ends a row, too.
   std::size_t piece_bytes = kTextPieceBytes;  ///< Bytes that are read at a time.
 };
 

@@ -202,7 +202,8 @@ class TemporaryFile {
 
 bool is_rosbag2_folder(const fs::path& folder) {
   std::error_code unknown;
-  return fs::is_directory(folder, unknown) && (has_metadata(folder) || !files_without_metadata(folder).empty());
+  return fs::is_directory(folder, unknown) &&
+         (has_metadata(folder) || !files_without_metadata(folder).empty());
 }
 
 // A recorder writes metadata.yaml last, so it may be older than the files or incomplete. If it cannot be

@@ -155,7 +155,8 @@ void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
     const double x = std::max(4.0, std::min(at.x() - width / 2, view_.width - width - 4));
     const double y = std::max(cap_height + 4, top - 7);
     const Box box = box_of(text, x, y);
-    if (std::any_of(occupied_.begin(), occupied_.end(), [&](const Box& other) { return other.intersects(box); }))
+    if (std::any_of(occupied_.begin(), occupied_.end(),
+                    [&](const Box& other) { return other.intersects(box); }))
       continue;
     darken(box);
     write(text, x, y, palette(entry.colour));

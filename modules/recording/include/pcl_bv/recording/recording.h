@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A topic of a recording: the messages of one name, type and encoding.
 struct RecordedTopic {
   std::string name;
-  std::string type;      ///< In ROS 2's spelling, also for ROS 1 bags: "sensor_msgs/msg/PointCloud2".
-  std::string encoding;  ///< Encoding of the messages: "cdr", "ros1", or another name from the file.
+  std::string type;            ///< In ROS 2's spelling, also for ROS 1 bags: "sensor_msgs/msg/PointCloud2".
+  std::string encoding;        ///< Encoding of the messages: "cdr", "ros1", or another name from the file.
   std::uint64_t messages = 0;  ///< Number of messages; 0 if the file does not state it.
 };
 
