@@ -193,7 +193,7 @@ TEST_F(RecordedSource, GoesOnAfterACloudThatDoesNotFitItsData) {
     source->next(frame, patience);
     FAIL();
   } catch (const FrameError& error) {
-    EXPECT_EQ(error.reason, "the cloud announces 99 x 1 points of 14 bytes, but has 28 bytes");
+    EXPECT_EQ(error.reason, "the cloud should have 99 x 1 points of 14 bytes, but has only 28 bytes");
     EXPECT_EQ(error.frame.header.seq, 1U);
   }
   EXPECT_EQ(source->next(frame, patience), Next::frame);
