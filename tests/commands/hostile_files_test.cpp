@@ -57,7 +57,7 @@ TEST_F(HostileFiles, ADamagedPartialFileIsOneLine) {
   std::string bytes = read_file(at("part"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   const Result result = run({"--merge", "--volume", "aabb", "--format", "jsonl", file("bad", bytes)});
-  expect_refused(result, 1, "bad: was cut or changed");
+  expect_refused(result, 1, "bad: is damaged");
   EXPECT_EQ(result.json()["error"], "not all of the partial results can be merged");
   expect_refused(run({"--merge", "--partial", at("both"), file("bad", bytes), at("part")}), 1,
                  "bad: was cut");
