@@ -145,10 +145,10 @@ struct Selection {
   std::size_t left_out = 0;
 
   void leave_out(const msg::PointField& field, const std::string& problem) {
-    constexpr std::size_t most = 3;  // fields that the note names
-    if (++left_out <= most)
+    constexpr std::size_t max_named = 3;  // fields that the note names
+    if (++left_out <= max_named)
       note += (note.empty() ? "" : "; ") + ("field " + in_quotes(field.name)) + " is left out: it " + problem;
-    if (left_out == most + 1) note += "; and others";
+    if (left_out == max_named + 1) note += "; and others";
   }
 };
 
@@ -156,7 +156,7 @@ Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) 
   Selection selection;
   // Limits the new record to twice the old one. Overlapping fields are allowed, since a colour often has two
   // names, but a damaged message could repeat the whole record many times.
-  const std::size_t most = 2 * std::size_t{cloud.point_step};
+  const std::size_t max_bytes = 2 * std::size_t{cloud.point_step};
   const std::uint32_t size = coordinate_size(xyz);
   std::size_t bytes = 0, offset = 0;
   for (const msg::PointField* const field : xyz)
@@ -170,7 +170,7 @@ Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) 
       const std::size_t own = std::size_t{count} * kDatatypes[field.datatype - 1].size;
       if (field.name == "x" || field.name == "y" || field.name == "z") {
         problem = "occurs twice";
-      } else if (bytes + own > most) {
+      } else if (bytes + own > max_bytes) {
         problem = "would make the fields longer than two records";
       } else {
         bytes += own;

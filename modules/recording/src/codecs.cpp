@@ -113,7 +113,7 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
 }
 
 void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
-                                   std::size_t most) {
+                                   std::size_t max_bytes) {
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
   // Limit the window, since a few bytes can request 128 MiB: to 8 MiB (enough for level 19) for less than 1
   // MiB of data, else to 128 MiB.
@@ -128,7 +128,7 @@ void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std:
     if (ZSTD_isError(rest) != 0) refuse("zstd", ZSTD_getErrorName(rest));
     if (in.pos == before && out.pos == made) refuse("zstd", "the frame is cut");
     made = out.pos;
-    if (made > most) refuse("zstd", "more than " + std::to_string(most) + " bytes");
+    if (made > max_bytes) refuse("zstd", "more than " + std::to_string(max_bytes) + " bytes");
   }
   to.resize(made);
 }

@@ -12,8 +12,8 @@ namespace pcl_bv {
 namespace {
 
 std::int64_t signed_time(std::uint64_t time) {
-  constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  return static_cast<std::int64_t>(std::min(time, most));
+  constexpr auto max_time = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  return static_cast<std::int64_t>(std::min(time, max_time));
 }
 
 class McapReader final : public ChunkedReader {

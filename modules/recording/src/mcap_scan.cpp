@@ -65,17 +65,17 @@ class Scan {
     const std::uint64_t end = chunk.first + chunk.second.bytes;
     const std::uint64_t index = summary_.index_bytes.at(chunk.first);
     const auto next = summary_.chunks.upper_bound(chunk.first);
-    const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
-    return end <= most && index <= most - end ? end + index : end;
+    const std::uint64_t limit = next == summary_.chunks.end() ? file_.size() : next->first;
+    return end <= limit && index <= limit - end ? end + index : end;
   }
 
   // Returns the position of the next chunk at or after `from`: one of the summary, or one found by consistent
   // fields. Returns the file's end if there is none. Adds a warning for the skipped bytes.
   std::uint64_t find_chunk(std::uint64_t from, std::uint64_t damage) {
     const auto next = summary_.chunks.lower_bound(from);
-    const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
+    const std::uint64_t limit = next == summary_.chunks.end() ? file_.size() : next->first;
     const std::uint64_t found =
-        find_in_file(file_, from, most, kChunkStart, [&](const std::byte* bytes, std::size_t size, auto at) {
+        find_in_file(file_, from, limit, kChunkStart, [&](const std::byte* bytes, std::size_t size, auto at) {
           return *bytes == std::byte{static_cast<std::uint8_t>(Op::chunk)} &&
                  is_chunk(bytes, size, file_.size() - at);
         });

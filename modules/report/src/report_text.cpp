@@ -115,8 +115,8 @@ class Table {
   void append(std::string_view field, std::size_t c, std::string& text) const {
     if (width_[c] == 0) return;
     const std::size_t padding = width_[c] - field.size();
-    const bool beside = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width_[9] > 0);
-    text += beside ? " " : "  ";
+    const bool single_space = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width_[9] > 0);
+    text += single_space ? " " : "  ";
     if (c != method_column) text.append(padding, ' ');
     text += field;
     if (c == method_column) text.append(padding, ' ');
