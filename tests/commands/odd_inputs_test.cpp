@@ -70,8 +70,9 @@ TEST_F(OddInputs, GiveTheSameByBothCommandsAndInEveryWayOfReading) {
   expect_box(pcd("upper.pcd", "X Y Z", "4 4 4", "F F F", rows("1")));
   expect_box(pcd("float.pcd", "x y z", "4 4 4", "F F F", rows("1.0")));
   expect_box(pcd("none.pcd", "x y z", "4 4 4", "F F F", rows("-1")));
-  expect_box(pcd("word.pcd", "x y z", "4 4 4", "F F F", rows("car")),
-             "row 1, field 'label': 'car' is no unsigned integer of 4 bytes; 1 such value is read as 0");
+  expect_box(
+      pcd("word.pcd", "x y z", "4 4 4", "F F F", rows("car")),
+      "row 1, field 'label': 'car' is not an unsigned integer of 4 bytes; 1 such value is replaced by 0");
   expect_box(pcd("view.pcd", "x y z", "4 4 4", "F F F", rows("1"), "1 0 0 1 0 0 0"),
              "VIEWPOINT is not the identity and is not applied");
   expect_box(

@@ -170,7 +170,7 @@ TEST_F(PcdBv, PointsOfDifferentClassesShareNoCluster) {
   const Result absent = with({"--class", "label"});
   EXPECT_EQ(absent.status, 1);
   EXPECT_EQ(absent.err,
-            "pcd_bv: " + at("kinds.pcd") + ": field 'label' is not there: the fields are x, y, z, kind\n");
+            "pcd_bv: " + at("kinds.pcd") + ": there is no field 'label'; the fields are x, y, z, kind\n");
   const Result wrong = with({"--class", "x"});
   EXPECT_EQ(wrong.status, 1);
   EXPECT_EQ(wrong.err, "pcd_bv: " + at("kinds.pcd") + ": field 'x' is floating point, not an integer\n");

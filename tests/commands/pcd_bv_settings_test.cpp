@@ -80,7 +80,7 @@ TEST_F(PcdBv, AnOriginIsSubtractedFirstAndNamed) {
   const RawCloud labelled = read_pcd(at("l.pcd"));  // as it was stored
   EXPECT_EQ(load_point(labelled.xyz(), 0).x, 1001);
   const Result automatic = run({"--origin", "auto", "--volume", "aabb", far});
-  EXPECT_THAT(automatic.out, HasSubstr("less origin 1002 2002 0\n"));
+  EXPECT_THAT(automatic.out, HasSubstr("origin 1002 2002 0 subtracted from coordinates\n"));
   EXPECT_EQ(run({"--origin", "1,2", far}).status, 2);
   EXPECT_EQ(run({"--origin", "1,2,inf", far}).status, 2);
 }

@@ -158,7 +158,7 @@ TEST_F(AtomicFile, AnUnfinishedOneIsRemovedAndNoneIsWrittenAnyMore) {
       if (entries() != 1) _exit(2);
       return 0;
     };
-    const std::string why = "cannot write: the program is being ended";
+    const std::string why = "cannot write: the program is terminating";
     if (reason(file("a"), "new") != why || file_content(file("a")) != "old") _exit(3);
     if (reason(file("b"), "new") != why || entries() != 1) _exit(4);
     _exit(0);

@@ -57,12 +57,12 @@ TEST(TextFromOutside, DepthEndsWhereItShouldWhateverFollows) {
 }
 
 TEST(TextFromOutside, WhatIsNoJsonHasItsPlaceInOurWords) {
-  EXPECT_EQ(error_of("{\n \"a\": nope}"), "line 2, column 8: is no JSON");
-  EXPECT_EQ(error_of("[1, 2"), "is cut off: the last value has no end");
-  EXPECT_EQ(error_of("{\"a"), "is cut off: the last value has no end");
+  EXPECT_EQ(error_of("{\n \"a\": nope}"), "line 2, column 8: invalid JSON");
+  EXPECT_EQ(error_of("[1, 2"), "truncated JSON: the last value is incomplete");
+  EXPECT_EQ(error_of("{\"a"), "truncated JSON: the last value is incomplete");
   EXPECT_EQ(error_of("[1e999]"), "line 1, column 1: a number is too large");
-  EXPECT_EQ(error_of("  "), "is no JSON: it is empty");
-  EXPECT_EQ(error_of("1 2"), "is no JSON: something follows the value");
+  EXPECT_EQ(error_of("  "), "invalid JSON: the text is empty");
+  EXPECT_EQ(error_of("1 2"), "invalid JSON: text after the value");
   for (const char* text :
        {"]", "}", "[}", "{]", "\xff", "[\"\xff\"]", "\"\\u12\"", "{1:2}", "[1,]", ",", "[1 2]"})
     EXPECT_THAT(error_of(text), testing::Not(HasSubstr("exception"))) << text;

@@ -169,9 +169,9 @@ std::string error_of(const std::function<void(Made&)>& spoil) {
 
 TEST(CloudMessage, ThatDoesNotFitItsDataIsRefused) {
   EXPECT_EQ(error_of([](Made& m) { m.cloud.data.size -= 1; }),
-            "the cloud announces 4 x 2 points of 16 bytes, but has 127 bytes");
+            "the cloud should have 4 x 2 points of 16 bytes, but has only 127 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.width = m.cloud.height = m.cloud.row_step = 0xFFFFFFFF; }),
-            "the cloud announces 4294967295 x 4294967295 points of 16 bytes, but has 128 bytes");
+            "the cloud should have 4294967295 x 4294967295 points of 16 bytes, but has only 128 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.point_step = 0; }), "the cloud has 4 x 2 points of 0 bytes");
   EXPECT_EQ(error_of([](Made& m) {
               m.cloud.row_step = 63;
@@ -183,7 +183,7 @@ TEST(CloudMessage, ThatDoesNotFitItsDataIsRefused) {
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields.erase(m.cloud.fields.begin() + 1); }),
             "the cloud has no field y, its fields are 'x, z, intensity'");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields[2].offset = 13; }),
-            "the cloud has a field 'z' that reaches beyond the point_step of 16");
+            "the cloud has a field 'z' that exceeds the point_step of 16 bytes");
   EXPECT_EQ(error_of([](Made& m) { m.cloud.fields[0].datatype = 9; }),
             "the cloud has a field 'x' that is of datatype 9, not 1 to 8");
 }
@@ -240,9 +240,9 @@ TEST(CloudMessage, WithAFieldThatCannotBeReadIsReadWithoutIt) {
   EXPECT_EQ(note_of({"new", 12, 9, 1}), "field 'new' is left out: it is of datatype 9, not 1 to 8");
   EXPECT_EQ(note_of({"none", 12, 0, 1}), "field 'none' is left out: it is of datatype 0, not 1 to 8");
   EXPECT_EQ(note_of({"ring", 14, PointField::FLOAT32, 1}),
-            "field 'ring' is left out: it reaches beyond the point_step of 16");
+            "field 'ring' is left out: it exceeds the point_step of 16 bytes");
   EXPECT_EQ(note_of({"far", 0xFFFFFFFF, PointField::UINT8, 0xFFFFFFFF}),
-            "field 'far' is left out: it reaches beyond the point_step of 16");
+            "field 'far' is left out: it exceeds the point_step of 16 bytes");
   EXPECT_EQ(note_of({"x", 12, PointField::FLOAT32, 1}), "field 'x' is left out: it occurs twice");
   EXPECT_EQ(skipped_fields_note(cloud_of(2).cloud), "");
 }

@@ -193,7 +193,7 @@ TEST_F(RecordedSource, GoesOnAfterACloudThatDoesNotFitItsData) {
     source->next(frame, patience);
     FAIL();
   } catch (const FrameError& error) {
-    EXPECT_EQ(error.reason, "the cloud announces 99 x 1 points of 14 bytes, but has 28 bytes");
+    EXPECT_EQ(error.reason, "the cloud should have 99 x 1 points of 14 bytes, but has only 28 bytes");
     EXPECT_EQ(error.frame.header.seq, 1U);
   }
   EXPECT_EQ(source->next(frame, patience), Next::frame);
@@ -231,7 +231,7 @@ TEST_F(RecordedSource, SaysWhatIsDamaged) {
   const auto source = open_source(file(), as_recorded());
   EXPECT_EQ(frames_of(*source).size(), 5U);
   EXPECT_THAT(source->take_warnings(),
-              testing::ElementsAre("without an index (it is cut): all of it was looked through"));
+              testing::ElementsAre("no usable index (the file is truncated): the whole file was scanned"));
   EXPECT_TRUE(source->take_warnings().empty());
 }
 

@@ -67,7 +67,7 @@ struct Temporaries {
 
   // Requires that the caller holds the lock.
   void require_not_ended() const {
-    if (ended) throw IoError(std::string(cannot_write) + "the program is being ended");
+    if (ended) throw IoError(std::string(cannot_write) + "the program is terminating");
   }
 };
 
@@ -135,7 +135,8 @@ void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
   if (exists) require(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
   const fs::path folder = path.parent_path();
   // Open the folder first: if it cannot be synchronised, the old file must not be replaced.
-  const FileDescriptor opened(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, 0, cannot_write);
+  const FileDescriptor folder_descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, 0,
+                                         cannot_write);
   const TemporaryName name(folder / temporary_name());
   FileDescriptor file = name.create();
   if (exists) require(::fchmod(file.get(), old.st_mode & 0777) == 0);
@@ -143,13 +144,13 @@ void write_file_atomically(const fs::path& link_or_file, const Pieces& pieces) {
   sync_to_disk(file);
   require(file.close());
   name.rename_to(path);
-  sync_to_disk(opened);
+  sync_to_disk(folder_descriptor);
 }
 
 void create_parent_folders(const fs::path& file) {
   std::error_code failure;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
-  if (failure) throw IoError("cannot make its folder: " + system_reason(failure.value()));
+  if (failure) throw IoError("cannot create its folder: " + system_reason(failure.value()));
 }
 
 void remove_temporary_files() noexcept {

@@ -66,20 +66,22 @@ std::size_t better_field_count(const std::vector<float>& values, std::size_t fie
 
 void require_plausible(const InputFile& file, std::size_t fields) {
   const std::vector<float> values = sample_of(file);
-  const auto bad = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_implausible_coordinate));
-  const std::string as = "as points of " + std::to_string(fields) + " floats ";
-  if (2 * bad > values.size()) throw IoError(as + "most values are no coordinates: not such a file");
+  const auto bad =
+      static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_implausible_coordinate));
+  const std::string prefix = "with " + std::to_string(fields) + " floats per point, ";
+  if (2 * bad > values.size())
+    throw IoError(prefix + "most values are not plausible coordinates: probably not a .bin point cloud");
   const std::size_t other = better_field_count(values, fields, file.size());
   if (other == 0) return;
-  throw IoError(as + "its points leap, as points of " + std::to_string(other) +
-                " they do not: try --bin-fields " + std::to_string(other));
+  throw IoError(prefix + "successive points jump; " + std::to_string(other) +
+                " floats per point fit better: try --bin-fields " + std::to_string(other));
 }
 
 }  // namespace
 
 PcdHeader read_bin_header(const InputFile& file, const std::filesystem::path& path, std::size_t fields) {
   if (fields != 0 && (fields < kMinFields || fields > kMaxFields))
-    throw std::invalid_argument("read_bin: " + std::to_string(fields) + " fields, not 3 to 32");
+    throw std::invalid_argument("read_bin: " + std::to_string(fields) + " fields; must be 0 or 3 to 32");
   constexpr std::array names{"x", "y", "z", "intensity", "ring"};
   PcdHeader header;
   header.encoding = PcdEncoding::binary;
@@ -90,8 +92,8 @@ PcdHeader read_bin_header(const InputFile& file, const std::filesystem::path& pa
     cloud.fields.push_back({std::move(name), 'F', 4, 1, cloud.point_step});
   }
   if (file.size() % cloud.point_step != 0) {
-    throw IoError("truncated: " + std::to_string(file.size()) + " bytes are no multiple of the " +
-                  std::to_string(cloud.point_step) + " of a point");
+    throw IoError("truncated: " + std::to_string(file.size()) + " bytes are not a multiple of the " +
+                  std::to_string(cloud.point_step) + " bytes of a point");
   }
   cloud.width = file.size() / cloud.point_step;
   if (fields == 0) require_plausible(file, count);

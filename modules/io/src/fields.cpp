@@ -46,7 +46,7 @@ double exact_double(T value) {
     if constexpr (std::is_signed_v<T>) beyond = beyond || value < -limit;
     if (beyond)
       throw IoError("the coordinate " + std::to_string(value) +
-                    " is no double: integers of 8 bytes may be at most 2^53");
+                    " is too large: integers may be at most 2^53 in magnitude");
   }
   return static_cast<double>(value);
 }

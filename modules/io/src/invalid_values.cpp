@@ -15,10 +15,11 @@
 namespace pcl_bv {
 namespace {
 
+// Returns the name of the field's type with its article.
 std::string kind_of(const PointField& field) {
-  if (field.type == 'F') return "number";
+  if (field.type == 'F') return "a number";
   const std::string bytes = field.size == 1 ? "1 byte" : std::to_string(field.size) + " bytes";
-  return (field.type == 'U' ? "unsigned integer of " : "integer of ") + bytes;
+  return (field.type == 'U' ? "an unsigned integer of " : "an integer of ") + bytes;
 }
 
 // Reads a negative integer into an unsigned field with the wrap-around of a C++ conversion: many programs
@@ -77,9 +78,9 @@ void InvalidValues::report(RawCloud& cloud) const {
     const PointField& field = cloud.fields[i];
     cloud.invalid_fields.push_back(field.name);
     add_note(cloud, row_ + " " + std::to_string(first_number_ + known.first_row) + ", field " +
-                        in_quotes(field.name) + ": " + known.first + " is no " + kind_of(field) + "; " +
+                        in_quotes(field.name) + ": " + known.first + " is not " + kind_of(field) + "; " +
                         std::to_string(known.count) +
-                        (known.count == 1 ? " such value is" : " such values are") + " read as " +
+                        (known.count == 1 ? " such value is" : " such values are") + " replaced by " +
                         (field.type == 'F' ? "NaN" : "0"));
   }
 }

@@ -113,9 +113,9 @@ std::size_t point_count(const HeaderBytes& bytes, int minor, const PointFormat& 
   const auto count = bytes.at<std::uint64_t>(247);
   if (legacy == 0 || legacy == count) return count;
   const bool use_legacy = count == 0 && !format.wide();
-  add_note(cloud, "the header says " + std::to_string(legacy) + " points by its legacy count and " +
-                      std::to_string(count) + " by that of version 1.4; the " +
-                      (use_legacy ? "first" : "second") + " is taken");
+  add_note(cloud, "the header has a legacy count of " + std::to_string(legacy) +
+                      " points and a 64-bit count of " + std::to_string(count) + "; the " +
+                      (use_legacy ? "legacy" : "64-bit") + " count is used");
   return use_legacy ? legacy : count;
 }
 
@@ -193,8 +193,9 @@ LasHeader read_las_header(const InputFile& file) {
   header.data_offset = bytes.at<std::uint32_t>(96);
   header.record = bytes.at<std::uint16_t>(105);
   if (header.record < format.bytes || header.data_offset < kHeaderOf12)
-    throw IoError("header: records of " + std::to_string(header.record) + " bytes from byte " +
-                  std::to_string(header.data_offset) + " on are too short or in the header");
+    throw IoError("header: record size " + std::to_string(header.record) +
+                  " is too small for the point format, or the point data offset " +
+                  std::to_string(header.data_offset) + " is inside the header");
   header.cloud.width = point_count(bytes, minor, format, header.cloud);
   require_points(file, end_of_point_data(file, bytes, minor, header.data_offset), header);
   read_scale(bytes, header);

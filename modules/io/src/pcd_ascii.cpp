@@ -35,7 +35,8 @@ std::size_t values_per_point(const RawCloud& cloud) {
 // Reads one row. Successive fields of the same type are read as one run.
 class PointRow {
  public:
-  PointRow(const RawCloud& cloud, InvalidValues& unread) : cloud_(cloud), unread_(unread) {
+  PointRow(const RawCloud& cloud, InvalidValues& invalid_values)
+      : cloud_(cloud), invalid_values_(invalid_values) {
     for (const PointField& field : cloud.fields) {
       if (runs_.empty() || !extend_run(runs_.back(), field)) runs_.push_back(field);
     }
@@ -44,7 +45,8 @@ class PointRow {
   void operator()(TextRows& rows, std::byte* to) const {
     std::size_t read = 0;
     for (const PointField& run : runs_) {
-      rows.read_all(run, to, [&](std::uint32_t found, std::byte* at) { replace_value(rows, read + found, at); });
+      rows.read_all(run, to,
+                    [&](std::uint32_t found, std::byte* at) { replace_value(rows, read + found, at); });
       read += run.count;
       to += run.bytes();
     }
@@ -63,7 +65,7 @@ class PointRow {
     std::size_t number = 0;
     for (; read >= cloud_.fields[number].count; ++number)
       read -= cloud_.fields[number].count;
-    if (unread_.replace_value(rows, number, at)) return;
+    if (invalid_values_.replace_value(rows, number, at)) return;
     const PointField& field = cloud_.fields[number];
     throw RowError{"row ", ", field " + in_quotes(field.name) + ": " + in_quotes(rows.value()) +
                                " is not a number of TYPE " + field.type + ", SIZE " +
@@ -71,7 +73,7 @@ class PointRow {
   }
 
   const RawCloud& cloud_;
-  InvalidValues& unread_;
+  InvalidValues& invalid_values_;
   std::vector<PointField> runs_;
 };
 
@@ -88,15 +90,15 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
                   " values do not fit in the " + std::to_string(available) + " bytes after the header");
   }
   cloud.data.resize(cloud.size() * cloud.point_step);
-  InvalidValues unread(cloud, "row", 1);
+  InvalidValues invalid_values(cloud, "row", 1);
   const RowsRead rows = read_text_rows({file, header.data_offset, false}, {1, cloud.size(), cloud.point_step},
-                                       PointRow(cloud, unread), cloud.data.data(), policy);
+                                       PointRow(cloud, invalid_values), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: row " + std::to_string(rows.count + 1) + " is missing, of " +
                   std::to_string(cloud.size()));
   }
   if (rows.more) throw IoError("more rows than the " + std::to_string(cloud.size()) + " POINTS");
-  unread.report(cloud);
+  invalid_values.report(cloud);
 }
 
 std::string format_ascii_points(const RawCloud& cloud) {

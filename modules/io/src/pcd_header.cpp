@@ -126,9 +126,9 @@ void read_shape(const KeywordLines& lines, RawCloud& cloud) {
   if (!lines.count("WIDTH") && !lines.count("POINTS")) throw IoError("header: neither WIDTH nor POINTS");
   cloud.height = lines.count("HEIGHT") ? value("HEIGHT") : 1;
   cloud.width = lines.count("WIDTH") ? value("WIDTH") : value("POINTS");
-  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t max_size = std::numeric_limits<std::size_t>::max();
   const std::size_t step = std::max<std::size_t>(cloud.point_step, 1);
-  if (cloud.height != 0 && cloud.width > most / cloud.height / step) {
+  if (cloud.height != 0 && cloud.width > max_size / cloud.height / step) {
     throw IoError("header: " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
                   " points of " + std::to_string(cloud.point_step) + " bytes are more than a file can hold");
   }

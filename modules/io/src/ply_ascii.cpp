@@ -16,7 +16,8 @@ namespace {
 // Reads one vertex. Successive properties of the same type are read as one run.
 class VertexRow {
  public:
-  VertexRow(const PlyElement& vertex, InvalidValues& unread) : vertex_(vertex), unread_(unread) {
+  VertexRow(const PlyElement& vertex, InvalidValues& invalid_values)
+      : vertex_(vertex), invalid_values_(invalid_values) {
     for (const PlyProperty& property : vertex.properties) {
       const bool follows = !property.is_list && !steps_.empty() && !steps_.back().is_list;
       if (!follows || !extend_run(steps_.back().value, property.value)) steps_.push_back(property);
@@ -32,7 +33,7 @@ class VertexRow {
         continue;
       }
       rows.read_all(step.value, to, [&](std::uint32_t found, std::byte* at) {
-        if (!unread_.replace_value(rows, field + found, at)) refuse(rows, property[found].value);
+        if (!invalid_values_.replace_value(rows, field + found, at)) refuse(rows, property[found].value);
       });
       property += step.value.count;
       field += step.value.count;
@@ -64,7 +65,7 @@ class VertexRow {
   }
 
   const PlyElement& vertex_;
-  InvalidValues& unread_;
+  InvalidValues& invalid_values_;
   std::vector<PlyProperty> steps_;
 };
 
@@ -92,9 +93,9 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   for (const PlyElement& element : header.skipped)
     skip(body, element);
   cloud.data.resize(cloud.size() * cloud.point_step);
-  InvalidValues unread(cloud, "vertex", 0);
+  InvalidValues invalid_values(cloud, "vertex", 0);
   const RowsRead rows = read_text_rows(body, {0, cloud.size(), cloud.point_step},
-                                       VertexRow(header.vertex, unread), cloud.data.data(), policy);
+                                       VertexRow(header.vertex, invalid_values), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: vertex " + std::to_string(rows.count) + " is missing, of " +
                   std::to_string(cloud.size()));
@@ -102,7 +103,7 @@ void read_ply_ascii(const InputFile& file, PlyHeader& header, const ParallelPoli
   if (header.vertices_are_last && rows.more) {
     throw IoError("more rows than the " + std::to_string(cloud.size()) + " vertices");
   }
-  unread.report(cloud);
+  invalid_values.report(cloud);
 }
 
 }  // namespace pcl_bv

@@ -141,7 +141,8 @@ void read_ply_binary(const InputFile& file, PlyHeader& header) {
   reader.read(header.vertex, header.cloud);
   const bool has_rest = header.vertices_are_last && !header.vertex.has_lists();
   if (has_rest)
-    note_trailing_points(file, {file.size() - reader.left(), file.size()}, header.cloud.point_step, header.cloud);
+    note_trailing_points(file, {file.size() - reader.left(), file.size()}, header.cloud.point_step,
+                         header.cloud);
 }
 
 }  // namespace pcl_bv

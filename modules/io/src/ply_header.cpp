@@ -32,7 +32,7 @@ PointField field_of(std::string_view type, std::string_view name) {
 }
 
 [[noreturn]] void refuse(std::string_view line) {
-  throw IoError("header: " + in_quotes(line) + " is not understood");
+  throw IoError("header: invalid line " + in_quotes(line));
 }
 
 /// The lines of a header. All end like the first line: in "\n", in "\r\n", or in "\r" alone.

@@ -31,10 +31,10 @@ const char* read_nan(const char* at, T& value) {
 // Reads an integer that is written with a decimal point or an exponent.
 template <typename T>
 const char* read_whole_number(const char* at, const char* end, T& value) {
-  constexpr double greatest = 9007199254740992;  // above 2^53 doubles do not represent every integer
+  constexpr double largest = 9007199254740992;  // above 2^53 doubles do not represent every integer
   double number = 0;
   const char* const after = parse_number(at, end, number);
-  if (after == nullptr || !ends_value(*after) || !(std::abs(number) <= greatest) ||
+  if (after == nullptr || !ends_value(*after) || !(std::abs(number) <= largest) ||
       number != std::trunc(number))
     return nullptr;
   const auto whole = static_cast<std::int64_t>(number);

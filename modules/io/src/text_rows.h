@@ -42,14 +42,14 @@ class TextRows {
   /// numbers in any notation (1.0, 1e3).
   std::uint32_t read(const PointField& field, std::byte* to);
 
-  /// Reads all elements of one field. Calls stuck(index of the element, its target address) for each value
-  /// that is missing or not a number of the field's type; `stuck` must throw, or skip the value and write
-  /// another one to the target.
-  template <typename Stuck>
-  void read_all(const PointField& field, std::byte* to, const Stuck& stuck) {
+  /// Reads all elements of one field. Calls on_invalid(index of the element, its target address) for each
+  /// value that is missing or not a number of the field's type; `on_invalid` must throw, or skip the value
+  /// and write another one to the target.
+  template <typename OnInvalid>
+  void read_all(const PointField& field, std::byte* to, const OnInvalid& on_invalid) {
     std::uint32_t found = read(field, to);
     while (found < field.count) {
-      stuck(found, to + std::size_t{found} * field.size);
+      on_invalid(found, to + std::size_t{found} * field.size);
       PointField rest = field;
       rest.count -= ++found;
       found += read(rest, to + std::size_t{found} * field.size);
@@ -77,8 +77,8 @@ inline constexpr std::size_t kTextPieceBytes = 256 << 10;
 /// The rows of a file.
 struct TextBody {
   const InputFile& file;
-  std::size_t begin;                             ///< Byte offset of the first row.
-  bool cr_ends_row;                         ///< A carriage return alone ends a row, too.
+  std::size_t begin;                          ///< Byte offset of the first row.
+  bool cr_ends_row;                           ///< A carriage return alone ends a row, too.
   std::size_t piece_bytes = kTextPieceBytes;  ///< Bytes that are read at a time.
 };
 

@@ -25,8 +25,9 @@ bool is_zero_padding(const InputFile& file, ByteRange rest) {
 void note_trailing_points(const InputFile& file, ByteRange rest, std::size_t record, RawCloud& cloud) {
   const std::size_t size = rest.end - rest.begin;
   if (size < record || is_zero_padding(file, rest)) return;
-  const std::string bytes =
-      std::to_string(size) + " bytes of " + std::to_string(size / record) + " more points follow";
+  const std::size_t points = size / record;
+  const std::string bytes = std::to_string(size) + " more bytes (" + std::to_string(points) +
+                            (points == 1 ? " point) follow" : " points) follow");
   if (cloud.size() == 0) throw IoError("header: 0 points, but " + bytes);
   add_note(cloud,
            "the header says " + std::to_string(cloud.size()) + " points; " + bytes + ", which are not read");

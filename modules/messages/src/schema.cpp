@@ -102,7 +102,7 @@ std::string_view definition(std::string_view name) {
   const auto* const found = std::find_if(std::begin(kDefinitions), std::end(kDefinitions),
                                          [&](const auto& entry) { return entry.first == name; });
   if (found == std::end(kDefinitions))
-    throw std::invalid_argument("'" + std::string(name) + "' is no type with a definition here");
+    throw std::invalid_argument("unknown message type '" + std::string(name) + "'");
   return found->second;
 }
 

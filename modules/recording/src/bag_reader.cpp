@@ -59,20 +59,20 @@ class BagReader final : public ChunkedReader {
     std::uint32_t length = 0;
     file_.read(at, &length, 4);
     if (length > max_header || length > size - at - 4 || size - at - 4 - length < 4) return std::nullopt;
-    BagRecordLocation place;
-    place.header.resize(length);
-    file_.read(at + 4, place.header.data(), length);
+    BagRecordLocation location;
+    location.header.resize(length);
+    file_.read(at + 4, location.header.data(), length);
     std::uint32_t data = 0;
     file_.read(at + 4 + length, &data, 4);
-    place.data = at + 8 + length;
-    place.size = data;
-    if (data > size - place.data) return std::nullopt;
-    return place;
+    location.data = at + 8 + length;
+    location.size = data;
+    if (data > size - location.data) return std::nullopt;
+    return location;
   }
 
-  std::vector<std::byte> bytes_of(const BagRecordLocation& place) const {
-    std::vector<std::byte> bytes(place.size);
-    if (!bytes.empty()) file_.read(place.data, bytes.data(), bytes.size());
+  std::vector<std::byte> bytes_of(const BagRecordLocation& location) const {
+    std::vector<std::byte> bytes(location.size);
+    if (!bytes.empty()) file_.read(location.data, bytes.data(), bytes.size());
     return bytes;
   }
 
@@ -87,7 +87,7 @@ class BagReader final : public ChunkedReader {
   // Reads the index at the file's end: connections and positions of chunks. Returns false, with a warning, if
   // it is missing or damaged.
   bool read_index_or_warn() {
-    std::string problem = "it was not closed";
+    std::string problem = "the recording was not closed";
     try {
       const std::optional<BagRecordLocation> head = record_at(kMagicBytes);
       const BagHeader header =
@@ -97,11 +97,11 @@ class BagReader final : public ChunkedReader {
       if (index >= kMagicBytes && index < file_.size() && read_index(index) &&
           found_parts_.size() == chunks && sort_offsets())
         return true;
-      if (index != 0) problem = "it is not whole";
+      if (index != 0) problem = "the index is incomplete";
     } catch (const IoError& error) {
       problem = error.what();
     }
-    remark("without an index (" + problem + "): all of it was looked through");
+    add_warning("no usable index (" + problem + "): the whole file was scanned");
     found_topics_.clear();
     topic_of_.clear();
     found_parts_.clear();
@@ -110,10 +110,10 @@ class BagReader final : public ChunkedReader {
 
   bool read_index(std::uint64_t at) {
     for (; at < file_.size();) {
-      const std::optional<BagRecordLocation> place = record_at(at);
-      if (!place) return false;
-      const BagHeader header(place->header.data(), place->header.size());
-      const std::vector<std::byte> data = bytes_of(*place);
+      const std::optional<BagRecordLocation> location = record_at(at);
+      if (!location) return false;
+      const BagHeader header(location->header.data(), location->header.size());
+      const std::vector<std::byte> data = bytes_of(*location);
       if (header.op() == BagOp::connection) note_connection(header, data.data(), data.size());
       if (header.op() == BagOp::chunk_info) {
         Part& part = found_parts_.emplace_back();
@@ -127,7 +127,7 @@ class BagReader final : public ChunkedReader {
           found_topics_[topic->second].messages += messages;
         }
       }
-      at = place->data + place->size;
+      at = location->data + location->size;
     }
     return true;
   }
@@ -146,35 +146,35 @@ class BagReader final : public ChunkedReader {
     Decompressor decompressor;
     std::uint64_t previous = 0;  // position of the last record: its length may be damaged
     for (std::uint64_t at = kMagicBytes; at < file_.size();) {
-      const std::optional<BagRecordLocation> place = record_at(at);
-      const std::optional<BagOp> op = place ? op_of(*place) : std::nullopt;
+      const std::optional<BagRecordLocation> location = record_at(at);
+      const std::optional<BagOp> op = location ? op_of(*location) : std::nullopt;
       if (!op) {
         const std::uint64_t from = std::max(previous, std::uint64_t{kMagicBytes}) + 1;
         const std::uint64_t found = find_chunk(from);
-        remark(found == file_.size() ? "the file ends within a record, at byte " + std::to_string(at)
-                                     : skipped_bytes(found > at ? at : from - 1, found));
+        add_warning(found == file_.size() ? "the file ends within a record, at byte " + std::to_string(at)
+                                          : skipped_bytes(found > at ? at : from - 1, found));
         previous = at = found;
         continue;
       }
       try {
-        const BagHeader header(place->header.data(), place->header.size());
+        const BagHeader header(location->header.data(), location->header.size());
         if (*op == BagOp::connection) {
-          const std::vector<std::byte> data = bytes_of(*place);
+          const std::vector<std::byte> data = bytes_of(*location);
           note_connection(header, data.data(), data.size());
         } else if (*op == BagOp::chunk) {
-          scan_chunk(at, unpack(*place, decompressor, raw, unpacked));
+          scan_chunk(at, unpack(*location, decompressor, raw, unpacked));
         }
       } catch (const IoError& error) {
-        remark("passed over what is at byte " + std::to_string(at) + ": " + error.what());
+        add_warning("skipped the record at byte " + std::to_string(at) + ": " + error.what());
       }
       previous = at;
-      at = place->data + place->size;
+      at = location->data + location->size;
     }
   }
 
-  static std::optional<BagOp> op_of(const BagRecordLocation& place) {
+  static std::optional<BagOp> op_of(const BagRecordLocation& location) {
     try {
-      return BagHeader(place.header.data(), place.header.size()).op();
+      return BagHeader(location.header.data(), location.header.size()).op();
     } catch (const IoError&) {
       return std::nullopt;
     }
@@ -198,34 +198,34 @@ class BagReader final : public ChunkedReader {
   // Returns the position of the chunk whose header contains the bytes [begin, end), searched backwards down
   // to `from`; the file's end if there is none.
   std::uint64_t chunk_around(std::uint64_t begin, std::uint64_t end, std::uint64_t from) const {
-    const std::uint64_t least = std::max(from, begin - std::min(begin, kMaxChunkHeader));
-    for (std::uint64_t at = begin; at-- > least;) {
-      const std::optional<BagRecordLocation> place = record_at(at, kMaxChunkHeader);
-      if (place && place->data > end && op_of(*place) == BagOp::chunk) return at;
+    const std::uint64_t lowest = std::max(from, begin - std::min(begin, kMaxChunkHeader));
+    for (std::uint64_t at = begin; at-- > lowest;) {
+      const std::optional<BagRecordLocation> location = record_at(at, kMaxChunkHeader);
+      if (location && location->data > end && op_of(*location) == BagOp::chunk) return at;
     }
     return file_.size();
   }
 
   void scan_chunk(std::uint64_t at, BagBytes records) {
-    const std::size_t place = found_parts_.size();
+    const std::size_t part = found_parts_.size();
     found_parts_.push_back({at, std::numeric_limits<std::int64_t>::max()});
     while (records.left() > 0) {
       const BagRecord record = take_bag_record(records);
       if (record.header.op() == BagOp::connection) note_connection(record.header, record.data, record.size);
       if (record.header.op() != BagOp::message) continue;
-      std::int64_t& first = found_parts_[place].first_time_ns;
+      std::int64_t& first = found_parts_[part].first_time_ns;
       first = std::min(first, record.header.time("time"));
     }
   }
 
-  BagBytes unpack(const BagRecordLocation& place, Decompressor& decompressor, std::vector<std::byte>& raw,
+  BagBytes unpack(const BagRecordLocation& location, Decompressor& decompressor, std::vector<std::byte>& raw,
                   std::vector<std::byte>& unpacked) const {
-    const BagHeader header(place.header.data(), place.header.size());
-    if (header.op() != BagOp::chunk) throw IoError("there is no chunk");
+    const BagHeader header(location.header.data(), location.header.size());
+    if (header.op() != BagOp::chunk) throw IoError("not a chunk record");
     const auto expected = header.number<std::uint32_t>("size");
     const std::string_view compression = header.text("compression");
-    raw.resize(place.size);
-    if (!raw.empty()) file_.read(place.data, raw.data(), raw.size());
+    raw.resize(location.size);
+    if (!raw.empty()) file_.read(location.data, raw.data(), raw.size());
     if (compression == "none") {
       if (expected != raw.size())
         throw IoError("it has " + std::to_string(raw.size()) + " bytes, not " + std::to_string(expected));
@@ -242,13 +242,13 @@ class BagReader final : public ChunkedReader {
   }
 
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
-    const std::optional<BagRecordLocation> place = record_at(part_offset(part));
-    if (!place) throw IoError("it is cut");
+    const std::optional<BagRecordLocation> location = record_at(part_offset(part));
+    if (!location) throw IoError("it is cut");
     // Refuse overlapping chunks: each entry of a small file's index could refer to most of the file.
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), part_offset(part));
-    if (next != offsets_.end() && place->data + place->size > *next)
-      throw IoError("it reaches into the next one");
-    BagBytes records = unpack(*place, buffers.decompressor, buffers.raw, buffers.unpacked);
+    if (next != offsets_.end() && location->data + location->size > *next)
+      throw IoError("the chunk overlaps the next one");
+    BagBytes records = unpack(*location, buffers.decompressor, buffers.raw, buffers.unpacked);
     while (records.left() > 0) {
       const BagRecord record = take_bag_record(records);
       if (record.header.op() != BagOp::message) continue;

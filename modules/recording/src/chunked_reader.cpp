@@ -42,13 +42,13 @@ bool ChunkedReader::next(RecordedMessage& message) {
     load_next();
   }
   if (loaded_.empty()) return false;
-  Loaded& from = *earliest();
+  LoadedPart& from = *earliest();
   message = from.messages[from.next++];
   return true;
 }
 
 // Returns the loaded part with the earliest next message; of equal times the first part in the file.
-ChunkedReader::Loaded* ChunkedReader::earliest() const {
+ChunkedReader::LoadedPart* ChunkedReader::earliest() const {
   const auto before = [](const auto& a, const auto& b) {
     const std::int64_t at = a->messages[a->next].log_time_ns, bt = b->messages[b->next].log_time_ns;
     return at != bt ? at < bt : a->part < b->part;
@@ -73,9 +73,9 @@ void ChunkedReader::load_next() {
   const Part& part = parts_[number];
   const auto is_wanted = [this](std::size_t topic) { return wanted_[topic]; };
   if (!part.topics.empty() && std::none_of(part.topics.begin(), part.topics.end(), is_wanted)) return;
-  std::unique_ptr<Loaded> loaded;
+  std::unique_ptr<LoadedPart> loaded;
   if (spare_.empty()) {
-    loaded = std::make_unique<Loaded>();
+    loaded = std::make_unique<LoadedPart>();
   } else {
     loaded = std::move(spare_.back());
     spare_.pop_back();
@@ -87,8 +87,8 @@ void ChunkedReader::load_next() {
     load(number, loaded->buffers, loaded->messages);
   } catch (const IoError& error) {
     const bool some = !loaded->messages.empty();  // the messages before the damage are intact
-    remark(std::string("passed over the ") + (some ? "rest of the " : "") + "chunk at byte " +
-           std::to_string(part.offset) + ": " + error.what());
+    add_warning(std::string("skipped the ") + (some ? "rest of the " : "") + "chunk at byte " +
+                std::to_string(part.offset) + ": " + error.what());
   }
   std::stable_sort(
       loaded->messages.begin(), loaded->messages.end(),

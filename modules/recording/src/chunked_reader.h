@@ -44,13 +44,13 @@ class ChunkedReader : public RecordingReader {
   std::uint64_t part_offset(std::size_t part) const { return parts_[part].offset; }
 
  private:
-  struct Loaded {
+  struct LoadedPart {
     std::size_t part = 0, next = 0;         // number of the part, and of its next message
     std::vector<RecordedMessage> messages;  // sorted by time
     Buffers buffers;
   };
 
-  Loaded* earliest() const;
+  LoadedPart* earliest() const;
   void release();
   void load_next();
 
@@ -59,7 +59,7 @@ class ChunkedReader : public RecordingReader {
   std::vector<bool> wanted_;
   std::vector<std::size_t> order_;  // numbers of the parts, sorted by first time
   std::size_t next_part_ = 0;
-  std::vector<std::unique_ptr<Loaded>> loaded_, spare_;
+  std::vector<std::unique_ptr<LoadedPart>> loaded_, spare_;
 };
 
 /// Returns the index of the topic in the list; appends it if it is new. If several senders have topics of the

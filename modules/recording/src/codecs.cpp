@@ -26,19 +26,19 @@ constexpr int kZstdLevel = 1;
 // One byte of lz4 decompresses to at most 255 bytes.
 void check_lz4(std::size_t size, std::size_t expected) {
   if (expected / 256 > size)
-    refuse("lz4", std::to_string(size) + " bytes do not stand for " + std::to_string(expected));
+    refuse("lz4", std::to_string(size) + " bytes cannot decompress to " + std::to_string(expected));
 }
 
 void unpack_lz4(LZ4F_dctx* context, const std::byte* data, std::size_t size, std::vector<std::byte>& to) {
   LZ4F_resetDecompressionContext(context);
   std::size_t read = 0, written = 0, hint = 1;
   while (hint != 0) {
-    std::size_t source = size - read, room = to.size() - written;
-    hint = LZ4F_decompress(context, to.data() + written, &room, data + read, &source, nullptr);
+    std::size_t source = size - read, target = to.size() - written;
+    hint = LZ4F_decompress(context, to.data() + written, &target, data + read, &source, nullptr);
     if (LZ4F_isError(hint) != 0) refuse("lz4", LZ4F_getErrorName(hint));
-    if (hint != 0 && source == 0 && room == 0) break;  // no progress: `to` is full, or the data ends
+    if (hint != 0 && source == 0 && target == 0) break;  // no progress: `to` is full, or the data ends
     read += source;
-    written += room;
+    written += target;
   }
   if (hint != 0 || written != to.size() || read != size)
     refuse("lz4", "not a frame of " + std::to_string(to.size()) + " bytes");
@@ -113,7 +113,7 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
 }
 
 void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
-                                   std::size_t most) {
+                                   std::size_t max_bytes) {
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
   // Limit the window, since a few bytes can request 128 MiB: to 8 MiB (enough for level 19) for less than 1
   // MiB of data, else to 128 MiB.
@@ -128,7 +128,7 @@ void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std:
     if (ZSTD_isError(rest) != 0) refuse("zstd", ZSTD_getErrorName(rest));
     if (in.pos == before && out.pos == made) refuse("zstd", "the frame is cut");
     made = out.pos;
-    if (made > most) refuse("zstd", "more than " + std::to_string(most) + " bytes");
+    if (made > max_bytes) refuse("zstd", "more than " + std::to_string(max_bytes) + " bytes");
   }
   to.resize(made);
 }

@@ -41,9 +41,9 @@ class Decompressor {
                   std::vector<std::byte>& to);
 
   /// Decompresses zstd frames of unknown length. Throws IoError if they are damaged or cut, or if the result
-  /// has more than `most` bytes.
+  /// has more than `max_bytes` bytes.
   void decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
-                       std::size_t most = SIZE_MAX);
+                       std::size_t max_bytes = SIZE_MAX);
 
  private:
   struct Contexts;

@@ -44,7 +44,7 @@ class PageBytes {
     }
     return value << 8U | std::to_integer<std::uint64_t>(*take(1));
   }
-  bool ends_before(std::uint64_t place) const { return at_ < place; }
+  bool ends_before(std::uint64_t position) const { return at_ < position; }
 
  private:
   const std::vector<std::byte>& page_;
@@ -126,9 +126,10 @@ void Db3Pages::read_row(std::uint64_t page, std::uint64_t cell) {
   PageBytes bytes(bytes_, cell, usable_);
   const std::uint64_t payload = bytes.varint();
   const auto id = static_cast<std::int64_t>(bytes.varint());
-  const std::uint64_t most = usable_ - 35, least = (usable_ - 12) * 32 / 255 - 23;
-  const std::uint64_t wanted = payload <= most ? payload : least + (payload - least) % (usable_ - 4);
-  const std::uint64_t local = wanted <= most ? wanted : least;
+  const std::uint64_t max_local = usable_ - 35, min_local = (usable_ - 12) * 32 / 255 - 23;
+  const std::uint64_t wanted =
+      payload <= max_local ? payload : min_local + (payload - min_local) % (usable_ - 4);
+  const std::uint64_t local = wanted <= max_local ? wanted : min_local;
   const std::uint64_t begin = bytes.at();
   PageBytes values(bytes_, begin, begin + local);
   const std::uint64_t types_end = begin + values.varint();

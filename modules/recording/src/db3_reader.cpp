@@ -126,7 +126,7 @@ class Db3Reader final : public RecordingReader {
       read_pages(file, error.what());
     }
     if (messages_without_topic_ > 0)
-      remark(std::to_string(messages_without_topic_) + " messages of topics that are not described are passed over");
+      add_warning(std::to_string(messages_without_topic_) + " messages of unknown topics are skipped");
     for (const Row& row : rows_)
       ++topics_[row.topic].messages;
     std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
@@ -154,7 +154,7 @@ class Db3Reader final : public RecordingReader {
         unpack(message);
         return true;
       } catch (const IoError& error) {
-        remark(error.what() + std::string(", in the message of ") + std::to_string(row.time));
+        add_warning(error.what() + std::string(", in the message of ") + std::to_string(row.time));
       }
     }
     return false;
@@ -180,12 +180,12 @@ class Db3Reader final : public RecordingReader {
     pages_ = std::make_unique<Db3Pages>(file);
     for (const auto& [id, topic] : pages_->topics())
       add(id, topic);
-    std::int64_t place = 0;
+    std::int64_t index = 0;
     for (const Db3Pages::Message& message : pages_->messages())
-      add(message.topic, Row{message.time, place++});
+      add(message.topic, Row{message.time, index++});
     if (topics_.empty()) throw IoError(problem);
-    remark(problem + ": messages on damaged pages are passed over, " + std::to_string(rows_.size()) +
-           " are there");
+    add_warning(problem + ": " + std::to_string(rows_.size()) +
+                " messages were recovered; those on damaged pages are lost");
   }
 
   void add(std::int64_t id, const RecordedTopic& topic) { topic_of_[id] = add_topic(topics_, topic); }

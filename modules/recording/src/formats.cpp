@@ -19,12 +19,13 @@ const std::vector<RecordingFormat>& recording_formats() {
          return start.starts_with("SQLite format 3") || (file.extension() == ".db3" && !start.empty());
        },
        open_db3},
-      {"its .zstd",
+      {"rosbag2's .db3.zstd or .mcap.zstd",
        [](const Path& file, Start start) {
          return file.extension() == ".zstd" && start.starts_with("\x28\xB5\x2F\xFD");
        },
        open_zstd_file},
-      {"its folder", [](const Path& file, Start) { return is_rosbag2_folder(file); }, open_rosbag2_folder}};
+      {"rosbag2's folder", [](const Path& file, Start) { return is_rosbag2_folder(file); },
+       open_rosbag2_folder}};
   return formats;
 }
 

@@ -18,7 +18,7 @@ namespace pcl_bv {
 struct RecordingFormat {
   std::string_view name;  ///< Name in error messages, such as "MCAP".
   /// Whether the file has this format. `start`: the file's first bytes, up to 64.
-  bool (*knows)(const std::filesystem::path& file, std::string_view start);
+  bool (*matches)(const std::filesystem::path& file, std::string_view start);
   std::unique_ptr<RecordingReader> (*open)(const std::filesystem::path& file);
 };
 

@@ -15,21 +15,23 @@ namespace {
 // Returns the records of the summary, empty if there is none. Throws IoError if file or summary are damaged.
 std::vector<std::byte> read_summary(const InputFile& file) {
   const std::uint64_t size = file.size();
-  if (size < kMagic.size() + kFileEnd) throw IoError("it is cut");
+  if (size < kMagic.size() + kFileEnd) throw IoError("the file is truncated");
   const std::vector<std::byte> end = bytes_at(file, size - kFileEnd, kFileEnd);
-  if (std::memcmp(end.data() + kFooterBytes, kMagic.data(), kMagic.size()) != 0) throw IoError("it is cut");
+  if (std::memcmp(end.data() + kFooterBytes, kMagic.data(), kMagic.size()) != 0)
+    throw IoError("the file is truncated");
   Fields fields(end.data(), kFooterBytes);
   const Record footer = take_record(fields);
-  if (footer.op != Op::footer) throw IoError("it has no footer");
+  if (footer.op != Op::footer) throw IoError("the file has no footer");
   Fields values = footer.fields();
   const auto start = values.number<std::uint64_t>();
   values.number<std::uint64_t>();  // position of the summary offset records, not needed
   const auto crc = values.number<std::uint32_t>();
   if (start == 0) return {};
-  if (start < kMagic.size() || start > size - kFileEnd) throw IoError("its summary lies outside");
+  if (start < kMagic.size() || start > size - kFileEnd)
+    throw IoError("the summary's offset is outside the file");
   std::vector<std::byte> summary = bytes_at(file, start, size - start);
   if (crc != 0 && crc32_of(summary.data(), summary.size() - kMagic.size() - 4) != crc)
-    throw IoError("its summary is damaged");
+    throw IoError("the summary is damaged");
   summary.resize(summary.size() - kFileEnd);
   return summary;
 }
@@ -80,7 +82,7 @@ std::optional<Summary> read_summary_index(const InputFile& file, Index& index) {
   Summary summary;
   for (Fields records(bytes.data(), bytes.size()); records.left() > 0;) {
     const Record record = take_record(records);
-    note(record, index);
+    add_schema_or_channel(record, index);
     if (record.op == Op::chunk_index) note_chunk(record, file.size(), summary);
     if (record.op == Op::statistics) take(record.fields(), summary.statistics.emplace());
   }
@@ -99,7 +101,7 @@ Fields load_part(const InputFile& file, const Part& part, Decompressor& decompre
   Fields all(raw.data(), raw.size());
   if (!part.is_chunk) return all;
   const Record record = take_record(all);
-  if (record.op != Op::chunk) throw IoError("there is no chunk");
+  if (record.op != Op::chunk) throw IoError("not a chunk record");
   Fields fields = record.fields();
   fields.take(16);  // first and last time
   const auto length = fields.number<std::uint64_t>();
@@ -116,7 +118,7 @@ Fields load_part(const InputFile& file, const Part& part, Decompressor& decompre
   } else if (size != length) {
     throw IoError("it has " + std::to_string(size) + " bytes, not " + std::to_string(length));
   }
-  if (crc != 0 && crc32_of(data, length) != crc) throw IoError("its CRC is another");
+  if (crc != 0 && crc32_of(data, length) != crc) throw IoError("its CRC does not match");
   return {data, static_cast<std::size_t>(length)};
 }
 
@@ -124,7 +126,7 @@ Index index_of(const InputFile& file) {
   char start[8] = {};
   if (file.size() >= sizeof start) file.read(0, start, sizeof start);
   if (std::string_view(start, sizeof start) != kMagic) throw IoError("does not begin as MCAP does");
-  std::string problem = "its summary does not describe all channels and chunks";
+  std::string problem = "the summary does not describe all channels and chunks";
   Index index;
   std::optional<Summary> summary;
   try {
@@ -134,14 +136,14 @@ Index index_of(const InputFile& file) {
   }
   if (!summary) {
     index = Index();
-    index.warnings.add("without an index (" + problem + "): all of it was looked through");
+    index.warnings.add("no usable index (" + problem + "): the whole file was scanned");
     mcap::scan(file, Summary(), index);
     return index;
   }
-  const Unknown unknown = mcap::scan(file, *summary, index);
+  const UnindexedCounts unindexed = mcap::scan(file, *summary, index);
   const std::optional<Statistics>& counted = summary->statistics;
-  if (counted && counted->chunks == summary->chunks.size() && unknown.chunks == 0 &&
-      unknown.loose_messages == 0)
+  if (counted && counted->chunks == summary->chunks.size() && unindexed.chunks == 0 &&
+      unindexed.loose_messages == 0)
     index.messages = counted->channel_messages;
   return index;
 }

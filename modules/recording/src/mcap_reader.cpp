@@ -12,15 +12,15 @@ namespace pcl_bv {
 namespace {
 
 std::int64_t signed_time(std::uint64_t time) {
-  constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  return static_cast<std::int64_t>(std::min(time, most));
+  constexpr auto max_time = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  return static_cast<std::int64_t>(std::min(time, max_time));
 }
 
 class McapReader final : public ChunkedReader {
  public:
   explicit McapReader(const std::filesystem::path& path) : file_(path), index_(mcap::index_of(file_)) {
     std::uint64_t added = 0;
-    remark(index_.warnings, added);
+    add_warnings(index_.warnings, added);
     std::vector<RecordedTopic> topics;
     for (const auto& [id, channel] : index_.channels)
       topic_of_[id] = add_topic(topics, topic_of(channel));
@@ -58,8 +58,7 @@ class McapReader final : public ChunkedReader {
       message.log_time_ns = signed_time(fields.number<std::uint64_t>());
       message.publish_time_ns = signed_time(fields.number<std::uint64_t>());
       if (topic == topic_of_.end() && unknown_.insert(channel).second)
-        remark("messages of channel " + std::to_string(channel) +
-               ", which is not described, are passed over");
+        add_warning("messages of unknown channel " + std::to_string(channel) + " are skipped");
       if (topic == topic_of_.end() || !wanted(topic->second)) continue;
       message.topic = topic->second;
       message.data = fields.here();

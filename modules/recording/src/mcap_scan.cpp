@@ -28,14 +28,14 @@ class Scan {
       remaining_chunks_.insert(offset);
   }
 
-  Unknown all() {
+  UnindexedCounts run() {
     std::uint64_t previous = 0;  // position of the last record: its length may be damaged
     for (std::uint64_t at = kMagic.size(); at + kRecordStart <= file_.size();) {
       if (const auto known = summary_.chunks.find(at); known != summary_.chunks.end()) {
         loose_ = false;
         index_.parts.push_back(known->second);
         remaining_chunks_.erase(at);
-        at = std::max(behind(*known), at + kRecordStart);  // moves forward even if the summary is wrong
+        at = std::max(end_of_chunk(*known), at + kRecordStart);  // moves forward even if the summary is wrong
         previous = at - 1;
         continue;
       }
@@ -50,7 +50,7 @@ class Scan {
         continue;
       }
       previous = op == Op::chunk ? at + kRecordStart + size - 1 : at;
-      look(op, at, size);
+      visit_record(op, at, size);
       if (op == Op::data_end) break;
       at += kRecordStart + size;
     }
@@ -61,21 +61,21 @@ class Scan {
  private:
   // Returns the end of a chunk that the summary describes, including its message indexes if they end before
   // the next chunk.
-  std::uint64_t behind(const std::pair<const std::uint64_t, Part>& chunk) const {
+  std::uint64_t end_of_chunk(const std::pair<const std::uint64_t, Part>& chunk) const {
     const std::uint64_t end = chunk.first + chunk.second.bytes;
     const std::uint64_t index = summary_.index_bytes.at(chunk.first);
     const auto next = summary_.chunks.upper_bound(chunk.first);
-    const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
-    return end <= most && index <= most - end ? end + index : end;
+    const std::uint64_t limit = next == summary_.chunks.end() ? file_.size() : next->first;
+    return end <= limit && index <= limit - end ? end + index : end;
   }
 
   // Returns the position of the next chunk at or after `from`: one of the summary, or one found by consistent
   // fields. Returns the file's end if there is none. Adds a warning for the skipped bytes.
   std::uint64_t find_chunk(std::uint64_t from, std::uint64_t damage) {
     const auto next = summary_.chunks.lower_bound(from);
-    const std::uint64_t most = next == summary_.chunks.end() ? file_.size() : next->first;
+    const std::uint64_t limit = next == summary_.chunks.end() ? file_.size() : next->first;
     const std::uint64_t found =
-        find_in_file(file_, from, most, kChunkStart, [&](const std::byte* bytes, std::size_t size, auto at) {
+        find_in_file(file_, from, limit, kChunkStart, [&](const std::byte* bytes, std::size_t size, auto at) {
           return *bytes == std::byte{static_cast<std::uint8_t>(Op::chunk)} &&
                  is_chunk(bytes, size, file_.size() - at);
         });
@@ -117,13 +117,13 @@ class Scan {
                      [](const Part& a, const Part& b) { return a.offset < b.offset; });
   }
 
-  void look(Op op, std::uint64_t at, std::uint64_t size) {
+  void visit_record(Op op, std::uint64_t at, std::uint64_t size) {
     if (op == Op::message) return add_loose(at, size);
     loose_ = false;
     if (op == Op::chunk) return add_chunk(at, size);
     if (op != Op::schema && op != Op::channel) return;
     const std::vector<std::byte> record = bytes_at(file_, at + kRecordStart, size);
-    attempt(at, [&] { note({op, record.data(), record.size()}, index_); });
+    warn_on_error(at, [&] { add_schema_or_channel({op, record.data(), record.size()}, index_); });
   }
 
   void add_loose(std::uint64_t at, std::uint64_t size) {
@@ -147,15 +147,15 @@ class Scan {
   void add_chunk(std::uint64_t at, std::uint64_t size) {
     ++found_.chunks;
     Part part{at, kRecordStart + size, 0, 0};
-    attempt(at, [&] {
+    warn_on_error(at, [&] {
       Fields records = load_part(file_, part, decompressor_, raw_, unpacked_);
       part.first_time = UINT64_MAX;
-      const std::size_t place = index_.parts.size();
+      const std::size_t part_index = index_.parts.size();
       index_.parts.push_back(part);
       while (records.left() > 0) {
         const Record record = take_record(records);
-        note(record, index_);
-        if (record.op == Op::message) note_message(record.fields(), index_.parts[place]);
+        add_schema_or_channel(record, index_);
+        if (record.op == Op::message) note_message(record.fields(), index_.parts[part_index]);
       }
     });
   }
@@ -169,11 +169,11 @@ class Scan {
   }
 
   template <class Do>
-  void attempt(std::uint64_t at, const Do& what) {
+  void warn_on_error(std::uint64_t at, const Do& what) {
     try {
       what();
     } catch (const IoError& error) {
-      index_.warnings.add("passed over what is at byte " + std::to_string(at) + ": " + error.what());
+      index_.warnings.add("skipped the record at byte " + std::to_string(at) + ": " + error.what());
     }
   }
 
@@ -181,7 +181,7 @@ class Scan {
   Index& index_;
   const Summary& summary_;
   std::set<std::uint64_t> remaining_chunks_;  // positions of the summary's chunks that the walk has not met
-  Unknown found_;
+  UnindexedCounts found_;
   Decompressor decompressor_;
   std::vector<std::byte> raw_, unpacked_;
   bool loose_ = false;  // the last record was a message outside of chunks, in the last part
@@ -195,7 +195,7 @@ std::vector<std::byte> bytes_at(const InputFile& file, std::uint64_t offset, std
   return bytes;
 }
 
-void note(const Record& record, Index& index) {
+void add_schema_or_channel(const Record& record, Index& index) {
   if (record.op == Op::schema) {
     Schema schema;
     take(record.fields(), schema);
@@ -207,8 +207,8 @@ void note(const Record& record, Index& index) {
   }
 }
 
-Unknown scan(const InputFile& file, const Summary& summary, Index& index) {
-  return Scan(file, index, summary).all();
+UnindexedCounts scan(const InputFile& file, const Summary& summary, Index& index) {
+  return Scan(file, index, summary).run();
 }
 
 }  // namespace mcap

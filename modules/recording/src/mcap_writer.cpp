@@ -40,7 +40,7 @@ std::uint64_t time_of(std::int64_t nanoseconds) {
 class McapWriter::State {
  public:
   State(const std::filesystem::path& file, const Options& options)
-      : file_(opened(file, created_path_)), options_(options) {
+      : file_(open_or_create(file, created_path_)), options_(options) {
     Writer writer(start_);
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
     writer.begin(Op::header);
@@ -132,11 +132,13 @@ class McapWriter::State {
   }
 
  private:
-  static FileDescriptor opened(const std::filesystem::path& file, std::filesystem::path& made) {
+  // Opens the file for writing. Creates it if it does not exist, and then sets `created_path`.
+  static FileDescriptor open_or_create(const std::filesystem::path& file,
+                                       std::filesystem::path& created_path) {
     constexpr int flags = O_WRONLY | O_CREAT;
     try {
       FileDescriptor fresh(file, flags | O_EXCL, 0666, "");
-      made = file;
+      created_path = file;
       return fresh;
     } catch (const IoError&) {  // the file exists
       return FileDescriptor(file, flags, 0666, "");

@@ -78,7 +78,7 @@ std::uint32_t PacketFile::u32(const std::byte* at) const {
 }
 
 // Returns the next `bytes` bytes at at_, or null if the file has fewer.
-const std::byte* PacketFile::need(std::size_t bytes) {
+const std::byte* PacketFile::next_bytes(std::size_t bytes) {
   const std::uint64_t at = at_;
   if (at > file_.size() || bytes > file_.size() - at) return nullptr;
   if (at < window_at_ || at + bytes > window_at_ + window_.size()) {
@@ -122,7 +122,7 @@ bool PacketFile::resynchronise() {
 // packets. In pcap their times must also be close: two packets to the last accepted time, or three packets to
 // each other.
 bool PacketFile::begins_packet() {
-  if (need(blocks_ ? 12 : 16) == nullptr) return false;
+  if (next_bytes(blocks_ ? 12 : 16) == nullptr) return false;
   if (blocks_) return is_run(2, std::nullopt);
   return (last_seconds_ && is_run(2, last_seconds_)) || is_run(3, std::nullopt);
 }
@@ -170,12 +170,12 @@ bool PacketFile::next(Payload& payload) {
 bool PacketFile::next_pcap(Payload& payload) {
   while (at_ < file_.size()) {
     // A jump of the time, as in merged captures, is accepted if the next packet confirms it.
-    if (need(16) == nullptr || !(is_run(1, last_seconds_) || is_run(2, std::nullopt))) {
+    if (next_bytes(16) == nullptr || !(is_run(1, last_seconds_) || is_run(2, std::nullopt))) {
       if (!resynchronise()) return false;
       continue;
     }
-    const std::uint32_t size = u32(need(16) + 8);
-    const std::byte* const packet = need(std::size_t{16} + size);
+    const std::uint32_t size = u32(next_bytes(16) + 8);
+    const std::byte* const packet = next_bytes(std::size_t{16} + size);
     last_seconds_ = u32(packet);
     payload.time_ns = *last_seconds_ * kSecond + u32(packet + 4) * (kSecond / interfaces_[0].ticks);
     previous_ = at_;
@@ -192,7 +192,7 @@ bool PacketFile::next_block(Payload& payload) {
       if (!resynchronise()) return false;
       continue;
     }
-    const std::byte* const block = need(length);
+    const std::byte* const block = next_bytes(length);
     previous_ = at_;
     at_ += length;
     const std::uint32_t type = u32(block);
@@ -205,7 +205,7 @@ bool PacketFile::next_block(Payload& payload) {
 // Returns the length of the pcapng block at at_. Returns 0 if it differs from the copy at the block's end,
 // which is checked before the block is read.
 std::uint32_t PacketFile::block_length() {
-  const std::byte* const head = need(12);
+  const std::byte* const head = next_bytes(12);
   if (head == nullptr || (u32(head) == kSection && !begin_section(head))) return 0;
   const std::uint32_t length = u32(head + 4);
   std::byte end[4];

@@ -40,7 +40,7 @@ class PacketFile {
     std::int64_t ticks = 1'000'000;  // per second
   };
 
-  const std::byte* need(std::size_t bytes);
+  const std::byte* next_bytes(std::size_t bytes);
   bool peek(std::uint64_t at, std::size_t bytes, std::byte* to) const;
   std::uint16_t u16(const std::byte* at) const;
   std::uint32_t u32(const std::byte* at) const;

@@ -39,10 +39,10 @@ void require_recording_file(const fs::path& file) {
 // Reads several files one after another as one recording: a recorder begins a file where the last one ends.
 class JoinedReader final : public RecordingReader {
  public:
-  /// `remarks`: warnings about the folder.
-  JoinedReader(std::vector<fs::path> files, const std::vector<std::string>& remarks) {
-    for (const std::string& line : remarks)
-      remark(line);
+  /// `folder_warnings`: warnings about the folder.
+  JoinedReader(std::vector<fs::path> files, const std::vector<std::string>& folder_warnings) {
+    for (const std::string& line : folder_warnings)
+      add_warning(line);
     std::string problem;
     for (fs::path& file : files) {
       try {
@@ -55,7 +55,7 @@ class JoinedReader final : public RecordingReader {
         files_.push_back(std::move(file));
       } catch (const IoError& error) {
         problem = file.filename().string() + ": " + error.what();
-        remark("passed over " + problem);
+        add_warning("skipped " + problem);
       }
     }
     if (members_.empty()) throw IoError(problem);
@@ -79,8 +79,8 @@ class JoinedReader final : public RecordingReader {
   bool next(RecordedMessage& message) override {
     for (; at_ < members_.size(); ++at_) {
       const bool more = members_[at_].reader->next(message);
-      remark(members_[at_].reader->warnings(), members_[at_].warnings,
-             files_[at_].filename().string() + ": ");
+      add_warnings(members_[at_].reader->warnings(), members_[at_].warnings,
+                   files_[at_].filename().string() + ": ");
       if (!more) continue;
       message.topic = members_[at_].topics[message.topic];
       return true;
@@ -121,7 +121,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
 
 // Removes repeated files, with a warning: a small metadata.yaml could name one file a million times.
 std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
-                                          std::vector<std::string>& remarks) {
+                                          std::vector<std::string>& warnings) {
   std::vector<fs::path> once;
   std::map<fs::path, std::size_t> times;
   for (const fs::path& file : files) {
@@ -129,8 +129,8 @@ std::vector<fs::path> without_repetitions(const std::vector<fs::path>& files,
   }
   for (const fs::path& file : once) {
     if (times[file] > 1)
-      remarks.push_back("metadata.yaml names " + file.filename().string() + " " +
-                        std::to_string(times[file]) + " times: it is read once");
+      warnings.push_back("metadata.yaml names " + file.filename().string() + " " +
+                         std::to_string(times[file]) + " times: it is read once");
   }
   return once;
 }
@@ -170,9 +170,9 @@ std::vector<fs::path> files_without_metadata(const fs::path& folder) {
 }
 
 // A temporary file that only this user can read; removed at destruction.
-class Temporary {
+class TemporaryFile {
  public:
-  explicit Temporary(const std::vector<std::byte>& bytes)
+  explicit TemporaryFile(const std::vector<std::byte>& bytes)
       : path_((fs::temp_directory_path() / "pcl_bv_XXXXXX").string()) {
     const int descriptor = ::mkstemp(path_.data());
     if (descriptor < 0) throw IoError(path_ + ": " + system_reason(errno));
@@ -188,9 +188,9 @@ class Temporary {
     }
     ::close(descriptor);
   }
-  ~Temporary() { ::unlink(path_.c_str()); }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
+  ~TemporaryFile() { ::unlink(path_.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::string& path() const { return path_; }
 
@@ -202,7 +202,8 @@ class Temporary {
 
 bool is_rosbag2_folder(const fs::path& folder) {
   std::error_code unknown;
-  return fs::is_directory(folder, unknown) && (has_metadata(folder) || !files_without_metadata(folder).empty());
+  return fs::is_directory(folder, unknown) &&
+         (has_metadata(folder) || !files_without_metadata(folder).empty());
 }
 
 // A recorder writes metadata.yaml last, so it may be older than the files or incomplete. If it cannot be
@@ -210,21 +211,21 @@ bool is_rosbag2_folder(const fs::path& folder) {
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   if (!has_metadata(folder))
     return std::make_unique<JoinedReader>(files_without_metadata(folder), std::vector<std::string>());
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
   std::vector<fs::path> files;
   const std::vector<fs::path> there = recording_files_in(folder);
   try {
-    files = without_repetitions(files_of(folder), remarks);
+    files = without_repetitions(files_of(folder), warnings);
   } catch (const IoError& error) {
     if (there.empty()) throw;
-    remarks.push_back(std::string(error.what()) + ": all files of the folder are read");
+    warnings.push_back(std::string(error.what()) + ": all files of the folder are read");
     files = there;
   }
   for (const fs::path& file : there) {
     if (std::find(files.begin(), files.end(), file) == files.end())
-      remarks.push_back("metadata.yaml does not name " + file.filename().string() + ": it is not read");
+      warnings.push_back(file.filename().string() + " is not in metadata.yaml and is not read");
   }
-  return std::make_unique<JoinedReader>(std::move(files), remarks);
+  return std::make_unique<JoinedReader>(std::move(files), warnings);
 }
 
 // Unpacks into a temporary file, which SQLite needs. It can be unlinked as soon as the reader has opened it.
@@ -236,7 +237,7 @@ std::unique_ptr<RecordingReader> open_zstd_file(const fs::path& file) {
     input.read(0, packed.data(), packed.size());
     Decompressor().decompress_zstd(packed.data(), packed.size(), unpacked);
   }
-  const Temporary temporary(unpacked);
+  const TemporaryFile temporary(unpacked);
   return open_recording(temporary.path());
 }
 

@@ -43,10 +43,11 @@ CREATE INDEX timestamp_idx ON messages (timestamp ASC);
 // Minimum duration of a transaction.
 constexpr std::chrono::milliseconds kMinTransaction{50};
 
-fs::path made_folder(const fs::path& folder) {
+// Creates the folder if it does not exist, and returns its path.
+fs::path create_folder(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
-  if (!fs::is_directory(folder)) throw IoError("cannot be made a folder");
+  if (!fs::is_directory(folder)) throw IoError("cannot create the folder");
   return folder;
 }
 
@@ -66,7 +67,7 @@ YAML::Node nanoseconds(const char* name, std::int64_t value) {
 
 class Rosbag2Writer::State {
  public:
-  explicit State(const fs::path& folder) : folder_(made_folder(folder)), file_(name_of(folder) + "_0.db3") {
+  explicit State(const fs::path& folder) : folder_(create_folder(folder)), file_(name_of(folder) + "_0.db3") {
     if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw IoError(system_reason(errno));
   }
   ~State() { release(); }
@@ -156,8 +157,8 @@ class Rosbag2Writer::State {
   void prepare(const char* sql, sqlite3_stmt** statement) {
     if (sqlite3_prepare_v2(database_, sql, -1, statement, nullptr) != SQLITE_OK) fail();
   }
-  static void bind(sqlite3_stmt* statement, int place, const std::string& text) {
-    sqlite3_bind_text(statement, place, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
+  static void bind(sqlite3_stmt* statement, int parameter, const std::string& text) {
+    sqlite3_bind_text(statement, parameter, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
   }
   void step(sqlite3_stmt* statement) {
     const bool done = sqlite3_step(statement) == SQLITE_DONE;

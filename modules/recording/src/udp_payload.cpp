@@ -40,9 +40,9 @@ bool unwrap_udp(unsigned link, const std::byte* data, std::size_t size, Payload&
   if ((std::to_integer<unsigned>(ip[0]) >> 4U) != 4 || header < 20 || !whole ||
       std::to_integer<int>(ip[9]) != 17 || size < skip + header + 8)
     return false;
-  const std::size_t most = size - skip - header;
+  const std::size_t available = size - skip - header;
   std::size_t udp = big16(ip + header + 4);
-  if (udp < 8 || udp > most) udp = most;  // invalid length: take all captured bytes
+  if (udp < 8 || udp > available) udp = available;  // invalid length: take all captured bytes
   payload.data = ip + header + 8;
   payload.size = udp - 8;
   payload.address = static_cast<std::uint32_t>(big16(ip + 12) << 16U | big16(ip + 14));

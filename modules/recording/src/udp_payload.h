@@ -15,7 +15,7 @@ struct Payload {
   std::int64_t time_ns = 0;  ///< Capture time, nanoseconds since 1970.
   const std::byte* data = nullptr;
   std::size_t size = 0;
-  std::uint32_t address = 0;  ///< Source address.
+  std::uint32_t address = 0;           ///< Source address.
   std::uint16_t destination_port = 0;  ///< Destination port.
 
   /// Key of the sender: source address and destination port. The source port is not used, since a relay may

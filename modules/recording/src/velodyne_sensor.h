@@ -46,9 +46,9 @@ class VelodyneSensor {
   void finish(std::deque<VelodyneSweep>& whole);
 
  private:
-  double ahead(const Payload& packet) const;
-  void update_speed(const Payload& packet, double way);
-  void begin_revolution(std::int64_t turn, std::deque<VelodyneSweep>& whole);
+  double rotation_since_last(const Payload& packet) const;
+  void update_speed(const Payload& packet, double rotation);
+  void begin_revolution(std::int64_t revolution, std::deque<VelodyneSweep>& whole);
   void add_firing(const Payload& packet, std::size_t block, std::size_t laser, double azimuth, double time,
                   VelodyneSweep& sweep) const;
   void add_point(const std::byte* at, std::size_t laser, double hundredths, double time,
@@ -58,13 +58,13 @@ class VelodyneSensor {
   std::size_t number_;
   std::array<std::uint32_t, kVelodyneLasers> ring_{};
   std::array<double, kVelodyneLasers> sine_{}, cosine_{};
-  std::array<std::size_t, kVelodyneLasers> azimuth_offset_{};  // azimuth offset plus 360 degrees, in hundredths
+  std::array<std::size_t, kVelodyneLasers> azimuth_offset_{};  // plus 360 degrees, in hundredths
   bool started_ = false;
-  double speed_ = 0;  // hundredths of a degree per nanosecond; negative if azimuths decrease
+  double speed_ = 0;    // hundredths of a degree per nanosecond; negative if azimuths decrease
   double azimuth_ = 0;  // unwrapped azimuth of the newest packet's first block, hundredths of a degree
   std::int64_t last_time_ns_ = 0, revolution_ = 0;  // time of that packet; number of the current revolution
-  VelodyneSweep sweep_, previous_;  // the current sweep, and the last one, which waits for late packets
-  unsigned packets_in_revolution_ = 0;         // packets since the beginning of the revolution
+  VelodyneSweep sweep_, previous_;      // the current sweep, and the last one, which waits for late packets
+  unsigned packets_in_revolution_ = 0;  // packets since the beginning of the revolution
 };
 
 }  // namespace pcl_bv

@@ -162,7 +162,8 @@ void require(cairo_status_t status) {
 void check(const Picture& picture) {
   for (const int side : {picture.width, picture.height}) {
     if (side < 16 || side > 16384) {
-      throw std::invalid_argument("picture side " + std::to_string(side) + " is not within 16..16384 pixels");
+      throw std::invalid_argument("picture width or height " + std::to_string(side) +
+                                  " is not within 16..16384 pixels");
     }
   }
   const Eigen::Vector3d& up = picture.up;

@@ -76,21 +76,23 @@ std::string readable(std::string text) {
 // The colours are those of RViz and CloudCompare. Axes that point at the viewer are drawn last.
 void Marks::draw_axes() {
   constexpr Colour colours[3] = {{0.95f, 0.35f, 0.35f}, {0.45f, 0.85f, 0.4f}, {0.42f, 0.6f, 1.0f}};
-  const double reach = axis_length + 13, x = margin + axis_length, y = bottom_ - axis_length;
+  const double axis_extent = axis_length + 13, x = margin + axis_length, y = bottom_ - axis_length;
   int order[3] = {0, 1, 2};
   std::stable_sort(std::begin(order), std::end(order),
                    [&](int a, int b) { return view_.toward[a] < view_.toward[b]; });
   for (const int axis : order) {
-    const double across = view_.right[axis], down = -view_.up[axis];
-    if (across * across + down * down < 0.01) continue;
-    line(x, y, x + axis_length * across, y + axis_length * down);
+    const double dx = view_.right[axis], dy = -view_.up[axis];
+    if (dx * dx + dy * dy < 0.01) continue;
+    line(x, y, x + axis_length * dx, y + axis_length * dy);
     stroke(cairo_, colours[axis], true);
     const std::string name(1, "xyz"[axis]);
-    const double left = x + reach * across - width_of(name) / 2, foot = y + reach * down + cap_height / 3;
+    const double left = x + axis_extent * dx - width_of(name) / 2,
+                 foot = y + axis_extent * dy + cap_height / 3;
     darken(box_of(name, left, foot));
     write(name, left, foot, colours[axis]);
   }
-  occupied_.emplace_back(Eigen::Vector2d(x - reach, y - reach), Eigen::Vector2d(x + reach, y + reach));
+  occupied_.emplace_back(Eigen::Vector2d(x - axis_extent, y - axis_extent),
+                         Eigen::Vector2d(x + axis_extent, y + axis_extent));
 }
 
 // Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `most`.
@@ -142,7 +144,7 @@ void Marks::draw_legend(const std::vector<std::string>& methods, const Styles& s
 void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
   const Box frame(Eigen::Vector2d(0, 0), Eigen::Vector2d(view_.width, view_.height));
   // A label is above the volume's highest point; in a view from above, above its upper edge in the picture.
-  const Eigen::Vector3d& rise = view_.sky.dot(view_.toward) > 0.9 ? view_.up : view_.sky;
+  const Eigen::Vector3d& rise = view_.world_up.dot(view_.toward) > 0.9 ? view_.up : view_.world_up;
   for (const PictureVolume& entry : volumes) {
     if (entry.label.empty() || empty(entry.volume)) continue;
     const Eigen::Vector3d middle = center(entry.volume);
@@ -155,7 +157,8 @@ void Marks::draw_labels(const std::vector<PictureVolume>& volumes) {
     const double x = std::max(4.0, std::min(at.x() - width / 2, view_.width - width - 4));
     const double y = std::max(cap_height + 4, top - 7);
     const Box box = box_of(text, x, y);
-    if (std::any_of(occupied_.begin(), occupied_.end(), [&](const Box& other) { return other.intersects(box); }))
+    if (std::any_of(occupied_.begin(), occupied_.end(),
+                    [&](const Box& other) { return other.intersects(box); }))
       continue;
     darken(box);
     write(text, x, y, palette(entry.colour));

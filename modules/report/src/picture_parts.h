@@ -21,7 +21,7 @@ namespace pcl_bv {
 /// and is in pixels, too.
 struct View {
   Eigen::Vector3d right, up, toward;    ///< Orthonormal; `toward` points from the scene to the viewer.
-  Eigen::Vector3d sky;                  ///< Picture::up as a unit vector.
+  Eigen::Vector3d world_up;             ///< Picture::up as a unit vector.
   std::array<double, 2> heights{0, 1};  ///< Central range of the points' heights, for colours by height.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double scale = 1;  ///< Pixels per unit.

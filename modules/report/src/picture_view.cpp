@@ -26,17 +26,17 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// Returns the interval from the lowest `low` to the highest `high` of all parts, ignoring the `cut` most
-/// extreme values of each. Without parts returns [infinity, -infinity].
-Interval span(std::vector<Interval>& parts, std::size_t cut) {
+/// Returns the interval from the lowest `low` to the highest `high` of all parts, ignoring the `outliers`
+/// most extreme values of each. Without parts returns [infinity, -infinity].
+Interval robust_interval(std::vector<Interval>& parts, std::size_t outliers) {
   if (parts.empty()) return {INFINITY, -INFINITY};
   Interval result;
-  std::nth_element(parts.begin(), parts.begin() + cut, parts.end(),
+  std::nth_element(parts.begin(), parts.begin() + outliers, parts.end(),
                    [](const Interval& a, const Interval& b) { return a.low < b.low; });
-  result.low = parts[cut].low;
-  std::nth_element(parts.begin(), parts.begin() + cut, parts.end(),
+  result.low = parts[outliers].low;
+  std::nth_element(parts.begin(), parts.begin() + outliers, parts.end(),
                    [](const Interval& a, const Interval& b) { return a.high > b.high; });
-  result.high = parts[cut].high;
+  result.high = parts[outliers].high;
   return result;
 }
 
@@ -53,28 +53,28 @@ std::vector<Eigen::Vector3d> framed_points(const Picture& picture) {
 }
 
 /// Returns the interval of the points along the axis, without one of `extreme` points at either end.
-Interval central(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
-                 std::size_t extreme) {
+Interval central_interval(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis,
+                          std::size_t extreme) {
   std::vector<Interval> parts;
   parts.reserve(points.size());
   for (const Eigen::Vector3d& p : points)
     parts.push_back({p.dot(axis), p.dot(axis)});
-  return span(parts, parts.size() / extreme);
+  return robust_interval(parts, parts.size() / extreme);
 }
 
 /// Returns the interval of the non-empty volumes, without a sixteenth of them at either end: a few distant
 /// objects would make all others small.
-Interval central(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
+Interval central_interval(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
   std::vector<Interval> parts;
   for (const auto& [volume, colour, label, method] : volumes) {
     if (!empty(volume)) parts.push_back({support(volume, -axis).dot(axis), support(volume, axis).dot(axis)});
   }
-  return span(parts, parts.size() / 16);
+  return robust_interval(parts, parts.size() / 16);
 }
 
 View oriented(const Picture& picture) {
   View view;
-  const Eigen::Vector3d z = view.sky = (picture.up / picture.up.cwiseAbs().maxCoeff()).normalized();
+  const Eigen::Vector3d z = view.world_up = (picture.up / picture.up.cwiseAbs().maxCoeff()).normalized();
   const Eigen::Vector3d level = Eigen::Vector3d::Unit(std::abs(z.x()) < 0.9 ? 0 : 1);
   const Eigen::Vector3d x = (level - level.dot(z) * z).normalized(), y = z.cross(x);
   const Eigen::Vector3d level_toward = std::cos(azimuth) * x + std::sin(azimuth) * y;
@@ -89,9 +89,10 @@ View oriented(const Picture& picture) {
 }
 
 /// Returns the cropped length of a picture's side: `content` pixels and the margins for marks, at least
-/// `least` and at most `side`.
-int cropped(int side, double content, int least) {
-  return std::min(side, std::max(least, static_cast<int>(std::min<double>(side, content)) + 2 * kMarkMargin));
+/// `min_length` and at most `side`.
+int cropped(int side, double content, int min_length) {
+  return std::min(side,
+                  std::max(min_length, static_cast<int>(std::min<double>(side, content)) + 2 * kMarkMargin));
 }
 
 }  // namespace
@@ -103,14 +104,14 @@ View fit_view(const Picture& picture) {
   std::vector<Eigen::Vector3d> points = framed_points(picture);
   view.empty = !any_volume && points.empty();
   if (view.empty) return view;
-  const Interval heights = central(points, view.sky, 50);
+  const Interval heights = central_interval(points, view.world_up, 50);
   view.heights = {heights.low, heights.low < heights.high ? heights.high : heights.low + 1};
   if (!picture.labels && any_volume) points.clear();
 
   const Eigen::Vector3d axes[3] = {view.right, view.up, view.toward};
   Eigen::Vector3d size;
   for (int k = 0; k < 3; ++k) {
-    const Interval a = central(picture.volumes, axes[k]), b = central(points, axes[k], 100);
+    const Interval a = central_interval(picture.volumes, axes[k]), b = central_interval(points, axes[k], 100);
     const double low = std::min(a.low, b.low), high = std::max(a.high, b.high);
     view.center += (low / 2 + high / 2) * axes[k];
     size[k] = high - low;

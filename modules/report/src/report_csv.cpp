@@ -89,11 +89,11 @@ std::string report_csv(const Report& report) {
 }
 
 std::string report_csv_heading() {
-  return joined({"file", kCsvColumns, csv_upright_columns});
+  return joined({"file", kCsvColumns, kCsvUprightColumns});
 }
 
 std::string frames_csv_heading() {
-  return joined({"seq,stamp_ns,track", kCsvColumns, kCsvTrackColumns, csv_tracked_upright_columns});
+  return joined({"seq,stamp_ns,track", kCsvColumns, kCsvTrackColumns, kCsvTrackedUprightColumns});
 }
 
 }  // namespace pcl_bv

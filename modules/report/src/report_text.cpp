@@ -115,8 +115,8 @@ class Table {
   void append(std::string_view field, std::size_t c, std::string& text) const {
     if (width_[c] == 0) return;
     const std::size_t padding = width_[c] - field.size();
-    const bool beside = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width_[9] > 0);
-    text += beside ? " " : "  ";
+    const bool single_space = c == 4 || c == 5 || (c >= 7 && c <= 9) || (c == 10 && width_[9] > 0);
+    text += single_space ? " " : "  ";
     if (c != method_column) text.append(padding, ' ');
     text += field;
     if (c == method_column) text.append(padding, ' ');
@@ -171,7 +171,7 @@ std::string printable(std::string name) {
   return name;
 }
 
-std::string header(const Report& report, std::size_t clusters) {
+std::string summary_line(const Report& report, std::size_t clusters) {
   std::string text = printable(report.file) + ": ";
   if (report.parts) text += std::to_string(*report.parts) + " inputs, ";
   text += std::to_string(report.points) + " points";
@@ -180,7 +180,7 @@ std::string header(const Report& report, std::size_t clusters) {
   };
   add(report.counts.nonfinite, " not finite");
   add(report.counts.range, " out of range");
-  add(report.counts.inside, " by regions");
+  add(report.counts.inside, " dropped by regions");
   add(report.counts.ground, " ground");
   add(report.counts.small, " in small clusters");
   add(report.counts.large, " in large clusters");
@@ -193,9 +193,10 @@ std::string header(const Report& report, std::size_t clusters) {
     text += ", fit " + format("%.*f", 1, report.seconds->fit * 1e3) + " ms";
   }
   if (report.origin) {
-    text += "\n  coordinates less origin";
+    text += "\n  origin";
     for (int axis = 0; axis < 3; ++axis)
       text += ' ' + shortest((*report.origin)[axis]);
+    text += " subtracted from coordinates";
   }
   return text + '\n';
 }
@@ -226,7 +227,8 @@ ClusterSource vector_source(const std::vector<ClusterEntry>& clusters) {
 
 void write_report_text(const Report& report, const ClusterSource& clusters, const TextSink& take) {
   if (report.error) return;
-  std::string text = header(report, clusters.count) + (report.info ? info_text(*report.info) : std::string());
+  std::string text =
+      summary_line(report, clusters.count) + (report.info ? info_text(*report.info) : std::string());
   take(text);
   if (clusters.count > 0) write_table(clusters, take);
 }

@@ -51,7 +51,7 @@ class Packets final : public FrameSource {
   }
 
   std::vector<std::string> take_warnings() override {
-    const std::vector<std::string> all = reader_.remarks();
+    const std::vector<std::string> all = reader_.warning_lines();
     if (all.size() <= remarks_) return {};
     std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(remarks_), all.end());
     remarks_ = all.size();

@@ -147,7 +147,9 @@ struct RecordedClouds::State {
     if (passed_over.size() > kMaxSkipped) passed_over.erase(passed_over.begin());
   }
 
-  std::vector<std::string> remarks() const { return packets ? packets->remarks() : reader->remarks(); }
+  std::vector<std::string> remarks() const {
+    return packets ? packets->warning_lines() : reader->warning_lines();
+  }
 
   RecordedMessage message;
   VelodyneSweep sweep;

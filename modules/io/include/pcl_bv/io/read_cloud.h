@@ -29,7 +29,7 @@ RawCloud read_cloud(const std::filesystem::path& path, const ParallelPolicy& pol
 struct CloudHeader {
   RawCloud cloud;                           ///< The cloud without its points.
   ScalarType scalar = ScalarType::float32;  ///< Type of the coordinates in RawCloud::xyz().
-  bool random_access = false;                 ///< Whether any point can be read on its own (CloudFile).
+  bool random_access = false;               ///< Whether any point can be read on its own (CloudFile).
 };
 
 /// Reads the header of a cloud file. The points are not read, so a later read can still find that the file is

@@ -25,8 +25,8 @@ inline std::optional<UntrustedJson> read_next_json(std::string_view text, std::s
   try {
     return UntrustedJson::parse(value.begin(), value.end());
   } catch (const UntrustedJson::parse_error& error) {
-    if (error.byte > value.size()) throw IoError("is cut off: the last value has no end");
-    throw IoError(position_in(text, begin + error.byte - 1) + ": is no JSON");
+    if (error.byte > value.size()) throw IoError("truncated JSON: the last value is incomplete");
+    throw IoError(position_in(text, begin + error.byte - 1) + ": invalid JSON");
   } catch (const UntrustedJson::exception&) {
     throw IoError(position_in(text, begin) + ": a number is too large");
   }
@@ -36,8 +36,8 @@ inline std::optional<UntrustedJson> read_next_json(std::string_view text, std::s
 inline UntrustedJson read_json(std::string_view text) {
   std::size_t at = 0;
   std::optional<UntrustedJson> value = read_next_json(text, at);
-  if (!value) throw IoError("is no JSON: it is empty");
-  if (!next_json_value(text, at).empty()) throw IoError("is no JSON: something follows the value");
+  if (!value) throw IoError("invalid JSON: the text is empty");
+  if (!next_json_value(text, at).empty()) throw IoError("invalid JSON: text after the value");
   return *std::move(value);
 }
 
@@ -50,13 +50,16 @@ inline const UntrustedJson& member(const UntrustedJson& object, const char* key)
 
 /// Returns a value as text for an error message: its first 40 characters, or only the length of an array or
 /// object that is long or nested.
-inline std::string shown(const UntrustedJson& value) {
+inline std::string abbreviated(const UntrustedJson& value) {
   constexpr std::size_t few = 8;
   const auto is_long = [](const UntrustedJson& part) { return part.is_structured() || part.is_string(); };
-  if (value.is_structured() && (value.size() > few || std::any_of(value.begin(), value.end(), is_long)))
-    return (value.is_array() ? "a list of " : "a group of ") + std::to_string(value.size());
+  if (value.is_structured() && (value.size() > few || std::any_of(value.begin(), value.end(), is_long))) {
+    const std::string size = std::to_string(value.size());
+    if (value.is_array()) return "a list of " + size;
+    return "an object of " + size + (value.size() == 1 ? " member" : " members");
+  }
   if (value.is_string() && value.get_ref<const std::string&>().size() > 40)
-    return shown(UntrustedJson(value.get_ref<const std::string&>().substr(0, 40)));
+    return abbreviated(UntrustedJson(value.get_ref<const std::string&>().substr(0, 40)));
   std::string text = value.dump(-1, ' ', true, UntrustedJson::error_handler_t::replace);
   if (text.size() > 40) text.replace(37, std::string::npos, "...");
   return text;

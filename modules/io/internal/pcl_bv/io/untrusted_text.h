@@ -16,9 +16,9 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 inline constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;  ///< Settings as YAML.
 /// metadata.yaml of rosbag2: large, since it may contain the definitions of message types.
 inline constexpr std::size_t kMaxMetadataBytes = std::size_t{16} << 20;
-inline constexpr std::size_t kMaxVolumesBytes = std::size_t{1} << 30;   ///< JSON with volumes.
+inline constexpr std::size_t kMaxVolumesBytes = std::size_t{1} << 30;         ///< JSON with volumes.
 inline constexpr std::size_t kMaxPartialHeaderBytes = std::size_t{64} << 20;  ///< Header of partial results.
-inline constexpr std::size_t kMaxPosesBytes = std::size_t{1} << 30;     ///< Poses and calibrations.
+inline constexpr std::size_t kMaxPosesBytes = std::size_t{1} << 30;           ///< Poses and calibrations.
 /// Maximum nesting of JSON, small enough for recursive functions over a value. Our reports nest 8 deep.
 inline constexpr int kMaxJsonDepth = 64;
 

@@ -120,8 +120,8 @@ class MessageReader {
   /// adds), which means that the type is another one.
   void finish() const {
     if (size_ - at_ >= (ros1 ? 1 : 8))
-      throw MessageError("the message goes on for " + std::to_string(size_ - at_) +
-                         " bytes after its last field: another version of its type");
+      throw MessageError(std::to_string(size_ - at_) +
+                         " extra bytes after the last field: the message has another version of its type");
   }
 
  private:

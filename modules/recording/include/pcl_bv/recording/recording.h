@@ -16,8 +16,8 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// A topic of a recording: the messages of one name, type and encoding.
 struct RecordedTopic {
   std::string name;
-  std::string type;      ///< In ROS 2's spelling, also for ROS 1 bags: "sensor_msgs/msg/PointCloud2".
-  std::string encoding;  ///< Encoding of the messages: "cdr", "ros1", or another name from the file.
+  std::string type;            ///< In ROS 2's spelling, also for ROS 1 bags: "sensor_msgs/msg/PointCloud2".
+  std::string encoding;        ///< Encoding of the messages: "cdr", "ros1", or another name from the file.
   std::uint64_t messages = 0;  ///< Number of messages; 0 if the file does not state it.
 };
 
@@ -65,19 +65,19 @@ class RecordingReader {
 
   /// Reads the next message, in the order of log_time_ns; equal times in the order of the file. The files of
   /// a folder are read one after another. Returns false at the end. Damaged parts are skipped with a warning,
-  /// see remarks(). Throws IoError if the file cannot be read any more.
+  /// see warning_lines(). Throws IoError if the file cannot be read any more.
   virtual bool next(RecordedMessage& message) = 0;
 
   /// Returns the warnings about damage so far, without the file's name; at most eleven lines.
-  const std::vector<std::string>& remarks() const { return warnings_.lines(); }
+  const std::vector<std::string>& warning_lines() const { return warnings_.lines(); }
   /// Returns the same warnings as a list that can be merged into another one.
   const WarningList& warnings() const { return warnings_; }
 
  protected:
   /// Adds a warning.
-  void remark(std::string line) { warnings_.add(std::move(line)); }
+  void add_warning(std::string line) { warnings_.add(std::move(line)); }
   /// Adds the new warnings of another list; see WarningList::append_new().
-  void remark(const WarningList& other, std::uint64_t& added, const std::string& prefix = {}) {
+  void add_warnings(const WarningList& other, std::uint64_t& added, const std::string& prefix = {}) {
     warnings_.append_new(other, added, prefix);
   }
 

@@ -62,7 +62,7 @@ class VelodyneReader {
   bool next(VelodyneSweep& sweep);
 
   /// Returns the warnings so far, a line each: damaged packets, and that the capture has several sensors.
-  std::vector<std::string> remarks() const;
+  std::vector<std::string> warning_lines() const;
 
  private:
   struct State;

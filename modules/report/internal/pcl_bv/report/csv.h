@@ -27,17 +27,17 @@ inline constexpr std::string_view kCsvTrackColumns = "vx,vy,vz,x,y,z,yaw";
 /// an upright box, and Obb::yaw() in radians. Empty for all other volumes. For a track's box the length is
 /// along its front, and the yaw is from -pi to pi. For other boxes the length is not below the width, and the
 /// yaw is from -pi/2 to pi/2.
-inline constexpr std::string_view csv_upright_columns = "length,width,height,yaw";
+inline constexpr std::string_view kCsvUprightColumns = "length,width,height,yaw";
 
-/// Like csv_upright_columns, for lines with kCsvTrackColumns, where "yaw" is already the yaw of the object.
-inline constexpr std::string_view csv_tracked_upright_columns = "length,width,height,box_yaw";
+/// Like kCsvUprightColumns, for lines with kCsvTrackColumns, where "yaw" is already the yaw of the object.
+inline constexpr std::string_view kCsvTrackedUprightColumns = "length,width,height,box_yaw";
 
 /// Returns a text as one CSV field (RFC 4180): in double quotes, with inner quotes doubled, if it has a
 /// comma, a quote or a line end; else unchanged.
 std::string csv_field(std::string_view text);
 
 /// Appends a line for each volume of the cluster: `first_columns` (fields joined by commas), kCsvColumns,
-/// kCsvTrackColumns if `tracked`, and csv_upright_columns. Lines end in "\n". Numbers have the fewest digits
+/// kCsvTrackColumns if `tracked`, and kCsvUprightColumns. Lines end in "\n". Numbers have the fewest digits
 /// that read back as exactly the same double. Throws std::domain_error if a number is not finite, which does
 /// not occur in fitted volumes.
 void append_csv(std::string_view first_columns, const ClusterEntry& cluster, std::string& text,
@@ -49,11 +49,11 @@ std::string report_csv(const Report& report);
 /// Writes the same lines piece by piece, of these clusters instead of the report's.
 void write_report_csv(const Report& report, const ClusterSource& clusters, const TextSink& take);
 
-/// Returns the heading of report_csv(): "file", kCsvColumns and csv_upright_columns.
+/// Returns the heading of report_csv(): "file", kCsvColumns and kCsvUprightColumns.
 std::string report_csv_heading();
 
 /// Returns the heading for lines of frames: "seq,stamp_ns,track", kCsvColumns, kCsvTrackColumns and
-/// csv_tracked_upright_columns.
+/// kCsvTrackedUprightColumns.
 std::string frames_csv_heading();
 
 }  // namespace pcl_bv

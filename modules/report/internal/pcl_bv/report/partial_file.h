@@ -27,7 +27,8 @@ struct PartialFile {
   /// Value of `inputs_hash` for a cloud without inputs: the offset basis of FNV-1a.
   static constexpr std::uint64_t kEmptyInputsHash = 0xcbf29ce484222325;
 
-  std::uint64_t inputs_hash = kEmptyInputsHash;  ///< FNV-1a hash of the inputs' names and sizes; see add_input().
+  /// FNV-1a hash of the inputs' names and sizes; see add_input().
+  std::uint64_t inputs_hash = kEmptyInputsHash;
   std::size_t inputs = 0;                 ///< Number of input files of the whole cloud.
   std::size_t cloud_points = 0;           ///< Number of points of the whole cloud, valid or not.
   std::optional<Eigen::Vector3d> origin;  ///< Vector that was subtracted from all coordinates, if any.
