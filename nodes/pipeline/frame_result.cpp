@@ -16,7 +16,7 @@ namespace pcl_bv {
 
 PointView FrameResult::points_after_filter(const PointView& cloud) const {
   if (counts.range + counts.inside == 0) return cloud;
-  if (!filtered) return subset(cloud, kept);
+  if (!filtered) return subset(cloud, passed_filter);
   PointView view = view_of(*filtered, points, cloud.scalar);
   view.first = cloud.first;
   return view;
@@ -100,7 +100,7 @@ void fill_entry(const FrameResult& result, std::size_t id, ClusterEntry& entry) 
   entry.volumes.resize(result.methods.size());
   std::size_t n = 0;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (!result.has(id, m)) continue;
+    if (!result.is_requested(id, m)) continue;
     VolumeEntry& volume = entry.volumes[n++];
     volume.method = result.methods[m]->name;
     volume.volume = result.volume(id, m);

@@ -19,7 +19,7 @@ constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
 Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const Aabb* const box = std::get_if<Aabb>(&result.volume(cluster, m));
-    if (box != nullptr && result.has(cluster, m)) return *box;
+    if (box != nullptr && result.is_requested(cluster, m)) return *box;
   }
   Aabb box;
   fit_aabb(points, box);

@@ -269,7 +269,7 @@ TEST(Settings, EachHasAKeyOfItsOwnAndWhatToSayOfIt) {
   const StreamConfig defaults;
   visit_stream(defaults, [&](const Setting& setting, const auto& value) {
     EXPECT_TRUE(keys.insert(setting.key).second) << setting.key;
-    EXPECT_FALSE(setting.about.empty()) << setting.key;
+    EXPECT_FALSE(setting.help.empty()) << setting.key;
     EXPECT_TRUE(setting.option.empty() || options.insert(setting.option).second) << setting.option;
     EXPECT_EQ(problem_of(setting, value), "") << setting.key;
     auto read = value;

@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kPatience{20'000};
 
 bool next(FrameSource& source, Frame& frame) {
   const Next next = source.next(frame, kPatience);
-  EXPECT_NE(next, Next::nothing);
+  EXPECT_NE(next, Next::timeout);
   return next == Next::frame;
 }
 
@@ -299,7 +299,7 @@ TEST(FunctionSource, ASilentOneIsNotWaitedFor) {
   Frame frame;
   ASSERT_TRUE(next(*source, frame));
   for (int i = 0; i < 3; ++i)
-    EXPECT_EQ(source->next(frame, std::chrono::milliseconds(1)), Next::nothing);
+    EXPECT_EQ(source->next(frame, std::chrono::milliseconds(1)), Next::timeout);
   shared->begun.get_future().wait();
   source.reset();
   shared->speak.set_value();

@@ -149,7 +149,7 @@ TEST(Pipeline, ClassesHaveVolumesOfTheirOwn) {
   EXPECT_EQ(found,
             (std::vector<std::string>{"1: aabb obb-min", "2: obb-min sphere-exact", "3: aabb obb-min"}));
   for (std::size_t m = 0; m < 3; ++m)
-    EXPECT_EQ(result.has(1, m), !empty(result.volume(1, m)));
+    EXPECT_EQ(result.is_requested(1, m), !empty(result.volume(1, m)));
 }
 
 TEST(Pipeline, VolumesOfAClassAreThoseOfTheClassAlone) {

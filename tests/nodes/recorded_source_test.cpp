@@ -187,18 +187,18 @@ TEST_F(RecordedSource, GoesOnAfterACloudThatDoesNotFitItsData) {
   });
   const auto source = open_source(file(), as_recorded());
   Frame frame;
-  const std::chrono::milliseconds patience(1000);
-  EXPECT_EQ(source->next(frame, patience), Next::frame);
+  const std::chrono::milliseconds timeout(1000);
+  EXPECT_EQ(source->next(frame, timeout), Next::frame);
   try {
-    source->next(frame, patience);
+    source->next(frame, timeout);
     FAIL();
   } catch (const FrameError& error) {
     EXPECT_EQ(error.reason, "the cloud announces 99 x 1 points of 14 bytes, but has 28 bytes");
     EXPECT_EQ(error.frame.header.seq, 1U);
   }
-  EXPECT_EQ(source->next(frame, patience), Next::frame);
+  EXPECT_EQ(source->next(frame, timeout), Next::frame);
   EXPECT_EQ(frame.points.count, 3U);
-  EXPECT_EQ(source->next(frame, patience), Next::end);
+  EXPECT_EQ(source->next(frame, timeout), Next::end);
 }
 
 TEST_F(RecordedSource, ReadsClasses) {

@@ -92,11 +92,11 @@ TEST(SettingValues, OfCountsAreRefusedWithTheirRange) {
   StreamConfig config;
   visit_stream(config, [&](const Setting& setting, auto& field) {
     if constexpr (is_count<std::decay_t<decltype(field)>>) {
-      const std::string key(setting.key), least = to_text(static_cast<std::size_t>(setting.range.least));
+      const std::string key(setting.key), least = to_text(static_cast<std::size_t>(setting.range.min));
       for (const char* value :
            {"0", "-1", "nan", "inf", "1e-300", "1e300", "0.5", "99999999999999999999999"}) {
         SCOPED_TRACE(key + " = " + value);
-        if (std::string(value) == "0" && setting.range.least == 0) continue;
+        if (std::string(value) == "0" && setting.range.min == 0) continue;
         const std::string range = " is not a whole number of at least " + least;
         EXPECT_THAT(file_problem(key, value), HasSubstr(range));
         if (key.rfind("runner.", 0) != 0) {

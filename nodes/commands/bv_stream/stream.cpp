@@ -207,10 +207,10 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   SinkGroup sinks(complain);
   for (const SinkDescription& sink : options.sinks)
     parse_with("--sink", sink.place.string(), [&](const auto&) { sinks.add(sink); });
-  sinks.offer(remote_settings(pipeline));
+  sinks.offer_settings(remote_settings(pipeline));
   Progress progress;
   RunnerConfig config = options.config.runner;
-  config.policy = resolved(config.policy, options.rate != Rate::max);
+  config.policy = resolved_policy(config.policy, options.rate != Rate::max);
   FrameResult reserved;
   if (options.rate != Rate::max)
     pipeline.reserve(points_of_a_sweep, reserved);  // at maximum rate, this would only delay the first frame

@@ -112,10 +112,10 @@ Job joined(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tile
       job.partials.push_back(input.input);
   } else {
     std::vector<TileHeader> headers(inputs.size());
-    for_each_chunk(options.pipeline.policy(), inputs.size(),
+    for_each_chunk(options.pipeline.parallel_policy(), inputs.size(),
                    [&](std::size_t i) { headers[i] = describe_tile(inputs[i]); });
     job.tiles = std::make_shared<Tiles>(std::move(inputs), std::move(headers),
-                                        thread_count(options.pipeline.policy()));
+                                        thread_count(options.pipeline.parallel_policy()));
   }
   return job;
 }

@@ -53,7 +53,7 @@ void check(const PointView& cloud, const FrameResult& result, const Options& opt
   const std::size_t methods = result.methods.size();
   outside.assign(result.volumes.size(), 0);
   for (std::size_t i = 0; i < outside.size(); ++i) {
-    if (!result.has(i / methods, i % methods) || !result.results[i].reason.empty()) continue;
+    if (!result.is_requested(i / methods, i % methods) || !result.results[i].reason.empty()) continue;
     outside[i] =
         verify(result.volumes[i], result.points_of(i / methods, cloud), execution_of(options)).outside;
   }
@@ -125,7 +125,7 @@ std::vector<std::string> remarks(const Frame& frame, const FrameResult& result, 
 Status process(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
   Report& report = outcome.report;
   Stopwatch watch;
-  const ParallelPolicy policy = options.pipeline.policy();
+  const ParallelPolicy policy = options.pipeline.parallel_policy();
   const bool told_apart = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
   LoadedCloud loaded(job, told_apart || job.labels, policy, options.origin);
   const double read = watch.lap();
@@ -231,7 +231,7 @@ ClusterSource Outcome::clusters() const {
             entry = made.at(id);
             std::size_t n = 0;
             for (std::size_t m = 0; m < methods; ++m) {
-              if (!result->has(id, m)) continue;
+              if (!result->is_requested(id, m)) continue;
               VolumeEntry& volume = entry.volumes[n++];
               if (volume.failed.empty()) volume.outside = outside[id * methods + m];
             }

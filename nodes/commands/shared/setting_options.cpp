@@ -89,12 +89,12 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
   line.option("--padding", padding_, "M", "Grow those volumes by this in every direction (0)");
   const auto declare = [&](const Setting& setting, const auto& value) {
     if (!has_option(setting, stream_)) return;
-    const std::string about(setting.about);
+    const std::string help(setting.help);
     if constexpr (std::is_same_v<decltype(value), const bool&>) {
-      line.flag(setting.option.data(), flags_[setting.option], about);
+      line.flag(setting.option.data(), flags_[setting.option], help);
     } else {
       line.option(setting.option.data(), texts_[setting.option], setting.placeholder.data(),
-                  about + " (" + shown_default(setting, to_text(value)) + ")");
+                  help + " (" + shown_default(setting, to_text(value)) + ")");
     }
   };
   visit_stream(defaults, declare);

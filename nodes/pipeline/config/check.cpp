@@ -37,9 +37,9 @@ void check_classes(const ClusterConfig& all, std::vector<ConfigProblem>& problem
   if (!all.classes.empty() && !all.class_field) add("means nothing without cluster.class_field");
   for (const ClassConfig& own : all.classes) {
     const std::string name = "class " + std::to_string(own.value) + ": ";
-    const std::size_t least = own.min_size.value_or(all.effective_min_size()),
-                      most = own.max_size.value_or(all.max_size);
-    if (least > most) add(name + "max_size, " + to_text(most) + ", is below min_size, " + to_text(least));
+    const std::size_t min = own.min_size.value_or(all.effective_min_size()),
+                      max = own.max_size.value_or(all.max_size);
+    if (min > max) add(name + "max_size, " + to_text(max) + ", is below min_size, " + to_text(min));
   }
 }
 
@@ -90,28 +90,28 @@ auto checker(std::vector<ConfigProblem>& problems) {
 }  // namespace
 
 std::string problem_of(const Setting& setting, double value) {
-  const auto& [least, most, closed, as_float] = setting.range;
+  const auto& [min, max, closed, as_float] = setting.range;
   const bool vanishes = as_float && value > 0 && static_cast<float>(value) == 0;
   if (vanishes)
     return to_text(value) + " is too small: it is 0 as float32, which points are; use " +
            (closed ? "0, or " : "") + "at least 1.4e-45";
-  if ((closed ? value >= least : value > least) && value <= most) return {};  // false for NaN
-  std::string allowed = (closed ? " is not at least " : " is not above ") + to_text(least);
-  if (most < kFinite) allowed += " and at most " + to_text(most);
-  if (most == kFinite) allowed += " and finite";
+  if ((closed ? value >= min : value > min) && value <= max) return {};  // false for NaN
+  std::string allowed = (closed ? " is not at least " : " is not above ") + to_text(min);
+  if (max < kFinite) allowed += " and at most " + to_text(max);
+  if (max == kFinite) allowed += " and finite";
   return to_text(value) + allowed;
 }
 
 std::string whole_number_range(const NumberRange& range) {
-  std::string allowed = " of at least " + to_text(static_cast<std::size_t>(range.least));
-  if (range.most < kFinite) allowed += " and at most " + to_text(static_cast<std::size_t>(range.most));
+  std::string allowed = " of at least " + to_text(static_cast<std::size_t>(range.min));
+  if (range.max < kFinite) allowed += " and at most " + to_text(static_cast<std::size_t>(range.max));
   return allowed;
 }
 
 std::string problem_of(const Setting& setting, std::size_t value) {
-  const double least = setting.range.least, most = setting.range.most;
+  const double min = setting.range.min, max = setting.range.max;
   const auto n = static_cast<double>(value);
-  if (n >= least && (n <= most || most == kNoLimit)) return {};
+  if (n >= min && (n <= max || max == kNoLimit)) return {};
   return to_text(value) + " is not a whole number" + whole_number_range(setting.range);
 }
 

@@ -19,10 +19,10 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 inline constexpr double kFinite = std::numeric_limits<double>::max();
 
-/// Allowed numbers: from `least` (excluded unless `closed`) to `most`, which may be kNoLimit.
+/// Allowed numbers: from `min` (excluded unless `closed`) to `max`, which may be kNoLimit.
 struct NumberRange {
-  double least = 0;
-  double most = kFinite;
+  double min = 0;
+  double max = kFinite;
   bool closed = true;
   bool as_float = false;  ///< Positive numbers that become 0 as float32, the type of points, are not allowed.
 };
@@ -31,7 +31,7 @@ struct NumberRange {
 struct Setting {
   std::string_view key;                      ///< With its stage: "filter.range_min".
   std::string_view unit;                     ///< "m", the choices, or the meaning of a special value.
-  std::string_view about;                    ///< Help text.
+  std::string_view help;                    ///< Help text.
   NumberRange range{};                       ///< Allowed numbers.
   std::string_view unset{};                  ///< Meaning of null or of an empty list.
   std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M"; empty without an option.

@@ -31,7 +31,7 @@ class Recorder final : public MessageSender {
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& cdr) override {
     writer_->write(topic, stamp_ns, stamp_ns, cdr.data(), cdr.size());
   }
-  void settings(const std::string& yaml, std::int64_t stamp_ns) override {
+  void announce_settings(const std::string& yaml, std::int64_t stamp_ns) override {
     writer_->attach("config.yaml", "application/yaml", yaml, stamp_ns);
   }
   void close() override { writer_->close(); }

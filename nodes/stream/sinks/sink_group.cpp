@@ -122,8 +122,8 @@ void SinkGroup::each(const Do& what) {
   alive_ = std::any_of(members_.begin(), members_.end(), [](const auto& m) { return m->sink != nullptr; });
 }
 
-void SinkGroup::offer(const std::shared_ptr<RemoteSettings>& settings) {
-  each([&](Member& member) { member.sink->offer(settings); });
+void SinkGroup::offer_settings(const std::shared_ptr<RemoteSettings>& settings) {
+  each([&](Member& member) { member.sink->offer_settings(settings); });
 }
 
 void SinkGroup::write(const Frame& frame, const FrameResult& result) {

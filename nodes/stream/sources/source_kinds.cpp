@@ -132,7 +132,7 @@ const std::vector<SourceKind>& source_kinds() {
 
 const SourceKind& source_kind(const std::string& name) {
   return *std::find_if(source_kinds().begin(), source_kinds().end() - 1,
-                       [&](const SourceKind& kind) { return kind.takes(name); });
+                       [&](const SourceKind& kind) { return kind.accepts(name); });
 }
 
 std::string source_syntax() {

@@ -92,7 +92,7 @@ std::vector<VolumeShape> drawn(const FrameResult& result) {
   volumes.reserve(result.volumes.size());
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
     for (std::size_t m = 0; m < result.methods.size(); ++m)
-      volumes.push_back(result.has(i, m) ? drawn(result.volume(i, m)) : VolumeShape());
+      volumes.push_back(result.is_requested(i, m) ? drawn(result.volume(i, m)) : VolumeShape());
   }
   return volumes;
 }
@@ -101,7 +101,7 @@ VolumeShape box_of(const FrameResult& result, std::size_t cluster) {
   const AnyVolume* first = nullptr;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const AnyVolume& volume = result.volume(cluster, m);
-    if (!result.has(cluster, m) || empty(volume)) continue;
+    if (!result.is_requested(cluster, m) || empty(volume)) continue;
     if (std::holds_alternative<Aabb>(volume) || std::holds_alternative<Obb>(volume)) return drawn(volume);
     if (first == nullptr) first = &volume;
   }

@@ -77,7 +77,7 @@ void fill_scene(const Frame& frame, const FrameResult& result, const std::vector
     now.emplace(entity.id, 0);
     const msg::SceneColor colour = scene_colour(result, i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
-      if (result.has(i, m) && !empty(result.volume(i, m)))
+      if (result.is_requested(i, m) && !empty(result.volume(i, m)))
         add_volume(volumes[i * result.methods.size() + m], colour, entity);
     }
     add_facts(result, i, entity);

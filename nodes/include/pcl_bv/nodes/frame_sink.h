@@ -40,7 +40,7 @@ class FrameSink {
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
   /// Offers settings that the readers of the results may see and change. Called before the first frame.
-  virtual void offer(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
+  virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
   /// Returns the warnings since the last call that affect no frame, one line each.
   virtual std::vector<std::string> take_warnings() { return {}; }
@@ -111,7 +111,7 @@ class SinkGroup {
   void add(const SinkDescription& description);
 
   /// Offers the settings to all sinks added so far.
-  void offer(const std::shared_ptr<RemoteSettings>& settings);
+  void offer_settings(const std::shared_ptr<RemoteSettings>& settings);
 
   /// Write to all sinks that have not been given up.
   void write(const Frame& frame, const FrameResult& result);

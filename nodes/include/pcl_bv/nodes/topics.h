@@ -209,7 +209,7 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
     const auto id =
         tracked ? static_cast<std::int32_t>(result.tracks[i]->id) : -1 - static_cast<std::int32_t>(i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
-      if (!result.has(i, m) || empty(result.volume(i, m))) continue;
+      if (!result.is_requested(i, m) || empty(result.volume(i, m))) continue;
       const VolumeShape& volume = volumes[i * result.methods.size() + m];
       Marker& marker = add(std::string(result.methods[m]->name), id);
       now.emplace(marker.ns, id);
