@@ -44,7 +44,7 @@ class MessageSender {
   /// As FrameSink::offer_settings().
   virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
-  /// Shows a line to the people who watch.
+  /// Shows a line to the viewers.
   virtual void notify(const std::string& /*line*/) {}
 
   /// As FrameSink::take_warnings().
@@ -85,8 +85,7 @@ class Middleware {
   /// value of an environment variable.
   virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) = 0;
 
-  /// Creates a carrier. `address` is for modules that need one ("localhost:8765"). Throws as
-  /// receiver().
+  /// Creates a carrier. `address` is for modules that need one ("localhost:8765"). Throws as receiver().
   virtual std::unique_ptr<MessageSender> carrier(const std::string& address) = 0;
 };
 

@@ -261,13 +261,13 @@ TEST(StreamHealth, SaysTheFirstWarningOfTheSettingsInForce) {
   config.ground.method = GroundMethod::zones;
   const Frame frame = third_orientation(moved, 0);
   StreamHealth health;
-  EXPECT_TRUE(health.heeds(frame, result_of(config, frame.points)));
+  EXPECT_TRUE(health.record_frame(frame, result_of(config, frame.points)));
   msg::DiagnosticArray array;
   health.fill(frame, array);
   EXPECT_EQ(array.status.front().level, msg::DiagnosticStatus::WARN);
   EXPECT_THAT(array.status.front().message, testing::HasSubstr("do not lie around a sensor in the origin"));
   config.ground.sensor = Eigen::Vector3d(100, 0, 0);
-  health.heeds(frame, result_of(config, frame.points));
+  health.record_frame(frame, result_of(config, frame.points));
   health.fill(frame, array);
   EXPECT_EQ(array.status.front().message, "running");
 }

@@ -49,7 +49,7 @@ class MessageSink final : public FrameSink {
     draw(frame, result, lifetime);
     if (has_subscribers(frames_topic_)) send_frame(report_without_clusters(frame, result), cluster_source(result));
     if (frame.pose && sends_poses_) send_pose(frame);
-    const bool due = health_.heeds(frame, result);
+    const bool due = health_.record_frame(frame, result);
     if (due && has_subscribers(diagnostics_topic_)) {
       msg::DiagnosticArray array;
       health_.fill(frame, array);
@@ -58,7 +58,7 @@ class MessageSink final : public FrameSink {
   }
 
   void write_lost(const Frame& frame, const std::string& reason) override {
-    health_.lost();
+    health_.count_lost();
     carrier_->notify("frame " + std::to_string(frame.header.seq) + " is lost: " + reason);
     if (has_subscribers(frames_topic_)) send_frame(report_of_lost(frame, reason), {});
   }
@@ -88,7 +88,7 @@ class MessageSink final : public FrameSink {
   void draw(const Frame& frame, const FrameResult& result, std::int64_t lifetime) {
     const bool markers = has_subscribers(markers_topic_), scene = has_subscribers(scene_topic_);
     if (!markers && !scene) return;
-    const std::vector<VolumeShape> volumes = drawn(result);
+    const std::vector<VolumeShape> volumes = viewer_shapes(result);
     if (markers) {
       fill_markers(frame, result, volumes, lifetime, shown_markers_, markers_);
       send(*markers_topic_, frame, markers_);

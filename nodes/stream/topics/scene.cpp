@@ -40,9 +40,9 @@ void add_volume(const VolumeShape& volume, const msg::SceneColor& colour, msg::S
       lines.thickness = 1.5;
       lines.scale_invariant = true;
       lines.color = {colour.r, colour.g, colour.b, 1};
-      lines.points.resize(volume.ends.size());
-      for (std::size_t k = 0; k < volume.ends.size(); ++k)
-        topics::set_point(volume.ends[k], lines.points[k]);
+      lines.points.resize(volume.line_points.size());
+      for (std::size_t k = 0; k < volume.line_points.size(); ++k)
+        topics::set_point(volume.line_points[k], lines.points[k]);
   }
 }
 

@@ -46,8 +46,8 @@ VolumeShape wires(const Mesh& mesh) {
       edges.insert(std::minmax(face[k], face[(k + 1) % face.size()]));
   }
   for (const auto& [a, b] : edges) {
-    volume.ends.push_back(array_of(mesh.vertices[static_cast<std::size_t>(a)]));
-    volume.ends.push_back(array_of(mesh.vertices[static_cast<std::size_t>(b)]));
+    volume.line_points.push_back(array_of(mesh.vertices[static_cast<std::size_t>(a)]));
+    volume.line_points.push_back(array_of(mesh.vertices[static_cast<std::size_t>(b)]));
   }
   return volume;
 }
@@ -83,16 +83,16 @@ struct Draw {
 
 }  // namespace
 
-VolumeShape drawn(const AnyVolume& volume) {
+VolumeShape viewer_shape(const AnyVolume& volume) {
   return empty(volume) ? VolumeShape() : std::visit(Draw{}, volume);
 }
 
-std::vector<VolumeShape> drawn(const FrameResult& result) {
+std::vector<VolumeShape> viewer_shapes(const FrameResult& result) {
   std::vector<VolumeShape> volumes;
   volumes.reserve(result.volumes.size());
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
     for (std::size_t m = 0; m < result.methods.size(); ++m)
-      volumes.push_back(result.is_requested(i, m) ? drawn(result.volume(i, m)) : VolumeShape());
+      volumes.push_back(result.is_requested(i, m) ? viewer_shape(result.volume(i, m)) : VolumeShape());
   }
   return volumes;
 }
@@ -102,10 +102,10 @@ VolumeShape box_of(const FrameResult& result, std::size_t cluster) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const AnyVolume& volume = result.volume(cluster, m);
     if (!result.is_requested(cluster, m) || empty(volume)) continue;
-    if (std::holds_alternative<Aabb>(volume) || std::holds_alternative<Obb>(volume)) return drawn(volume);
+    if (std::holds_alternative<Aabb>(volume) || std::holds_alternative<Obb>(volume)) return viewer_shape(volume);
     if (first == nullptr) first = &volume;
   }
-  return first == nullptr ? VolumeShape() : drawn(AnyVolume(aabb(*first)));
+  return first == nullptr ? VolumeShape() : viewer_shape(AnyVolume(aabb(*first)));
 }
 
 std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster) {
