@@ -87,8 +87,8 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   for (const SinkDescription& sink : options.sinks) {
     if (sink.kind->live) continue;
     const std::string_view files = sink.kind->files;
-    claims.claim(files.empty() ? sink.place : sink.place / ("frame000000" + std::string(files)));
-    if (files == ".pcd") claims.refuse_input(sink.place);  // its clouds would be read as those of the source
+    claims.claim(files.empty() ? sink.target : sink.target / ("frame000000" + std::string(files)));
+    if (files == ".pcd") claims.reject_input(sink.target);  // its clouds would be read as those of the source
   }
   if (options.stats) claims.claim(*options.stats);
 }

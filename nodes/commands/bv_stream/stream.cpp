@@ -206,7 +206,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   FramePipeline pipeline(options.config.pipeline);  // reads its files before outputs are opened
   SinkGroup sinks(complain);
   for (const SinkDescription& sink : options.sinks)
-    parse_with("--sink", sink.place.string(), [&](const auto&) { sinks.add(sink); });
+    parse_with("--sink", sink.target.string(), [&](const auto&) { sinks.add(sink); });
   sinks.offer_settings(remote_settings(pipeline));
   Progress progress;
   RunnerConfig config = options.config.runner;

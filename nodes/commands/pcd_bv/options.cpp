@@ -167,13 +167,13 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   reject_combinations(line, option, {"--labels"});
-  const auto refuse = [&](bool asked, const char* what) {
+  const auto reject = [&](bool asked, const char* what) {
     if (asked) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
-  refuse(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
-  refuse(config.ground.method != GroundMethod::none, "--ground (ground.method)");
+  reject(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
+  reject(config.ground.method != GroundMethod::none, "--ground (ground.method)");
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  refuse(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
+  reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
          "cluster.min_size or max_size");
   if (!options.merge && !options.partial) return;
   reject_combinations(line, option, {"--image", "--view-html", "--check", "--info"});
@@ -183,7 +183,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
                  "--bin-fields", "--topic"});
   if (options.partial) reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
-    refuse(options.origin.asked && !options.origin.at, "--origin auto: each share would have its own");
+    reject(options.origin.asked && !options.origin.at, "--origin auto: each share would have its own");
   for (const Method* method : config.methods()) {
     if (!Partial::serves(*method))
       throw UsageError(std::string("--volume: ")

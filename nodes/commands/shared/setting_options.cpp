@@ -129,18 +129,18 @@ void SettingOptions::apply(StreamConfig& config) const {
 }
 
 void SettingOptions::reject_useless(const PipelineConfig& config) const {
-  const auto refuse = [&](const char* option, bool useful, const char* needed) {
+  const auto reject = [&](const char* option, bool useful, const char* needed) {
     if (line_.given(option) && !useful)
       throw UsageError(std::string(option) + ": only useful with " + needed);
   };
   const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
-  refuse("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
+  reject("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
   for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized", "--class"})
-    refuse(option, clusters, "--cluster");
-  refuse("--sensor", config.ground.method == GroundMethod::zones, "--ground zones");
+    reject(option, clusters, "--cluster");
+  reject("--sensor", config.ground.method == GroundMethod::zones, "--ground zones");
   for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
-    refuse(option, ground, "--ground");
+    reject(option, ground, "--ground");
 }
 
 StreamConfig SettingOptions::config(std::string* range_from) const {

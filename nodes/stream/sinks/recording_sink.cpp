@@ -44,11 +44,11 @@ template <class Writer>
 std::unique_ptr<FrameSink> open_recording_sink(const SinkDescription& description) {
   MessageTopics topics;
   topics.points = description.points;
-  return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.place)), topics);
+  return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.target)), topics);
 }
 
 std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description) {
-  create_parent_folders(description.place);
+  create_parent_folders(description.target);
   return open_recording_sink<McapWriter>(description);
 }
 
