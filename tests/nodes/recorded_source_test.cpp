@@ -256,7 +256,7 @@ TEST_F(RecordedSource, ANoteIsThatOfTheFirstCloudThatHasItInWhateverOrderTheyAre
     std::vector<std::size_t> with_note;
     for (const std::size_t number : order) {
       EXPECT_EQ(clouds.load(number).note.empty(), number == 0);
-      if (!clouds.unsaid(number).empty()) with_note.push_back(number);
+      if (!clouds.new_note(number).empty()) with_note.push_back(number);
     }
     EXPECT_THAT(with_note, testing::UnorderedElementsAre(1, 4));
   }
@@ -284,7 +284,7 @@ TEST_F(RecordedSource, RemarksAreTakenOnce) {
   }
   EXPECT_LT(read, 20U);
   EXPECT_FALSE(remarks.empty());
-  EXPECT_EQ(clouds.remarks(), remarks);
+  EXPECT_EQ(clouds.warnings(), remarks);
   EXPECT_THAT(clouds.take_warnings(), testing::IsEmpty());
 }
 

@@ -129,7 +129,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   const bool told_apart = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
   LoadedCloud loaded(job, told_apart || job.labels, policy, options.origin);
   const double read = watch.lap();
-  const std::string note = job.recording ? job.recording->unsaid(job.number) : loaded.cloud().note;
+  const std::string note = job.recording ? job.recording->new_note(job.number) : loaded.cloud().note;
   if (!note.empty()) complain(job.input + ": " + note);
   Frame frame;
   frame.points = loaded.xyz();

@@ -127,7 +127,7 @@ std::optional<ParsedTime> take_clock_time(NameReader& name) {
   NameReader at = name;
   if (NameReader hours = name; hours.number(2, true) < 0 || hours.here() == '.')
     return std::nullopt;  // a decimal number
-  ParsedTime time{TimeKind::day};
+  ParsedTime time{TimeKind::time_of_day};
   time.seconds = take_clock(at, true, time);
   if (time.seconds < 0) return std::nullopt;
   name = at;

@@ -42,7 +42,7 @@ NameTimes times_of(std::vector<std::filesystem::path>& files) {
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (std::size_t i = 0; i < files.size(); ++i)
     std::tie(times.stamps[i], files[i]) = std::move(sorted[i]);
-  times.remark = "the frames come in the order of the times in their names, which is not that of the names";
+  times.warning = "the frames come in the order of the times in their names, which is not that of the names";
   return times;
 }
 
@@ -82,10 +82,10 @@ Pose pose_of(const std::array<double, 12>& rows) {
 std::unique_ptr<FrameSource> open_rural_road(const std::string& name, const ReplayOptions& options) {
   const RuralRoadSequenceSpec spec = parse_rural_road_sequence(name.substr(kSynth.size()));
   const bool own_poses = options.poses.empty();
-  return make_replay(spec.frames, {}, options, [spec, own_poses](std::size_t place, Frame& frame) {
-    RuralRoadFrame made = make_rural_road_frame(spec.options, place);
-    if (own_poses) frame.pose = pose_of(made.pose);
-    const auto xyz = std::make_shared<std::vector<float>>(std::move(made.cloud.xyz));
+  return make_replay(spec.frames, {}, options, [spec, own_poses](std::size_t index, Frame& frame) {
+    RuralRoadFrame generated = make_rural_road_frame(spec.options, index);
+    if (own_poses) frame.pose = pose_of(generated.pose);
+    const auto xyz = std::make_shared<std::vector<float>>(std::move(generated.cloud.xyz));
     frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
     frame.owner = xyz;
     if (frame.header.frame_id.empty()) frame.header.frame_id = "verges";
@@ -98,9 +98,9 @@ std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOpt
   const StreetSequenceSpec spec = parse_street_sequence(name.substr(kSynth.size()));
   StreetOptions street;
   street.seed = spec.seed;
-  return make_replay(spec.frames, {}, options, [street](std::size_t place, Frame& frame) {
+  return make_replay(spec.frames, {}, options, [street](std::size_t index, Frame& frame) {
     const auto xyz =
-        std::make_shared<std::vector<float>>(std::move(make_street_frame(street, place).cloud.xyz));
+        std::make_shared<std::vector<float>>(std::move(make_street_frame(street, index).cloud.xyz));
     frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
     frame.owner = xyz;
     if (frame.header.frame_id.empty()) frame.header.frame_id = "street";
