@@ -31,8 +31,8 @@ fs::path module_of(const std::string& name) {
   const fs::path file = fs::path("pcl_bv") / ("pcl_bv_" + name + ".so");
   std::error_code unknown;
   for (const fs::path& folder : folders()) {
-    for (const fs::path& place : {folder / file, folder / ".." / PCL_BV_LIBRARY_FOLDER / file})
-      if (fs::exists(place, unknown)) return place;
+    for (const fs::path& path : {folder / file, folder / ".." / PCL_BV_LIBRARY_FOLDER / file})
+      if (fs::exists(path, unknown)) return path;
   }
   throw IoError(file.filename().string() + " is not installed: it is of the component `" + name + "`");
 }

@@ -140,9 +140,9 @@ TEST_F(TilesTest, LeavesOutAFileAndNumbersTheRestAnew) {
   Tiles all = open({binary("a.pcd", Points(points.begin(), points.begin() + 400)),
                     binary("b.pcd", Points(points.begin() + 400, points.begin() + 500)),
                     binary("c.pcd", Points(points.begin() + 500, points.end())), at("nowhere.pcd")});
-  EXPECT_EQ(all.used(), 3U);
+  EXPECT_EQ(all.included_count(), 3U);
   all.exclude(1, "for a test");
-  EXPECT_EQ(all.used(), 2U);
+  EXPECT_EQ(all.included_count(), 2U);
   ASSERT_EQ(all.xyz().count, 900U);
   const LoadedPoints part(all.xyz(), 400, 500);
   Points rest(points.begin(), points.begin() + 400);

@@ -59,10 +59,10 @@ void declare_results(CommandLine& line, Texts& t) {
   line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
 }
 
-double number(const char* option, std::string_view text, double least, double most, const char* wanted) {
+double number(const char* option, std::string_view text, double min, double max, const char* allowed) {
   double value = 0;
-  if (read_whole_text(text, value) && value >= least && value <= most) return value;
-  reject_value(option, text, std::string("is not ") + wanted);
+  if (read_whole_text(text, value) && value >= min && value <= max) return value;
+  reject_value(option, text, std::string("is not ") + allowed);
 }
 
 // Throws UsageError if an output would overwrite an input or another output.

@@ -42,7 +42,7 @@ constexpr Names<ViewFrom, 4> kViews{
     {{"iso", ViewFrom::iso}, {"top", ViewFrom::top}, {"front", ViewFrom::front}, {"side", ViewFrom::side}}};
 
 const char* name_of(PcdBvCommand command) {
-  return command == PcdBvCommand::alone ? "pcd_bv" : "pcd_bv_mpi";
+  return command == PcdBvCommand::serial ? "pcd_bv" : "pcd_bv_mpi";
 }
 
 /// The values of the command line as texts, before they are parsed.
@@ -62,7 +62,7 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--origin", texts.origin, "X,Y,Z",
               "Subtract this, or auto: whole numbers in the middle of each cloud");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
-  if (command == PcdBvCommand::alone) {
+  if (command == PcdBvCommand::serial) {
     line.option("--partial", texts.partial, "FILE",
                 "Write what merging needs of that cloud instead of volumes");
     line.option("--part", texts.part, "K/N", "Only of share K (from 0 on) of N, for N processes (0/1)");
@@ -167,8 +167,8 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   reject_combinations(line, option, {"--labels"});
-  const auto reject = [&](bool asked, const char* what) {
-    if (asked) throw UsageError(std::string(option) + ": cannot be combined with " + what);
+  const auto reject = [&](bool given, const char* what) {
+    if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
   reject(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
   reject(config.ground.method != GroundMethod::none, "--ground (ground.method)");
@@ -183,7 +183,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
                  "--bin-fields", "--topic"});
   if (options.partial) reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
-    reject(options.origin.asked && !options.origin.at, "--origin auto: each share would have its own");
+    reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
   for (const Method* method : config.methods()) {
     if (!Partial::serves(*method))
       throw UsageError(std::string("--volume: ")
@@ -195,7 +195,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
 void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
   options.merge = texts.merge;
   options.partial = path_or_none(texts.partial);
-  options.together = texts.together || (options.partial && !options.merge);
+  options.tiled = texts.together || (options.partial && !options.merge);
   if (line.given("--part")) options.share = parse_share(texts.part);
   if (line.given("--part") && !options.partial) throw UsageError("--part: only useful with --partial");
 }
@@ -211,10 +211,10 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
   if (line.given("--origin")) options.origin = parse_origin(texts.origin);
   read_outputs(line, texts, options);
-  options.together = texts.together;
+  options.tiled = texts.together;
   options.threads_given = line.given("--threads");
-  if (command == PcdBvCommand::alone) read_parts(line, texts, options);
-  if (options.together || options.merge) reject_for_tiled_cloud(line, options);
+  if (command == PcdBvCommand::serial) read_parts(line, texts, options);
+  if (options.tiled || options.merge) reject_for_tiled_cloud(line, options);
   return options;
 }
 

@@ -27,10 +27,10 @@ void work(const std::vector<Job>& jobs, const Options& options, OrderedResults& 
   try {
     FramePipeline pipeline(options.pipeline);
     while (const auto job = order.next()) {
-      const auto early = [&](auto& complaints, auto& text) {
-        return order.write_early(*job, complaints, text);
+      const auto early = [&](auto& messages, auto& text) {
+        return order.write_early(*job, messages, text);
       };
-      order.take(*job, do_job(jobs[*job], options, pipeline, early));
+      order.add_result(*job, do_job(jobs[*job], options, pipeline, early));
     }
   } catch (...) {
     order.stop();

@@ -163,7 +163,7 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
   const std::vector<std::string> problems = config.validate();
   if (!problems.empty()) throw UsageError(problems.front());
   for (const std::string& line : config.pipeline.ineffective_settings())
-    complain(with_options(line));
+    report_problem(with_options(line));
   return config;
 }
 

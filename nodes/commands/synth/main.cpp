@@ -115,7 +115,7 @@ int run(int argc, char** argv) {
       "SCENE", scene, "",
       "NAME[:POINTS[:SEED]], street-sequence[:FRAMES[:SEED]] or\nverges-sequence[-BEAMS][:FRAMES[:SEED]]");
   line.option("OUT", output, "", "The .pcd file or, for a sequence, the folder");
-  if (const auto text = line.parse(argc, argv)) return print(*text);
+  if (const auto text = line.parse(argc, argv)) return print_text(*text);
   if (!line.given("OUT")) throw UsageError("no SCENE or no OUT; synth --help lists the options");
   const Interruption interruption([] {});
   try {

@@ -93,14 +93,14 @@ void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>&
       ++votes_[bin(x, y)];
     });
   }
-  unsigned most = 0;
+  unsigned max_votes = 0;
   for (int y = 1; y < kBins - 1; ++y) {
     for (int x = 1; x < kBins - 1; ++x) {
       unsigned sum = 0;
       for (int i = 0; i < 9; ++i)
         sum += votes_[bin(x + i % 3 - 1, y + i / 3 - 1)];
-      if (sum <= most) continue;
-      most = sum;
+      if (sum <= max_votes) continue;
+      max_votes = sum;
       motion.shift = kBin * Eigen::Vector2d(x - kBins / 2, y - kBins / 2);
     }
   }

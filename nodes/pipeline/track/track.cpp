@@ -158,12 +158,12 @@ double cost_of(const Track& track, const Aabb& box, double gate) {
   const BoxDifference difference = track.difference_to(box);
   // Not rotated into the sensor's axes: good enough for a gate.
   const Eigen::Vector3d variance = track.motion.position_variance();
-  const double slack = kFaceVariance + gate * gate / 16, most = std::max(variance.x(), variance.y());
+  const double slack = kFaceVariance + gate * gate / 16, max_variance = std::max(variance.x(), variance.y());
   double cost = 0;
   for (int i = 0; i < 3; ++i) {
     const double size = track.high[i] - track.low[i];
     const double change_in_size = difference.size[i] / (1 + 0.3 * size);
-    cost += difference.shift[i] * difference.shift[i] / ((i < 2 ? most : variance.z()) + slack) +
+    cost += difference.shift[i] * difference.shift[i] / ((i < 2 ? max_variance : variance.z()) + slack) +
             change_in_size * change_in_size + 0.1 * difference.centre[i] * difference.centre[i];
   }
   return cost;

@@ -110,13 +110,13 @@ class MessageSink final : public FrameSink {
 
   void send_pose(const Frame& frame) {
     if (!pose_topic_) pose_topic_ = carrier_->add_topic({"/tf", msg::TFMessage::ros_type});
-    const Eigen::Quaterniond turn(frame.pose->linear());
+    const Eigen::Quaterniond rotation(frame.pose->linear());
     const Eigen::Vector3d at = frame.pose->translation();
     msg::TransformStamped transform;
     topics::set_time(frame.header.stamp_ns, transform.header.stamp);
     transform.header.frame_id = "map";
     transform.child_frame_id = frame.header.frame_id;
-    transform.transform = {{at.x(), at.y(), at.z()}, {turn.x(), turn.y(), turn.z(), turn.w()}};
+    transform.transform = {{at.x(), at.y(), at.z()}, {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};
     send(*pose_topic_, frame, msg::TFMessage{{transform}});
   }
 

@@ -22,18 +22,18 @@ std::array<double, 3> array_of(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const Eigen::Quaterniond& turn,
+VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const Eigen::Quaterniond& rotation,
                   const Eigen::Vector3d& size) {
-  return {kind, array_of(center), {turn.x(), turn.y(), turn.z(), turn.w()}, array_of(size), {}};
+  return {kind, array_of(center), {rotation.x(), rotation.y(), rotation.z(), rotation.w()}, array_of(size), {}};
 }
 
 // Returns the rotation from z to a unit axis. For a downward axis it goes by way of the opposite axis, which
 // is better conditioned. Eigen's FromTwoVectors() uses a singular value decomposition for opposite vectors,
 // which took half of this unit's compile time.
-Eigen::Quaterniond turn_to(const Eigen::Vector3d& axis) {
+Eigen::Quaterniond rotation_to(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
-  const Eigen::Quaterniond turn = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();
-  return axis.z() < 0 ? turn * Eigen::Quaterniond(0, 1, 0, 0) : turn;
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();
+  return axis.z() < 0 ? rotation * Eigen::Quaterniond(0, 1, 0, 0) : rotation;
 }
 
 // Returns the edges of the faces, each once.
@@ -72,7 +72,7 @@ struct Draw {
                  2 * ellipsoid.radii());
   }
   VolumeShape operator()(const Cylinder& cylinder) const {
-    return solid(Kind::cylinder, cylinder.center(), turn_to(cylinder.axis()),
+    return solid(Kind::cylinder, cylinder.center(), rotation_to(cylinder.axis()),
                  {2 * cylinder.radius(), 2 * cylinder.radius(), 2 * cylinder.half_height()});
   }
   template <class Volume>
