@@ -249,7 +249,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   result.ms.decode = frame.decode_ms;
 
   if (now->segments && frame.points.source != nullptr)
-    throw std::invalid_argument("a cloud that is not in memory can be filtered, but not be told apart");
+    throw std::invalid_argument("a cloud that is not in memory can be filtered, but ground removal and clustering need it in memory");
   PointView points = state_->filter(*now, frame, result);
   result.ms.filter = watch.lap();
   state_->find_sensor(*now, frame, result);

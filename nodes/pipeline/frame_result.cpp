@@ -65,7 +65,7 @@ std::string ground_warning(const FrameResult& result) {
     return "no ground found" + tried +
            ": try ground.up, ground.sensor_height, ground.max_slope_degrees, or ground.method none";
   if (counts.ground == looked_at)
-    return "all points are taken for ground" + tried +
+    return "all points were classified as ground" + tried +
            ": try ground.up, ground.distance, or ground.method none";
   return {};
 }
@@ -75,7 +75,7 @@ std::string range_warning(const FrameResult& result, const std::string& from) {
   const std::size_t finite = result.points - result.counts.nonfinite, out = result.counts.range;
   constexpr std::size_t few = 100;
   if (finite < few || 2 * out <= finite) return {};
-  return std::to_string(out) + " of " + std::to_string(finite) + " points are out of range: not " +
+  return std::to_string(out) + " of " + std::to_string(finite) + " points are outside the range of " +
          to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")";
 }
 
@@ -84,7 +84,7 @@ std::string track_warning(const FrameResult& result) {
     case TrackTime::recorded:
       return "frame stamps do not advance: tracking uses the recording times";
     case TrackTime::none:
-      return "frame stamps do not advance: tracking gets no velocity from this frame";
+      return "frame stamps do not advance: tracks are expected at their last positions";
     default:
       return {};
   }

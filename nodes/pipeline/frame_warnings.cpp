@@ -79,8 +79,8 @@ std::string sensor_elsewhere(const Found& f) {
   if (!f.zones() || f.result.sensor.around) return {};
   if (const auto& given = f.config().ground.sensor)
     return "few points lie around ground.sensor " + text_of(*given) +
-           ", where ground zones begin: ground may be missed";
-  return "the points do not lie around a sensor in the origin: ground zones begin at " +
+           ", the centre of ground zones: ground may be missed";
+  return "the points do not lie around the origin: ground zones are centred at " +
          text_of(f.result.sensor.at) +
          ", where the points are densest; if the sensor was elsewhere, use ground.sensor";
 }
@@ -98,7 +98,7 @@ std::string origin_elsewhere(const Found& f) {
 std::string far_points(const Found& f) {
   if (!f.zones() || f.result.sensor.far_share < kMinFarShare) return {};
   return percent(f.result.sensor.far_share) + " of the points are 100 m or more from " +
-         text_of(f.result.sensor.at) + ", where ground zones begin: there ground is a guess";
+         text_of(f.result.sensor.at) + ", the centre of ground zones: the ground there is a rough estimate";
 }
 
 std::string level_ground(const Found& f) {

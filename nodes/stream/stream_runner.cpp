@@ -16,6 +16,8 @@
 #include <utility>
 #include <variant>
 
+#include "pipeline/config/settings.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -231,8 +233,8 @@ StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config)
 
 StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult reserved) {
   require(config.queue > 0, "runner.queue: 0 is not at least 1");
-  require(config.max_age_ms >= 0, "runner.max_age_ms: is not at least 0");
-  require(config.watchdog_s >= 0, "runner.watchdog_s: is not at least 0");
+  require(config.max_age_ms >= 0, "runner.max_age_ms: " + to_text(config.max_age_ms) + " is not at least 0");
+  require(config.watchdog_s >= 0, "runner.watchdog_s: " + to_text(config.watchdog_s) + " is not at least 0");
   require(callbacks.process && callbacks.on_result, "a StreamRunner needs process and on_result");
   state_ = std::make_unique<State>(std::move(callbacks), config, std::move(reserved));
   state_->worker = std::thread([state = state_.get()] { state->run(); });
@@ -244,7 +246,7 @@ StreamRunner::~StreamRunner() {
 
 bool StreamRunner::push(Frame frame) {
   require(frame.points.count == 0 || frame.owner != nullptr,
-          "StreamRunner::push: a frame of points without an owner, which keeps them");
+          "StreamRunner::push: the frame has points but no owner");
   State& s = *state_;
   if (frame.taken == Clock::time_point()) frame.taken = Clock::now();
   State::QueuedFrame oldest;  // declared before `lock`: freed after unlocking

@@ -58,7 +58,7 @@ TEST_F(HostileFiles, ADamagedPartialFileIsOneLine) {
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   const Result result = run({"--merge", "--volume", "aabb", "--format", "jsonl", file("bad", bytes)});
   expect_refused(result, 1, "bad: was cut or changed");
-  EXPECT_EQ(result.json()["error"], "not all of the partial results can be merged");
+  EXPECT_EQ(result.json()["error"], "some partial results cannot be merged");
   expect_refused(run({"--merge", "--partial", at("both"), file("bad", bytes), at("part")}), 1,
                  "bad: was cut");
   EXPECT_FALSE(std::filesystem::exists(at("both")));
@@ -129,7 +129,7 @@ TEST_F(HostileFiles, NumbersOfOptionsAreRefusedWithValueAndRange) {
   }
   expect_refused(
       run({"--cluster", "1e-300", "synth:sphere:100"}), 2,
-      "--cluster: 1e-300 is too small: it is 0 as float32, which points are; use 0, or at least 1.4e-45");
+      "--cluster: 1e-300 is too small: it becomes 0 as float32, the type of points; use 0, or at least 1.4e-45");
   expect_refused(run({"--cluster", "-1", "synth:sphere:100"}), 2,
                  "--cluster: -1 is not at least 0 and at most 1e+06");
 }

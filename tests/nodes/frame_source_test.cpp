@@ -132,7 +132,7 @@ TEST_F(NamedFrames, WithShortDecimalsComeInTheOrderOfTheirTimes) {
   EXPECT_EQ(read.stamps, (std::vector<std::int64_t>{12'000'000'000, 12'250'000'000, 12'500'000'000,
                                                     12'750'000'000, 13'000'000'000}));
   EXPECT_THAT(read.remarks,
-              testing::ElementsAre(testing::HasSubstr("in the order of the times in their names")));
+              testing::ElementsAre(testing::HasSubstr("sorted by the times in their names")));
 }
 
 TEST_F(NamedFrames, SayThatTheirTimesDoNotAscend) {

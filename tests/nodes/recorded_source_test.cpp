@@ -123,7 +123,7 @@ TEST_F(RecordedSource, WithoutAStampTakesWhenItWasRecorded) {
 
 TEST_F(RecordedSource, OfSeveralTopicsWantsOneNamed) {
   record({"/front", "/rear"});
-  EXPECT_EQ(refusal({}), "several topics have clouds: /front, /rear; say which with --topic");
+  EXPECT_EQ(refusal({}), "several topics have clouds: /front, /rear; choose one with --topic");
   ReplayOptions options = as_recorded();
   options.topic = "/rear";
   EXPECT_EQ(frames_of(*open_source(file(), options)).size(), 3U);

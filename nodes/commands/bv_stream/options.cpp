@@ -44,10 +44,10 @@ void declare_frames(CommandLine& line, Texts& t) {
       "Frames a second, recorded (by their stamps) or max\n(10; recorded where the source is a recording)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
   line.option("--stamps", t.stamps, "RULE",
-              "Times of the frames: by rate, or name: by the time in it\n"
+              "Stamps of the frames: rate, or name for the time in the file name\n"
               "(rate; name with --rate recorded)");
   line.option("--frame-id", t.frame_id, "NAME", "The coordinate frame of the points");
-  line.option("--poses", t.poses, "FILE", "Where the sensor was: poses of KITTI by frame, or of TUM by time");
+  line.option("--poses", t.poses, "FILE", "Sensor poses: KITTI format (by frame) or TUM format (by time)");
 }
 
 void declare_results(CommandLine& line, Texts& t) {
@@ -56,7 +56,7 @@ void declare_results(CommandLine& line, Texts& t) {
     sinks.replace(sinks.find(first_of_a_line), 1, "\n");
   line.option("--sink", t.sinks, "SINK", sinks + ";\nrepeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
-  line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
+  line.option("--report", t.report, "SECONDS", "Print counters and latency at this interval on standard error");
 }
 
 double number(const char* option, std::string_view text, double min, double max, const char* allowed) {

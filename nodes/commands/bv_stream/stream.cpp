@@ -77,7 +77,7 @@ class Reader {
         if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it advances the schedule, too
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
-        runner_.report_unreadable({}, std::string("the source ends: ") + error.what());
+        runner_.report_unreadable({}, std::string("the source failed: ") + error.what());
         more = false;
         failed = true;
       }

@@ -31,7 +31,7 @@ constexpr const char* examples = R"(Examples:
 
 Exit status: 0 done; 1 some input could not be processed or an output not written (the
 other inputs are still done); 2 wrong use, or an instruction set that is not usable here;
-3 --check found a point outside. The greater reason wins: 2, 3, 1, 0.
+3 --check found a point outside. If several apply, the first of 2, 3, 1, 0 is returned.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 constexpr Names<OutputFormat, 4> kFormats{{{"text", OutputFormat::text},
@@ -60,12 +60,12 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--topic", texts.topic, "NAME",
               "The topic of recordings, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
   line.option("--origin", texts.origin, "X,Y,Z",
-              "Subtract this, or auto: whole numbers in the middle of each cloud");
+              "Subtract this origin; auto: the centre of each cloud, rounded");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
   if (command == PcdBvCommand::serial) {
     line.option("--partial", texts.partial, "FILE",
-                "Write what merging needs of that cloud instead of volumes");
-    line.option("--part", texts.part, "K/N", "Only of share K (from 0 on) of N, for N processes (0/1)");
+                "Write partial results for --merge instead of volumes");
+    line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
   }
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
@@ -75,13 +75,13 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--mesh", texts.mesh, "FILE", "Write the volumes as .ply or .vtp; several inputs: a folder");
   line.option("--image", texts.image, "FILE",
               "Draw cloud and volumes as .png or .svg; several inputs: a folder");
-  line.option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
+  line.option("--view", texts.view, "NAME", "Viewpoint of the picture: iso, top, front or side (iso)");
   line.option("--view-html", texts.view_html, "FILE.html",
               "Write a page that shows cloud and volumes; several inputs: a folder");
   line.flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
-  line.flag("--info", texts.info, "Add what the cloud is like: extent, spacing, bad points, fields");
+  line.flag("--info", texts.info, "Add statistics of the cloud: extent, spacing, invalid points, fields");
   line.flag("--timings", texts.timings, "Add the seconds of each stage");
-  line.flag("--progress", texts.progress, "Show how far it is, where standard error is a terminal");
+  line.flag("--progress", texts.progress, "Show a progress bar if standard error is a terminal");
 }
 
 // An empty name means that the option is absent: the command line rejects empty names.

@@ -196,7 +196,7 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
   Stopwatch watch;
   const std::optional<PartialFile> all = merge_files(job.partials);
   if (!all) {  // each file that cannot be merged has been reported
-    report.error = "not all of the partial results can be merged";
+    report.error = "some partial results cannot be merged";
     return Status::failed;
   }
   if (!all->is_whole()) throw IoError("shares are missing: " + all->missing());
@@ -286,11 +286,11 @@ std::string coarse_warning(const Aabb& box, ScalarType scalar) {
   const bool coarse =
       scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm();
   if (!coarse) return {};
-  char text[200];
+  char text[250];
   std::snprintf(
       text, sizeof text,
-      "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
-      "--origin auto) or subtract an origin before",
+      "float32 coordinates near %.3g have a resolution of %.2g, which limits the accuracy of the volumes: "
+      "record float64 (then --origin auto) or subtract an origin before recording",
       farthest, step);
   return text;
 }

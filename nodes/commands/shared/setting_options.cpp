@@ -76,7 +76,7 @@ std::string with_options(std::string text) {
 
 SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream)
     : line_(line), defaults_(defaults), stream_(stream) {
-  line.option("--preset", preset_, "NAME", "Settings to begin with: road, indoor or table");
+  line.option("--preset", preset_, "NAME", "Preset of settings: road, indoor or table");
   line.option("--config", file_, "FILE.yaml", "Settings; options override them");
   line.flag("--print-config", print_config_, "Print the settings that would be used, as such a file");
   const FilterConfig& filter = defaults.pipeline.filter;
@@ -85,8 +85,8 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
                   to_text(filter.range_max) + ")");
   line.option("--drop-inside", dropped_, "FILE.json",
               "Drop points inside the volumes of this result; repeatable");
-  line.option("--keep-inside", cropped_, "FILE.json", "Drop points outside of all its volumes; repeatable");
-  line.option("--padding", padding_, "M", "Grow those volumes by this in every direction (0)");
+  line.option("--keep-inside", cropped_, "FILE.json", "Drop points outside all volumes of this result; repeatable");
+  line.option("--padding", padding_, "M", "Inflate the volumes of --drop-inside, --keep-inside by this (0)");
   const auto declare = [&](const Setting& setting, const auto& value) {
     if (!has_option(setting, stream_)) return;
     const std::string help(setting.help);

@@ -109,7 +109,7 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
 }
 
 int run(int argc, char** argv) {
-  CommandLine line("synth", "Generated point clouds with known answers, as .pcd files.", footer());
+  CommandLine line("synth", "Synthetic point clouds with ground truth, as .pcd files.", footer());
   std::string scene, output;
   line.option(
       "SCENE", scene, "",

@@ -207,7 +207,7 @@ void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point) {
   point.reset();
   if (text == "null") return;
   const std::vector<std::string_view> parts = parts_of(text);
-  if (parts.size() != 3) throw std::invalid_argument("has not three numbers");
+  if (parts.size() != 3) throw std::invalid_argument("does not have three numbers");
   Eigen::Vector3d p;
   for (Eigen::Index k = 0; k < 3; ++k)
     read_text(parts[static_cast<std::size_t>(k)], p[k]);

@@ -67,7 +67,7 @@ class Reader {
   void finish() const {
     for (const auto& [key, line_number] : maps_) {
       if (sections_.count(key) == 0)
-        fail(name_, line_number, "unknown key '" + key + "', or one that holds no others");
+        fail(name_, line_number, "unknown key '" + key + "', or a key without nested keys");
     }
     for (const auto& [key, node] : nodes_) {
       if (node.IsNull() && sections_.count(key) > 0) continue;  // an empty stage
@@ -87,7 +87,7 @@ class Reader {
 
   void add_keys(const YAML::Node& node, const std::string& prefix) {
     if (node.IsNull()) return;
-    if (!node.IsMap()) fail(name_, line(node), "'" + prefix + "' holds no keys");
+    if (!node.IsMap()) fail(name_, line(node), "the document must consist of keys and values");
     for (const auto& item : node) {
       const std::string name = item.first.as<std::string>();
       std::string key = prefix;
@@ -96,10 +96,10 @@ class Reader {
       if (name.find('.') != std::string::npos) fail(name_, line(item.first), "unknown key '" + key + "'");
       if (prefix.empty() && item.second.IsMap()) {
         if (!maps_.emplace(key, line(item.first)).second)
-          fail(name_, line(item.first), key + ": is there twice");
+          fail(name_, line(item.first), key + ": is given twice");
         add_keys(item.second, key);
       } else if (!nodes_.emplace(key, item.second).second) {
-        fail(name_, line(item.first), key + ": is there twice");
+        fail(name_, line(item.first), key + ": is given twice");
       }
     }
   }
@@ -109,10 +109,10 @@ class Reader {
     std::map<std::string, YAML::Node> fields;
     for (const auto& item : node) {
       const auto key = item.first.as<std::string>();
-      if (!fields.emplace(key, item.second).second) fail_at(item.first, where + key + ": is there twice");
+      if (!fields.emplace(key, item.second).second) fail_at(item.first, where + key + ": is given twice");
     }
     if (std::is_same_v<Row, ClassConfig> && fields.count("value") == 0)
-      fail_at(node, where + "a class without its value");
+      fail_at(node, where + "a class lacks the key 'value'");
     visit_row(row, [&](const Setting& field, auto& value) {
       const auto found = fields.find(std::string(field.key));
       if (found == fields.end()) return;
@@ -178,7 +178,7 @@ class Reader {
   }
 
   static std::string shown(const YAML::Node& node) {
-    return node.IsScalar() ? "'" + node.Scalar() + "'" : "what is there";
+    return node.IsScalar() ? "'" + node.Scalar() + "'" : "the value";
   }
 
   static std::string scalar(const YAML::Node& node) {
@@ -239,7 +239,7 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
     fail(name, 0, "has more than " + std::to_string(kMaxConfigBytes) + " bytes");
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) fail(name, documents[1].Mark().line + 1, "a second document");
+    if (documents.size() > 1) fail(name, documents[1].Mark().line + 1, "a second YAML document begins; only one is allowed");
     Reader reader(documents.empty() ? YAML::Node() : documents.front(), name);
     visit_stream(config, reader);
     reader.finish();

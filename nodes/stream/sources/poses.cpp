@@ -76,7 +76,7 @@ std::optional<Pose> camera_from_calibration(const std::filesystem::path& poses) 
     if (!line.starts_with("Tr:")) continue;
     const Numbers rows = numbers_of(std::string_view(line).substr(3));
     std::optional<Pose> pose = rows.size() == 12 ? pose_of_rows(rows) : std::nullopt;
-    if (!pose) throw IoError(file.string() + ": Tr is no pose of 12 numbers");
+    if (!pose) throw IoError(file.string() + ": Tr is not a pose (12 numbers: a rotation and a translation)");
     return pose;
   }
   return std::nullopt;
@@ -98,7 +98,7 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
     const Numbers numbers = numbers_of(line);
     if (columns == 0) columns = numbers.size();
     if (numbers.size() != columns || (columns != 8 && columns != 12))
-      fail("not 12 numbers (KITTI), nor 8 (TUM), as in the lines before");
+      fail("must have 12 numbers (KITTI) or 8 (TUM), as many as the lines before");
     by_stamp_ = columns == 8;
     std::optional<Pose> pose = by_stamp_ ? pose_of_tum(numbers) : pose_of_rows(numbers);
     if (!pose) fail("not a rotation");
@@ -112,7 +112,7 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
   if (poses_.empty()) fail("no poses");
   if (by_stamp_) return;
   if (!frames)
-    fail("poses by frame, but of a live source nobody knows the first one: by time they have 8 numbers");
+    fail("a live source needs poses by time (TUM: 8 numbers per line), not by frame (KITTI)");
   if (poses_.size() != *frames)
     fail(std::to_string(poses_.size()) + " poses of " + std::to_string(*frames) + " frames");
 }

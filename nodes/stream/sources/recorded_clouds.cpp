@@ -70,7 +70,7 @@ std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::str
   }
   const auto count = std::count_if(topics.begin(), topics.end(), has_clouds);
   if (count > 1)
-    throw std::invalid_argument("several topics have clouds: " + clouds + "; say which with --topic");
+    throw std::invalid_argument("several topics have clouds: " + clouds + "; choose one with --topic");
   if (count == 0)
     throw IoError("no topic of " + std::string(msg::PointCloud2::ros_type) +
                   "; topics: " + topics_with_types(topics));

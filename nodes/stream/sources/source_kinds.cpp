@@ -31,7 +31,7 @@ NameTimes times_of(std::vector<std::filesystem::path>& files) {
   NameTimes times = times_of_names(stems);
   if (std::all_of(times.stamps.begin(), times.stamps.end(), [](std::int64_t stamp) { return stamp < 0; }))
     throw std::invalid_argument(files.front().string() +
-                                ": no time in its name, nor in others: whole numbers count frames, except "
+                                ": no time in its name nor in any other name; whole numbers are frame numbers, except "
                                 "seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262, and "
                                 "nanoseconds from 1e16 on");
   if (!times.sort) return times;
@@ -42,7 +42,7 @@ NameTimes times_of(std::vector<std::filesystem::path>& files) {
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (std::size_t i = 0; i < files.size(); ++i)
     std::tie(times.stamps[i], files[i]) = std::move(sorted[i]);
-  times.warning = "the frames come in the order of the times in their names, which is not that of the names";
+  times.warning = "the frames are sorted by the times in their names, since the names are in another order";
   return times;
 }
 
