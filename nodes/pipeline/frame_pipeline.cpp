@@ -43,8 +43,8 @@ struct Prepared {
   MethodOptions options;
   std::shared_ptr<const PointFilter> filter;
   Execution execution{Serial{}, Isa::scalar};  // replaced by the configured instruction set
-  bool segments = false;                    // ground removal or clustering is enabled
-  bool reads_points = false;                          // some stage reads the points before the fits
+  bool segments = false;                       // ground removal or clustering is enabled
+  bool reads_points = false;                   // some stage reads the points before the fits
 };
 
 std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
@@ -61,8 +61,8 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   prepared->execution.parallel = config.parallel_policy();
   prepared->filter = std::make_shared<PointFilter>(config.filter, prepared->execution.isa);
   prepared->reads_points = prepared->segments || !prepared->filter->keeps_all() ||
-                    config.cluster.effective_min_size() > 0 ||
-                    config.cluster.max_size < std::numeric_limits<std::size_t>::max();
+                           config.cluster.effective_min_size() > 0 ||
+                           config.cluster.max_size < std::numeric_limits<std::size_t>::max();
   prepared->config = std::move(config);
   return prepared;
 }
@@ -173,8 +173,8 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
     if (frame.classes == nullptr)
       throw std::invalid_argument("the frame has no classes, but cluster.class_field is '" +
                                   config.class_field->name + "'");
-    class_clusterer.extract(points, *frame.classes, now.rules.default_settings(), now.rules.class_settings(), result.clusters,
-                            result.class_of, now.execution.parallel);
+    class_clusterer.extract(points, *frame.classes, now.rules.default_settings(), now.rules.class_settings(),
+                            result.clusters, result.class_of, now.execution.parallel);
   }
   // Frees the memory of the clustering before the fits: for a million clusters of four points, finding them
   // takes 550 MB, and their volumes take 300 MB.
@@ -205,7 +205,8 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
     const Execution shared = share_supports(views[cluster], requested_methods, execution, supports);
     for (std::size_t m = 0; m < methods; ++m) {
       const std::size_t i = cluster * methods + m;
-      result.requested[i] = std::find(requested_methods.begin(), requested_methods.end(), now.methods[m]) != requested_methods.end();
+      result.requested[i] = std::find(requested_methods.begin(), requested_methods.end(), now.methods[m]) !=
+                            requested_methods.end();
       if (result.requested[i] == 0) {
         result.volumes[i] = AnyVolume();
         result.results[i] = EstimationResult();
@@ -249,7 +250,8 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   result.ms.decode = frame.decode_ms;
 
   if (now->segments && frame.points.source != nullptr)
-    throw std::invalid_argument("a cloud that is not in memory can be filtered, but ground removal and clustering need it in memory");
+    throw std::invalid_argument(
+        "a cloud that is not in memory can be filtered, but ground removal and clustering need it in memory");
   PointView points = state_->filter(*now, frame, result);
   result.ms.filter = watch.lap();
   state_->find_sensor(*now, frame, result);

@@ -112,7 +112,8 @@ std::string stamps_do_not_advance(const Found& f) {
 }
 
 constexpr std::string (*kKinds[])(const Found&) = {
-    no_ground, little_ground, sensor_elsewhere, origin_elsewhere, far_points, level_ground, stamps_do_not_advance};
+    no_ground,  little_ground, sensor_elsewhere,     origin_elsewhere,
+    far_points, level_ground,  stamps_do_not_advance};
 
 }  // namespace
 

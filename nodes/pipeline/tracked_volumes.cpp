@@ -34,15 +34,14 @@ void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const T
   if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
   if (filters_.size() < first + methods) filters_.resize(first + methods);
   const BoxState state{tracker_.sensor(), assignment.velocity, assignment.moving, assignment.merged,
-                             assignment.separated};
+                       assignment.separated};
   for (std::size_t m = 0; m < methods; ++m) {
     BoxFilter& filter = filters_[first + m];
     if (assignment.fresh) filter = BoxFilter(methods_[m]->upright);
     Obb* const box = std::get_if<Obb>(&result.volumes[cluster * methods + m]);
     if (box == nullptr) continue;
     *box = filter.align_axes(*box, state);
-    if (config.smooth || config.grow)
-      *box = filter.smoothed(*box, points, state, config.smooth, config.grow);
+    if (config.smooth || config.grow) *box = filter.smoothed(*box, points, state, config.smooth, config.grow);
   }
 }
 

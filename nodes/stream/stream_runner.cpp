@@ -83,7 +83,7 @@ struct StreamRunner::State {
   mutable std::mutex mutex;
   mutable std::condition_variable arrived;
   mutable std::condition_variable not_full;  // also signalled when the worker is idle
-  std::deque<QueuedFrame> frames;  // `frames` and `losses` are both sorted by frame number
+  std::deque<QueuedFrame> frames;            // `frames` and `losses` are both sorted by frame number
   std::deque<Lost> losses;
   std::uint64_t next_number = 0;
   std::size_t lost_while_ending = 0;

@@ -70,7 +70,8 @@ TEST_F(LiveServer, EveryMessageReachesAReaderUnderBothNames) {
     EXPECT_THAT(client.await("serverInfo")["capabilities"], testing::Contains("parameters"));
     EXPECT_EQ(client.await("advertise")["channels"].size(), 2U);
     subscribe(client, {points_, frames_});
-    ASSERT_TRUE(wait_for([&] { return server_.has_subscribers(points_) && server_.has_subscribers(frames_); }));
+    ASSERT_TRUE(
+        wait_for([&] { return server_.has_subscribers(points_) && server_.has_subscribers(frames_); }));
     for (int i = 0; i < 100; ++i) {
       send(points_, i, 300'000);
       send(frames_, i);

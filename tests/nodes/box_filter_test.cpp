@@ -97,7 +97,8 @@ TEST(BoxFilter, ASmoothTurnIsTheMeanOfAnglesModulo90) {
   for (int i = 0; i < 100; ++i) {
     const std::vector<float> xyz = block(43, random);
     const double noise = 12 * (static_cast<double>(random()) / 4294967296.0 - 0.5) + (i % 3 == 0 ? 90 : 0);
-    const Obb box = filter.smoothed(filter.align_axes(upright_box(43 + noise, 4, 4), {}), view(xyz), {}, true, false);
+    const Obb box =
+        filter.smoothed(filter.align_axes(upright_box(43 + noise, 4, 4), {}), view(xyz), {}, true, false);
     if (i < 20) continue;
     worst = std::max(worst, std::abs(std::remainder(yaw_of(box) - 43, 90)));
     raw = std::max(raw, std::abs(std::remainder(noise, 90)));
@@ -113,7 +114,8 @@ TEST(BoxFilter, ASmoothBoxKeepsItsFrontWhereFitsAreWrongForAFewFrames) {
   for (int i = 0; i < 60; ++i) {
     const std::vector<float> xyz = block(10, random);
     const double wrong = i < 30 ? 0 : i < 33 ? 40 : i < 36 ? 80 : 0;
-    const Obb box = filter.smoothed(filter.align_axes(upright_box(10 + wrong, 4, 2), {}), view(xyz), {}, true, false);
+    const Obb box =
+        filter.smoothed(filter.align_axes(upright_box(10 + wrong, 4, 2), {}), view(xyz), {}, true, false);
     EXPECT_NEAR(yaw_of(box), 10, 15) << i;
   }
 }
@@ -128,8 +130,8 @@ TEST(BoxFilter, EveryPointIsInsideHoweverTheBoxIsSteadied) {
       BoxState sighting;
       sighting.moving = random() % 2 == 0;
       sighting.sensor.linear() = turn(3 * i);
-      const Obb box = filter.smoothed(filter.align_axes(upright_box(yaw + 7, 4, 2), sighting), view(xyz), sighting,
-                                    seed % 2 == 0, seed % 3 != 0);
+      const Obb box = filter.smoothed(filter.align_axes(upright_box(yaw + 7, 4, 2), sighting), view(xyz),
+                                      sighting, seed % 2 == 0, seed % 3 != 0);
       for (std::size_t p = 0; p < xyz.size(); p += 3)
         ASSERT_TRUE(box.contains({xyz[p], xyz[p + 1], xyz[p + 2]})) << "seed " << seed << " frame " << i;
     }
@@ -225,8 +227,8 @@ TEST(BoxFilter, AMergedClusterChangesNeitherSizesNorTurn) {
   BoxFilter filter;
   const auto steadied = [&](double degrees, double length, const BoxState& sighting) {
     const std::vector<float> xyz = block(degrees, random, length);
-    return filter.smoothed(filter.align_axes(upright_box(degrees, length, 2), sighting), view(xyz), sighting, true,
-                         true);
+    return filter.smoothed(filter.align_axes(upright_box(degrees, length, 2), sighting), view(xyz), sighting,
+                           true, true);
   };
   for (int i = 0; i < 10; ++i)
     steadied(0, 4, {});

@@ -79,10 +79,13 @@ TEST(StreamConfig, AToleranceThatGrowsReadsBackAndGoesAlone) {
   config.pipeline.cluster.min_points = 5;
   EXPECT_EQ(
       config.pipeline.validate(),
-      (std::vector<std::string>{"cluster.min_points: 5 is not allowed: must be 1 if cluster.tolerance_per_metre is above 0"}));
+      (std::vector<std::string>{
+          "cluster.min_points: 5 is not allowed: must be 1 if cluster.tolerance_per_metre is above 0"}));
   config.pipeline.cluster = {0.0, std::size_t{1}, 100, 1, 0.01};
-  EXPECT_EQ(config.pipeline.validate(),
-            (std::vector<std::string>{"cluster.tolerance: 0 is not allowed: must be above 0 if cluster.tolerance_per_metre is above 0"}));
+  EXPECT_EQ(
+      config.pipeline.validate(),
+      (std::vector<std::string>{
+          "cluster.tolerance: 0 is not allowed: must be above 0 if cluster.tolerance_per_metre is above 0"}));
 }
 
 TEST(StreamConfig, AClassFieldReadsBackAndNeedsClusters) {
@@ -95,7 +98,8 @@ TEST(StreamConfig, AClassFieldReadsBackAndNeedsClusters) {
   }
   PipelineConfig config;
   config.cluster.class_field = FieldName{""};
-  EXPECT_EQ(config.validate(), std::vector<std::string>{"cluster.class_field: the name of the field is empty"});
+  EXPECT_EQ(config.validate(),
+            std::vector<std::string>{"cluster.class_field: the name of the field is empty"});
   config.cluster = {0.0, std::size_t{1}};
   config.cluster.class_field = FieldName{"label"};
   EXPECT_EQ(
@@ -136,7 +140,8 @@ TEST(StreamConfig, AClassThatIsNotAllowedIsNamedWithItsLine) {
       {"- {value: 1}\n  - {value: 1}", "cluster.classes: class 1 is given twice"},
       {"- {value: 1, tolerance: 0}", "cluster.classes: class 1: tolerance: 0 is not above 0"},
       {"- {value: 1, tolerance: 1e-50}",
-       "class 1: tolerance: 1e-50 is too small: it becomes 0 as float32, the type of points; use at least 1.4e-45"},
+       "class 1: tolerance: 1e-50 is too small: it becomes 0 as float32, the type of points; use at least "
+       "1.4e-45"},
       {"- {value: 1, max_size: 0}", "class 1: max_size: 0 is not a whole number of at least 1"},
       {"- {value: 1, max_size: 5}", "class 1: max_size, 5, is below min_size, 10"},
       {"- {value: 1, volumes: [box]}", "class 1: volumes: 'box' is no method; known are aabb"},
@@ -236,8 +241,8 @@ TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {
       {"threads: 1\n---\nbogus: 1", "line 3: a second YAML document begins"},
       {"volumes: [obb, obb-min]", "volumes: 'obb-min' is named twice"},
       {"cluster: {tolerance: 1e-50}",
-       "cluster.tolerance: 1e-50 is too small: it becomes 0 as float32, the type of points; use 0, or at least "
-       "1.4e-45"},
+       "cluster.tolerance: 1e-50 is too small: it becomes 0 as float32, the type of points; use 0, or at "
+       "least 1.4e-45"},
       {"track: {gate: 101}", "track.gate: 101 is not above 0 and at most 100"},
   };
   for (const auto& [yaml, expected] : cases) {

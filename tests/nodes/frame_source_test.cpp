@@ -131,8 +131,7 @@ TEST_F(NamedFrames, WithShortDecimalsComeInTheOrderOfTheirTimes) {
   const Read read = read_names({"12.0", "12.25", "12.5", "12.75", "13.0"});
   EXPECT_EQ(read.stamps, (std::vector<std::int64_t>{12'000'000'000, 12'250'000'000, 12'500'000'000,
                                                     12'750'000'000, 13'000'000'000}));
-  EXPECT_THAT(read.remarks,
-              testing::ElementsAre(testing::HasSubstr("sorted by the times in their names")));
+  EXPECT_THAT(read.remarks, testing::ElementsAre(testing::HasSubstr("sorted by the times in their names")));
 }
 
 TEST_F(NamedFrames, SayThatTheirTimesDoNotAscend) {

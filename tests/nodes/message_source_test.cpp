@@ -121,7 +121,8 @@ TEST(Middlewares, SayWhatIsNotInstalled) {
     middleware("carrier_pigeon");
     FAIL() << "loaded";
   } catch (const IoError& error) {
-    EXPECT_STREQ(error.what(), "pcl_bv_carrier_pigeon.so is not installed; it belongs to the component `carrier_pigeon`");
+    EXPECT_STREQ(error.what(),
+                 "pcl_bv_carrier_pigeon.so is not installed; it belongs to the component `carrier_pigeon`");
   }
 }
 

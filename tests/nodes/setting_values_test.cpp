@@ -108,15 +108,13 @@ TEST(SettingValues, OfCountsAreRefusedWithTheirRange) {
 }
 
 TEST(SettingValues, AToleranceThatIsZeroAsAFloatIsRefusedLikeOthers) {
-  EXPECT_EQ(
-      file_problem("cluster.tolerance", "1e-300"),
-      "f: line 1: cluster.tolerance: 1e-300 is too small: it becomes 0 as float32, the type of points; use 0, or at "
-      "least 1.4e-45");
+  EXPECT_EQ(file_problem("cluster.tolerance", "1e-300"),
+            "f: line 1: cluster.tolerance: 1e-300 is too small: it becomes 0 as float32, the type of points; "
+            "use 0, or at least 1.4e-45");
   EXPECT_THAT(file_problem("cluster.tolerance_per_metre", "1e-300"), HasSubstr("1e-300 is too small"));
-  EXPECT_THAT(
-      file_problem("cluster.classes", "[{value: 1, tolerance: 1e-300}]"),
-      HasSubstr(
-          "tolerance: 1e-300 is too small: it becomes 0 as float32, the type of points; use at least 1.4e-45"));
+  EXPECT_THAT(file_problem("cluster.classes", "[{value: 1, tolerance: 1e-300}]"),
+              HasSubstr("tolerance: 1e-300 is too small: it becomes 0 as float32, the type of points; use at "
+                        "least 1.4e-45"));
   EXPECT_EQ(file_problem("cluster.tolerance", "1.4e-45"), "");
 }
 

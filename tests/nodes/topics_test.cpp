@@ -129,7 +129,8 @@ TEST(Topics, HaveUprightBoxesWhoseThirdAxisIsUp) {
       msg::MarkerArray markers;
       msg::SceneUpdate scene;
       fill_detections(street.frame, street.result, detections);
-      fill_markers(street.frame, street.result, viewer_shapes(street.result), 300'000'000, of_markers, markers);
+      fill_markers(street.frame, street.result, viewer_shapes(street.result), 300'000'000, of_markers,
+                   markers);
       fill_scene(street.frame, street.result, viewer_shapes(street.result), 300'000'000, of_scene, scene);
       ASSERT_GT(detections.detections.size(), 5U);
       for (const msg::Detection3D& detection : detections.detections)

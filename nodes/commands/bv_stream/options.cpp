@@ -56,7 +56,8 @@ void declare_results(CommandLine& line, Texts& t) {
     sinks.replace(sinks.find(first_of_a_line), 1, "\n");
   line.option("--sink", t.sinks, "SINK", sinks + ";\nrepeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
-  line.option("--report", t.report, "SECONDS", "Print counters and latency at this interval on standard error");
+  line.option("--report", t.report, "SECONDS",
+              "Print counters and latency at this interval on standard error");
 }
 
 double number(const char* option, std::string_view text, double min, double max, const char* allowed) {

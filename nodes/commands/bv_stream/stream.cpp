@@ -53,8 +53,9 @@ void report(const RunnerStats& stats) {
   char latency[80];
   std::snprintf(latency, sizeof latency, "latency p50 %.1f ms, p99 %.1f ms", stats.ms.latency.percentile(0.5),
                 stats.ms.latency.percentile(0.99));
-  print_message(count(f.in, " frames, ") + count(f.processed, " done, dropped ") + count(f.dropped_queue, " queue, ") +
-      count(f.dropped_age, " age, ") + count(f.dropped_error, " error; ") + latency);
+  print_message(count(f.in, " frames, ") + count(f.processed, " done, dropped ") +
+                count(f.dropped_queue, " queue, ") + count(f.dropped_age, " age, ") +
+                count(f.dropped_error, " error; ") + latency);
 }
 
 // Reads frames until the source ends, a signal comes, or no sink takes results any more.
@@ -156,7 +157,7 @@ void report_dropped_frames(const FrameTotals& frames, std::uint64_t without_pose
   const std::string all = " of " + std::to_string(frames.in) + " frames";
   if (dropped > 0) {
     print_message("dropped " + std::to_string(dropped) + all + ": " + std::to_string(frames.dropped_queue) +
-        " queue, " + std::to_string(frames.dropped_age) + " age");
+                  " queue, " + std::to_string(frames.dropped_age) + " age");
   }
   if (without_pose > 0) print_message(std::to_string(without_pose) + all + " have no pose");
 }

@@ -63,8 +63,7 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
               "Subtract this origin; auto: the centre of each cloud, rounded");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
   if (command == PcdBvCommand::serial) {
-    line.option("--partial", texts.partial, "FILE",
-                "Write partial results for --merge instead of volumes");
+    line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
     line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
   }

@@ -108,7 +108,8 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
 }
 
 /// Returns the warnings that a user should read before trusting the results.
-std::vector<std::string> result_warnings(const Frame& frame, const FrameResult& result, const Options& options) {
+std::vector<std::string> result_warnings(const Frame& frame, const FrameResult& result,
+                                         const Options& options) {
   std::vector<std::string> warnings;
   const std::string range = range_warning(result, options.range_from);
   if (!range.empty()) warnings.push_back(range);
@@ -171,8 +172,8 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
   if (options.progress && errors_go_to_a_terminal()) {
     job.tiles->on_loaded = [watch, &tiles = *job.tiles](std::size_t points) {
       char text[120];
-      std::snprintf(text, sizeof text, "%zu files, %.1f M points read in all passes, %.1f s", tiles.included_count(),
-                    static_cast<double>(points) / 1e6, watch.seconds());
+      std::snprintf(text, sizeof text, "%zu files, %.1f M points read in all passes, %.1f s",
+                    tiles.included_count(), static_cast<double>(points) / 1e6, watch.seconds());
       show_status_line(text);
     };
   }

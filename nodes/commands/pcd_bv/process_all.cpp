@@ -27,9 +27,7 @@ void work(const std::vector<Job>& jobs, const Options& options, OrderedResults& 
   try {
     FramePipeline pipeline(options.pipeline);
     while (const auto job = order.next()) {
-      const auto early = [&](auto& messages, auto& text) {
-        return order.write_early(*job, messages, text);
-      };
+      const auto early = [&](auto& messages, auto& text) { return order.write_early(*job, messages, text); };
       order.add_result(*job, do_job(jobs[*job], options, pipeline, early));
     }
   } catch (...) {

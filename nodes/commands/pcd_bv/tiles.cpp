@@ -202,7 +202,8 @@ PointView Tiles::load(std::size_t first, std::size_t count, std::vector<std::byt
 
 void Tiles::count_loaded(std::size_t points) const {
   const std::size_t before = loaded_.fetch_add(points, std::memory_order_relaxed);
-  if (on_loaded && before / kPointsPerReport != (before + points) / kPointsPerReport) on_loaded(before + points);
+  if (on_loaded && before / kPointsPerReport != (before + points) / kPointsPerReport)
+    on_loaded(before + points);
 }
 
 void Tiles::require_unchanged() const {

@@ -15,9 +15,9 @@ namespace pcl_bv {
 /// Handles SIGINT, SIGTERM and SIGHUP while this object lives: they are blocked, and a thread waits for them.
 ///
 /// On the first signal, the thread calls `finish`, removes temporary files and ends the process with status
-/// 128 + signal. With `stop_flag`, it sets that flag instead, and the work must end by itself. A second signal
-/// removes temporary files and ends the process at once, with status 128 + signal. Signals that the caller
-/// has ignored (nohup) stay ignored.
+/// 128 + signal. With `stop_flag`, it sets that flag instead, and the work must end by itself. A second
+/// signal removes temporary files and ends the process at once, with status 128 + signal. Signals that the
+/// caller has ignored (nohup) stay ignored.
 ///
 /// Create it in the main thread before any other thread, since threads inherit the blocked signals.
 class Interruption {

@@ -77,7 +77,8 @@ bool errors_go_to_a_terminal() {
 void show_status_line(std::string_view line) {
   const std::lock_guard lock(mutex);
   const std::string before = erasure();
-  status_line = line.substr(0, terminal_width() - 1);  // some terminals begin a new line after the last column
+  // Some terminals begin a new line after the last column.
+  status_line = line.substr(0, terminal_width() - 1);
   write_error(before + status_line);
 }
 

@@ -85,7 +85,8 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
                   to_text(filter.range_max) + ")");
   line.option("--drop-inside", dropped_, "FILE.json",
               "Drop points inside the volumes of this result; repeatable");
-  line.option("--keep-inside", cropped_, "FILE.json", "Drop points outside all volumes of this result; repeatable");
+  line.option("--keep-inside", cropped_, "FILE.json",
+              "Drop points outside all volumes of this result; repeatable");
   line.option("--padding", padding_, "M", "Inflate the volumes of --drop-inside, --keep-inside by this (0)");
   const auto declare = [&](const Setting& setting, const auto& value) {
     if (!has_option(setting, stream_)) return;

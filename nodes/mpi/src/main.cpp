@@ -103,7 +103,7 @@ int run(Ranks& ranks, int argc, char** argv, InterruptAction& interrupted) {
   if (!run_on_all_ranks(ranks, [&] { jobs = plan_jobs(options, std::move(inputs), tiles); }))
     return static_cast<int>(Status::misuse);
   const Status status = options.tiled ? process_merged(ranks, jobs.front(), options, interrupted)
-                                         : process_jobs(ranks, jobs, options, interrupted);
+                                      : process_jobs(ranks, jobs, options, interrupted);
   return static_cast<int>(status);
 }
 

@@ -57,8 +57,8 @@ void check_combinations(const PipelineConfig& c, std::vector<ConfigProblem>& pro
     add("filter.own_box_max", "is below filter.own_box_min");
   }
   if (c.cluster.tolerance_per_metre > 0 && c.cluster.min_points > 1)
-    add("cluster.min_points",
-        to_text(c.cluster.min_points) + " is not allowed: must be 1 if cluster.tolerance_per_metre is above 0");
+    add("cluster.min_points", to_text(c.cluster.min_points) +
+                                  " is not allowed: must be 1 if cluster.tolerance_per_metre is above 0");
   if (c.cluster.tolerance_per_metre > 0 && c.cluster.tolerance == 0)
     add("cluster.tolerance", "0 is not allowed: must be above 0 if cluster.tolerance_per_metre is above 0");
   if (c.cluster.class_field && c.cluster.tolerance == 0)

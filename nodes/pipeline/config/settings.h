@@ -31,7 +31,7 @@ struct NumberRange {
 struct Setting {
   std::string_view key;                      ///< With its stage: "filter.range_min".
   std::string_view unit;                     ///< "m", the choices, or the meaning of a special value.
-  std::string_view help;                    ///< Help text.
+  std::string_view help;                     ///< Help text.
   NumberRange range{};                       ///< Allowed numbers.
   std::string_view unset{};                  ///< Meaning of null or of an empty list.
   std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M"; empty without an option.
@@ -184,12 +184,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
           {},
           "--smooth"},
         c.track.smooth);
-  visit(S{"track.grow",
-          "",
-          "Give tracked upright boxes the largest length and width seen",
-          {},
-          {},
-          "--grow"},
+  visit(S{"track.grow", "", "Give tracked upright boxes the largest length and width seen", {}, {}, "--grow"},
         c.track.grow);
   visit(S{"threads", "0: all processors", "Threads, 0 for all processors", {0, 1024}, {}, "--threads", "N"},
         c.threads);

@@ -239,7 +239,8 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
     fail(name, 0, "has more than " + std::to_string(kMaxConfigBytes) + " bytes");
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) fail(name, documents[1].Mark().line + 1, "a second YAML document begins; only one is allowed");
+    if (documents.size() > 1)
+      fail(name, documents[1].Mark().line + 1, "a second YAML document begins; only one is allowed");
     Reader reader(documents.empty() ? YAML::Node() : documents.front(), name);
     visit_stream(config, reader);
     reader.finish();

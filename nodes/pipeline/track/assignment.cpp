@@ -60,7 +60,8 @@ void SparseAssignment::relax(std::size_t row, std::size_t column, double cost) {
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
-// Dijkstra's search from a row to the nearest free column. The potentials keep all later distances non-negative.
+// Dijkstra's search from a row to the nearest free column. The potentials keep all later distances
+// non-negative.
 void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair>& pairs) {
   heap_.clear();
   touched_.clear();

@@ -37,7 +37,7 @@ class SparseAssignment {
   void relax(std::size_t row, std::size_t column, double cost);
 
   using HeapEntry = std::pair<double, std::size_t>;  // distance, column
-  std::size_t columns_ = 0;                        // real ones; column columns_ + r: row r is unassigned
+  std::size_t columns_ = 0;                          // real ones; column columns_ + r: row r is unassigned
   double unassigned_cost_ = 0;
   std::vector<std::size_t> first_, column_of_, row_of_, from_, touched_;
   std::vector<double> matched_cost_, potential_, distance_, cost_from_;

@@ -123,7 +123,7 @@ double BoxFilter::grown_size(std::size_t axis, double seen, bool merged) {
 }
 
 Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth,
-                      bool grow) {
+                        bool grow) {
   if (box.empty() || !upright_) return box;
   if (state.separated) {
     sizes_ = {};

@@ -54,7 +54,7 @@ class BoxFilter {
   bool upright_;
   bool known_ = false;
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // of the last box, in the fixed frame
-  std::array<double, 4> votes_{};                        // votes for axis 0, 1, -0, -1 as the front
+  std::array<double, 4> votes_{};                       // votes for axis 0, 1, -0, -1 as the front
   double cosine_ = 0, sine_ = 0;                        // weighted sums over time for four times the yaw
   std::array<double, 2> sizes_{};
   std::size_t detections_ = 0;

@@ -20,7 +20,7 @@ constexpr double kMinAlignment = 0.25;
 // Returns the smaller displacement of the two opposite faces along the sensor's x and y, or 0 if they move
 // apart or towards each other. A part that comes into or goes out of view moves one face only, hence gives 0.
 Eigen::Vector2d smallest_shift(const Eigen::Vector3d& displacement, const Eigen::Vector3d& before,
-                            const Eigen::Vector3d& now) {
+                               const Eigen::Vector3d& now) {
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (int i = 0; i < 2; ++i) {
     const double low = displacement[i] - now[i] + before[i], high = displacement[i] + now[i] - before[i];
@@ -32,8 +32,8 @@ Eigen::Vector2d smallest_shift(const Eigen::Vector3d& displacement, const Eigen:
 
 }  // namespace
 
-void MotionClassifier::add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Eigen::Matrix3d& rotation,
-                      double seconds) {
+void MotionClassifier::add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half,
+                           const Eigen::Matrix3d& rotation, double seconds) {
   seconds_ += seconds;
   const Measurement now{seconds_, centre, half};
   for (; count_ > 1 && past(1).seconds <= seconds_ - kWindow; --count_)
@@ -56,7 +56,8 @@ void MotionClassifier::classify(const Measurement& now, const Eigen::Matrix3d& r
   if (!(now.seconds > middle.seconds)) return;
   const Eigen::Vector2d first = shift(oldest, middle) / (middle.seconds - oldest.seconds),
                         second = shift(middle, now) / (now.seconds - middle.seconds);
-  const bool same_direction = first.dot(second) > kMinAlignment * std::max(first.squaredNorm(), second.squaredNorm());
+  const bool same_direction =
+      first.dot(second) > kMinAlignment * std::max(first.squaredNorm(), second.squaredNorm());
   moving_ = same_direction && displacement > kMinShift && displacement > kStartSpeed * passed;
 }
 

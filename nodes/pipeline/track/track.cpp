@@ -39,7 +39,8 @@ void Track::start(const Aabb& box, const Pose& sensor) {
   low = -half;
   high = half;
   expected_position = box.center();
-  const Eigen::Vector3d long_axis = half.x() >= half.y() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d long_axis =
+      half.x() >= half.y() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   const Eigen::Vector3d facing = sensor.linear() * long_axis;
   yaw = std::atan2(facing.y(), facing.x());
   motion_classifier.add(position, half, sensor.linear(), 0);
@@ -65,7 +66,8 @@ Aabb Track::static_box(const Pose& sensor) const {
 }
 
 BoxDifference Track::difference_to(const Aabb& seen_box) const {
-  const Eigen::Vector3d a = seen_box.min() - expected_position - low, b = seen_box.max() - expected_position - high;
+  const Eigen::Vector3d a = seen_box.min() - expected_position - low,
+                        b = seen_box.max() - expected_position - high;
   BoxDifference difference{(a + b) / 2, b - a, Eigen::Vector3d::Zero()};
   for (int i = 0; i < 3; ++i) {
     if (a[i] > 0 && b[i] > 0) difference.shift[i] = std::min(a[i], b[i]);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kGateCost = 16;         // four standard deviations, squared
 constexpr std::size_t kOccludedFramesPerMiss = 4;  // occluded frames that count as one missed frame
-constexpr std::size_t kSplitDetections = 5;     // detections in a row that prove a split
+constexpr std::size_t kSplitDetections = 5;        // detections in a row that prove a split
 
 bool contains_point(const Aabb& box, const Eigen::Vector3d& position) {
   return (box.min().array() <= position.array()).all() && (position.array() <= box.max().array()).all();
@@ -127,7 +127,7 @@ void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
 }
 
 void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes,
-                          std::vector<Assignment>& assignments) {
+                                  std::vector<Assignment>& assignments) {
   track_taken.assign(tracks.size(), 0);
   box_taken.assign(boxes.size(), 0);
   predicted.assign(boxes.size(), Aabb());
@@ -169,7 +169,8 @@ void Tracker::State::start(const std::vector<Aabb>& boxes, std::size_t box,
   assignments[box].fresh = true;
   const Eigen::Vector3d centre = boxes[box].center();
   grid.visit_near(centre, [&](std::size_t b) {
-    if (box_taken[b] != 0 && contains_point(predicted[b], centre)) tracks[slot].split_from = assignments[b].slot;
+    if (box_taken[b] != 0 && contains_point(predicted[b], centre))
+      tracks[slot].split_from = assignments[b].slot;
   });
 }
 
@@ -238,7 +239,9 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
     assignments[b].moving = track.moving;
     assignments[b].velocity = s.sensor.linear().transpose() * track.motion.velocity();
     if (!track.id && track.detections >= config.birth) track.id = s.next_id++;
-    if (track.id) assignments[b].track = track.entry(s.sensor, pose.has_value(), s.apparent_velocity(track.expected_position));
+    if (track.id)
+      assignments[b].track =
+          track.entry(s.sensor, pose.has_value(), s.apparent_velocity(track.expected_position));
   }
   s.find_splits(assignments);
 }

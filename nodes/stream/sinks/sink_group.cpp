@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 fs::path first_missing(const fs::path& path) {
   std::error_code unknown;
   fs::path missing;
-  for (fs::path at = fs::absolute(path, unknown);
-       !at.empty() && !fs::exists(fs::symlink_status(at, unknown)); at = at.parent_path())
+  for (fs::path at = fs::absolute(path, unknown); !at.empty() && !fs::exists(fs::symlink_status(at, unknown));
+       at = at.parent_path())
     missing = at;
   return missing;
 }
@@ -147,7 +147,8 @@ void SinkGroup::write_lost(const Frame& frame, const std::string& reason) {
 void SinkGroup::close() {
   used_ = true;
   for (const std::unique_ptr<Member>& member : members_) {
-    if (member->missing_frames > 1) report_(member->name + ": " + std::to_string(member->missing_frames) + " frames were not written");
+    if (member->missing_frames > 1)
+      report_(member->name + ": " + std::to_string(member->missing_frames) + " frames were not written");
     if (member->sink != nullptr) attempt(*member, [](Member& m) { m.sink->close(); });
     member->sink = nullptr;
   }

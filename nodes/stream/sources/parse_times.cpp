@@ -162,7 +162,8 @@ std::optional<ParsedTime> take_number(NameReader& name) {
   if ((point && digits > 0) || (dash && seconds && digits >= 3 && digits <= 9)) {
     time = std::nullopt;
     const TimeKind kind = seconds ? TimeKind::epoch : TimeKind::decimal;
-    if (value >= 0 && value <= max_seconds) time = ParsedTime{kind, value, std::string(behind.take_digits()), dash};
+    if (value >= 0 && value <= max_seconds)
+      time = ParsedTime{kind, value, std::string(behind.take_digits()), dash};
     if (!time) behind.take_digits();
     name = behind;
   }

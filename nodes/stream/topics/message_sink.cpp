@@ -47,7 +47,8 @@ class MessageSink final : public FrameSink {
       send(*objects_topic_, frame, objects_);
     }
     draw(frame, result, lifetime);
-    if (has_subscribers(frames_topic_)) send_frame(report_without_clusters(frame, result), cluster_source(result));
+    if (has_subscribers(frames_topic_))
+      send_frame(report_without_clusters(frame, result), cluster_source(result));
     if (frame.pose && sends_poses_) send_pose(frame);
     const bool due = health_.record_frame(frame, result);
     if (due && has_subscribers(diagnostics_topic_)) {
@@ -62,7 +63,9 @@ class MessageSink final : public FrameSink {
     carrier_->notify("frame " + std::to_string(frame.header.seq) + " is lost: " + reason);
     if (has_subscribers(frames_topic_)) send_frame(report_of_lost(frame, reason), {});
   }
-  void offer_settings(const std::shared_ptr<RemoteSettings>& settings) override { carrier_->offer_settings(settings); }
+  void offer_settings(const std::shared_ptr<RemoteSettings>& settings) override {
+    carrier_->offer_settings(settings);
+  }
   std::vector<std::string> take_warnings() override { return carrier_->take_warnings(); }
   void close() override { carrier_->close(); }
 
@@ -116,7 +119,8 @@ class MessageSink final : public FrameSink {
     topics::set_time(frame.header.stamp_ns, transform.header.stamp);
     transform.header.frame_id = "map";
     transform.child_frame_id = frame.header.frame_id;
-    transform.transform = {{at.x(), at.y(), at.z()}, {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};
+    transform.transform = {{at.x(), at.y(), at.z()},
+                           {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};
     send(*pose_topic_, frame, msg::TFMessage{{transform}});
   }
 

@@ -24,7 +24,8 @@ std::array<double, 3> array_of(const Eigen::Vector3d& v) {
 
 VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const Eigen::Quaterniond& rotation,
                   const Eigen::Vector3d& size) {
-  return {kind, array_of(center), {rotation.x(), rotation.y(), rotation.z(), rotation.w()}, array_of(size), {}};
+  return {
+      kind, array_of(center), {rotation.x(), rotation.y(), rotation.z(), rotation.w()}, array_of(size), {}};
 }
 
 // Returns the rotation from z to a unit axis. For a downward axis it goes by way of the opposite axis, which
@@ -102,7 +103,8 @@ VolumeShape box_of(const FrameResult& result, std::size_t cluster) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const AnyVolume& volume = result.volume(cluster, m);
     if (!result.is_requested(cluster, m) || empty(volume)) continue;
-    if (std::holds_alternative<Aabb>(volume) || std::holds_alternative<Obb>(volume)) return viewer_shape(volume);
+    if (std::holds_alternative<Aabb>(volume) || std::holds_alternative<Obb>(volume))
+      return viewer_shape(volume);
     if (first == nullptr) first = &volume;
   }
   return first == nullptr ? VolumeShape() : viewer_shape(AnyVolume(aabb(*first)));

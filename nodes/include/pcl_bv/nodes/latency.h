@@ -21,8 +21,8 @@ class LatencyHistogram {
   std::uint64_t count() const { return count_; }
   double max() const { return max_; }  ///< Longest duration, milliseconds; 0 if empty.
 
-  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed: the nearest
-  /// rank, at most 1 % above the exact value. 0 if empty.
+  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed: the
+  /// nearest rank, at most 1 % above the exact value. 0 if empty.
   double percentile(double share) const;
 
  private:
