@@ -40,11 +40,11 @@ struct FrameResult {
   FrameHeader header;
   /// The configuration that was used; never null.
   std::shared_ptr<const PipelineConfig> config = std::make_shared<PipelineConfig>();
-  std::size_t points = 0;          ///< Number of points of the cloud, valid or not.
-  Counts counts;                   ///< Number of points in no cluster, by reason.
+  std::size_t points = 0;  ///< Number of points of the cloud, valid or not.
+  Counts counts;           ///< Number of points in no cluster, by reason.
   /// Indices of the points that passed the filter; see points_after_filter().
   std::vector<std::int32_t> passed_filter;
-  GroundSplit ground;              ///< Ground and other points; `found` is false without ground removal.
+  GroundSplit ground;  ///< Ground and other points; `found` is false without ground removal.
   /// Sensor position, the centre of ground zones: ground.sensor if given; otherwise Frame::sensor or the
   /// origin, if the points lie around it; otherwise the densest part of the cloud (find_sensor()). The origin
   /// if no enabled setting depends on it.
