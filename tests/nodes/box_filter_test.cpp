@@ -83,9 +83,9 @@ TEST(BoxFilter, TheFrontStaysWhereItIsWhileTheSensorTurns) {
   BoxFilter filter;
   Obb box = filter.align_axes(upright_box(30, 3, 3), {});
   for (int i = 1; i < 60; ++i) {  // 10 degrees a frame; a square, which the fit names anew in each
-    BoxState sighting;
-    sighting.sensor.linear() = turn(10 * i);
-    box = filter.align_axes(upright_box(30 - 10 * i + 90 * (i % 4), 3, 3), sighting);
+    BoxState state;
+    state.sensor.linear() = turn(10 * i);
+    box = filter.align_axes(upright_box(30 - 10 * i + 90 * (i % 4), 3, 3), state);
     ASSERT_NEAR(std::remainder(yaw_of(box) + 10 * i - 30, 360), 0, 1e-9) << i;
   }
 }
@@ -127,11 +127,11 @@ TEST(BoxFilter, EveryPointIsInsideHoweverTheBoxIsSteadied) {
     for (int i = 0; i < 20; ++i) {
       const double yaw = 9.0 * i + 5 * static_cast<double>(random() % 7);
       const std::vector<float> xyz = block(yaw, random, 1 + static_cast<double>(random() % 5));
-      BoxState sighting;
-      sighting.moving = random() % 2 == 0;
-      sighting.sensor.linear() = turn(3 * i);
-      const Obb box = filter.smoothed(filter.align_axes(upright_box(yaw + 7, 4, 2), sighting), view(xyz),
-                                      sighting, seed % 2 == 0, seed % 3 != 0);
+      BoxState state;
+      state.moving = random() % 2 == 0;
+      state.sensor.linear() = turn(3 * i);
+      const Obb box = filter.smoothed(filter.align_axes(upright_box(yaw + 7, 4, 2), state), view(xyz), state,
+                                      seed % 2 == 0, seed % 3 != 0);
       for (std::size_t p = 0; p < xyz.size(); p += 3)
         ASSERT_TRUE(box.contains({xyz[p], xyz[p + 1], xyz[p + 2]})) << "seed " << seed << " frame " << i;
     }
@@ -225,10 +225,10 @@ TEST(BoxFilter, BoxesOfEveryUprightMethodGrowForAnyUp) {
 TEST(BoxFilter, AMergedClusterChangesNeitherSizesNorTurn) {
   std::mt19937 random(7);
   BoxFilter filter;
-  const auto steadied = [&](double degrees, double length, const BoxState& sighting) {
+  const auto steadied = [&](double degrees, double length, const BoxState& state) {
     const std::vector<float> xyz = block(degrees, random, length);
-    return filter.smoothed(filter.align_axes(upright_box(degrees, length, 2), sighting), view(xyz), sighting,
-                           true, true);
+    return filter.smoothed(filter.align_axes(upright_box(degrees, length, 2), state), view(xyz), state, true,
+                           true);
   };
   for (int i = 0; i < 10; ++i)
     steadied(0, 4, {});
@@ -247,10 +247,10 @@ TEST(BoxFilter, ASeparatedObjectLearnsItsSizesAnew) {
   BoxFilter filter;
   Obb box;
   for (int i = 0; i < 12; ++i) {
-    BoxState sighting;
-    sighting.separated = i == 8;
+    BoxState state;
+    state.separated = i == 8;
     const std::vector<float> xyz = block(0, random, i < 6 ? 9 : 4);
-    box = filter.smoothed(upright_box(0, 4, 2), view(xyz), sighting, false, true);
+    box = filter.smoothed(upright_box(0, 4, 2), view(xyz), state, false, true);
     EXPECT_EQ(2 * box.half_extents().x() > 8, i < 8) << i;
   }
 }
