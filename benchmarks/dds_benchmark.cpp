@@ -59,9 +59,10 @@ class Talk {
     for (std::size_t i = 0; i < (tiny() ? 1U : 20U); ++i)
       clouds_.push_back(cloud_message(i));
     const auto end = Clock::now() + std::chrono::seconds(20);
-    while (!carrier_->wanted(points_) || answers_.empty()) {  // the other side knows us when it answers
+    // The other side knows us when it answers.
+    while (!carrier_->has_subscribers(points_) || answers_.empty()) {
       if (Clock::now() > end) throw std::runtime_error("bv_stream does not answer");
-      if (carrier_->wanted(points_)) send(0);
+      if (carrier_->has_subscribers(points_)) send(0);
       listen_until(Clock::now() + kPeriod);
     }
     listen_until(Clock::now() + 4 * kPeriod);

@@ -32,7 +32,8 @@ class ClusterVolumes : public rclcpp::Node {
       pcl_bv::read_cloud(std::move(cloud), "", frame);
       pipeline_.process(frame, result_);
       auto markers = std::make_unique<MarkerArray>();
-      pcl_bv::fill_markers(frame, result_, pcl_bv::drawn(result_), lifetime_.next(frame.header.stamp_ns), shown_, *markers);
+      const auto shapes = pcl_bv::viewer_shapes(result_);
+      pcl_bv::fill_markers(frame, result_, shapes, lifetime_.next(frame.header.stamp_ns), shown_, *markers);
       markers_->publish(std::move(markers));
     } catch (const std::exception& error) {
       RCLCPP_WARN(get_logger(), "a cloud is lost: %s", error.what());

@@ -21,18 +21,18 @@ class ClassRules {
   explicit ClassRules(const PipelineConfig& config);
 
   /// Returns the settings for classes without settings of their own.
-  const ClusterSettings& others() const { return others_; }
+  const ClusterSettings& default_settings() const { return default_settings_; }
   /// Returns the settings of each class that has its own.
-  const std::vector<ClassSettings>& own() const { return own_; }
+  const std::vector<ClassSettings>& class_settings() const { return class_settings_; }
 
   /// Returns the methods for objects of this class; nullopt means that points have no classes.
   const std::vector<const Method*>& methods_of(std::optional<std::int64_t> value) const;
 
  private:
-  ClusterSettings others_;
-  std::vector<ClassSettings> own_;
+  ClusterSettings default_settings_;
+  std::vector<ClassSettings> class_settings_;
   std::vector<const Method*> default_methods_;
-  std::vector<std::vector<const Method*>> class_methods_;  // in the order of `own_`
+  std::vector<std::vector<const Method*>> class_methods_;  // in the order of `class_settings_`
 };
 
 }  // namespace pcl_bv

@@ -17,16 +17,16 @@ namespace pcl_bv {
 namespace {
 
 std::optional<RegionMask> mask_of(const std::vector<RegionConfig>& regions, bool keep) {
-  std::vector<Region> grown;
+  std::vector<Region> inflated;
   bool any = false;
   for (const RegionConfig& region : regions) {
     if (region.keep != keep) continue;
     any = true;
     for (const AnyVolume& volume : region.volumes.empty() ? read_volumes(region.file) : region.volumes)
-      grown.push_back({volume, region.padding});
+      inflated.push_back({volume, region.padding});
   }
   if (!any) return std::nullopt;
-  return RegionMask(grown);
+  return RegionMask(inflated);
 }
 
 template <typename T>
@@ -96,11 +96,11 @@ void PointFilter::drop(const PointView& points, const RegionMask& mask, bool ins
   mask.mark(points, scratch.inside, {Serial{}, isa_});
   for (std::size_t i = 0; i < points.count; ++i) {
     Verdict& verdict = scratch.verdicts[i];
-    if (verdict == Verdict::kept && (scratch.inside[i] != 0) == inside) verdict = Verdict::inside;
+    if (verdict == Verdict::kept && (scratch.inside[i] != 0) == inside) verdict = Verdict::region;
   }
 }
 
-void PointFilter::judge(const PointView& points, FilterScratch& scratch) const {
+void PointFilter::classify(const PointView& points, FilterScratch& scratch) const {
   scratch.verdicts.resize(points.count);
   each_distance(points, [&](std::size_t i, bool valid, bool kept) {
     scratch.verdicts[i] = kept ? Verdict::kept : valid ? Verdict::range : Verdict::nonfinite;
@@ -115,7 +115,7 @@ void count_verdicts(const std::vector<Verdict>& verdicts, Counts& counts) {
     ++of[static_cast<std::size_t>(verdict)];
   counts.nonfinite += of[static_cast<std::size_t>(Verdict::nonfinite)];
   counts.range += of[static_cast<std::size_t>(Verdict::range)];
-  counts.inside += of[static_cast<std::size_t>(Verdict::inside)];
+  counts.inside += of[static_cast<std::size_t>(Verdict::region)];
 }
 
 void PointFilter::select(const PointView& points, std::int32_t* kept, FilterPart& part) const {
@@ -127,7 +127,7 @@ void PointFilter::select(const PointView& points, std::int32_t* kept, FilterPart
   };
   part.counts = {};
   if (dropped_ || cropped_) {
-    judge(points, part.scratch);
+    classify(points, part.scratch);
     count_verdicts(part.scratch.verdicts, part.counts);
     for (std::size_t i = 0; i < points.count; ++i)
       take(i, part.scratch.verdicts[i] == Verdict::kept);
@@ -165,7 +165,7 @@ void PointFilter::select(const PointView& points, const ParallelPolicy& policy,
 Counts FilteredPoints::count(const ParallelPolicy& policy) const {
   const auto count_chunk = [&](std::size_t chunk) {
     FilterScratch scratch;
-    filter_->judge(load_chunk(points_, chunk).view(), scratch);
+    filter_->classify(load_chunk(points_, chunk).view(), scratch);
     Counts counts;
     count_verdicts(scratch.verdicts, counts);
     return counts;
@@ -179,7 +179,7 @@ PointView FilteredPoints::load(std::size_t first, std::size_t count, std::vector
   const std::size_t step = 3 * size_of(points_.scalar);
   if (buffer.size() < count * step) buffer.resize(count * step);
   FilterScratch scratch;
-  filter_->judge(part.view(), scratch);
+  filter_->classify(part.view(), scratch);
   if (points_.scalar == ScalarType::float64) {
     copy_kept<double>(part.view(), scratch.verdicts, buffer.data());
   } else {

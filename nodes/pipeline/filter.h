@@ -19,8 +19,9 @@
 
 namespace pcl_bv {
 
-/// Whether a point is kept, or why it is dropped.
-enum class Verdict : std::uint8_t { kept, nonfinite, range, inside };
+/// Whether a point is kept, or why it is dropped. `region`: it is inside a region to drop, or outside all
+/// regions to keep.
+enum class Verdict : std::uint8_t { kept, nonfinite, range, region };
 
 /// Memory that calls reuse.
 struct FilterScratch {
@@ -47,7 +48,7 @@ class PointFilter {
 
   /// Computes the verdict of each point in memory. The square of a float is exact in double and the sum of
   /// three is rounded twice, so the relative error of a distance is below 2e-16.
-  void judge(const PointView& points, FilterScratch& scratch) const;
+  void classify(const PointView& points, FilterScratch& scratch) const;
 
   /// Replaces `kept` by the numbers of the points that are kept, in the order of the view, and adds the
   /// others to `counts`. Throws std::length_error for more than 2^31 - 1 points.

@@ -24,7 +24,7 @@
 namespace pcl_bv {
 namespace {
 
-class Watch {
+class Stopwatch {
  public:
   double lap() {  // milliseconds since the last call, or since construction
     const auto now = std::chrono::steady_clock::now();
@@ -43,8 +43,8 @@ struct Prepared {
   MethodOptions options;
   std::shared_ptr<const PointFilter> filter;
   Execution execution{Serial{}, Isa::scalar};  // replaced by the configured instruction set
-  bool tells_apart = false;                    // ground removal or clustering is enabled
-  bool looks = false;                          // some stage reads the points before the fits
+  bool segments = false;                       // ground removal or clustering is enabled
+  bool reads_points = false;                   // some stage reads the points before the fits
 };
 
 std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
@@ -56,13 +56,13 @@ std::shared_ptr<const Prepared> prepare(PipelineConfig config) {
   prepared->methods = config.methods();
   prepared->rules = ClassRules(config);
   prepared->options = {config.growth, normalized_up(config.ground.up)};
-  prepared->tells_apart = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
+  prepared->segments = config.ground.method != GroundMethod::none || config.cluster.tolerance > 0;
   prepared->execution.isa = parse_isa(config.isa);
-  prepared->execution.parallel = config.policy();
+  prepared->execution.parallel = config.parallel_policy();
   prepared->filter = std::make_shared<PointFilter>(config.filter, prepared->execution.isa);
-  prepared->looks = prepared->tells_apart || !prepared->filter->keeps_all() ||
-                    config.cluster.effective_min_size() > 0 ||
-                    config.cluster.max_size < std::numeric_limits<std::size_t>::max();
+  prepared->reads_points = prepared->segments || !prepared->filter->keeps_all() ||
+                           config.cluster.effective_min_size() > 0 ||
+                           config.cluster.max_size < std::numeric_limits<std::size_t>::max();
   prepared->config = std::move(config);
   return prepared;
 }
@@ -96,16 +96,16 @@ struct FramePipeline::State {
 // in memory and in files, so that both give the same bits.
 PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PointView& cloud = frame.points;
-  result.kept.clear();
+  result.passed_filter.clear();
   result.filtered.reset();
-  if (!now.looks) return cloud;
-  const bool listed = now.tells_apart || cloud.indices != nullptr;
+  if (!now.reads_points) return cloud;
+  const bool listed = now.segments || cloud.indices != nullptr;
   if (!listed && (cloud.source != nullptr || cloud.count > kChunkPoints)) {
     auto filtered = std::make_shared<FilteredPoints>(cloud, frame.owner, now.filter);
     result.counts = filtered->count(now.execution.parallel);
     result.filtered = std::move(filtered);
   } else {
-    now.filter->select(cloud, now.execution.parallel, result.kept, parts, result.counts);
+    now.filter->select(cloud, now.execution.parallel, result.passed_filter, parts, result.counts);
   }
   return result.points_after_filter(cloud);
 }
@@ -119,17 +119,17 @@ void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, 
                                   config.cluster.tolerance_per_metre > 0;
   if (frame.points.source != nullptr) return;
   if (config.ground.method != GroundMethod::zones && !counts_from_origin) return;
-  const auto look = [&](const Eigen::Vector3d& place) {
-    return pcl_bv::find_sensor(frame.points, config.ground.up, place, result.ground.scratch);
+  const auto find_around = [&](const Eigen::Vector3d& position) {
+    return pcl_bv::find_sensor(frame.points, config.ground.up, position, result.ground.scratch);
   };
-  result.sensor = look(Eigen::Vector3d::Zero());
+  result.sensor = find_around(Eigen::Vector3d::Zero());
   result.around_origin = result.sensor.around;
   if (config.ground.sensor) {
-    result.sensor = look(*config.ground.sensor);
+    result.sensor = find_around(*config.ground.sensor);
     result.sensor.at = *config.ground.sensor;
   } else if (frame.sensor) {
-    const SensorPosition said = look(*frame.sensor);
-    if (said.around) result.sensor = said;
+    const SensorPosition stated = find_around(*frame.sensor);
+    if (stated.around) result.sensor = stated;
   }
 }
 
@@ -168,13 +168,13 @@ void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame
   if (config.tolerance == 0) {
     make_one_cluster(config, points, result);
   } else if (!config.class_field) {
-    clusterer.extract(points, now.rules.others(), result.clusters, now.execution.parallel);
+    clusterer.extract(points, now.rules.default_settings(), result.clusters, now.execution.parallel);
   } else {
     if (frame.classes == nullptr)
       throw std::invalid_argument("the frame has no classes, but cluster.class_field is '" +
                                   config.class_field->name + "'");
-    class_clusterer.extract(points, *frame.classes, now.rules.others(), now.rules.own(), result.clusters,
-                            result.class_of, now.execution.parallel);
+    class_clusterer.extract(points, *frame.classes, now.rules.default_settings(), now.rules.class_settings(),
+                            result.clusters, result.class_of, now.execution.parallel);
   }
   // Frees the memory of the clustering before the fits: for a million clusters of four points, finding them
   // takes 550 MB, and their volumes take 300 MB.
@@ -197,16 +197,17 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
   result.methods.assign(now.methods.begin(), now.methods.end());
   result.volumes.resize(views.size() * methods);
   result.results.resize(result.volumes.size());
-  result.wanted.resize(result.volumes.size());
+  result.requested.resize(result.volumes.size());
   const auto fit_cluster = [&](std::size_t cluster, const Execution& execution) {
-    const std::vector<const Method*>& wanted = now.rules.methods_of(
+    const std::vector<const Method*>& requested_methods = now.rules.methods_of(
         result.class_of.empty() ? std::nullopt : std::optional(result.class_of[cluster]));
     Supports supports;
-    const Execution shared = share_supports(views[cluster], wanted, execution, supports);
+    const Execution shared = share_supports(views[cluster], requested_methods, execution, supports);
     for (std::size_t m = 0; m < methods; ++m) {
       const std::size_t i = cluster * methods + m;
-      result.wanted[i] = std::find(wanted.begin(), wanted.end(), now.methods[m]) != wanted.end();
-      if (result.wanted[i] == 0) {
+      result.requested[i] = std::find(requested_methods.begin(), requested_methods.end(), now.methods[m]) !=
+                            requested_methods.end();
+      if (result.requested[i] == 0) {
         result.volumes[i] = AnyVolume();
         result.results[i] = EstimationResult();
         continue;
@@ -215,7 +216,7 @@ void FramePipeline::State::fit(const Prepared& now, const PointView& cloud, Fram
     }
   };
   for_each_view(views, now.execution, std::cref(fit_cluster));
-  if (now.looks) return;
+  if (now.reads_points) return;
   result.counts.nonfinite = result.results.front().dropped;  // no earlier stage has counted them
   result.clusters.offsets.back() = result.results.front().used;
 }
@@ -240,7 +241,7 @@ PipelineConfig FramePipeline::config() const {
 void FramePipeline::process(const Frame& frame, FrameResult& result) {
   const std::shared_ptr<const Prepared> now = state_->current();
   const SpinningThreads awake(now->execution.parallel);
-  Watch whole, watch;
+  Stopwatch whole, watch;
   result.header = frame.header;
   result.config = {now, &now->config};
   result.points = frame.points.count;
@@ -248,8 +249,9 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   result.ms = StageTimes();
   result.ms.decode = frame.decode_ms;
 
-  if (now->tells_apart && frame.points.source != nullptr)
-    throw std::invalid_argument("a cloud that is not in memory can be filtered, but not be told apart");
+  if (now->segments && frame.points.source != nullptr)
+    throw std::invalid_argument(
+        "a cloud that is not in memory can be filtered, but ground removal and clustering need it in memory");
   PointView points = state_->filter(*now, frame, result);
   result.ms.filter = watch.lap();
   state_->find_sensor(*now, frame, result);

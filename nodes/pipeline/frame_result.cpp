@@ -16,7 +16,7 @@ namespace pcl_bv {
 
 PointView FrameResult::points_after_filter(const PointView& cloud) const {
   if (counts.range + counts.inside == 0) return cloud;
-  if (!filtered) return subset(cloud, kept);
+  if (!filtered) return subset(cloud, passed_filter);
   PointView view = view_of(*filtered, points, cloud.scalar);
   view.first = cloud.first;
   return view;
@@ -65,7 +65,7 @@ std::string ground_warning(const FrameResult& result) {
     return "no ground found" + tried +
            ": try ground.up, ground.sensor_height, ground.max_slope_degrees, or ground.method none";
   if (counts.ground == looked_at)
-    return "all points are taken for ground" + tried +
+    return "all points were classified as ground" + tried +
            ": try ground.up, ground.distance, or ground.method none";
   return {};
 }
@@ -75,7 +75,7 @@ std::string range_warning(const FrameResult& result, const std::string& from) {
   const std::size_t finite = result.points - result.counts.nonfinite, out = result.counts.range;
   constexpr std::size_t few = 100;
   if (finite < few || 2 * out <= finite) return {};
-  return std::to_string(out) + " of " + std::to_string(finite) + " points are out of range: not " +
+  return std::to_string(out) + " of " + std::to_string(finite) + " points are outside the range of " +
          to_text(filter.range_min) + " to " + to_text(filter.range_max) + " m from the origin (" + from + ")";
 }
 
@@ -84,7 +84,7 @@ std::string track_warning(const FrameResult& result) {
     case TrackTime::recorded:
       return "frame stamps do not advance: tracking uses the recording times";
     case TrackTime::none:
-      return "frame stamps do not advance: tracking gets no velocity from this frame";
+      return "frame stamps do not advance: tracks are expected at their last positions";
     default:
       return {};
   }
@@ -100,7 +100,7 @@ void fill_entry(const FrameResult& result, std::size_t id, ClusterEntry& entry) 
   entry.volumes.resize(result.methods.size());
   std::size_t n = 0;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (!result.has(id, m)) continue;
+    if (!result.is_requested(id, m)) continue;
     VolumeEntry& volume = entry.volumes[n++];
     volume.method = result.methods[m]->name;
     volume.volume = result.volume(id, m);

@@ -18,7 +18,7 @@ namespace {
 
 // Smallest share of points beyond 100 m that gives a warning. A sensor on a motorway may have a tenth of its
 // points there.
-constexpr double kMostFar = 0.2;
+constexpr double kMinFarShare = 0.2;
 
 // Share of ground below which another up direction is searched. Streets have 30 % to 60 % ground, cluttered
 // ones 13 %.
@@ -46,13 +46,13 @@ std::string percent(double share) {
   return std::to_string(std::lround(100 * share)) + " %";
 }
 
-std::string text_of(const Eigen::Vector3d& place) {
+std::string text_of(const Eigen::Vector3d& position) {
   char text[120];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f)", place.x(), place.y(), place.z());
+  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f)", position.x(), position.y(), position.z());
   return text;
 }
 
-std::string ground_found(const Found& f) {
+std::string no_ground(const Found& f) {
   std::string text = ground_warning(f.result);
   if (text.empty() || f.result.counts.ground > 0) return text;
   if (const auto other = f.other_up()) {
@@ -77,10 +77,10 @@ std::string little_ground(const Found& f) {
 
 std::string sensor_elsewhere(const Found& f) {
   if (!f.zones() || f.result.sensor.around) return {};
-  if (const auto& said = f.config().ground.sensor)
-    return "few points lie around ground.sensor " + text_of(*said) +
-           ", where ground zones begin: ground may be missed";
-  return "the points do not lie around a sensor in the origin: ground zones begin at " +
+  if (const auto& given = f.config().ground.sensor)
+    return "few points lie around ground.sensor " + text_of(*given) +
+           ", the centre of ground zones: ground may be missed";
+  return "the points do not lie around the origin: ground zones are centred at " +
          text_of(f.result.sensor.at) +
          ", where the points are densest; if the sensor was elsewhere, use ground.sensor";
 }
@@ -96,9 +96,9 @@ std::string origin_elsewhere(const Found& f) {
 }
 
 std::string far_points(const Found& f) {
-  if (!f.zones() || f.result.sensor.far_share < kMostFar) return {};
+  if (!f.zones() || f.result.sensor.far_share < kMinFarShare) return {};
   return percent(f.result.sensor.far_share) + " of the points are 100 m or more from " +
-         text_of(f.result.sensor.at) + ", where ground zones begin: there ground is a guess";
+         text_of(f.result.sensor.at) + ", the centre of ground zones: the ground there is a rough estimate";
 }
 
 std::string level_ground(const Found& f) {
@@ -112,22 +112,23 @@ std::string stamps_do_not_advance(const Found& f) {
 }
 
 constexpr std::string (*kKinds[])(const Found&) = {
-    ground_found, little_ground, sensor_elsewhere, origin_elsewhere, far_points, level_ground, stamps_do_not_advance};
+    no_ground,  little_ground, sensor_elsewhere,     origin_elsewhere,
+    far_points, level_ground,  stamps_do_not_advance};
 
 }  // namespace
 
 std::vector<std::string> FrameWarnings::take(const Frame& frame, const FrameResult& result) {
   if (config_ != result.config) {
-    said_ = 0;
+    returned_ = 0;
     searched_ = false;
   }
   config_ = result.config;
   std::vector<std::string> texts;
   std::uint32_t bit = 1;
   for (const auto& kind : kKinds) {
-    std::string text = (said_ & bit) != 0 ? "" : kind({frame, result, searched_});
+    std::string text = (returned_ & bit) != 0 ? "" : kind({frame, result, searched_});
     if (!text.empty()) {
-      said_ |= bit;
+      returned_ |= bit;
       texts.push_back(std::move(text));
     }
     bit <<= 1;

@@ -19,7 +19,7 @@ constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
 Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& points) {
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const Aabb* const box = std::get_if<Aabb>(&result.volume(cluster, m));
-    if (box != nullptr && result.has(cluster, m)) return *box;
+    if (box != nullptr && result.is_requested(cluster, m)) return *box;
   }
   Aabb box;
   fit_aabb(points, box);
@@ -33,16 +33,15 @@ void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const T
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
   if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
   if (filters_.size() < first + methods) filters_.resize(first + methods);
-  const BoxState sighting{tracker_.sensor(), assignment.velocity, assignment.moving, assignment.merged,
-                             assignment.separated};
+  const BoxState state{tracker_.sensor(), assignment.velocity, assignment.moving, assignment.merged,
+                       assignment.separated};
   for (std::size_t m = 0; m < methods; ++m) {
     BoxFilter& filter = filters_[first + m];
     if (assignment.fresh) filter = BoxFilter(methods_[m]->upright);
     Obb* const box = std::get_if<Obb>(&result.volumes[cluster * methods + m]);
     if (box == nullptr) continue;
-    *box = filter.face(*box, sighting);
-    if (config.smooth || config.grow)
-      *box = filter.steady(*box, points, sighting, config.smooth, config.grow);
+    *box = filter.align_axes(*box, state);
+    if (config.smooth || config.grow) *box = filter.smoothed(*box, points, state, config.smooth, config.grow);
   }
 }
 
@@ -59,10 +58,10 @@ std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
   };
   const std::int64_t by_stamps = started_ ? passed(stamp_ns_, stamp_ns) : 0;
   const std::int64_t by_records = started_ && recorded_ns_ != 0 ? passed(recorded_ns_, recorded_ns) : 0;
-  const bool doubted = source_ == TrackTime::recorded && by_records > 0;
+  const bool distrusted = source_ == TrackTime::recorded && by_records > 0;
   if (!started_) {
     now_ns_ = std::min(stamp_ns, INT64_MAX / 2);
-  } else if (by_stamps > 0 && !doubted) {
+  } else if (by_stamps > 0 && !distrusted) {
     source_ = TrackTime::stamps;
     now_ns_ += by_stamps;
   } else {

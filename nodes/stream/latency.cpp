@@ -11,7 +11,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kLeast = 1e-3;  // milliseconds
+constexpr double kShortest = 1e-3;  // milliseconds
 constexpr double kGrowth = 1.01;
 
 }  // namespace
@@ -19,19 +19,19 @@ constexpr double kGrowth = 1.01;
 void LatencyHistogram::add(double milliseconds) {
   if (!(milliseconds >= 0)) milliseconds = 0;  // also NaN
   milliseconds = std::min(milliseconds, 1e15);
-  const double steps = std::log(std::max(milliseconds, kLeast) / kLeast) / std::log(kGrowth);
-  ++classes_[std::min(static_cast<std::size_t>(std::ceil(steps)), kBinCount - 1)];
+  const double steps = std::log(std::max(milliseconds, kShortest) / kShortest) / std::log(kGrowth);
+  ++bins_[std::min(static_cast<std::size_t>(std::ceil(steps)), kBinCount - 1)];
   ++count_;
   max_ = std::max(max_, milliseconds);
 }
 
-double LatencyHistogram::percentile(double part) const {
-  const auto rank = static_cast<std::uint64_t>(std::ceil(part * static_cast<double>(count_)));
+double LatencyHistogram::percentile(double share) const {
+  const auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_)));
   std::uint64_t below = 0;
   for (std::size_t i = 0; i < kBinCount && count_ > 0; ++i) {
-    below += classes_[i];
+    below += bins_[i];
     if (below >= std::max<std::uint64_t>(rank, 1)) {
-      return std::min(max_, kLeast * std::pow(kGrowth, static_cast<double>(i)));
+      return std::min(max_, kShortest * std::pow(kGrowth, static_cast<double>(i)));
     }
   }
   return max_;

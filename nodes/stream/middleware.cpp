@@ -31,10 +31,10 @@ fs::path module_of(const std::string& name) {
   const fs::path file = fs::path("pcl_bv") / ("pcl_bv_" + name + ".so");
   std::error_code unknown;
   for (const fs::path& folder : folders()) {
-    for (const fs::path& place : {folder / file, folder / ".." / PCL_BV_LIBRARY_FOLDER / file})
-      if (fs::exists(place, unknown)) return place;
+    for (const fs::path& path : {folder / file, folder / ".." / PCL_BV_LIBRARY_FOLDER / file})
+      if (fs::exists(path, unknown)) return path;
   }
-  throw IoError(file.filename().string() + " is not installed: it is of the component `" + name + "`");
+  throw IoError(file.filename().string() + " is not installed; it belongs to the component `" + name + "`");
 }
 
 template <typename Function>
@@ -52,7 +52,7 @@ Middleware& load(const std::string& name) {
   const auto version = function_of<MiddlewareVersion>(module, kMiddlewareVersion);
   const auto instance = function_of<MiddlewareInstance>(module, kMiddlewareInstance);
   if (version == nullptr || instance == nullptr || std::strcmp(version(), PCL_BV_VERSION) != 0)
-    throw IoError(file.string() + ": not of version " PCL_BV_VERSION);
+    throw IoError(file.string() + ": its version is not " PCL_BV_VERSION ", that of this library");
   return *instance();
 }
 

@@ -33,19 +33,19 @@ class MessageSender {
   virtual std::size_t add_topic(const MessageTopic& topic) = 0;
 
   /// Returns whether anybody would receive the next message of a topic. If not, the message is not made.
-  virtual bool wanted(std::size_t /*topic*/) const { return true; }
+  virtual bool has_subscribers(std::size_t /*topic*/) const { return true; }
 
   /// Sends a message: plain CDR with its encapsulation header, or JSON text. Throws as FrameSink::write().
   virtual void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) = 0;
 
   /// Announces the settings that apply from now on, as written by to_yaml().
-  virtual void settings(const std::string& /*yaml*/, std::int64_t /*stamp_ns*/) {}
+  virtual void announce_settings(const std::string& /*yaml*/, std::int64_t /*stamp_ns*/) {}
 
-  /// As FrameSink::offer().
-  virtual void offer(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
+  /// As FrameSink::offer_settings().
+  virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
-  /// Shows a line to the people who watch.
-  virtual void notice(const std::string& /*line*/) {}
+  /// Shows a line to the viewers.
+  virtual void notify(const std::string& /*line*/) {}
 
   /// As FrameSink::take_warnings().
   virtual std::vector<std::string> take_warnings() { return {}; }
@@ -67,9 +67,9 @@ class MessageReceiver {
  public:
   virtual ~MessageReceiver() = default;
 
-  /// Waits at most `patience` for the next message. Returns false if none came. If the caller is too slow,
+  /// Waits at most `timeout` for the next message. Returns false if none came. If the caller is too slow,
   /// the receiver decides which messages are lost and reports losses by take_warnings().
-  virtual bool next(ReceivedMessage& message, std::chrono::milliseconds patience) = 0;
+  virtual bool next(ReceivedMessage& message, std::chrono::milliseconds timeout) = 0;
 
   /// As FrameSource::take_warnings().
   virtual std::vector<std::string> take_warnings() { return {}; }
@@ -85,9 +85,8 @@ class Middleware {
   /// value of an environment variable.
   virtual std::unique_ptr<MessageReceiver> receiver(const std::string& topic, const std::string& type) = 0;
 
-  /// Creates a carrier. `place` is the address for modules that need one ("localhost:8765"). Throws as
-  /// receiver().
-  virtual std::unique_ptr<MessageSender> carrier(const std::string& place) = 0;
+  /// Creates a carrier. `address` is for modules that need one ("localhost:8765"). Throws as receiver().
+  virtual std::unique_ptr<MessageSender> carrier(const std::string& address) = 0;
 };
 
 /// Returns the module with this name and loads it at its first use. It is never unloaded.

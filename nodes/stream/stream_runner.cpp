@@ -16,6 +16,8 @@
 #include <utility>
 #include <variant>
 
+#include "pipeline/config/settings.h"
+
 namespace pcl_bv {
 namespace {
 
@@ -47,7 +49,7 @@ std::optional<std::string> exception_message(Do&& what) {
 }  // namespace
 
 struct StreamRunner::State {
-  struct Waiting {
+  struct QueuedFrame {
     Frame frame;
     Clock::time_point since;
   };
@@ -56,7 +58,7 @@ struct StreamRunner::State {
     Loss loss;
     std::string reason;
   };
-  using Task = std::variant<std::monostate, Waiting, Lost>;
+  using Task = std::variant<std::monostate, QueuedFrame, Lost>;
 
   bool full() const { return frames.size() >= config.queue; }
   bool in_worker() const { return std::this_thread::get_id() == worker_id; }
@@ -66,21 +68,22 @@ struct StreamRunner::State {
 
   void run();
   Task take();
-  void work_on(const Waiting& waiting);
-  void tell(const Frame& frame, Loss loss, const std::string& reason);
+  void work_on(const QueuedFrame& queued);
+  void report_loss(const Frame& frame, Loss loss, const std::string& reason);
   template <typename Do>
-  void guarded(Do&& callback);
-  void came();
+  void call_guarded(Do&& callback);
+  void count_arrival();
   void count(Loss loss);
-  void lose(const Frame& frame, Loss loss, std::string reason);
-  void watch(std::unique_lock<std::mutex>& lock);
+  void record_loss(const Frame& frame, Loss loss, std::string reason);
+  void wait_for_work(std::unique_lock<std::mutex>& lock);
 
   const Callbacks callbacks;
   const RunnerConfig config;
 
   mutable std::mutex mutex;
-  mutable std::condition_variable arrived, room;
-  std::deque<Waiting> frames;  // `frames` and `losses` are both sorted by frame number
+  mutable std::condition_variable arrived;
+  mutable std::condition_variable not_full;  // also signalled when the worker is idle
+  std::deque<QueuedFrame> frames;            // `frames` and `losses` are both sorted by frame number
   std::deque<Lost> losses;
   std::uint64_t next_number = 0;
   std::size_t lost_while_ending = 0;
@@ -96,26 +99,26 @@ struct StreamRunner::State {
 
 // Runs a callback whose exceptions drop no frame.
 template <typename Do>
-void StreamRunner::State::guarded(Do&& callback) {
+void StreamRunner::State::call_guarded(Do&& callback) {
   if (!exception_message(callback)) return;
   const std::lock_guard lock(mutex);
   ++stats.callback_errors;
 }
 
 // Waits for a frame, a lost frame or the end. Calls on_silence once if this takes longer than watchdog_s.
-void StreamRunner::State::watch(std::unique_lock<std::mutex>& lock) {
+void StreamRunner::State::wait_for_work(std::unique_lock<std::mutex>& lock) {
   const auto something = [this] { return ending || !frames.empty() || !losses.empty(); };
   if (config.watchdog_s <= 0) return arrived.wait(lock, something);
-  const auto patience = std::chrono::duration_cast<Clock::duration>(
+  const auto timeout = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(std::min(config.watchdog_s, 1e6)));
   while (!something()) {
     if (silence_reported) {
       arrived.wait(lock, something);
-    } else if (!arrived.wait_until(lock, last_arrival + patience, something)) {
+    } else if (!arrived.wait_until(lock, last_arrival + timeout, something)) {
       silence_reported = true;
       const double silent = milliseconds(Clock::now() - last_arrival) / 1000;
       lock.unlock();
-      if (callbacks.on_silence) guarded([&] { callbacks.on_silence(silent); });
+      if (callbacks.on_silence) call_guarded([&] { callbacks.on_silence(silent); });
       lock.lock();
     }
   }
@@ -125,47 +128,47 @@ void StreamRunner::State::watch(std::unique_lock<std::mutex>& lock) {
 StreamRunner::State::Task StreamRunner::State::take() {
   std::unique_lock lock(mutex);
   working = false;
-  room.notify_all();
-  watch(lock);
+  not_full.notify_all();
+  wait_for_work(lock);
   Task task;
   if (!losses.empty() &&
       (frames.empty() || losses.front().frame.header.number < frames.front().frame.header.number)) {
     task = std::move(losses.front());
     losses.pop_front();
   } else if (!frames.empty()) {
-    Waiting waiting = std::move(frames.front());
+    QueuedFrame queued = std::move(frames.front());
     frames.pop_front();
-    const double age = milliseconds(Clock::now() - waiting.since);
+    const double age = milliseconds(Clock::now() - queued.since);
     if (config.max_age_ms > 0 && age > config.max_age_ms) {
       count(Loss::age);
-      task = Lost{std::move(waiting.frame), Loss::age, "dropped: age"};
+      task = Lost{std::move(queued.frame), Loss::age, "dropped: age"};
     } else {
       stats.ms.wait.add(age);
-      task = std::move(waiting);
+      task = std::move(queued);
     }
   } else {
     ended = true;
   }
   working = !ended;
-  room.notify_all();
+  not_full.notify_all();
   return task;
 }
 
-void StreamRunner::State::tell(const Frame& frame, Loss loss, const std::string& reason) {
-  if (callbacks.on_lost) guarded([&] { callbacks.on_lost(frame, loss, reason); });
+void StreamRunner::State::report_loss(const Frame& frame, Loss loss, const std::string& reason) {
+  if (callbacks.on_lost) call_guarded([&] { callbacks.on_lost(frame, loss, reason); });
 }
 
-void StreamRunner::State::work_on(const Waiting& waiting) {
+void StreamRunner::State::work_on(const QueuedFrame& queued) {
   const auto problem = exception_message([&] {
-    callbacks.process(waiting.frame, result);
-    callbacks.on_result(waiting.frame, result);
+    callbacks.process(queued.frame, result);
+    callbacks.on_result(queued.frame, result);
   });
   if (problem) {
     {
       const std::lock_guard lock(mutex);
       count(Loss::error);
     }
-    return tell(waiting.frame, Loss::error, *problem);
+    return report_loss(queued.frame, Loss::error, *problem);
   }
   const std::lock_guard lock(mutex);
   const StageTimes& ms = result.ms;
@@ -177,7 +180,7 @@ void StreamRunner::State::work_on(const Waiting& waiting) {
   stats.ms.fit.add(ms.fit);
   stats.ms.track.add(ms.track);
   stats.ms.total.add(ms.total);
-  stats.ms.latency.add(milliseconds(Clock::now() - waiting.frame.taken));
+  stats.ms.latency.add(milliseconds(Clock::now() - queued.frame.taken));
 }
 
 void StreamRunner::State::run() {
@@ -187,18 +190,18 @@ void StreamRunner::State::run() {
   }
   for (;;) {
     const Task task = take();  // declared here: its points are freed before the wait for the next one
-    if (const auto* waiting = std::get_if<Waiting>(&task)) {
-      work_on(*waiting);
+    if (const auto* queued = std::get_if<QueuedFrame>(&task)) {
+      work_on(*queued);
     } else if (const auto* lost = std::get_if<Lost>(&task)) {
-      tell(lost->frame, lost->loss, lost->reason);
+      report_loss(lost->frame, lost->loss, lost->reason);
     } else {
       return;
     }
   }
 }
 
-// came(), count() and lose() require that the mutex is locked.
-void StreamRunner::State::came() {
+// count_arrival(), count() and record_loss() require that the mutex is locked.
+void StreamRunner::State::count_arrival() {
   ++stats.frames.in;
   last_arrival = Clock::now();
   silence_reported = false;
@@ -212,7 +215,7 @@ void StreamRunner::State::count(Loss loss) {
 }
 
 // Copies only the header and the file name. The caller frees the points after unlocking the mutex.
-void StreamRunner::State::lose(const Frame& frame, Loss loss, std::string reason) {
+void StreamRunner::State::record_loss(const Frame& frame, Loss loss, std::string reason) {
   count(loss);
   if (ended || losses.size() >= kMaxUnreported || (ending && ++lost_while_ending > kMaxUnreported)) return;
   Lost lost{{}, loss, std::move(reason)};
@@ -230,8 +233,8 @@ StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config)
 
 StreamRunner::StreamRunner(Callbacks callbacks, const RunnerConfig& config, FrameResult reserved) {
   require(config.queue > 0, "runner.queue: 0 is not at least 1");
-  require(config.max_age_ms >= 0, "runner.max_age_ms: is not at least 0");
-  require(config.watchdog_s >= 0, "runner.watchdog_s: is not at least 0");
+  require(config.max_age_ms >= 0, "runner.max_age_ms: " + to_text(config.max_age_ms) + " is not at least 0");
+  require(config.watchdog_s >= 0, "runner.watchdog_s: " + to_text(config.watchdog_s) + " is not at least 0");
   require(callbacks.process && callbacks.on_result, "a StreamRunner needs process and on_result");
   state_ = std::make_unique<State>(std::move(callbacks), config, std::move(reserved));
   state_->worker = std::thread([state = state_.get()] { state->run(); });
@@ -243,24 +246,24 @@ StreamRunner::~StreamRunner() {
 
 bool StreamRunner::push(Frame frame) {
   require(frame.points.count == 0 || frame.owner != nullptr,
-          "StreamRunner::push: a frame of points without an owner, which keeps them");
+          "StreamRunner::push: the frame has points but no owner");
   State& s = *state_;
   if (frame.taken == Clock::time_point()) frame.taken = Clock::now();
-  State::Waiting oldest;  // declared before `lock`: freed after unlocking
+  State::QueuedFrame oldest;  // declared before `lock`: freed after unlocking
   std::unique_lock lock(s.mutex);
-  s.came();
+  s.count_arrival();
   const bool block = s.config.policy == QueuePolicy::block;
-  if (block && !s.in_worker()) s.room.wait(lock, [&s] { return s.ending || !s.full(); });
+  if (block && !s.in_worker()) s.not_full.wait(lock, [&s] { return s.ending || !s.full(); });
   frame.header.number = s.next_number++;
   const bool drops_itself = block || s.config.policy == QueuePolicy::drop_newest;
   if (s.ending || (s.full() && drops_itself)) {
-    s.lose(frame, Loss::queue, "dropped: queue");
+    s.record_loss(frame, Loss::queue, "dropped: queue");
     return false;
   }
   if (s.full()) {
     oldest = std::move(s.frames.front());
     s.frames.pop_front();
-    s.lose(oldest.frame, Loss::queue, "dropped: queue");
+    s.record_loss(oldest.frame, Loss::queue, "dropped: queue");
   }
   s.frames.push_back({std::move(frame), Clock::now()});
   s.arrived.notify_one();
@@ -270,34 +273,34 @@ bool StreamRunner::push(Frame frame) {
 void StreamRunner::report_unreadable(Frame frame, std::string reason) {
   State& s = *state_;
   std::unique_lock lock(s.mutex);
-  s.came();
-  if (!s.in_worker()) s.room.wait(lock, [&s] { return s.ending || s.losses.size() < kMaxUnreported; });
+  s.count_arrival();
+  if (!s.in_worker()) s.not_full.wait(lock, [&s] { return s.ending || s.losses.size() < kMaxUnreported; });
   frame.header.number = s.next_number++;
-  s.lose(frame, Loss::error, std::move(reason));
+  s.record_loss(frame, Loss::error, std::move(reason));
 }
 
 bool StreamRunner::wait_idle(Clock::time_point until) const {
   const State& s = *state_;
   std::unique_lock lock(s.mutex);
-  return s.room.wait_until(lock, until, [&s] { return s.frames.empty() && !s.working; });
+  return s.not_full.wait_until(lock, until, [&s] { return s.frames.empty() && !s.working; });
 }
 
 void StreamRunner::stop(End end) {
   State& s = *state_;
-  std::deque<State::Waiting> discarded;
+  std::deque<State::QueuedFrame> discarded;
   bool from_callback = false;
   {
     const std::lock_guard lock(s.mutex);
     from_callback = s.in_worker();
     if (end == End::discard) {
       discarded.swap(s.frames);
-      for (const State::Waiting& waiting : discarded)
-        s.lose(waiting.frame, Loss::queue, "dropped: queue");
+      for (const State::QueuedFrame& queued : discarded)
+        s.record_loss(queued.frame, Loss::queue, "dropped: queue");
     }
     s.ending = true;
   }
   s.arrived.notify_all();
-  s.room.notify_all();
+  s.not_full.notify_all();
   if (from_callback) return;  // a thread cannot join itself; it ends after the callback
   const std::lock_guard joining(s.join_mutex);
   if (s.worker.joinable()) s.worker.join();

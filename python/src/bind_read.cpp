@@ -52,11 +52,11 @@ RawCloud load_recorded(const std::string& name, const std::string& topic, std::s
   RecordedClouds clouds(name, topic);
   try {
     RawCloud cloud = clouds.load(number);
-    remarks = clouds.remarks();
+    remarks = clouds.warnings();
     return cloud;
   } catch (const IoError& error) {  // add the warnings: damage may be the reason
     std::string text = error.what();
-    for (const std::string& remark : clouds.remarks())
+    for (const std::string& remark : clouds.warnings())
       text.append("; ").append(remark);
     throw IoError(text);
   }

@@ -28,7 +28,7 @@ py::list volumes_of_cluster(const ClusterObject& cluster) {
   py::list list;
   const FrameResult& result = cluster.of->result;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (result.has(cluster.id, m)) list.append(volume_at(cluster, m));
+    if (result.is_requested(cluster.id, m)) list.append(volume_at(cluster, m));
   }
   return list;
 }
@@ -37,7 +37,7 @@ py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
   const Method* const method = method_of(name);
   const FrameResult& result = cluster.of->result;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (result.methods[m] == method && result.has(cluster.id, m)) return volume_at(cluster, m);
+    if (result.methods[m] == method && result.is_requested(cluster.id, m)) return volume_at(cluster, m);
   }
   throw py::key_error(std::string(method->name) + " was not asked for");
 }
@@ -72,7 +72,7 @@ std::string repr_of_cluster(const ClusterObject& cluster) {
   if (!result.tracks.empty() && result.tracks[cluster.id])
     said += ", track=" + std::to_string(result.tracks[cluster.id]->id);
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
-    if (!result.has(cluster.id, m)) continue;
+    if (!result.is_requested(cluster.id, m)) continue;
     said.append(m == 0 ? ", volumes: " : ", ").append(result.methods[m]->name);
   }
   return said + ')';

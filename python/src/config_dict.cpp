@@ -239,8 +239,8 @@ std::string range_text(const Setting& setting, const T& /*value*/) {
   constexpr bool real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
   if constexpr (real || std::is_same_v<T, std::size_t> || std::is_same_v<T, std::optional<std::size_t>>) {
     const NumberRange& range = setting.range;
-    return (range.closed ? ", >= " : ", > ") + to_text(range.least) +
-           (range.most < kFinite ? ", <= " + to_text(range.most) : "");
+    return (range.closed ? ", >= " : ", > ") + to_text(range.min) +
+           (range.max < kFinite ? ", <= " + to_text(range.max) : "");
   }
   return "";
 }
@@ -283,7 +283,7 @@ std::string settings_text() {
     if (said == "null" || said.empty()) said = setting.unset.empty() ? "none" : std::string(setting.unset);
     text.append("    ").append(setting.key).append(" = ").append(said);
     if (!setting.unit.empty()) text.append(" [").append(setting.unit).append("]");
-    text.append(range_text(setting, value)).append("\n        ").append(setting.about).append("\n");
+    text.append(range_text(setting, value)).append("\n        ").append(setting.help).append("\n");
   });
   return text;
 }

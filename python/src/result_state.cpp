@@ -64,7 +64,7 @@ py::list volumes(const FrameResult& result) {
   py::list list(result.volumes.size());
   for (std::size_t i = 0; i < result.volumes.size(); ++i) {
     const std::size_t m = i % result.methods.size();
-    if (result.has(i / result.methods.size(), m)) {
+    if (result.is_requested(i / result.methods.size(), m)) {
       list[i] = to_python(AnyVolume(result.volumes[i]), result.methods[m], result.results[i]);
     } else {
       list[i] = py::none();
@@ -84,7 +84,7 @@ void require_consistent(const FrameResult& result, std::size_t points) {
                      (c.size() <= 1 || !c.indices.empty() || c.offsets.back() == 0) &&
                      std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
                      (c.indices.empty() || c.offsets.back() == c.indices.size()) &&
-                     c.offsets.back() <= points && in_cloud(c.indices) && in_cloud(result.kept) &&
+                     c.offsets.back() <= points && in_cloud(c.indices) && in_cloud(result.passed_filter) &&
                      in_cloud(result.ground.ground) && in_cloud(result.ground.rest) &&
                      (result.tracks.empty() || result.tracks.size() == c.size()) &&
                      (result.class_of.empty() || result.class_of.size() == c.size()) &&
@@ -94,7 +94,7 @@ void require_consistent(const FrameResult& result, std::size_t points) {
 
 void take_volumes(const py::list& state, FrameResult& result) {
   for (const py::handle each : state) {
-    result.wanted.push_back(each.is_none() ? 0 : 1);
+    result.requested.push_back(each.is_none() ? 0 : 1);
     if (each.is_none()) {
       result.volumes.emplace_back();
       result.results.emplace_back();
@@ -109,7 +109,7 @@ void take_volumes(const py::list& state, FrameResult& result) {
 /// Returns the indices of the points that passed the filter. If the pipeline has made no index list, these
 /// are the points of cluster 0.
 std::vector<std::int32_t> kept(const ResultObject& self) {
-  if (!self.result.filtered) return self.result.kept;
+  if (!self.result.filtered) return self.result.passed_filter;
   const std::vector<std::uint32_t> labels = labels_of(self.frame(), self.result);
   std::vector<std::int32_t> numbers;
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -159,7 +159,7 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
   r.points = self->points.view.count;
   r.counts = counts(tuple_of_state(state["counts"], 8));
-  r.kept = vector<std::int32_t>(state["kept"]);
+  r.passed_filter = vector<std::int32_t>(state["kept"]);
   r.ground.found = ground[0].cast<bool>();
   r.ground.normal = vector3(ground[1], "normal");
   r.ground.offset = ground[2].cast<double>();

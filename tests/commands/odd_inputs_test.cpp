@@ -125,7 +125,7 @@ TEST_F(OddInputs, OfWhichTheRangeDropsMostNameItAndWhereItComesFrom) {
     far += std::to_string(i < 50 ? 1 : 5) + " 0 " + std::to_string(0.001 * i) + "\n";
   const std::string path = file("far.pcd", header(120) + far);
   const std::string config = file("c.yaml", "filter: {range_max: 3}\n");
-  const std::string said = "70 of 120 points are out of range: not ";
+  const std::string said = "70 of 120 points are outside the range of ";
   const auto error_of = [&](std::vector<std::string> options) {
     options.push_back(path);
     return run(options).err;

@@ -100,7 +100,7 @@ TEST_F(PcdBv, AnOriginKeepsDoublesThatFloatsWouldLose) {
 
 TEST_F(PcdBv, FloatsFarFromTheirOriginAreRemarkedOn) {
   const std::string far = ascii("far.pcd", {"500000 5000000 0", "500010 5000002 1"});
-  EXPECT_THAT(run({far}).err, HasSubstr("far.pcd: float32 coordinates of 5e+06 have steps of 0.5"));
+  EXPECT_THAT(run({far}).err, HasSubstr("far.pcd: float32 coordinates near 5e+06 have a resolution of 0.5"));
   const std::string near = ascii("near.pcd", {"5000 5000 0", "5010 5002 1"});
   EXPECT_EQ(run({near}).err, "");
 }

@@ -102,7 +102,9 @@ TEST_F(TilesTest, SharesCoverTheCloudOnceAndBeginWhereChunksAndFilesDo) {
       EXPECT_LE(share.second - share.first, 500'000 / count + 150'000);
       end = share.second;
       if (end == 300'000 || end == 500'000) continue;     // the text file, and the cloud, end there
-      if (end > 300'000) EXPECT_GE(end, 450'000);         // no share ends within the text file
+      if (end > 300'000) {
+        EXPECT_GE(end, 450'000);  // no share ends within the text file
+      }
       EXPECT_EQ((end < 300'000 ? end : end - 450'000) % kChunkPoints, 0) << end;
     }
     EXPECT_EQ(end, points.size());
@@ -140,9 +142,9 @@ TEST_F(TilesTest, LeavesOutAFileAndNumbersTheRestAnew) {
   Tiles all = open({binary("a.pcd", Points(points.begin(), points.begin() + 400)),
                     binary("b.pcd", Points(points.begin() + 400, points.begin() + 500)),
                     binary("c.pcd", Points(points.begin() + 500, points.end())), at("nowhere.pcd")});
-  EXPECT_EQ(all.used(), 3U);
+  EXPECT_EQ(all.included_count(), 3U);
   all.exclude(1, "for a test");
-  EXPECT_EQ(all.used(), 2U);
+  EXPECT_EQ(all.included_count(), 2U);
   ASSERT_EQ(all.xyz().count, 900U);
   const LoadedPoints part(all.xyz(), 400, 500);
   Points rest(points.begin(), points.begin() + 400);

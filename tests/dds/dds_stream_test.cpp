@@ -68,7 +68,7 @@ class Dds : public DdsTest {
         : carrier(middleware("dds").carrier("")), points(carrier->add_topic({prefix + "/points", kCloud})) {}
     void publish(const Bytes& cloud) const { carrier->send(points, 0, cloud); }
     bool heard() const {
-      return wait_for([&] { return carrier->wanted(points); });
+      return wait_for([&] { return carrier->has_subscribers(points); });
     }
     std::unique_ptr<MessageSender> carrier;
     std::size_t points;

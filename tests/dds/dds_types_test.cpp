@@ -114,7 +114,7 @@ TYPED_TEST(DdsTypes, AreTheBytesThatCycloneMakesOfTheirFields) {
   dds_publication_matched_status_t matched{};
   ASSERT_TRUE(wait_for([&] {
     dds_get_publication_matched_status(writer, &matched);
-    return carrier->wanted(out) && matched.current_count > 0;
+    return carrier->has_subscribers(out) && matched.current_count > 0;
   }));
 
   for (int round = 0; round < 200; ++round) {

@@ -70,7 +70,8 @@ TEST_F(LiveServer, EveryMessageReachesAReaderUnderBothNames) {
     EXPECT_THAT(client.await("serverInfo")["capabilities"], testing::Contains("parameters"));
     EXPECT_EQ(client.await("advertise")["channels"].size(), 2U);
     subscribe(client, {points_, frames_});
-    ASSERT_TRUE(wait_for([&] { return server_.wanted(points_) && server_.wanted(frames_); }));
+    ASSERT_TRUE(
+        wait_for([&] { return server_.has_subscribers(points_) && server_.has_subscribers(frames_); }));
     for (int i = 0; i < 100; ++i) {
       send(points_, i, 300'000);
       send(frames_, i);
@@ -88,18 +89,18 @@ TEST_F(LiveServer, EveryMessageReachesAReaderUnderBothNames) {
       ++i;
     }
   }
-  EXPECT_TRUE(wait_for([&] { return !server_.wanted(points_); }));
+  EXPECT_TRUE(wait_for([&] { return !server_.has_subscribers(points_); }));
 }
 
 TEST_F(LiveServer, WhatNobodyReadsIsNotWanted) {
-  EXPECT_FALSE(server_.wanted(points_));
+  EXPECT_FALSE(server_.has_subscribers(points_));
   Client client(port_);
   client.open();
   subscribe(client, {points_});
-  EXPECT_TRUE(wait_for([&] { return server_.wanted(points_); }));
-  EXPECT_FALSE(server_.wanted(frames_));
+  EXPECT_TRUE(wait_for([&] { return server_.has_subscribers(points_); }));
+  EXPECT_FALSE(server_.has_subscribers(frames_));
   client.say({{"op", "unsubscribe"}, {"subscriptionIds", {100 + points_}}});
-  EXPECT_TRUE(wait_for([&] { return !server_.wanted(points_); }));
+  EXPECT_TRUE(wait_for([&] { return !server_.has_subscribers(points_); }));
   subscribe(client, {frames_, frames_, 77});
   EXPECT_THAT(client.await("status")["message"].get<std::string>(), HasSubstr("subscribed already"));
   EXPECT_THAT(client.await("status")["message"].get<std::string>(), HasSubstr("no channel 77"));
@@ -113,7 +114,7 @@ TEST_F(LiveServer, AReaderThatHangsCostsOthersNothingAndMemoryOnlyItsShare) {
   reads.open();
   subscribe(hangs, {points_});
   subscribe(reads, {frames_});
-  ASSERT_TRUE(wait_for([&] { return server_.wanted(points_) && server_.wanted(frames_); }));
+  ASSERT_TRUE(wait_for([&] { return server_.has_subscribers(points_) && server_.has_subscribers(frames_); }));
   const auto resident = [] {
     std::ifstream status("/proc/self/statm");
     std::size_t all = 0, pages = 0;
@@ -133,7 +134,7 @@ TEST_F(LiveServer, AReaderThatHangsCostsOthersNothingAndMemoryOnlyItsShare) {
   constexpr std::size_t quarantine = 0;
 #endif
   EXPECT_LT(resident(), before + 3 * Viewer::kMaxQueuedBytes + quarantine);
-  EXPECT_FALSE(server_.wanted(points_));
+  EXPECT_FALSE(server_.has_subscribers(points_));
   // Once it reads again, it gets what is new, and is told what it has not got.
   std::uint64_t last = 0;
   int got = 0;
@@ -146,7 +147,7 @@ TEST_F(LiveServer, AReaderThatHangsCostsOthersNothingAndMemoryOnlyItsShare) {
     last = received.number(5, 8);
     ++got;
   }
-  ASSERT_TRUE(wait_for([&] { return server_.wanted(points_); }));
+  ASSERT_TRUE(wait_for([&] { return server_.has_subscribers(points_); }));
   send(points_, count);
   while (hangs.await_message().number(5, 8) != count)
     ;
@@ -156,7 +157,7 @@ TEST_F(LiveServer, AReaderThatHangsCostsOthersNothingAndMemoryOnlyItsShare) {
 
 TEST_F(LiveServer, SettingsAreReadWatchedAndChanged) {
   FramePipeline pipeline;
-  server_.offer(remote_settings(pipeline));
+  server_.offer_settings(remote_settings(pipeline));
   Client changes(port_), watches(port_);
   changes.open();
   watches.open();
@@ -192,7 +193,7 @@ TEST_F(LiveServer, ServesThePageAndTheDescriptionOfSettings) {
   EXPECT_LT(page.body().size(), 100'000U);
   EXPECT_EQ(Client(port_).get("/settings").body(), "[]");
   FramePipeline pipeline;
-  server_.offer(remote_settings(pipeline));
+  server_.offer_settings(remote_settings(pipeline));
   EXPECT_GT(Json::parse(Client(port_).get("/settings").body()).size(), 20U);
   const auto head = Client(port_).get("/", "localhost", "", http::verb::head);
   EXPECT_EQ(head[http::field::content_length], std::to_string(live_page().size()));
@@ -240,7 +241,7 @@ TEST_F(LiveServer, HostileClientsAreCutOffAndOthersGoOn) {
   Client good(port_);
   good.open();
   subscribe(good, {frames_});
-  ASSERT_TRUE(wait_for([&] { return server_.wanted(frames_); }));
+  ASSERT_TRUE(wait_for([&] { return server_.has_subscribers(frames_); }));
   std::mt19937 random(7);
   int number = 0;
   const auto others_go_on = [&] {
@@ -293,11 +294,11 @@ TEST_F(LiveServer, HostileClientsAreCutOffAndOthersGoOn) {
 
 TEST_F(LiveServer, NoRequestEndsItOrKeepsOthersWaiting) {
   FramePipeline pipeline;
-  server_.offer(remote_settings(pipeline));
+  server_.offer_settings(remote_settings(pipeline));
   Client good(port_);
   good.open();
   subscribe(good, {frames_});
-  ASSERT_TRUE(wait_for([&] { return server_.wanted(frames_); }));
+  ASSERT_TRUE(wait_for([&] { return server_.has_subscribers(frames_); }));
   int number = 0;
   const auto others_go_on = [&] {
     send(frames_, ++number);
@@ -337,7 +338,7 @@ TEST_F(LiveServer, NoRequestEndsItOrKeepsOthersWaiting) {
 
 TEST_F(LiveServer, SettingsChangeSoOftenASecondAndNoOftener) {
   FramePipeline pipeline;
-  server_.offer(remote_settings(pipeline));
+  server_.offer_settings(remote_settings(pipeline));
   Client client(port_);
   client.open();
   const std::size_t requests = 2 * live::Hub::kMaxChangesPerSecond;
@@ -373,10 +374,10 @@ TEST_F(LiveServer, SaysWhatIsLostOnceASecondAtMost) {
   client.open();
   client.await("advertise");
   for (int i = 0; i < 1000; ++i)
-    server_.notice("frame " + std::to_string(i) + " is lost");
+    server_.notify("frame " + std::to_string(i) + " is lost");
   EXPECT_EQ(client.await("status")["message"], "frame 0 is lost");
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-  server_.notice("frame 1000 is lost");
+  server_.notify("frame 1000 is lost");
   EXPECT_EQ(client.await("status")["message"], "frame 1000 is lost; 999 more before");
 }
 
@@ -384,7 +385,7 @@ TEST_F(LiveServer, TheEndComesAfterTheLastMessage) {
   Client client(port_);
   client.open();
   subscribe(client, {points_});
-  ASSERT_TRUE(wait_for([&] { return server_.wanted(points_); }));
+  ASSERT_TRUE(wait_for([&] { return server_.has_subscribers(points_); }));
   for (int i = 0; i < 10; ++i)
     send(points_, i, 1'000'000);
   std::thread ends([&] { server_.close(); });

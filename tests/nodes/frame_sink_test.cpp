@@ -161,10 +161,10 @@ TEST_F(FrameSinks, PicturesAreFilesOfTheirFrames) {
 }
 
 TEST(ParseSink, NamesAllKindsInItsErrors) {
-  EXPECT_EQ(parse_sink("vtp:a,points").place, "a");
+  EXPECT_EQ(parse_sink("vtp:a,points").target, "a");
   EXPECT_TRUE(parse_sink("vtp:a,points").points);
-  EXPECT_EQ(parse_sink("csv:a,points").place, "a,points");
-  EXPECT_EQ(parse_sink("jsonl:a:b").place, "a:b");
+  EXPECT_EQ(parse_sink("csv:a,points").target, "a,points");
+  EXPECT_EQ(parse_sink("jsonl:a:b").target, "a:b");
   for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "vtp:-", "image:-", "xml:a", "json:a", ":a"}) {
     try {
       parse_sink(bad);
@@ -211,7 +211,7 @@ TEST(SinkGroup, NoSinkHarmsAnotherOrTheStream) {
   EXPECT_TRUE(group.failed());
   EXPECT_TRUE(group.alive());
   EXPECT_EQ(said, (std::vector<std::string>{"bad: one is bad", "bad: an exception that is no std::exception",
-                                            "bad: no space", "bad: lacks 6 frames"}));
+                                            "bad: no space", "bad: 6 frames were not written"}));
 }
 
 TEST(SinkGroup, IsDeadWithItsLastSinkAndQuietAboutAReaderWhoLeft) {

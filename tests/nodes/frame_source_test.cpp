@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kPatience{20'000};
 
 bool next(FrameSource& source, Frame& frame) {
   const Next next = source.next(frame, kPatience);
-  EXPECT_NE(next, Next::nothing);
+  EXPECT_NE(next, Next::timeout);
   return next == Next::frame;
 }
 
@@ -131,8 +131,7 @@ TEST_F(NamedFrames, WithShortDecimalsComeInTheOrderOfTheirTimes) {
   const Read read = read_names({"12.0", "12.25", "12.5", "12.75", "13.0"});
   EXPECT_EQ(read.stamps, (std::vector<std::int64_t>{12'000'000'000, 12'250'000'000, 12'500'000'000,
                                                     12'750'000'000, 13'000'000'000}));
-  EXPECT_THAT(read.remarks,
-              testing::ElementsAre(testing::HasSubstr("in the order of the times in their names")));
+  EXPECT_THAT(read.remarks, testing::ElementsAre(testing::HasSubstr("sorted by the times in their names")));
 }
 
 TEST_F(NamedFrames, SayThatTheirTimesDoNotAscend) {
@@ -299,7 +298,7 @@ TEST(FunctionSource, ASilentOneIsNotWaitedFor) {
   Frame frame;
   ASSERT_TRUE(next(*source, frame));
   for (int i = 0; i < 3; ++i)
-    EXPECT_EQ(source->next(frame, std::chrono::milliseconds(1)), Next::nothing);
+    EXPECT_EQ(source->next(frame, std::chrono::milliseconds(1)), Next::timeout);
   shared->begun.get_future().wait();
   source.reset();
   shared->speak.set_value();

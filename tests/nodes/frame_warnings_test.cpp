@@ -56,11 +56,11 @@ TEST(StreamHealth, SaysThatFramesWereLostBesideAWarning) {
   const std::vector<float> turned = upside_down();
   const auto config = plane();
   StreamHealth health;
-  health.heeds(third_orientation(turned, 0), little_ground(turned, config));
+  health.record_frame(third_orientation(turned, 0), little_ground(turned, config));
   msg::DiagnosticArray array;
   health.fill(third_orientation(turned, 0), array);
   EXPECT_THAT(array.status.at(0).message, HasSubstr("use ground.up -z"));
-  health.lost();
+  health.count_lost();
   health.fill(third_orientation(turned, 1), array);
   EXPECT_THAT(array.status.at(0).message, testing::StartsWith("frames were lost; "));
   EXPECT_THAT(array.status.at(0).message, HasSubstr("use ground.up -z"));

@@ -67,7 +67,7 @@ TEST(MessageSource, GivesTheCloudWhereItLies) {
   EXPECT_GE(static_cast<const void*>(frame.points.data), static_cast<const void*>(bytes->data()));
   EXPECT_LT(static_cast<const void*>(frame.points.data), static_cast<const void*>(bytes->data() + bytes->size()));
   EXPECT_NE(frame.taken, std::chrono::steady_clock::time_point());
-  EXPECT_EQ(source->next(frame, 0ms), Next::nothing);
+  EXPECT_EQ(source->next(frame, 0ms), Next::timeout);
   EXPECT_THAT(source->take_warnings(), testing::ElementsAre("3 lost on the way"));
 }
 
@@ -121,7 +121,8 @@ TEST(Middlewares, SayWhatIsNotInstalled) {
     middleware("carrier_pigeon");
     FAIL() << "loaded";
   } catch (const IoError& error) {
-    EXPECT_STREQ(error.what(), "pcl_bv_carrier_pigeon.so is not installed: it is of the component `carrier_pigeon`");
+    EXPECT_STREQ(error.what(),
+                 "pcl_bv_carrier_pigeon.so is not installed; it belongs to the component `carrier_pigeon`");
   }
 }
 

@@ -149,7 +149,7 @@ TEST(Pipeline, ClassesHaveVolumesOfTheirOwn) {
   EXPECT_EQ(found,
             (std::vector<std::string>{"1: aabb obb-min", "2: obb-min sphere-exact", "3: aabb obb-min"}));
   for (std::size_t m = 0; m < 3; ++m)
-    EXPECT_EQ(result.has(1, m), !empty(result.volume(1, m)));
+    EXPECT_EQ(result.is_requested(1, m), !empty(result.volume(1, m)));
 }
 
 TEST(Pipeline, VolumesOfAClassAreThoseOfTheClassAlone) {
@@ -399,7 +399,7 @@ TEST(Pipeline, TracksUseTheTimesOfRecordingWhereStampsDoNotAdvance) {
             "frame stamps do not advance: tracking uses the recording times");
   const FrameResult lost = ball_with_stamps(stamps(equal), false).back();
   EXPECT_EQ(speed_of(lost), 0);
-  EXPECT_EQ(track_warning(lost), "frame stamps do not advance: tracking gets no velocity from this frame");
+  EXPECT_EQ(track_warning(lost), "frame stamps do not advance: tracks are expected at their last positions");
   // A clock that was set back costs one step, as before.
   EXPECT_EQ(ball_with_stamps(stamps(set_back), false).back().track_time, TrackTime::stamps);
 }

@@ -123,7 +123,7 @@ TEST_F(RecordedSource, WithoutAStampTakesWhenItWasRecorded) {
 
 TEST_F(RecordedSource, OfSeveralTopicsWantsOneNamed) {
   record({"/front", "/rear"});
-  EXPECT_EQ(refusal({}), "several topics have clouds: /front, /rear; say which with --topic");
+  EXPECT_EQ(refusal({}), "several topics have clouds: /front, /rear; choose one with --topic");
   ReplayOptions options = as_recorded();
   options.topic = "/rear";
   EXPECT_EQ(frames_of(*open_source(file(), options)).size(), 3U);
@@ -187,18 +187,18 @@ TEST_F(RecordedSource, GoesOnAfterACloudThatDoesNotFitItsData) {
   });
   const auto source = open_source(file(), as_recorded());
   Frame frame;
-  const std::chrono::milliseconds patience(1000);
-  EXPECT_EQ(source->next(frame, patience), Next::frame);
+  const std::chrono::milliseconds timeout(1000);
+  EXPECT_EQ(source->next(frame, timeout), Next::frame);
   try {
-    source->next(frame, patience);
+    source->next(frame, timeout);
     FAIL();
   } catch (const FrameError& error) {
     EXPECT_EQ(error.reason, "the cloud should have 99 x 1 points of 14 bytes, but has only 28 bytes");
     EXPECT_EQ(error.frame.header.seq, 1U);
   }
-  EXPECT_EQ(source->next(frame, patience), Next::frame);
+  EXPECT_EQ(source->next(frame, timeout), Next::frame);
   EXPECT_EQ(frame.points.count, 3U);
-  EXPECT_EQ(source->next(frame, patience), Next::end);
+  EXPECT_EQ(source->next(frame, timeout), Next::end);
 }
 
 TEST_F(RecordedSource, ReadsClasses) {
@@ -256,7 +256,7 @@ TEST_F(RecordedSource, ANoteIsThatOfTheFirstCloudThatHasItInWhateverOrderTheyAre
     std::vector<std::size_t> with_note;
     for (const std::size_t number : order) {
       EXPECT_EQ(clouds.load(number).note.empty(), number == 0);
-      if (!clouds.unsaid(number).empty()) with_note.push_back(number);
+      if (!clouds.new_note(number).empty()) with_note.push_back(number);
     }
     EXPECT_THAT(with_note, testing::UnorderedElementsAre(1, 4));
   }
@@ -284,7 +284,7 @@ TEST_F(RecordedSource, RemarksAreTakenOnce) {
   }
   EXPECT_LT(read, 20U);
   EXPECT_FALSE(remarks.empty());
-  EXPECT_EQ(clouds.remarks(), remarks);
+  EXPECT_EQ(clouds.warnings(), remarks);
   EXPECT_THAT(clouds.take_warnings(), testing::IsEmpty());
 }
 

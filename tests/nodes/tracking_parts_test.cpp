@@ -54,7 +54,7 @@ TEST(MotionFilter, ManySmallStepsAreOneLarge) {
   one.predict(0.1, 0.9);
   for (int i = 0; i < 100; ++i)
     many.predict(0.001, 0.9);
-  EXPECT_NEAR(many.place, one.place, 1e-12);
+  EXPECT_NEAR(many.position, one.position, 1e-12);
   EXPECT_NEAR(many.position_variance, one.position_variance, 1e-12);
   EXPECT_NEAR(many.covariance, one.covariance, 1e-12);
   EXPECT_NEAR(many.velocity_variance, one.velocity_variance, 1e-12);
@@ -92,11 +92,11 @@ TEST(MotionFilter, ACovarianceIsThatOfWhatItEstimates) {
     for (int i = 0; i < 15; ++i) {
       place += 0.1 * velocity;
       axis.predict(0.1, 0);
-      axis.correct(place + 0.1 * normal() - axis.place, 0.01);
+      axis.correct(place + 0.1 * normal() - axis.position, 0.01);
     }
     Eigen::Matrix2d covariance;
     covariance << axis.position_variance, axis.covariance, axis.covariance, axis.velocity_variance;
-    const Eigen::Vector2d error(axis.place - place, axis.velocity - velocity);
+    const Eigen::Vector2d error(axis.position - place, axis.velocity - velocity);
     sum += error.dot(covariance.inverse() * error);
   }
   EXPECT_NEAR(sum / runs, 2, 0.15);

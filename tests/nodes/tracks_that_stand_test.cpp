@@ -21,12 +21,12 @@ constexpr double kFrame = 0.1;  // seconds
 // Ends with the answer to `frames` sightings, the box of each made by centre_and_half(i).
 template <typename Make>
 bool moves(int frames, Make&& centre_and_half) {
-  MotionClassifier judge;
+  MotionClassifier classifier;
   for (int i = 0; i < frames; ++i) {
     const std::array<Eigen::Vector3d, 2> box = centre_and_half(i);
-    judge.add(box[0], box[1], Eigen::Matrix3d::Identity(), i == 0 ? 0 : kFrame);
+    classifier.add(box[0], box[1], Eigen::Matrix3d::Identity(), i == 0 ? 0 : kFrame);
   }
-  return judge.moving();
+  return classifier.moving();
 }
 
 const Eigen::Vector3d kPerson(0.25, 0.25, 0.9);
@@ -67,10 +67,10 @@ TEST(MotionClassifier, WhatHasStoppedStandsWithinASecond) {
 }
 
 TEST(MotionClassifier, StampsWithoutTimeBetweenThemSayNothing) {
-  MotionClassifier judge;
+  MotionClassifier classifier;
   for (int i = 0; i < 50; ++i) {
-    judge.add({0.2 * i, 0, 0}, kPerson, Eigen::Matrix3d::Identity(), 0);
-    EXPECT_FALSE(judge.moving());
+    classifier.add({0.2 * i, 0, 0}, kPerson, Eigen::Matrix3d::Identity(), 0);
+    EXPECT_FALSE(classifier.moving());
   }
 }
 

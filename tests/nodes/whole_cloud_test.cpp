@@ -261,13 +261,13 @@ TEST(StreamHealth, SaysTheFirstWarningOfTheSettingsInForce) {
   config.ground.method = GroundMethod::zones;
   const Frame frame = third_orientation(moved, 0);
   StreamHealth health;
-  EXPECT_TRUE(health.heeds(frame, result_of(config, frame.points)));
+  EXPECT_TRUE(health.record_frame(frame, result_of(config, frame.points)));
   msg::DiagnosticArray array;
   health.fill(frame, array);
   EXPECT_EQ(array.status.front().level, msg::DiagnosticStatus::WARN);
-  EXPECT_THAT(array.status.front().message, testing::HasSubstr("do not lie around a sensor in the origin"));
+  EXPECT_THAT(array.status.front().message, testing::HasSubstr("do not lie around the origin"));
   config.ground.sensor = Eigen::Vector3d(100, 0, 0);
-  health.heeds(frame, result_of(config, frame.points));
+  health.record_frame(frame, result_of(config, frame.points));
   health.fill(frame, array);
   EXPECT_EQ(array.status.front().message, "running");
 }
@@ -281,7 +281,7 @@ TEST(GroundRemark, SaysWhenThereIsNoGroundOrNothingElse) {
   result.counts.range = 20;
   EXPECT_THAT(ground_warning(result), testing::HasSubstr("no ground found (up is z): try ground.up"));
   result.counts.ground = 100;
-  EXPECT_THAT(ground_warning(result), testing::HasSubstr("all points are taken for ground"));
+  EXPECT_THAT(ground_warning(result), testing::HasSubstr("all points were classified as ground"));
   result.counts.ground = 99;
   EXPECT_EQ(ground_warning(result), "");
   result.counts.ground = 0;

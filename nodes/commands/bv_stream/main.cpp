@@ -11,10 +11,10 @@
 int main(int argc, char** argv) {
   using namespace pcl_bv;
   return run_command("bv_stream", [&] {
-    const auto asked = parse_stream_options(argc, argv);
-    if (const auto* text = std::get_if<std::string>(&asked)) return print(*text);
+    const auto parsed = parse_stream_options(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&parsed)) return print_text(*text);
     std::atomic<bool> interrupted{false};  // set by a signal; queued frames are still processed
     const Interruption interruption(interrupted);
-    return stream(std::get<StreamOptions>(asked), interrupted);
+    return stream(std::get<StreamOptions>(parsed), interrupted);
   });
 }

@@ -44,10 +44,10 @@ void declare_frames(CommandLine& line, Texts& t) {
       "Frames a second, recorded (by their stamps) or max\n(10; recorded where the source is a recording)");
   line.option("--loop", t.loop, "N", "Repeat the source N times (1)");
   line.option("--stamps", t.stamps, "RULE",
-              "Times of the frames: by rate, or name: by the time in it\n"
+              "Stamps of the frames: rate, or name for the time in the file name\n"
               "(rate; name with --rate recorded)");
   line.option("--frame-id", t.frame_id, "NAME", "The coordinate frame of the points");
-  line.option("--poses", t.poses, "FILE", "Where the sensor was: poses of KITTI by frame, or of TUM by time");
+  line.option("--poses", t.poses, "FILE", "Sensor poses: KITTI format (by frame) or TUM format (by time)");
 }
 
 void declare_results(CommandLine& line, Texts& t) {
@@ -56,13 +56,14 @@ void declare_results(CommandLine& line, Texts& t) {
     sinks.replace(sinks.find(first_of_a_line), 1, "\n");
   line.option("--sink", t.sinks, "SINK", sinks + ";\nrepeatable (jsonl on standard output)");
   line.option("--stats", t.stats, "FILE.json", "Write counters and percentiles at the end");
-  line.option("--report", t.report, "SECONDS", "Say counters and latency so often on standard error");
+  line.option("--report", t.report, "SECONDS",
+              "Print counters and latency at this interval on standard error");
 }
 
-double number(const char* option, std::string_view text, double least, double most, const char* wanted) {
+double number(const char* option, std::string_view text, double min, double max, const char* allowed) {
   double value = 0;
-  if (read_whole_text(text, value) && value >= least && value <= most) return value;
-  reject_value(option, text, std::string("is not ") + wanted);
+  if (read_whole_text(text, value) && value >= min && value <= max) return value;
+  reject_value(option, text, std::string("is not ") + allowed);
 }
 
 // Throws UsageError if an output would overwrite an input or another output.
@@ -87,8 +88,8 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   for (const SinkDescription& sink : options.sinks) {
     if (sink.kind->live) continue;
     const std::string_view files = sink.kind->files;
-    claims.claim(files.empty() ? sink.place : sink.place / ("frame000000" + std::string(files)));
-    if (files == ".pcd") claims.refuse_input(sink.place);  // its clouds would be read as those of the source
+    claims.claim(files.empty() ? sink.target : sink.target / ("frame000000" + std::string(files)));
+    if (files == ".pcd") claims.reject_input(sink.target);  // its clouds would be read as those of the source
   }
   if (options.stats) claims.claim(*options.stats);
 }

@@ -53,8 +53,9 @@ void report(const RunnerStats& stats) {
   char latency[80];
   std::snprintf(latency, sizeof latency, "latency p50 %.1f ms, p99 %.1f ms", stats.ms.latency.percentile(0.5),
                 stats.ms.latency.percentile(0.99));
-  say(count(f.in, " frames, ") + count(f.processed, " done, dropped ") + count(f.dropped_queue, " queue, ") +
-      count(f.dropped_age, " age, ") + count(f.dropped_error, " error; ") + latency);
+  print_message(count(f.in, " frames, ") + count(f.processed, " done, dropped ") +
+                count(f.dropped_queue, " queue, ") + count(f.dropped_age, " age, ") +
+                count(f.dropped_error, " error; ") + latency);
 }
 
 // Reads frames until the source ends, a signal comes, or no sink takes results any more.
@@ -77,7 +78,7 @@ class Reader {
         if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // it advances the schedule, too
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
-        runner_.report_unreadable({}, std::string("the source ends: ") + error.what());
+        runner_.report_unreadable({}, std::string("the source failed: ") + error.what());
         more = false;
         failed = true;
       }
@@ -89,8 +90,8 @@ class Reader {
 
  private:
   void print_warnings(FrameSource& source) const {
-    for (const std::string& remark : source.take_warnings())
-      complain(options_.source + ": " + remark);
+    for (const std::string& warning : source.take_warnings())
+      report_problem(options_.source + ": " + warning);
   }
 
   // Returns whether to go on. It is called again and again, so it also prints the periodic reports.
@@ -155,10 +156,10 @@ void report_dropped_frames(const FrameTotals& frames, std::uint64_t without_pose
   const std::uint64_t dropped = frames.dropped_queue + frames.dropped_age;
   const std::string all = " of " + std::to_string(frames.in) + " frames";
   if (dropped > 0) {
-    say("dropped " + std::to_string(dropped) + all + ": " + std::to_string(frames.dropped_queue) +
-        " queue, " + std::to_string(frames.dropped_age) + " age");
+    print_message("dropped " + std::to_string(dropped) + all + ": " + std::to_string(frames.dropped_queue) +
+                  " queue, " + std::to_string(frames.dropped_age) + " age");
   }
-  if (without_pose > 0) say(std::to_string(without_pose) + all + " have no pose");
+  if (without_pose > 0) print_message(std::to_string(without_pose) + all + " have no pose");
 }
 
 std::string named(const Frame& frame, const std::string& what) {
@@ -176,24 +177,24 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
   callbacks.on_result = [&, last_note = std::string(), warnings = FrameWarnings(), out_of_range = false](
                             const Frame& frame, const FrameResult& result) mutable {
     sinks.write(frame, result);
-    if (!frame.note.empty() && frame.note != last_note) complain(named(frame, frame.note));
+    if (!frame.note.empty() && frame.note != last_note) report_problem(named(frame, frame.note));
     last_note = frame.note;
     for (std::string& warning : warnings.take(frame, result))
-      complain(named(frame, with_options(std::move(warning))));
+      report_problem(named(frame, with_options(std::move(warning))));
     // Only its presence is compared: its numbers differ from frame to frame.
     const std::string range = range_warning(result, range_from);
-    if (!range.empty() && !out_of_range) complain(named(frame, range));
+    if (!range.empty() && !out_of_range) report_problem(named(frame, range));
     out_of_range = !range.empty();
     progress.show(frame.header.seq, result.clusters.size(), result.ms.total);
   };
   callbacks.on_lost = [&](const Frame& frame, Loss loss, const std::string& reason) {
-    if (loss == Loss::error) complain(named(frame, reason));
+    if (loss == Loss::error) report_problem(named(frame, reason));
     sinks.write_lost(frame, reason);
   };
   callbacks.on_silence = [](double seconds) {
     char line[60];
     std::snprintf(line, sizeof line, "no frame for %.1f s", seconds);
-    complain(line);
+    report_problem(line);
   };
   return callbacks;
 }
@@ -204,13 +205,13 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   const std::unique_ptr<FrameSource> source = parse_with(
       "--source", options.source, [&](const auto& name) { return open_source(name, options.replay); });
   FramePipeline pipeline(options.config.pipeline);  // reads its files before outputs are opened
-  SinkGroup sinks(complain);
+  SinkGroup sinks(report_problem);
   for (const SinkDescription& sink : options.sinks)
-    parse_with("--sink", sink.place.string(), [&](const auto&) { sinks.add(sink); });
-  sinks.offer(remote_settings(pipeline));
+    parse_with("--sink", sink.target.string(), [&](const auto&) { sinks.add(sink); });
+  sinks.offer_settings(remote_settings(pipeline));
   Progress progress;
   RunnerConfig config = options.config.runner;
-  config.policy = resolved(config.policy, options.rate != Rate::max);
+  config.policy = resolved_policy(config.policy, options.rate != Rate::max);
   FrameResult reserved;
   if (options.rate != Rate::max)
     pipeline.reserve(points_of_a_sweep, reserved);  // at maximum rate, this would only delay the first frame
@@ -233,7 +234,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
       write_file_atomically(*options.stats, stats_json(stats) + '\n');
     }
   } catch (const IoError& error) {
-    complain(options.stats->string() + ": " + error.what());
+    report_problem(options.stats->string() + ": " + error.what());
     status = 1;
   }
   return status;

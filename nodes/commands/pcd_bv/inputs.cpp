@@ -30,9 +30,9 @@ bool is_folder(const std::string& path) {
   return !is_synth(path) && fs::is_directory(path, unknown);
 }
 
-void complain_of(RecordedClouds& clouds, const std::string& file) {
-  for (const std::string& remark : clouds.take_warnings())
-    complain(std::string(file).append(": ").append(remark));
+void report_new_warnings(RecordedClouds& clouds, const std::string& file) {
+  for (const std::string& warning : clouds.take_warnings())
+    report_problem(std::string(file).append(": ").append(warning));
 }
 
 // Reports damage after each cloud, since much of it is only found while clouds are read.
@@ -40,10 +40,10 @@ RawCloud load_recorded(const Job& job) {
   const std::string file = job.input.substr(0, job.input.rfind('#'));
   try {
     RawCloud cloud = job.recording->load(job.number);
-    complain_of(*job.recording, file);
+    report_new_warnings(*job.recording, file);
     return cloud;
   } catch (const std::exception&) {
-    complain_of(*job.recording, file);
+    report_new_warnings(*job.recording, file);
     throw;
   }
 }
@@ -59,7 +59,7 @@ std::vector<Job> expand_recording(const std::string& argument, const std::string
     job.recording = clouds;
     job.number = i;
   }
-  complain_of(*clouds, argument);
+  report_new_warnings(*clouds, argument);
   if (jobs.empty()) return {{argument, "no cloud in this recording"}};
   return jobs;
 }
@@ -102,7 +102,7 @@ std::vector<Job> expand_partials(const std::string& argument) {
 }
 
 // Makes one job of all inputs.
-Job joined(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
+Job merged_job(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
   Job job;
   job.input = kTiledName;
   if (tiles) {
@@ -112,10 +112,10 @@ Job joined(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tile
       job.partials.push_back(input.input);
   } else {
     std::vector<TileHeader> headers(inputs.size());
-    for_each_chunk(options.pipeline.policy(), inputs.size(),
+    for_each_chunk(options.pipeline.parallel_policy(), inputs.size(),
                    [&](std::size_t i) { headers[i] = describe_tile(inputs[i]); });
     job.tiles = std::make_shared<Tiles>(std::move(inputs), std::move(headers),
-                                        thread_count(options.pipeline.policy()));
+                                        thread_count(options.pipeline.parallel_policy()));
   }
   return job;
 }
@@ -149,7 +149,7 @@ std::vector<Job> list_inputs(const Options& options) {
 }
 
 std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
-  const bool one = options.together || options.merge;
+  const bool one = options.tiled || options.merge;
   const bool several = !one && (inputs.size() > 1 || is_folder(options.inputs.front()));
   const auto target = [&](const char* option, const fs::path& given, const Job& job, const char* extension) {
     if (several || !given.has_filename() || is_folder(given.string()))
@@ -174,7 +174,7 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   }
   if (options.partial) claims.claim(*options.partial);
   std::vector<Job> jobs =
-      one ? std::vector{joined(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
+      one ? std::vector{merged_job(options, std::move(inputs), std::move(tiles))} : std::move(inputs);
   if (options.output) claims.claim(*options.output);
   for (Job& job : jobs) {
     if (job.error) continue;

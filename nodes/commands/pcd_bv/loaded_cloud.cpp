@@ -26,31 +26,31 @@ RawCloud header_of(const PointView& points) {
 
 }  // namespace
 
-LoadedCloud::LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy,
+LoadedCloud::LoadedCloud(const Job& job, bool in_memory, const ParallelPolicy& policy,
                          const OriginOption& origin) {
   if (job.tiles) {
     tiles_ = job.tiles;
     xyz_ = tiles_->xyz();
-    held_ = header_of(xyz_);
-    hold = xyz_.count <= kChunkPoints;
-    if (hold) hold_points();
+    cloud_ = header_of(xyz_);
+    in_memory = xyz_.count <= kChunkPoints;
+    if (in_memory) load_points();
   } else {
-    if (!hold && !job.error && !job.recording && !is_synth(job.input))
+    if (!in_memory && !job.error && !job.recording && !is_synth(job.input))
       file_ = CloudFile::open(job.input, job.bin_fields);
-    if (!file_) held_ = load_cloud(job, policy);
-    xyz_ = file_ ? file_->xyz() : held_.xyz();
+    if (!file_) cloud_ = load_cloud(job, policy);
+    xyz_ = file_ ? file_->xyz() : cloud_.xyz();
   }
-  if (!origin.asked) return;
+  if (!origin.requested) return;
   origin_ = origin.at ? *origin.at : rounded_centre(xyz_, policy);
   shifted_ = std::make_unique<ShiftedPoints>(xyz_, *origin_);
-  points_before_shift_ = std::move(near_);
+  points_before_shift_ = std::move(points_);
   xyz_ = view_of(*shifted_, xyz_.count, ScalarType::float64);
-  if (hold) hold_points();
+  if (in_memory) load_points();
 }
 
-void LoadedCloud::hold_points() {
-  near_ = packed_copy(xyz_);
-  xyz_ = packed_points(near_.data(), xyz_.scalar, xyz_.count);
+void LoadedCloud::load_points() {
+  points_ = packed_copy(xyz_);
+  xyz_ = packed_points(points_.data(), xyz_.scalar, xyz_.count);
 }
 
 void LoadedCloud::require_unchanged() const {

@@ -13,13 +13,13 @@ namespace pcl_bv {
 
 class LoadedCloud {
  public:
-  /// With `hold`, the cloud is read into memory by the threads of the policy; a tiled cloud is held in memory
-  /// only if it has at most kChunkPoints points. The origin, if requested, is subtracted from the points of
-  /// xyz(). Throws as load_cloud(), and TileError for a tiled cloud.
-  LoadedCloud(const Job& job, bool hold, const ParallelPolicy& policy, const OriginOption& origin);
+  /// With `in_memory`, the cloud is read into memory by the threads of the policy. A tiled cloud is read into
+  /// memory only if it has at most kChunkPoints points. The origin, if requested, is subtracted from the
+  /// points of xyz(). Throws as load_cloud(), and TileError for a tiled cloud.
+  LoadedCloud(const Job& job, bool in_memory, const ParallelPolicy& policy, const OriginOption& origin);
 
   /// Returns fields, size and viewpoint; the points only if the cloud is in memory.
-  const RawCloud& cloud() const { return file_ ? file_->header() : held_; }
+  const RawCloud& cloud() const { return file_ ? file_->header() : cloud_; }
 
   PointView xyz() const { return xyz_; }
 
@@ -30,18 +30,18 @@ class LoadedCloud {
   void require_unchanged() const;
 
   /// Gives the cloud away to its last user.
-  RawCloud take() { return std::move(held_); }
+  RawCloud take() { return std::move(cloud_); }
 
  private:
-  void hold_points();
+  void load_points();
 
   std::unique_ptr<CloudFile> file_;
   std::shared_ptr<const Tiles> tiles_;
-  RawCloud held_;
+  RawCloud cloud_;
   PointView xyz_;  // refers to one of the members around it
   std::optional<Eigen::Vector3d> origin_;
   std::unique_ptr<PointSource> shifted_;
-  std::vector<std::byte> points_before_shift_, near_;  // tiles' points and shifted points, if in memory
+  std::vector<std::byte> points_before_shift_, points_;  // tiles' points and shifted points, if in memory
 };
 
 }  // namespace pcl_bv

@@ -12,9 +12,9 @@
 int main(int argc, char** argv) {
   using namespace pcl_bv;
   return run_command("pcd_bv", [&] {
-    const auto asked = parse_options(argc, argv);
-    if (const auto* text = std::get_if<std::string>(&asked)) return print(*text);
-    const auto& options = std::get<Options>(asked);
+    const auto parsed = parse_options(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&parsed)) return print_text(*text);
+    const auto& options = std::get<Options>(parsed);
     const std::vector<Job> jobs = plan_jobs(options);
     if (options.partial) return static_cast<int>(make_partial_file(jobs.front(), options));
     return static_cast<int>(process_all(jobs, options));

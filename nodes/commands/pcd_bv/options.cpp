@@ -31,7 +31,7 @@ constexpr const char* examples = R"(Examples:
 
 Exit status: 0 done; 1 some input could not be processed or an output not written (the
 other inputs are still done); 2 wrong use, or an instruction set that is not usable here;
-3 --check found a point outside. The greater reason wins: 2, 3, 1, 0.
+3 --check found a point outside. If several apply, the first of 2, 3, 1, 0 is returned.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 constexpr Names<OutputFormat, 4> kFormats{{{"text", OutputFormat::text},
@@ -42,7 +42,7 @@ constexpr Names<ViewFrom, 4> kViews{
     {{"iso", ViewFrom::iso}, {"top", ViewFrom::top}, {"front", ViewFrom::front}, {"side", ViewFrom::side}}};
 
 const char* name_of(PcdBvCommand command) {
-  return command == PcdBvCommand::alone ? "pcd_bv" : "pcd_bv_mpi";
+  return command == PcdBvCommand::serial ? "pcd_bv" : "pcd_bv_mpi";
 }
 
 /// The values of the command line as texts, before they are parsed.
@@ -60,12 +60,11 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--topic", texts.topic, "NAME",
               "The topic of recordings, where several have clouds;\nof packets ADDRESS:PORT of a sensor");
   line.option("--origin", texts.origin, "X,Y,Z",
-              "Subtract this, or auto: whole numbers in the middle of each cloud");
+              "Subtract this origin; auto: the centre of each cloud, rounded");
   line.flag("--together", texts.together, "All inputs are parts of one cloud: one result");
-  if (command == PcdBvCommand::alone) {
-    line.option("--partial", texts.partial, "FILE",
-                "Write what merging needs of that cloud instead of volumes");
-    line.option("--part", texts.part, "K/N", "Only of share K (from 0 on) of N, for N processes (0/1)");
+  if (command == PcdBvCommand::serial) {
+    line.option("--partial", texts.partial, "FILE", "Write partial results for --merge instead of volumes");
+    line.option("--part", texts.part, "K/N", "With --partial: only share K of N, K from 0 (0/1)");
     line.flag("--merge", texts.merge, "Inputs are files that --partial wrote, or folders of them");
   }
   line.option("--format", texts.format, "FORMAT", "text, json, jsonl or csv (text)");
@@ -75,13 +74,13 @@ void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
   line.option("--mesh", texts.mesh, "FILE", "Write the volumes as .ply or .vtp; several inputs: a folder");
   line.option("--image", texts.image, "FILE",
               "Draw cloud and volumes as .png or .svg; several inputs: a folder");
-  line.option("--view", texts.view, "NAME", "From where the picture is taken: iso, top, front or side (iso)");
+  line.option("--view", texts.view, "NAME", "Viewpoint of the picture: iso, top, front or side (iso)");
   line.option("--view-html", texts.view_html, "FILE.html",
               "Write a page that shows cloud and volumes; several inputs: a folder");
   line.flag("--check", texts.check, "Verify every volume against every point in exact arithmetic");
-  line.flag("--info", texts.info, "Add what the cloud is like: extent, spacing, bad points, fields");
+  line.flag("--info", texts.info, "Add statistics of the cloud: extent, spacing, invalid points, fields");
   line.flag("--timings", texts.timings, "Add the seconds of each stage");
-  line.flag("--progress", texts.progress, "Show how far it is, where standard error is a terminal");
+  line.flag("--progress", texts.progress, "Show a progress bar if standard error is a terminal");
 }
 
 // An empty name means that the option is absent: the command line rejects empty names.
@@ -167,13 +166,13 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
   const PipelineConfig& config = options.pipeline;
   const char* const option = options.merge ? "--merge" : options.partial ? "--partial" : "--together";
   reject_combinations(line, option, {"--labels"});
-  const auto refuse = [&](bool asked, const char* what) {
-    if (asked) throw UsageError(std::string(option) + ": cannot be combined with " + what);
+  const auto reject = [&](bool given, const char* what) {
+    if (given) throw UsageError(std::string(option) + ": cannot be combined with " + what);
   };
-  refuse(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
-  refuse(config.ground.method != GroundMethod::none, "--ground (ground.method)");
+  reject(config.cluster.tolerance > 0, "--cluster (cluster.tolerance)");
+  reject(config.ground.method != GroundMethod::none, "--ground (ground.method)");
   const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  refuse(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
+  reject(config.cluster.effective_min_size() > 0 || config.cluster.max_size < unlimited,
          "cluster.min_size or max_size");
   if (!options.merge && !options.partial) return;
   reject_combinations(line, option, {"--image", "--view-html", "--check", "--info"});
@@ -183,7 +182,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
                  "--bin-fields", "--topic"});
   if (options.partial) reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
-    refuse(options.origin.asked && !options.origin.at, "--origin auto: each share would have its own");
+    reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
   for (const Method* method : config.methods()) {
     if (!Partial::can_fit(*method))
       throw UsageError(std::string("--volume: ")
@@ -195,7 +194,7 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
 void read_parts(const CommandLine& line, const Texts& texts, Options& options) {
   options.merge = texts.merge;
   options.partial = path_or_none(texts.partial);
-  options.together = texts.together || (options.partial && !options.merge);
+  options.tiled = texts.together || (options.partial && !options.merge);
   if (line.given("--part")) options.share = parse_share(texts.part);
   if (line.given("--part") && !options.partial) throw UsageError("--part: only useful with --partial");
 }
@@ -211,10 +210,10 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
   if (line.given("--bin-fields")) options.bin_fields = parse_bin_fields(texts.bin_fields);
   if (line.given("--origin")) options.origin = parse_origin(texts.origin);
   read_outputs(line, texts, options);
-  options.together = texts.together;
+  options.tiled = texts.together;
   options.threads_given = line.given("--threads");
-  if (command == PcdBvCommand::alone) read_parts(line, texts, options);
-  if (options.together || options.merge) reject_for_tiled_cloud(line, options);
+  if (command == PcdBvCommand::serial) read_parts(line, texts, options);
+  if (options.tiled || options.merge) reject_for_tiled_cloud(line, options);
   return options;
 }
 

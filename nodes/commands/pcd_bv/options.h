@@ -20,7 +20,7 @@ enum class OutputFormat { text, json, jsonl, csv };
 
 /// The origin that is subtracted from all coordinates first.
 struct OriginOption {
-  bool asked = false;
+  bool requested = false;
   std::optional<Eigen::Vector3d> at{};  ///< If not given: the centre of each cloud, in whole numbers.
 };
 
@@ -41,7 +41,7 @@ struct Options {
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image, view_html;
   ViewFrom view = ViewFrom::iso;
-  bool together = false;  ///< All inputs are one cloud; also set by --partial without --merge.
+  bool tiled = false;     ///< All inputs are one cloud; also set by --partial without --merge.
   bool merge = false;     ///< Inputs are files of partial results.
   std::optional<std::filesystem::path> partial;  ///< File for partial results; then no volumes are written.
   ShareOption share;                             ///< The share of points that the partial results cover.
@@ -61,13 +61,13 @@ inline bool writes_files(const Options& options) {
 
 /// The commands that share these options.
 enum class PcdBvCommand {
-  alone,
-  ranks  ///< pcd_bv_mpi, which has no options for files of partial results.
+  serial,
+  mpi  ///< pcd_bv_mpi, which has no options for files of partial results.
 };
 
 /// Parses the command line. Returns the options, or a text to be printed on standard output (--help,
 /// --version, --print-config). Throws UsageError.
 std::variant<Options, std::string> parse_options(int argc, const char* const* argv,
-                                                 PcdBvCommand command = PcdBvCommand::alone);
+                                                 PcdBvCommand command = PcdBvCommand::serial);
 
 }  // namespace pcl_bv

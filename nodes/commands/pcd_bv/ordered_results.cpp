@@ -37,7 +37,7 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
     failed.error = error.what();
   }
   failed.file = outcome.report.file;
-  complain(failed.file + ": " + *failed.error);
+  report_problem(failed.file + ": " + *failed.error);
   result.text.clear();
   result.points = 0;
   result.status = worse(outcome.status, Status::failed);
@@ -46,15 +46,15 @@ Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& 
 }
 
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline, const WriteJobEarly& write) {
-  DeferredMessages complaints;
-  const WriteEarly early = [&](std::string& text) { return write(complaints.kept, text); };
+  DeferredMessages deferred;
+  const WriteEarly early = [&](std::string& text) { return write(deferred.messages, text); };
   Result result = result_of(process(job, options, pipeline), options.format, write ? early : WriteEarly());
-  result.complaints = std::move(complaints.kept);
+  result.messages = std::move(deferred.messages);
   return result;
 }
 
-Progress::Progress(bool asked, std::size_t files)
-    : visible_(asked && errors_go_to_a_terminal()), files_(files) {
+Progress::Progress(bool requested, std::size_t files)
+    : visible_(requested && errors_go_to_a_terminal()), files_(files) {
   show(0, 0);
 }
 
@@ -92,7 +92,7 @@ std::optional<std::size_t> OrderedResults::next() {
   return next_++;
 }
 
-void OrderedResults::take(std::size_t job, Result result) {
+void OrderedResults::add_result(std::size_t job, Result result) {
   const std::lock_guard lock(mutex_);
   waiting_.emplace(job, std::move(result));
   for (auto first = waiting_.begin();
@@ -113,8 +113,8 @@ Status OrderedResults::finish() {
   const std::lock_guard lock(mutex_);
   if (reports_ == Reports::wanted) attempt_to_write([&] { return writer_.finish(); });
   progress_.erase();
-  if (jobs_ > 1 && written_ == jobs_ && reports_ != Reports::unread) say(summary());
-  reports_ = Reports::unread;
+  if (jobs_ > 1 && written_ == jobs_ && reports_ != Reports::no_reader) print_message(summary());
+  reports_ = Reports::no_reader;
   return status_;
 }
 
@@ -124,21 +124,21 @@ void OrderedResults::interrupt() {
   written_one_.wait(lock, [&] { return !partly_written_; });
   progress_.erase();
   if (reports_ == Reports::wanted && written_ > 0) attempt_to_write([&] { return writer_.finish(); });
-  reports_ = Reports::unread;
-  say("interrupted: " + std::to_string(written_) + " of " + std::to_string(jobs_) + " files done");
+  reports_ = Reports::no_reader;
+  print_message("interrupted: " + std::to_string(written_) + " of " + std::to_string(jobs_) + " files done");
 }
 
-bool OrderedResults::write_early(std::size_t job, std::vector<std::string>& complaints, std::string& text) {
+bool OrderedResults::write_early(std::size_t job, std::vector<std::string>& messages, std::string& text) {
   const std::lock_guard lock(mutex_);
   if (job != written_ || (stopped_ && !partly_written_)) return false;
-  say_all(std::exchange(complaints, {}));
+  print_messages(std::exchange(messages, {}));
   write_text(std::exchange(text, {}), std::exchange(partly_written_, true));
   return true;
 }
 
-void OrderedResults::say_all(const std::vector<std::string>& complaints) {
-  for (const std::string& complaint : complaints)
-    say(complaint);
+void OrderedResults::print_messages(const std::vector<std::string>& messages) {
+  for (const std::string& message : messages)
+    print_message(message);
 }
 
 void OrderedResults::write_text(std::string&& text, bool goes_on) {
@@ -148,7 +148,7 @@ void OrderedResults::write_text(std::string&& text, bool goes_on) {
 }
 
 void OrderedResults::write(Result& result) {
-  say_all(result.complaints);
+  print_messages(result.messages);
   write_text(std::move(result.text), std::exchange(partly_written_, false));
   status_ = worse(status_, result.status);
   failed_ += result.status == Status::failed ? 1 : 0;
@@ -161,9 +161,9 @@ void OrderedResults::write(Result& result) {
 template <typename Write>
 void OrderedResults::attempt_to_write(Write&& what) {
   try {
-    if (!what()) reports_ = Reports::unread;
+    if (!what()) reports_ = Reports::no_reader;
   } catch (const IoError& error) {
-    say((options_.output ? options_.output->string() : "standard output") + ": " + error.what());
+    print_message((options_.output ? options_.output->string() : "standard output") + ": " + error.what());
     status_ = worse(status_, Status::failed);
     reports_ = Reports::unwritable;
   }

@@ -24,7 +24,7 @@ namespace pcl_bv {
 struct Result {
   std::string text;             ///< The part that is not written yet.
   bool partly_written = false;  ///< The first part has been written.
-  std::vector<std::string> complaints;
+  std::vector<std::string> messages;
   std::size_t points = 0;
   Status status = Status::done;
 };
@@ -38,14 +38,14 @@ using WriteEarly = std::function<bool(std::string& text)>;
 Result result_of(const Outcome& outcome, OutputFormat format, const WriteEarly& write = {});
 
 /// As WriteEarly and result_of(), for a whole job: do_job() processes it and also returns its messages.
-using WriteJobEarly = std::function<bool(std::vector<std::string>& complaints, std::string& text)>;
+using WriteJobEarly = std::function<bool(std::vector<std::string>& messages, std::string& text)>;
 Result do_job(const Job& job, const Options& options, FramePipeline& pipeline,
               const WriteJobEarly& write = {});
 
 /// A progress bar on standard error. It is shown only if requested and if standard error is a terminal.
 class Progress {
  public:
-  Progress(bool asked, std::size_t files);
+  Progress(bool requested, std::size_t files);
 
   void show(std::size_t files_done, std::size_t points) const;
   void erase() const;
@@ -69,11 +69,11 @@ class OrderedResults {
   std::optional<std::size_t> next();
 
   /// Takes the result of a job and writes all results whose turn it is.
-  void take(std::size_t job, Result result);
+  void add_result(std::size_t job, Result result);
 
   /// If it is the job's turn, prints the messages, writes the text, clears both and returns true; otherwise
   /// returns false. Therefore a report of a million clusters is never whole in memory.
-  bool write_early(std::size_t job, std::vector<std::string>& complaints, std::string& text);
+  bool write_early(std::size_t job, std::vector<std::string>& messages, std::string& text);
 
   /// Makes all workers stop after their current job.
   void stop();
@@ -85,9 +85,9 @@ class OrderedResults {
   void interrupt();
 
  private:
-  enum class Reports { wanted, unread, unwritable };
+  enum class Reports { wanted, no_reader, unwritable };
 
-  void say_all(const std::vector<std::string>& complaints);
+  void print_messages(const std::vector<std::string>& messages);
   void write_text(std::string&& text, bool goes_on);
   void write(Result& result);
   template <typename Write>

@@ -53,7 +53,7 @@ void check(const PointView& cloud, const FrameResult& result, const Options& opt
   const std::size_t methods = result.methods.size();
   outside.assign(result.volumes.size(), 0);
   for (std::size_t i = 0; i < outside.size(); ++i) {
-    if (!result.has(i / methods, i % methods) || !result.results[i].reason.empty()) continue;
+    if (!result.is_requested(i / methods, i % methods) || !result.results[i].reason.empty()) continue;
     outside[i] =
         verify(result.volumes[i], result.points_of(i / methods, cloud), execution_of(options)).outside;
   }
@@ -67,9 +67,9 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
     write();
     return Status::done;
   } catch (const std::bad_alloc&) {
-    complain(path.string() + ": not enough memory");
+    report_problem(path.string() + ": not enough memory");
   } catch (const std::exception& error) {
-    complain(path.string() + ": " + error.what());
+    report_problem(path.string() + ": " + error.what());
   }
   return Status::failed;
 }
@@ -107,30 +107,31 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
   return status;
 }
 
-/// Returns what a user should know before trusting the results.
-std::vector<std::string> remarks(const Frame& frame, const FrameResult& result, const Options& options) {
-  std::vector<std::string> said;
+/// Returns the warnings that a user should read before trusting the results.
+std::vector<std::string> result_warnings(const Frame& frame, const FrameResult& result,
+                                         const Options& options) {
+  std::vector<std::string> warnings;
   const std::string range = range_warning(result, options.range_from);
-  if (!range.empty()) said.push_back(range);
+  if (!range.empty()) warnings.push_back(range);
   for (std::string& warning : FrameWarnings().take(frame, result))
-    said.push_back(with_options(std::move(warning)));
+    warnings.push_back(with_options(std::move(warning)));
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)
     box.merge(aabb(result.volume(id, 0)));
   const std::string coarse = coarse_warning(box, frame.points.scalar);
-  if (!coarse.empty()) said.push_back(coarse);
-  return said;
+  if (!coarse.empty()) warnings.push_back(coarse);
+  return warnings;
 }
 
 Status process(const Job& job, const Options& options, FramePipeline& pipeline, Outcome& outcome) {
   Report& report = outcome.report;
   Stopwatch watch;
-  const ParallelPolicy policy = options.pipeline.policy();
-  const bool told_apart = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
-  LoadedCloud loaded(job, told_apart || job.labels, policy, options.origin);
+  const ParallelPolicy policy = options.pipeline.parallel_policy();
+  const bool segmented = options.clusters() || options.pipeline.ground.method != GroundMethod::none;
+  LoadedCloud loaded(job, segmented || job.labels, policy, options.origin);
   const double read = watch.lap();
-  const std::string note = job.recording ? job.recording->unsaid(job.number) : loaded.cloud().note;
-  if (!note.empty()) complain(job.input + ": " + note);
+  const std::string note = job.recording ? job.recording->new_note(job.number) : loaded.cloud().note;
+  if (!note.empty()) report_problem(job.input + ": " + note);
   Frame frame;
   frame.points = loaded.xyz();
   frame.sensor = sensor_of(loaded.cloud());
@@ -146,12 +147,12 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   FrameResult& result = *found;
   pipeline.process(frame, result);
   outcome.result = found;
-  if (job.tiles) report.parts = job.tiles->used();
+  if (job.tiles) report.parts = job.tiles->included_count();
   report.points = result.points;
   report.counts = result.counts;
   report.origin = loaded.origin();
-  for (const std::string& remark : remarks(frame, result, options))
-    complain(job.input + ": " + remark);
+  for (const std::string& warning : result_warnings(frame, result, options))
+    report_problem(job.input + ": " + warning);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();
     report.info = CloudInfo{cloud_statistics(loaded.xyz(), policy), cloud.width, cloud.height, cloud.fields};
@@ -171,20 +172,20 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
   if (options.progress && errors_go_to_a_terminal()) {
     job.tiles->on_loaded = [watch, &tiles = *job.tiles](std::size_t points) {
       char text[120];
-      std::snprintf(text, sizeof text, "%zu files, %.1f M points read in all passes, %.1f s", tiles.used(),
-                    static_cast<double>(points) / 1e6, watch.seconds());
+      std::snprintf(text, sizeof text, "%zu files, %.1f M points read in all passes, %.1f s",
+                    tiles.included_count(), static_cast<double>(points) / 1e6, watch.seconds());
       show_status_line(text);
     };
   }
   Status status = report_excluded_inputs(*job.tiles);
   for (;;) {
-    if (job.tiles->used() == 0) throw IoError("none of the inputs could be read");
+    if (job.tiles->included_count() == 0) throw IoError("none of the inputs could be read");
     try {
       status = worse(status, process(job, options, pipeline, outcome));
       report_notes(*job.tiles);
       return status;
     } catch (const TileError& error) {
-      complain(job.tiles->jobs()[error.tile()].input + ": " + error.what());
+      report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
       job.tiles->exclude(error.tile(), error.what());
       status = Status::failed;
     }
@@ -196,7 +197,7 @@ Status process_partials(const Job& job, const Options& options, Report& report) 
   Stopwatch watch;
   const std::optional<PartialFile> all = merge_files(job.partials);
   if (!all) {  // each file that cannot be merged has been reported
-    report.error = "not all of the partial results can be merged";
+    report.error = "some partial results cannot be merged";
     return Status::failed;
   }
   if (!all->is_whole()) throw IoError("shares are missing: " + all->missing());
@@ -231,7 +232,7 @@ ClusterSource Outcome::clusters() const {
             entry = made.at(id);
             std::size_t n = 0;
             for (std::size_t m = 0; m < methods; ++m) {
-              if (!result->has(id, m)) continue;
+              if (!result->is_requested(id, m)) continue;
               VolumeEntry& volume = entry.volumes[n++];
               if (volume.failed.empty()) volume.outside = outside[id * methods + m];
             }
@@ -257,9 +258,9 @@ Status report_failures(const std::string& file, const ClusterSource& clusters) {
   for (std::size_t i = 0; i < clusters.count; ++i) {
     const ClusterEntry& cluster = clusters.at(i);
     const auto object = [&](const VolumeEntry& entry, Status what, const std::string& problem) {
-      std::string said = file + ": cluster " + std::to_string(cluster.id) + ": ";
-      said.append(entry.method).append(": ").append(problem);
-      complain(said);
+      std::string line = file + ": cluster " + std::to_string(cluster.id) + ": ";
+      line.append(entry.method).append(": ").append(problem);
+      report_problem(line);
       status = worse(status, what);
     };
     for (const VolumeEntry& entry : cluster.volumes) {
@@ -286,11 +287,11 @@ std::string coarse_warning(const Aabb& box, ScalarType scalar) {
   const bool coarse =
       scalar == ScalarType::float32 && step >= 0.01 && farthest > 4 * (box.max() - box.min()).norm();
   if (!coarse) return {};
-  char text[200];
+  char text[250];
   std::snprintf(
       text, sizeof text,
-      "float32 coordinates of %.3g have steps of %.2g, and shapes are no better: record float64 (then "
-      "--origin auto) or subtract an origin before",
+      "float32 coordinates near %.3g have a resolution of %.2g, which limits the accuracy of the volumes: "
+      "record float64 (then --origin auto) or subtract an origin before recording",
       farthest, step);
   return text;
 }
@@ -310,7 +311,7 @@ Outcome process(const Job& job, const Options& options, FramePipeline& pipeline)
   } catch (const std::exception& error) {
     outcome.report.error = error.what();
   }
-  complain(job.input + ": " + *outcome.report.error);
+  report_problem(job.input + ": " + *outcome.report.error);
   outcome.status = Status::failed;
   return outcome;
 }

@@ -27,10 +27,8 @@ void work(const std::vector<Job>& jobs, const Options& options, OrderedResults& 
   try {
     FramePipeline pipeline(options.pipeline);
     while (const auto job = order.next()) {
-      const auto early = [&](auto& complaints, auto& text) {
-        return order.write_early(*job, complaints, text);
-      };
-      order.take(*job, do_job(jobs[*job], options, pipeline, early));
+      const auto early = [&](auto& messages, auto& text) { return order.write_early(*job, messages, text); };
+      order.add_result(*job, do_job(jobs[*job], options, pipeline, early));
     }
   } catch (...) {
     order.stop();
@@ -41,7 +39,7 @@ void work(const std::vector<Job>& jobs, const Options& options, OrderedResults& 
 }  // namespace
 
 Status process_all(const std::vector<Job>& jobs, const Options& options) {
-  const ParallelPolicy policy = options.pipeline.policy();
+  const ParallelPolicy policy = options.pipeline.parallel_policy();
   const unsigned threads = thread_count(policy);
   const unsigned workers = jobs.size() >= threads ? threads : 1;
   Options each = options;

@@ -44,7 +44,7 @@ std::string name_without_folders(const Job& job) {
 }  // namespace
 
 Execution execution_of(const Options& options) {
-  return {options.pipeline.policy(), parse_isa(options.pipeline.isa)};
+  return {options.pipeline.parallel_policy(), parse_isa(options.pipeline.isa)};
 }
 
 SharePoints::SharePoints(const Tiles& tiles, const PointRange& range,
@@ -88,7 +88,7 @@ std::optional<PartialFile> merge_files(const std::vector<std::string>& files) {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      complain(name + ": " + error.what());
+      report_problem(name + ": " + error.what());
       failed = true;
     }
   }
@@ -108,19 +108,19 @@ Report report_of(const PartialFile& whole, const std::vector<const Method*>& met
   return report;
 }
 
-void set_volume(std::size_t place, const EstimationResult& result, AnyVolume volume, Report& report) {
+void set_volume(std::size_t index, const EstimationResult& result, AnyVolume volume, Report& report) {
   ClusterEntry& all = report.clusters.front();
   all.points = result.used;
   report.counts.nonfinite = result.dropped - report.counts.range - report.counts.inside;
-  all.volumes[place].volume = std::move(volume);
-  all.volumes[place].failed = result.reason;
+  all.volumes[index].volume = std::move(volume);
+  all.volumes[index].failed = result.reason;
 }
 
 Status report_excluded_inputs(const Tiles& tiles) {
   Status status = Status::done;
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     if (!tiles.header(i).error) continue;
-    complain(tiles.jobs()[i].input + ": " + *tiles.header(i).error);
+    report_problem(tiles.jobs()[i].input + ": " + *tiles.header(i).error);
     status = Status::failed;
   }
   return status;
@@ -129,18 +129,18 @@ Status report_excluded_inputs(const Tiles& tiles) {
 void report_notes(const Tiles& tiles) {
   for (std::size_t i = 0; i < tiles.jobs().size(); ++i) {
     const std::string note = tiles.note(i);
-    if (!tiles.header(i).error && !note.empty()) complain(tiles.jobs()[i].input + ": " + note);
+    if (!tiles.header(i).error && !note.empty()) report_problem(tiles.jobs()[i].input + ": " + note);
   }
 }
 
 namespace {
 
-Status write_or_say_why(const std::filesystem::path& path, const PartialFile& file) {
+Status write_or_report(const std::filesystem::path& path, const PartialFile& file) {
   try {
     write_partial_file(path, file);
     return Status::done;
   } catch (const IoError& error) {
-    complain(path.string() + ": " + error.what());
+    report_problem(path.string() + ": " + error.what());
     return Status::failed;
   }
 }
@@ -151,7 +151,7 @@ Status make_partial_file(const Job& job, const Options& options) {
   const Interruption interruption([] {});
   if (!job.partials.empty()) {
     const std::optional<PartialFile> merged = merge_files(job.partials);
-    return merged ? write_or_say_why(*options.partial, *merged) : Status::failed;
+    return merged ? write_or_report(*options.partial, *merged) : Status::failed;
   }
   // A share without one of the inputs would belong to another cloud.
   if (report_excluded_inputs(*job.tiles) != Status::done) return Status::failed;
@@ -164,10 +164,10 @@ Status make_partial_file(const Job& job, const Options& options) {
     job.tiles->require_unchanged();
     report_notes(*job.tiles);
   } catch (const TileError& error) {
-    complain(job.tiles->jobs()[error.tile()].input + ": " + error.what());
+    report_problem(job.tiles->jobs()[error.tile()].input + ": " + error.what());
     return Status::failed;
   }
-  return write_or_say_why(*options.partial, file);
+  return write_or_report(*options.partial, file);
 }
 
 }  // namespace pcl_bv

@@ -54,8 +54,8 @@ std::optional<PartialFile> merge_files(const std::vector<std::string>& files);
 /// Returns a report of the whole cloud with an empty entry for the volume of each method.
 Report report_of(const PartialFile& whole, const std::vector<const Method*>& methods);
 
-/// Sets entry `place` of the report to the result of a fit. The counts are equal for all methods.
-void set_volume(std::size_t place, const EstimationResult& result, AnyVolume volume, Report& report);
+/// Sets entry `index` of the report to the result of a fit. The counts are equal for all methods.
+void set_volume(std::size_t index, const EstimationResult& result, AnyVolume volume, Report& report);
 
 /// Writes the file of --partial, from inputs or from files of partial results.
 Status make_partial_file(const Job& job, const Options& options);

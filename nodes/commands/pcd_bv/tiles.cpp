@@ -17,7 +17,7 @@ namespace pcl_bv {
 namespace {
 
 // Points between two calls of on_loaded.
-constexpr std::size_t kMaxGrowth = std::size_t{1} << 22;
+constexpr std::size_t kPointsPerReport = std::size_t{1} << 22;
 
 bool is_file(const Job& job) {
   return !job.recording && !is_synth(job.input);
@@ -37,7 +37,7 @@ auto of_tile(std::size_t tile, const Work& work) {
 
 }  // namespace
 
-struct Tiles::Opened {
+struct Tiles::OpenTile {
   std::unique_ptr<CloudFile> file;
   RawCloud cloud;  // used if `file` is null
   PointView xyz;
@@ -47,7 +47,7 @@ struct Tiles::Slot {
   explicit Slot(std::size_t number) : tile(number) {}
   const std::size_t tile;
   std::mutex mutex;
-  std::shared_ptr<const Opened> opened;  // set by the first thread that needs it, while others wait
+  std::shared_ptr<const OpenTile> opened;  // set by the first thread that needs it, while others wait
 };
 
 TileHeader describe_tile(const Job& job) {
@@ -74,7 +74,7 @@ TileHeader describe_tile(const Job& job) {
 Tiles::Tiles(std::vector<Job> jobs, std::vector<TileHeader> headers, std::size_t threads)
     : jobs_(std::move(jobs)),
       headers_(std::move(headers)),
-      most_open_(threads + 1),
+      max_open_(threads + 1),
       identities_(jobs_.size()),
       notes_(jobs_.size()) {
   number_points();
@@ -89,7 +89,7 @@ void Tiles::number_points() {
   }
 }
 
-std::size_t Tiles::used() const {
+std::size_t Tiles::included_count() const {
   return static_cast<std::size_t>(
       std::count_if(headers_.begin(), headers_.end(), [](const TileHeader& h) { return !h.error; }));
 }
@@ -132,9 +132,9 @@ Tiles::Identity Tiles::identity_of(std::size_t tile) const {
           static_cast<long long>(status.st_ino)};
 }
 
-Tiles::Opened Tiles::open_now(std::size_t tile) const {
+Tiles::OpenTile Tiles::open_now(std::size_t tile) const {
   const Job& job = jobs_[tile];
-  Opened opened;
+  OpenTile opened;
   const Identity identity = identity_of(tile);
   if (headers_[tile].random_access) opened.file = CloudFile::open(job.input, job.bin_fields);
   if (!opened.file) opened.cloud = load_cloud(job, Serial{});
@@ -148,7 +148,7 @@ Tiles::Opened Tiles::open_now(std::size_t tile) const {
   return opened;
 }
 
-std::shared_ptr<const Tiles::Opened> Tiles::open(std::size_t tile) const {
+std::shared_ptr<const Tiles::OpenTile> Tiles::open(std::size_t tile) const {
   std::shared_ptr<Slot> slot;
   {
     const std::lock_guard lock(mutex_);
@@ -159,16 +159,16 @@ std::shared_ptr<const Tiles::Opened> Tiles::open(std::size_t tile) const {
     } else {
       open_.push_front(std::make_shared<Slot>(tile));
     }
-    if (open_.size() > most_open_) open_.pop_back();
+    if (open_.size() > max_open_) open_.pop_back();
     slot = open_.front();
   }
   const std::lock_guard lock(slot->mutex);
-  if (slot->opened == nullptr) slot->opened = std::make_shared<const Opened>(open_now(tile));
+  if (slot->opened == nullptr) slot->opened = std::make_shared<const OpenTile>(open_now(tile));
   return slot->opened;
 }
 
 void Tiles::copy(std::size_t tile, std::size_t first, std::size_t count, std::byte* to) const {
-  const std::shared_ptr<const Opened> opened = open(tile);
+  const std::shared_ptr<const OpenTile> opened = open(tile);
   const LoadedPoints part(opened->xyz, first, count);
   copy_points(part.view(), scalar_, to);
 }
@@ -202,7 +202,8 @@ PointView Tiles::load(std::size_t first, std::size_t count, std::vector<std::byt
 
 void Tiles::count_loaded(std::size_t points) const {
   const std::size_t before = loaded_.fetch_add(points, std::memory_order_relaxed);
-  if (on_loaded && before / kMaxGrowth != (before + points) / kMaxGrowth) on_loaded(before + points);
+  if (on_loaded && before / kPointsPerReport != (before + points) / kPointsPerReport)
+    on_loaded(before + points);
 }
 
 void Tiles::require_unchanged() const {

@@ -62,7 +62,7 @@ class Tiles final : public PointSource {
   const TileHeader& header(std::size_t tile) const { return headers_[tile]; }
 
   /// Returns the number of inputs that are not excluded.
-  std::size_t used() const;
+  std::size_t included_count() const;
 
   /// Returns the warnings about an input so far, as in RawCloud::note.
   std::string note(std::size_t tile) const;
@@ -84,7 +84,7 @@ class Tiles final : public PointSource {
   std::function<void(std::size_t points)> on_loaded;
 
  private:
-  struct Opened;
+  struct OpenTile;
   struct Slot;
   struct Identity {
     long long size = -1, modified = 0, changed = 0, number = 0;
@@ -94,8 +94,8 @@ class Tiles final : public PointSource {
   void number_points();
   std::size_t tile_of(std::size_t point) const;
   std::size_t share_begin(std::size_t number, std::size_t shares) const;
-  std::shared_ptr<const Opened> open(std::size_t tile) const;
-  Opened open_now(std::size_t tile) const;
+  std::shared_ptr<const OpenTile> open(std::size_t tile) const;
+  OpenTile open_now(std::size_t tile) const;
   Identity identity_of(std::size_t tile) const;
   void copy(std::size_t tile, std::size_t first, std::size_t count, std::byte* to) const;
   void count_loaded(std::size_t points) const;
@@ -104,7 +104,7 @@ class Tiles final : public PointSource {
   std::vector<TileHeader> headers_;
   std::vector<std::size_t> offsets_;  // first point of each input, then the number of all points
   ScalarType scalar_ = ScalarType::float32;
-  std::size_t most_open_;
+  std::size_t max_open_;
 
   mutable std::mutex mutex_;
   mutable std::list<std::shared_ptr<Slot>> open_;  // most recently used first

@@ -43,7 +43,7 @@ std::vector<std::string> last_first(const CLI::App& app, int argc, const char* c
 }
 
 // Rejects "--loop --track": the value is missing, and CLI11 would take the next option as the value.
-void refuse_options_as_values(const CLI::App& app, int argc, const char* const* argv) {
+void reject_options_as_values(const CLI::App& app, int argc, const char* const* argv) {
   const auto option_of = [&](std::string_view argument) -> const CLI::Option* {
     return argument.starts_with("--") && argument.size() > 2 ? app.get_option_no_throw(std::string(argument))
                                                              : nullptr;
@@ -58,7 +58,7 @@ void refuse_options_as_values(const CLI::App& app, int argc, const char* const* 
   }
 }
 
-void refuse_empty_values(const CLI::App& app) {
+void reject_empty_values(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     const std::vector<std::string>& values = option->results();
     if (option->get_positional() || std::find(values.begin(), values.end(), "") == values.end()) continue;
@@ -103,9 +103,9 @@ void CommandLine::flag(const char* name, bool& value, const std::string& help) {
 
 std::optional<std::string> CommandLine::parse(int argc, const char* const* argv) {
   try {
-    refuse_options_as_values(*app_, argc, argv);
+    reject_options_as_values(*app_, argc, argv);
     app_->parse(last_first(*app_, argc, argv));
-    refuse_empty_values(*app_);
+    reject_empty_values(*app_);
   } catch (const CLI::CallForHelp&) {
     return app_->help();
   } catch (const CLI::ParseError& error) {

@@ -18,7 +18,7 @@ namespace pcl_bv {
 namespace {
 
 // The signal that ends the watching thread.
-int farewell() {
+int stop_signal() {
   return SIGRTMIN;
 }
 
@@ -37,7 +37,7 @@ bool is_ignored(int signal) {
 
 void Interruption::start() {
   sigemptyset(&handled_signals_);
-  sigaddset(&handled_signals_, farewell());
+  sigaddset(&handled_signals_, stop_signal());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     if (!is_ignored(signal)) sigaddset(&handled_signals_, signal);
   }
@@ -46,7 +46,7 @@ void Interruption::start() {
 }
 
 Interruption::~Interruption() {
-  pthread_kill(watcher_.native_handle(), farewell());
+  pthread_kill(watcher_.native_handle(), stop_signal());
   watcher_.join();
   pthread_sigmask(SIG_SETMASK, &previous_mask_, nullptr);
 }
@@ -54,12 +54,12 @@ Interruption::~Interruption() {
 void Interruption::watch() const {
   int signal = 0;
   sigwait(&handled_signals_, &signal);
-  if (signal == farewell()) return;
+  if (signal == stop_signal()) return;
   stop_flag_ != nullptr ? void(*stop_flag_ = true) : start_finishing(signal);
   do {
     sigwait(&handled_signals_, &signal);
-    if (signal == farewell() && stop_flag_ != nullptr) return;
-  } while (signal == farewell());  // start_finishing() ends the process
+    if (signal == stop_signal() && stop_flag_ != nullptr) return;
+  } while (signal == stop_signal());  // start_finishing() ends the process
   end_with(signal);
 }
 

@@ -17,10 +17,10 @@ namespace {
 
 std::mutex mutex;
 std::string command;
-std::string shown;  // the status line, if there is one
+std::string status_line;  // empty: none is shown
 thread_local DeferredMessages* holder = nullptr;
 
-// Errors are ignored, since there is no other place to report them.
+// Errors are ignored, since they cannot be reported elsewhere.
 void write_error(std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = ::write(STDERR_FILENO, text.data(), text.size());
@@ -31,7 +31,7 @@ void write_error(std::string_view text) {
 
 // Overwrites the line with spaces, which works on terminals of every kind.
 std::string erasure() {
-  return shown.empty() ? "" : '\r' + std::string(shown.size(), ' ') + '\r';
+  return status_line.empty() ? "" : '\r' + std::string(status_line.size(), ' ') + '\r';
 }
 
 std::size_t terminal_width() {
@@ -45,21 +45,21 @@ void name_command(std::string_view name) {
   command = name;
 }
 
-void say(std::string_view text) {
+void print_message(std::string_view text) {
   std::string line = (command + ": ").append(text);
   std::replace_if(
       line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
   const std::lock_guard lock(mutex);
-  write_error(erasure() + line + '\n' + shown);
+  write_error(erasure() + line + '\n' + status_line);
 }
 
-void complain(std::string_view problem) {
-  holder != nullptr ? void(holder->kept.emplace_back(problem)) : say(problem);
+void report_problem(std::string_view problem) {
+  holder != nullptr ? void(holder->messages.emplace_back(problem)) : print_message(problem);
 }
 
 void warn_of_subfolders(const std::string& folder, std::size_t subfolders) {
-  if (subfolders == 1) complain(folder + ": 1 subfolder is not read");
-  if (subfolders > 1) complain(folder + ": " + std::to_string(subfolders) + " subfolders are not read");
+  if (subfolders == 1) report_problem(folder + ": 1 subfolder is not read");
+  if (subfolders > 1) report_problem(folder + ": " + std::to_string(subfolders) + " subfolders are not read");
 }
 
 DeferredMessages::DeferredMessages() {
@@ -77,14 +77,15 @@ bool errors_go_to_a_terminal() {
 void show_status_line(std::string_view line) {
   const std::lock_guard lock(mutex);
   const std::string before = erasure();
-  shown = line.substr(0, terminal_width() - 1);  // some terminals begin a new line after the last column
-  write_error(before + shown);
+  // Some terminals begin a new line after the last column.
+  status_line = line.substr(0, terminal_width() - 1);
+  write_error(before + status_line);
 }
 
 void erase_status_line() {
   const std::lock_guard lock(mutex);
   write_error(erasure());
-  shown.clear();
+  status_line.clear();
 }
 
 }  // namespace pcl_bv

@@ -15,16 +15,16 @@ void name_command(std::string_view command);
 
 /// Prints one line on standard error: "<command>: text". Lines of several threads do not mix. Control
 /// characters become question marks, so that a file name can neither break the line nor control a terminal.
-void say(std::string_view text);
+void print_message(std::string_view text);
 
-/// Prints a problem as say() does, or stores it while the thread has a DeferredMessages.
-void complain(std::string_view problem);
+/// Prints a problem as print_message() does, or stores it while the thread has a DeferredMessages.
+void report_problem(std::string_view problem);
 
 /// Warns that subfolders of a folder are not read, if there are any.
 void warn_of_subfolders(const std::string& folder, std::size_t subfolders);
 
-/// While this object lives, complaints of its thread are stored in `kept`, to be printed later. Must not be
-/// nested.
+/// While this object lives, the problems that its thread reports are stored in `messages`, to be printed
+/// later. Must not be nested.
 class DeferredMessages {
  public:
   DeferredMessages();
@@ -32,7 +32,7 @@ class DeferredMessages {
   DeferredMessages(const DeferredMessages&) = delete;
   DeferredMessages& operator=(const DeferredMessages&) = delete;
 
-  std::vector<std::string> kept;
+  std::vector<std::string> messages;
 };
 
 /// Whether standard error is a terminal.

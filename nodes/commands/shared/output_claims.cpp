@@ -32,13 +32,13 @@ void OutputClaims::add_input(const fs::path& file) {
   inputs_.insert(identity(file));
 }
 
-void OutputClaims::refuse_input(const fs::path& output) const {
+void OutputClaims::reject_input(const fs::path& output) const {
   if (inputs_.count(identity(output)) > 0)
     throw UsageError(output.string() + ": is an input and would be overwritten");
 }
 
 void OutputClaims::claim(const fs::path& output) {
-  refuse_input(output);
+  reject_input(output);
   const fs::path file = identity(output);
   if (!taken_.insert(file).second && !is_device(file)) {
     throw UsageError(output.string() + ": more than one result would be written to this file");

@@ -18,7 +18,7 @@ class OutputClaims {
   void add_input(const std::filesystem::path& file);
 
   /// Throws UsageError if the file or folder is an input.
-  void refuse_input(const std::filesystem::path& output) const;
+  void reject_input(const std::filesystem::path& output) const;
 
   /// Registers an output. Throws UsageError if it is an input, or if it is already registered and no device.
   void claim(const std::filesystem::path& output);

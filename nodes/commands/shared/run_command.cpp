@@ -20,19 +20,19 @@ int run_command(std::string_view command, const std::function<int()>& work) {
   try {
     return work();
   } catch (const UsageError& error) {
-    complain(error.what());
+    report_problem(error.what());
     return 2;
   } catch (const IoError& error) {
-    complain(error.what());
+    report_problem(error.what());
   } catch (const std::bad_alloc&) {
-    complain("not enough memory");
+    report_problem("not enough memory");
   } catch (const std::exception& error) {
-    complain(std::string("internal error: ") + error.what());
+    report_problem(std::string("internal error: ") + error.what());
   }
   return 1;
 }
 
-int print(std::string_view text) {
+int print_text(std::string_view text) {
   try {
     write_standard_output(text);
     return 0;

@@ -15,6 +15,6 @@ int run_command(std::string_view command, const std::function<int()>& work);
 
 /// Prints a text on standard output. Returns 0, also if nobody reads it. Throws IoError, naming standard
 /// output, if it cannot be written.
-int print(std::string_view text);
+int print_text(std::string_view text);
 
 }  // namespace pcl_bv

@@ -76,7 +76,7 @@ std::string with_options(std::string text) {
 
 SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, bool stream)
     : line_(line), defaults_(defaults), stream_(stream) {
-  line.option("--preset", preset_, "NAME", "Settings to begin with: road, indoor or table");
+  line.option("--preset", preset_, "NAME", "Preset of settings: road, indoor or table");
   line.option("--config", file_, "FILE.yaml", "Settings; options override them");
   line.flag("--print-config", print_config_, "Print the settings that would be used, as such a file");
   const FilterConfig& filter = defaults.pipeline.filter;
@@ -85,16 +85,17 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
                   to_text(filter.range_max) + ")");
   line.option("--drop-inside", dropped_, "FILE.json",
               "Drop points inside the volumes of this result; repeatable");
-  line.option("--keep-inside", cropped_, "FILE.json", "Drop points outside of all its volumes; repeatable");
-  line.option("--padding", padding_, "M", "Grow those volumes by this in every direction (0)");
+  line.option("--keep-inside", cropped_, "FILE.json",
+              "Drop points outside all volumes of this result; repeatable");
+  line.option("--padding", padding_, "M", "Inflate the volumes of --drop-inside, --keep-inside by this (0)");
   const auto declare = [&](const Setting& setting, const auto& value) {
     if (!has_option(setting, stream_)) return;
-    const std::string about(setting.about);
+    const std::string help(setting.help);
     if constexpr (std::is_same_v<decltype(value), const bool&>) {
-      line.flag(setting.option.data(), flags_[setting.option], about);
+      line.flag(setting.option.data(), flags_[setting.option], help);
     } else {
       line.option(setting.option.data(), texts_[setting.option], setting.placeholder.data(),
-                  about + " (" + shown_default(setting, to_text(value)) + ")");
+                  help + " (" + shown_default(setting, to_text(value)) + ")");
     }
   };
   visit_stream(defaults, declare);
@@ -129,18 +130,18 @@ void SettingOptions::apply(StreamConfig& config) const {
 }
 
 void SettingOptions::reject_useless(const PipelineConfig& config) const {
-  const auto refuse = [&](const char* option, bool useful, const char* needed) {
+  const auto reject = [&](const char* option, bool useful, const char* needed) {
     if (line_.given(option) && !useful)
       throw UsageError(std::string(option) + ": only useful with " + needed);
   };
   const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
-  refuse("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
+  reject("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
   for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized", "--class"})
-    refuse(option, clusters, "--cluster");
-  refuse("--sensor", config.ground.method == GroundMethod::zones, "--ground zones");
+    reject(option, clusters, "--cluster");
+  reject("--sensor", config.ground.method == GroundMethod::zones, "--ground zones");
   for (const char* option : {"--sensor-height", "--ground-distance", "--ground-slope"})
-    refuse(option, ground, "--ground");
+    reject(option, ground, "--ground");
 }
 
 StreamConfig SettingOptions::config(std::string* range_from) const {
@@ -163,7 +164,7 @@ StreamConfig SettingOptions::config(std::string* range_from) const {
   const std::vector<std::string> problems = config.validate();
   if (!problems.empty()) throw UsageError(problems.front());
   for (const std::string& line : config.pipeline.ineffective_settings())
-    complain(with_options(line));
+    report_problem(with_options(line));
   return config;
 }
 

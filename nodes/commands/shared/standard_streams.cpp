@@ -23,8 +23,8 @@ void prepare_standard_streams() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
     // Opened in the wrong direction: writing to a closed standard output must fail.
-    const int way = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
-    if (open("/dev/null", way) != descriptor) _exit(EXIT_FAILURE);
+    const int mode = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (open("/dev/null", mode) != descriptor) _exit(EXIT_FAILURE);
   }
 }
 

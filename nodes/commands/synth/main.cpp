@@ -109,13 +109,13 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
 }
 
 int run(int argc, char** argv) {
-  CommandLine line("synth", "Generated point clouds with known answers, as .pcd files.", footer());
+  CommandLine line("synth", "Synthetic point clouds with ground truth, as .pcd files.", footer());
   std::string scene, output;
   line.option(
       "SCENE", scene, "",
       "NAME[:POINTS[:SEED]], street-sequence[:FRAMES[:SEED]] or\nverges-sequence[-BEAMS][:FRAMES[:SEED]]");
   line.option("OUT", output, "", "The .pcd file or, for a sequence, the folder");
-  if (const auto text = line.parse(argc, argv)) return print(*text);
+  if (const auto text = line.parse(argc, argv)) return print_text(*text);
   if (!line.given("OUT")) throw UsageError("no SCENE or no OUT; synth --help lists the options");
   const Interruption interruption([] {});
   try {

@@ -54,7 +54,7 @@ class Carrier final : public MessageSender {
     return topics_.size() - 1;
   }
 
-  bool wanted(std::size_t topic) const override {
+  bool has_subscribers(std::size_t topic) const override {
     dds_publication_matched_status_t matched{};
     return dds_get_publication_matched_status(topics_.at(topic).writer.get(), &matched) >= 0 &&
            matched.current_count > 0;

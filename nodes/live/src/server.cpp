@@ -94,12 +94,12 @@ std::size_t Server::add_topic(const MessageTopic& topic) {
   return channels_.size() - 1;
 }
 
-bool Server::wanted(std::size_t topic) const {
+bool Server::has_subscribers(std::size_t topic) const {
   return channels_.at(topic)->readers > 0;
 }
 
 void Server::send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) {
-  if (!wanted(topic)) return;
+  if (!has_subscribers(topic)) return;
   if (waiting_bytes_ > 0 && waiting_bytes_ + message.size() > Viewer::kMaxQueuedBytes) {
     ++lost_;
     return;
@@ -114,15 +114,15 @@ void Server::send(std::size_t topic, std::int64_t stamp_ns, const std::vector<st
   });
 }
 
-void Server::settings(const std::string&, std::int64_t) {
+void Server::announce_settings(const std::string&, std::int64_t) {
   post_to_server_thread([this] { hub_.send_settings(); });
 }
 
-void Server::offer(const std::shared_ptr<RemoteSettings>& settings) {
+void Server::offer_settings(const std::shared_ptr<RemoteSettings>& settings) {
   post_to_server_thread([this, settings] { hub_.offer(settings); });
 }
 
-void Server::notice(const std::string& line) {
+void Server::notify(const std::string& line) {
   post_to_server_thread([this, line] { hub_.notice(line); });
 }
 

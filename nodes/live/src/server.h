@@ -29,11 +29,11 @@ class Server final : public MessageSender {
   Server& operator=(const Server&) = delete;
 
   std::size_t add_topic(const MessageTopic& topic) override;
-  bool wanted(std::size_t topic) const override;
+  bool has_subscribers(std::size_t topic) const override;
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) override;
-  void settings(const std::string& yaml, std::int64_t stamp_ns) override;
-  void offer(const std::shared_ptr<RemoteSettings>& settings) override;
-  void notice(const std::string& line) override;
+  void announce_settings(const std::string& yaml, std::int64_t stamp_ns) override;
+  void offer_settings(const std::shared_ptr<RemoteSettings>& settings) override;
+  void notify(const std::string& line) override;
   std::vector<std::string> take_warnings() override;
   void close() override;
 

@@ -56,9 +56,9 @@ void append(const std::string& text, std::string& to) {
 
 std::string to_message(std::size_t job, const Result& result) {
   std::string message = std::to_string(job) + ' ' + std::to_string(static_cast<int>(result.status)) + ' ' +
-                        std::to_string(result.points) + ' ' + std::to_string(result.complaints.size()) + ' ';
+                        std::to_string(result.points) + ' ' + std::to_string(result.messages.size()) + ' ';
   append(result.text, message);
-  for (const std::string& complaint : result.complaints)
+  for (const std::string& complaint : result.messages)
     append(complaint, message);
   return message;
 }
@@ -81,8 +81,8 @@ void take(const std::string& message, OrderedResults& order) {
   result.status = static_cast<Status>(status);
   result.text = read_text(in);
   for (std::size_t i = 0; i < complaints; ++i)
-    result.complaints.push_back(read_text(in));
-  order.take(job, std::move(result));
+    result.messages.push_back(read_text(in));
+  order.add_result(job, std::move(result));
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& o
   };
   for (std::size_t job = 0; job < jobs.size(); ++job) {
     if (owners[job] != 0) continue;
-    order.take(job, do_job(jobs[job], options, pipeline));
+    order.add_result(job, do_job(jobs[job], options, pipeline));
     receive(false);
   }
   receive(true);

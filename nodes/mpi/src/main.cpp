@@ -33,20 +33,20 @@ bool run_on_all_ranks(Ranks& ranks, const std::function<void()>& work) {
       problem = error.what();
     }
     if (ranks.first()) {
-      for (const std::string& complaint : held.kept)
-        say(complaint);
+      for (const std::string& complaint : held.messages)
+        print_message(complaint);
     }
   }
   for (const std::string& each : ranks.all(problem)) {
     if (each.empty()) continue;
-    if (ranks.first()) complain(each);
+    if (ranks.first()) report_problem(each);
     return false;
   }
   return true;
 }
 
 void check_options_for_ranks(const Options& options) {
-  if (options.together && (options.image || options.view_html || options.info))
+  if (options.tiled && (options.image || options.view_html || options.info))
     throw UsageError("--together: cannot be combined with --image, --view-html or --info over ranks");
 }
 
@@ -68,13 +68,13 @@ Status process_merged(Ranks& ranks, const Job& job, const Options& options, Inte
   }
   if (!ranks.first()) return Status::done;
   if (outcome.report.error) {
-    complain(job.input + ": " + *outcome.report.error);
+    report_problem(job.input + ": " + *outcome.report.error);
   } else {
     outcome.status = worse(outcome.status, write_mesh(job, outcome.report.clusters));
   }
   OrderedResults order(options, 1, 1);
   interrupted.set([&] { order.interrupt(); });
-  order.take(0, result_of(outcome, options.format));
+  order.add_result(0, result_of(outcome, options.format));
   const Status status = order.finish();
   interrupted.set(nullptr);
   return status;
@@ -84,26 +84,26 @@ int run(Ranks& ranks, int argc, char** argv, InterruptAction& interrupted) {
   std::variant<Options, std::string> asked;
   std::vector<Job> inputs, jobs;
   const bool understood = run_on_all_ranks(ranks, [&] {
-    asked = parse_options(argc, argv, PcdBvCommand::ranks);
+    asked = parse_options(argc, argv, PcdBvCommand::mpi);
     const auto* const options = std::get_if<Options>(&asked);
     if (options == nullptr) return;
     check_options_for_ranks(*options);
     inputs = list_inputs(*options);
   });
   if (!understood) return static_cast<int>(Status::misuse);
-  if (const auto* text = std::get_if<std::string>(&asked)) return ranks.first() ? print(*text) : 0;
+  if (const auto* text = std::get_if<std::string>(&asked)) return ranks.first() ? print_text(*text) : 0;
   Options options = std::get<Options>(asked);
   if (!options.threads_given) options.pipeline.threads = 1;  // usually there is one rank per processor
   if (ranks.broadcast(names_of(inputs)) != names_of(inputs))
     throw IoError("sees other inputs than rank 0: all ranks need the same files at the same paths");
   std::shared_ptr<Tiles> tiles;
-  if (options.together)
+  if (options.tiled)
     tiles = std::make_shared<Tiles>(inputs, describe_tiles(ranks, inputs),
-                                    thread_count(options.pipeline.policy()));
+                                    thread_count(options.pipeline.parallel_policy()));
   if (!run_on_all_ranks(ranks, [&] { jobs = plan_jobs(options, std::move(inputs), tiles); }))
     return static_cast<int>(Status::misuse);
-  const Status status = options.together ? process_merged(ranks, jobs.front(), options, interrupted)
-                                         : process_jobs(ranks, jobs, options, interrupted);
+  const Status status = options.tiled ? process_merged(ranks, jobs.front(), options, interrupted)
+                                      : process_jobs(ranks, jobs, options, interrupted);
   return static_cast<int>(status);
 }
 
@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
       reason = error.what();
     }
-    say("rank " + std::to_string(ranks.rank()) + ": " + reason);
+    print_message("rank " + std::to_string(ranks.rank()) + ": " + reason);
     Ranks::abort();  // the other ranks may be waiting for this rank
   });
 }

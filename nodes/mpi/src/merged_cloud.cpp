@@ -107,7 +107,7 @@ class Attempt {
 // origin does not depend on the number of ranks.
 Failure Attempt::find_origin() {
   origin_ = options_.origin.at;
-  if (!options_.origin.asked || origin_) return std::nullopt;
+  if (!options_.origin.requested || origin_) return std::nullopt;
   Aabb box;
   const Failure failure = work([&] {
     const PointView all = tiles_.xyz();
@@ -242,7 +242,7 @@ Report Attempt::report() const {
   }
   const std::string coarse =
       coarse_warning(aabb(fitted_.front().volume), origin_ ? ScalarType::float64 : tiles_.xyz().scalar);
-  if (!coarse.empty()) complain(report.file + ": " + coarse);
+  if (!coarse.empty()) report_problem(report.file + ": " + coarse);
   return report;
 }
 
@@ -260,7 +260,7 @@ void print_costs(Ranks& ranks, double seconds, double worked, std::size_t rounds
                 "%zu ranks: %.3f s, %.3f s of work, %zu rounds, %zu messages of %zu bytes in all, "
                 "at most %.0f KiB a rank",
                 ranks.size(), seconds, static_cast<double>(sums[0]) / 1e6, rounds, sums[1], sums[2], memory);
-  say(text);
+  print_message(text);
 }
 
 }  // namespace
@@ -270,10 +270,10 @@ Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& re
   Status status = Status::done;
   if (ranks.first()) status = report_excluded_inputs(tiles);
   for (;;) {
-    if (tiles.used() == 0) throw IoError("none of the inputs could be read");
+    if (tiles.included_count() == 0) throw IoError("none of the inputs could be read");
     Attempt now(ranks, tiles, options);
     if (Failure failure = now.run()) {
-      if (ranks.first()) complain(tiles.jobs()[failure->tile].input + ": " + failure->reason);
+      if (ranks.first()) report_problem(tiles.jobs()[failure->tile].input + ": " + failure->reason);
       tiles.exclude(failure->tile, failure->reason);
       status = Status::failed;
       continue;

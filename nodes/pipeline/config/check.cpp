@@ -34,12 +34,12 @@ std::string problem_of_row(const Row& row) {
 
 void check_classes(const ClusterConfig& all, std::vector<ConfigProblem>& problems) {
   const auto add = [&](const std::string& what) { problems.push_back({"cluster.classes", what}); };
-  if (!all.classes.empty() && !all.class_field) add("means nothing without cluster.class_field");
+  if (!all.classes.empty() && !all.class_field) add("needs cluster.class_field");
   for (const ClassConfig& own : all.classes) {
     const std::string name = "class " + std::to_string(own.value) + ": ";
-    const std::size_t least = own.min_size.value_or(all.effective_min_size()),
-                      most = own.max_size.value_or(all.max_size);
-    if (least > most) add(name + "max_size, " + to_text(most) + ", is below min_size, " + to_text(least));
+    const std::size_t min = own.min_size.value_or(all.effective_min_size()),
+                      max = own.max_size.value_or(all.max_size);
+    if (min > max) add(name + "max_size, " + to_text(max) + ", is below min_size, " + to_text(min));
   }
 }
 
@@ -52,17 +52,17 @@ void check_combinations(const PipelineConfig& c, std::vector<ConfigProblem>& pro
   }
   if (filter.own_box_min.has_value() != filter.own_box_max.has_value()) {
     add(filter.own_box_min ? "filter.own_box_min" : "filter.own_box_max",
-        "comes without the other corner: both or none");
+        "is set without the other corner: set both or none");
   } else if (filter.own_box_min && !(filter.own_box_min->array() <= filter.own_box_max->array()).all()) {
     add("filter.own_box_max", "is below filter.own_box_min");
   }
   if (c.cluster.tolerance_per_metre > 0 && c.cluster.min_points > 1)
-    add("cluster.min_points",
-        to_text(c.cluster.min_points) + " is not 1 where the tolerance grows with the range");
+    add("cluster.min_points", to_text(c.cluster.min_points) +
+                                  " is not allowed: must be 1 if cluster.tolerance_per_metre is above 0");
   if (c.cluster.tolerance_per_metre > 0 && c.cluster.tolerance == 0)
-    add("cluster.tolerance", "0 does not grow: all points are one object");
+    add("cluster.tolerance", "0 is not allowed: must be above 0 if cluster.tolerance_per_metre is above 0");
   if (c.cluster.class_field && c.cluster.tolerance == 0)
-    add("cluster.class_field", "means nothing where cluster.tolerance is 0: all points are one object");
+    add("cluster.class_field", "needs a cluster.tolerance above 0: with 0, all points are one object");
   if (c.cluster.effective_min_size() > c.cluster.max_size) {
     add("cluster.max_size",
         to_text(c.cluster.max_size) + " is below cluster.min_size, " + to_text(c.cluster.effective_min_size()));
@@ -90,28 +90,28 @@ auto checker(std::vector<ConfigProblem>& problems) {
 }  // namespace
 
 std::string problem_of(const Setting& setting, double value) {
-  const auto& [least, most, closed, as_float] = setting.range;
+  const auto& [min, max, closed, as_float] = setting.range;
   const bool vanishes = as_float && value > 0 && static_cast<float>(value) == 0;
   if (vanishes)
-    return to_text(value) + " is too small: it is 0 as float32, which points are; use " +
+    return to_text(value) + " is too small: it becomes 0 as float32, the type of points; use " +
            (closed ? "0, or " : "") + "at least 1.4e-45";
-  if ((closed ? value >= least : value > least) && value <= most) return {};  // false for NaN
-  std::string allowed = (closed ? " is not at least " : " is not above ") + to_text(least);
-  if (most < kFinite) allowed += " and at most " + to_text(most);
-  if (most == kFinite) allowed += " and finite";
+  if ((closed ? value >= min : value > min) && value <= max) return {};  // false for NaN
+  std::string allowed = (closed ? " is not at least " : " is not above ") + to_text(min);
+  if (max < kFinite) allowed += " and at most " + to_text(max);
+  if (max == kFinite) allowed += " and finite";
   return to_text(value) + allowed;
 }
 
 std::string whole_number_range(const NumberRange& range) {
-  std::string allowed = " of at least " + to_text(static_cast<std::size_t>(range.least));
-  if (range.most < kFinite) allowed += " and at most " + to_text(static_cast<std::size_t>(range.most));
+  std::string allowed = " of at least " + to_text(static_cast<std::size_t>(range.min));
+  if (range.max < kFinite) allowed += " and at most " + to_text(static_cast<std::size_t>(range.max));
   return allowed;
 }
 
 std::string problem_of(const Setting& setting, std::size_t value) {
-  const double least = setting.range.least, most = setting.range.most;
+  const double min = setting.range.min, max = setting.range.max;
   const auto n = static_cast<double>(value);
-  if (n >= least && (n <= most || most == kNoLimit)) return {};
+  if (n >= min && (n <= max || max == kNoLimit)) return {};
   return to_text(value) + " is not a whole number" + whole_number_range(setting.range);
 }
 
@@ -156,7 +156,7 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig
   std::set<std::int64_t> values;
   for (const ClassConfig& own : classes) {
     std::string name = "class " + std::to_string(own.value);
-    if (!values.insert(own.value).second) return name + " is there twice";
+    if (!values.insert(own.value).second) return name + " is given twice";
     const std::string problem = problem_of_row(own);
     if (!problem.empty()) return name.append(": ").append(problem);
   }
@@ -164,7 +164,7 @@ std::string problem_of(const Setting& /*setting*/, const std::vector<ClassConfig
 }
 
 std::string problem_of(const Setting& /*setting*/, const FieldName& field) {
-  return field.name.empty() ? "a field without a name" : "";
+  return field.name.empty() ? "the name of the field is empty" : "";
 }
 
 std::vector<ConfigProblem> problems_of(const StreamConfig& config) {

@@ -29,12 +29,12 @@ std::vector<const Method*> PipelineConfig::methods() const {
   return all;
 }
 
-ParallelPolicy PipelineConfig::policy() const {
+ParallelPolicy PipelineConfig::parallel_policy() const {
   if (threads == 1) return Serial{};
   return Threads{static_cast<unsigned>(threads)};
 }
 
-QueuePolicy resolved(QueuePolicy policy, bool paced) {
+QueuePolicy resolved_policy(QueuePolicy policy, bool paced) {
   if (policy != QueuePolicy::automatic) return policy;
   return paced ? QueuePolicy::drop_oldest : QueuePolicy::block;
 }

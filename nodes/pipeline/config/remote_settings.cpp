@@ -69,10 +69,10 @@ Json described(const Setting& setting, const Value&) {
   Json json{{"key", std::string(setting.key)},
             {"kind", kind},
             {"unit", std::string(setting.unit)},
-            {"about", std::string(setting.about)}};
+            {"about", std::string(setting.help)}};
   if (kind == "number" || kind == "count") {
-    json["least"] = setting.range.least;
-    if (setting.range.most < kFinite) json["most"] = setting.range.most;
+    json["least"] = setting.range.min;
+    if (setting.range.max < kFinite) json["most"] = setting.range.max;
     if (!setting.range.closed) json["closed"] = false;
   }
   if (kind == "choice")

@@ -20,7 +20,7 @@ struct RowNames {
   const char *one, *many, *example;
 };
 template <ConfigRow Row>
-constexpr RowNames row_words() {
+constexpr RowNames row_names() {
   if constexpr (std::is_same_v<Row, RegionConfig>)
     return {"a region", "regions", "{file: F.json, keep: false, padding: 0}"};
   return {"a class", "classes", "{value: 4, tolerance: 0.5}"};

@@ -19,10 +19,10 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 inline constexpr double kFinite = std::numeric_limits<double>::max();
 
-/// Allowed numbers: from `least` (excluded unless `closed`) to `most`, which may be kNoLimit.
+/// Allowed numbers: from `min` (excluded unless `closed`) to `max`, which may be kNoLimit.
 struct NumberRange {
-  double least = 0;
-  double most = kFinite;
+  double min = 0;
+  double max = kFinite;
   bool closed = true;
   bool as_float = false;  ///< Positive numbers that become 0 as float32, the type of points, are not allowed.
 };
@@ -31,7 +31,7 @@ struct NumberRange {
 struct Setting {
   std::string_view key;                      ///< With its stage: "filter.range_min".
   std::string_view unit;                     ///< "m", the choices, or the meaning of a special value.
-  std::string_view about;                    ///< Help text.
+  std::string_view help;                     ///< Help text.
   NumberRange range{};                       ///< Allowed numbers.
   std::string_view unset{};                  ///< Meaning of null or of an empty list.
   std::string_view option{}, placeholder{};  ///< "--sensor-height" and "M"; empty without an option.
@@ -57,7 +57,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.filter.regions);
   visit(S{"ground.method",
           "none, plane, zones",
-          "Take the ground away first: none, plane or zones (outdoors)",
+          "Remove the ground first: none, plane or zones (outdoors)",
           {},
           {},
           "--ground",
@@ -65,7 +65,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.ground.method);
   visit(S{"ground.up",
           "x, y, z, -x, -y, -z or a vector X,Y,Z",
-          "Against gravity: x, y, z, -x, -y, -z or X,Y,Z",
+          "Up direction: x, y, z, -x, -y, -z or X,Y,Z",
           {},
           {},
           "--up",
@@ -73,9 +73,9 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.ground.up);
   visit(S{"ground.sensor",
           "m, [x, y, z]",
-          "Where the sensor is",
+          "Sensor position",
           {},
-          "origin or the densest place",
+          "origin, or the densest part of the cloud",
           "--sensor",
           "X,Y,Z"},
         c.ground.sensor);
@@ -83,7 +83,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
           "m",
           "Height of the origin above the ground",
           {},
-          "learnt",
+          "estimated",
           "--sensor-height",
           "M"},
         c.ground.sensor_height);
@@ -91,21 +91,21 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
           "m",
           "Height up to which points are ground",
           {0, kFinite, false},
-          "0.2 of a plane, 0.15 of zones",
+          "0.2 with plane, 0.15 with zones",
           "--ground-distance",
           "M"},
         c.ground.distance);
   visit(S{"ground.max_slope_degrees",
           "degrees",
-          "Greatest slope of the ground",
+          "Maximum slope of the ground",
           {0, 89},
-          "15 of a plane, 20 of zones",
+          "15 with plane, 20 with zones",
           "--ground-slope",
           "DEG"},
         c.ground.max_slope_degrees);
   visit(S{"cluster.tolerance",
           "m; 0: all points are one object",
-          "Points nearer are one object; 0: a whole cloud; TOL:PER_METRE grows",
+          "Points closer than this are one object; 0: all; TOL:PER_METRE grows",
           {0, 1e6, true, true},
           {},
           "--cluster",
@@ -123,7 +123,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.cluster.max_size);
   visit(S{"cluster.min_points",
           "points; 1: no noise",
-          "Drop noise: neither core points nor within the tolerance of one",
+          "Drop noise: points that are not within the tolerance of a core point",
           {1, kNoLimit},
           {},
           "--min-points",
@@ -144,7 +144,7 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.cluster.oversized);
   visit(S{"cluster.class_field",
           "name of a field",
-          "Integer field whose values are classes: an object has one",
+          "Integer field with the classes of points; an object has one class",
           {},
           "none",
           "--class",
@@ -172,24 +172,19 @@ void visit_pipeline(Pipeline& c, Visit&& visit) {
         c.growth);
   visit(S{"track.enabled", "", "Give objects ids that last from frame to frame", {}, {}, "--track"},
         c.track.enabled);
-  visit(S{"track.gate", "m", "How far an object may be from where it was expected", {0, 100, false}},
+  visit(S{"track.gate", "m", "Largest distance of an object from its predicted position", {0, 100, false}},
         c.track.gate);
-  visit(S{"track.birth", "frames", "Sightings after which an object gets its id", {1, 1000}}, c.track.birth);
-  visit(S{"track.death", "frames", "Frames without it after which an object is gone", {1, 1000}},
+  visit(S{"track.birth", "frames", "Detections after which an object gets its id", {1, 1000}}, c.track.birth);
+  visit(S{"track.death", "frames", "Frames without a detection after which a track is deleted", {1, 1000}},
         c.track.death);
   visit(S{"track.smooth",
           "",
-          "Turn tracked upright boxes by the mean over time, around all points",
+          "Smooth the yaw of tracked upright boxes; they still hold all points",
           {},
           {},
           "--smooth"},
         c.track.smooth);
-  visit(S{"track.grow",
-          "",
-          "Make tracked upright boxes as long and wide as objects have been seen",
-          {},
-          {},
-          "--grow"},
+  visit(S{"track.grow", "", "Give tracked upright boxes the largest length and width seen", {}, {}, "--grow"},
         c.track.grow);
   visit(S{"threads", "0: all processors", "Threads, 0 for all processors", {0, 1024}, {}, "--threads", "N"},
         c.threads);
@@ -205,14 +200,14 @@ void visit_stream(Stream& c, Visit&& visit) {
         c.runner.queue);
   visit(S{"runner.policy",
           "auto, drop_oldest, drop_newest, block",
-          "When they do: drop_oldest, drop_newest, block, auto",
+          "When the queue is full: drop_oldest, drop_newest, block, auto",
           {},
           {},
           "--policy",
           "NAME"},
         c.runner.policy);
   visit(S{"runner.max_age_ms", "ms; 0: any age", "Drop frames that have waited longer"}, c.runner.max_age_ms);
-  visit(S{"runner.watchdog_s", "s; 0: none", "Say so if no frame comes for so long"}, c.runner.watchdog_s);
+  visit(S{"runner.watchdog_s", "s; 0: none", "Warn if no frame comes for this time"}, c.runner.watchdog_s);
 }
 // clang-format on
 

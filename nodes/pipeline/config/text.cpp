@@ -25,7 +25,7 @@ constexpr Names<QueuePolicy, 4> kPolicies{{{"auto", QueuePolicy::automatic},
                                            {"block", QueuePolicy::block}}};
 constexpr Names<bool, 2> kFlags{{{"true", true}, {"false", false}}};
 
-[[noreturn]] void refuse(std::string_view text, const std::string& what) {
+[[noreturn]] void reject(std::string_view text, const std::string& what) {
   throw std::invalid_argument("'" + std::string(text) + "' is not " + what);
 }
 
@@ -153,13 +153,13 @@ void read_text(std::string_view text, bool& value) {
   value = read_name(kFlags, text);
 }
 void read_text(std::string_view text, double& value) {
-  if (!read_whole_text(text, value)) refuse(text, "a number");
+  if (!read_whole_text(text, value)) reject(text, "a number");
 }
 void read_text(std::string_view text, std::size_t& value) {
   if (text == "unlimited") {
     value = std::numeric_limits<std::size_t>::max();
   } else if (!read_whole_text(text, value)) {
-    refuse(text, "a whole number");
+    reject(text, "a whole number");
   }
 }
 void read_text(std::string_view text, Eigen::Vector3d& direction) {
@@ -186,7 +186,7 @@ void read_text(std::string_view text, std::vector<RegionConfig>& regions) {
 }
 void read_text(std::string_view text, std::vector<ClassConfig>& classes) {
   classes.assign(1, {});
-  if (!read_whole_text(text, classes[0].value)) refuse(text, "a whole number");
+  if (!read_whole_text(text, classes[0].value)) reject(text, "a whole number");
 }
 void read_text(std::string_view text, GroundMethod& method) {
   method = read_name(kGroundMethods, text);
@@ -207,7 +207,7 @@ void read_text(std::string_view text, std::optional<Eigen::Vector3d>& point) {
   point.reset();
   if (text == "null") return;
   const std::vector<std::string_view> parts = parts_of(text);
-  if (parts.size() != 3) throw std::invalid_argument("has not three numbers");
+  if (parts.size() != 3) throw std::invalid_argument("does not have three numbers");
   Eigen::Vector3d p;
   for (Eigen::Index k = 0; k < 3; ++k)
     read_text(parts[static_cast<std::size_t>(k)], p[k]);

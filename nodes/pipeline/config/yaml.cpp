@@ -35,7 +35,7 @@ std::string in_unit(const Setting& setting) {
 
 class Reader {
  public:
-  Reader(const YAML::Node& root, std::string name) : name_(std::move(name)) { collect(root, ""); }
+  Reader(const YAML::Node& root, std::string name) : name_(std::move(name)) { add_keys(root, ""); }
 
   template <typename T>
   void operator()(const Setting& setting, T& value) {
@@ -54,11 +54,11 @@ class Reader {
     if (list == nullptr) return;
     rows.clear();
     const std::string key = std::string(setting.key) + ": ";
-    constexpr RowNames words = row_words<Row>();
-    if (!list->IsSequence()) fail_at(*list, key + shown(*list) + " is not a list of " + words.many);
+    constexpr RowNames names = row_names<Row>();
+    if (!list->IsSequence()) fail_at(*list, key + shown(*list) + " is not a list of " + names.many);
     for (const YAML::Node& element : *list) {
       if (!element.IsMap())
-        fail_at(element, key + shown(element) + " is not " + words.one + ", " + words.example);
+        fail_at(element, key + shown(element) + " is not " + names.one + ", " + names.example);
       read_row(element, key, rows.emplace_back());
     }
   }
@@ -67,7 +67,7 @@ class Reader {
   void finish() const {
     for (const auto& [key, line_number] : maps_) {
       if (sections_.count(key) == 0)
-        fail(name_, line_number, "unknown key '" + key + "', or one that holds no others");
+        fail(name_, line_number, "unknown key '" + key + "', or a key without nested keys");
     }
     for (const auto& [key, node] : nodes_) {
       if (node.IsNull() && sections_.count(key) > 0) continue;  // an empty stage
@@ -75,7 +75,7 @@ class Reader {
     }
   }
 
-  void refuse(const std::vector<ConfigProblem>& problems) const {
+  void reject(const std::vector<ConfigProblem>& problems) const {
     if (problems.empty()) return;
     const auto found = lines_.find(problems.front().key);
     fail(name_, found == lines_.end() ? 0 : found->second,
@@ -85,9 +85,9 @@ class Reader {
  private:
   static int line(const YAML::Node& node) { return node.Mark().line + 1; }
 
-  void collect(const YAML::Node& node, const std::string& prefix) {
+  void add_keys(const YAML::Node& node, const std::string& prefix) {
     if (node.IsNull()) return;
-    if (!node.IsMap()) fail(name_, line(node), "'" + prefix + "' holds no keys");
+    if (!node.IsMap()) fail(name_, line(node), "the document must consist of keys and values");
     for (const auto& item : node) {
       const std::string name = item.first.as<std::string>();
       std::string key = prefix;
@@ -96,10 +96,10 @@ class Reader {
       if (name.find('.') != std::string::npos) fail(name_, line(item.first), "unknown key '" + key + "'");
       if (prefix.empty() && item.second.IsMap()) {
         if (!maps_.emplace(key, line(item.first)).second)
-          fail(name_, line(item.first), key + ": is there twice");
-        collect(item.second, key);
+          fail(name_, line(item.first), key + ": is given twice");
+        add_keys(item.second, key);
       } else if (!nodes_.emplace(key, item.second).second) {
-        fail(name_, line(item.first), key + ": is there twice");
+        fail(name_, line(item.first), key + ": is given twice");
       }
     }
   }
@@ -109,10 +109,10 @@ class Reader {
     std::map<std::string, YAML::Node> fields;
     for (const auto& item : node) {
       const auto key = item.first.as<std::string>();
-      if (!fields.emplace(key, item.second).second) fail_at(item.first, where + key + ": is there twice");
+      if (!fields.emplace(key, item.second).second) fail_at(item.first, where + key + ": is given twice");
     }
     if (std::is_same_v<Row, ClassConfig> && fields.count("value") == 0)
-      fail_at(node, where + "a class without its value");
+      fail_at(node, where + "a class lacks the key 'value'");
     visit_row(row, [&](const Setting& field, auto& value) {
       const auto found = fields.find(std::string(field.key));
       if (found == fields.end()) return;
@@ -125,7 +125,7 @@ class Reader {
     });
     if (fields.empty()) return;
     const auto& [key, value] = *fields.begin();
-    fail_at(value, where + "unknown key '" + key + "' of " + row_words<Row>().one);
+    fail_at(value, where + "unknown key '" + key + "' of " + row_names<Row>().one);
   }
 
   [[noreturn]] void fail_at(const YAML::Node& node, const std::string& what) const {
@@ -146,10 +146,10 @@ class Reader {
     read_setting(setting, node.IsNull() ? "null" : scalar(node), value);
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, double& value) {
-    if (!YAML::convert<double>::decode(node, value)) refuse(node, "a number");  // accepts .inf, too
+    if (!YAML::convert<double>::decode(node, value)) reject(node, "a number");  // accepts .inf, too
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, bool& value) {
-    if (!YAML::convert<bool>::decode(node, value)) refuse(node, "true or false");  // accepts yes and no, too
+    if (!YAML::convert<bool>::decode(node, value)) reject(node, "true or false");  // accepts yes and no, too
   }
   static void read(const Setting& setting, const YAML::Node& node, std::optional<double>& value) {
     value.reset();
@@ -165,7 +165,7 @@ class Reader {
     file = scalar(node);
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, std::int64_t& value) {
-    if (!node.IsScalar() || !read_whole_text(node.Scalar(), value)) refuse(node, "a whole number");
+    if (!node.IsScalar() || !read_whole_text(node.Scalar(), value)) reject(node, "a whole number");
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, std::vector<std::string>& names) {
     const std::string list = elements(node, "a list of methods");
@@ -173,21 +173,21 @@ class Reader {
     if (!list.empty()) read_text(list, names);
   }
 
-  [[noreturn]] static void refuse(const YAML::Node& node, const std::string& wanted) {
-    throw std::invalid_argument(shown(node) + " is not " + wanted);
+  [[noreturn]] static void reject(const YAML::Node& node, const std::string& allowed) {
+    throw std::invalid_argument(shown(node) + " is not " + allowed);
   }
 
   static std::string shown(const YAML::Node& node) {
-    return node.IsScalar() ? "'" + node.Scalar() + "'" : "what is there";
+    return node.IsScalar() ? "'" + node.Scalar() + "'" : "the value";
   }
 
   static std::string scalar(const YAML::Node& node) {
-    if (!node.IsScalar()) refuse(node, "a single value");
+    if (!node.IsScalar()) reject(node, "a single value");
     return node.Scalar();
   }
 
-  static std::string elements(const YAML::Node& node, const std::string& wanted) {
-    if (!node.IsSequence()) refuse(node, wanted);
+  static std::string elements(const YAML::Node& node, const std::string& allowed) {
+    if (!node.IsSequence()) reject(node, allowed);
     std::string list;
     for (const YAML::Node& element : node)
       list += (list.empty() ? "" : ",") + scalar(element);
@@ -239,11 +239,12 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
     fail(name, 0, "has more than " + std::to_string(kMaxConfigBytes) + " bytes");
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) fail(name, documents[1].Mark().line + 1, "a second document");
+    if (documents.size() > 1)
+      fail(name, documents[1].Mark().line + 1, "a second YAML document begins; only one is allowed");
     Reader reader(documents.empty() ? YAML::Node() : documents.front(), name);
     visit_stream(config, reader);
     reader.finish();
-    reader.refuse(problems_of(config));
+    reader.reject(problems_of(config));
   } catch (const YAML::Exception& error) {
     fail(name, 0, yaml_error_message(error));
   }

@@ -23,9 +23,9 @@ void refill(std::vector<T>& values, std::size_t count, T value) {
 }  // namespace
 
 void SparseAssignment::solve(std::size_t rows, std::size_t columns, const std::vector<AssignmentPair>& pairs,
-                             double alone) {
+                             double unassigned_cost) {
   columns_ = columns;
-  unassigned_cost_ = alone;
+  unassigned_cost_ = unassigned_cost;
   refill<std::size_t>(first_, rows + 1, 0);
   for (const AssignmentPair& pair : pairs)
     ++first_[pair.row + 1];
@@ -49,7 +49,7 @@ void SparseAssignment::solve(std::size_t rows, std::size_t columns, const std::v
     if (column >= columns) column = none;
 }
 
-void SparseAssignment::reach(std::size_t row, std::size_t column, double cost) {
+void SparseAssignment::relax(std::size_t row, std::size_t column, double cost) {
   const double distance = base_distance_ + cost - potential_[column];
   if (done_[column] != 0 || distance >= distance_[column]) return;
   if (distance_[column] == kFar) touched_.push_back(column);
@@ -60,7 +60,8 @@ void SparseAssignment::reach(std::size_t row, std::size_t column, double cost) {
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
-// Dijkstra's search from a row to the nearest free column. The prices keep all later distances non-negative.
+// Dijkstra's search from a row to the nearest free column. The potentials keep all later distances
+// non-negative.
 void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair>& pairs) {
   heap_.clear();
   touched_.clear();
@@ -69,9 +70,9 @@ void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair
   std::size_t at = row, end = none;
   while (end == none) {
     for (std::size_t p = first_[at]; p < first_[at + 1]; ++p)
-      reach(at, pairs[p].column, pairs[p].cost);
-    reach(at, columns_ + at, unassigned_cost_);
-    Reached next;
+      relax(at, pairs[p].column, pairs[p].cost);
+    relax(at, columns_ + at, unassigned_cost_);
+    HeapEntry next;
     do {  // skip entries of columns that were reached on a shorter path
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
       next = heap_.back();
@@ -91,11 +92,11 @@ void SparseAssignment::augment(std::size_t row, const std::vector<AssignmentPair
   for (const std::size_t column : settled_)
     potential_[column] += distance_[column] - length;
   for (std::size_t column = end; column != none;) {
-    const std::size_t taker = from_[column], left = column_of_[taker];
-    row_of_[column] = taker;
-    column_of_[taker] = column;
-    matched_cost_[taker] = cost_from_[column];
-    column = taker == row ? none : left;
+    const std::size_t new_row = from_[column], previous_column = column_of_[new_row];
+    row_of_[column] = new_row;
+    column_of_[new_row] = column;
+    matched_cost_[new_row] = cost_from_[column];
+    column = new_row == row ? none : previous_column;
   }
   for (const std::size_t column : touched_) {
     distance_[column] = kFar;

@@ -21,7 +21,7 @@ constexpr double kMaxGrowth = 0.15;          // metres per frame; largest growth
 constexpr std::size_t kFreeDetections = 5;        // first detections, whose sizes may grow by any step
 
 // Rotates axes 0 and 1 about axis 2 by quarters of a turn: axis 1 becomes axis 0, and so on.
-Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, int quarters) {
+Eigen::Matrix3d rotated_by_quarters(const Eigen::Matrix3d& axes, int quarters) {
   Eigen::Matrix3d result = axes;
   for (int i = 0; i < quarters; ++i) {
     const Eigen::Vector3d front = result.col(1);
@@ -54,9 +54,9 @@ void slabs_of(const PointView& points, const Eigen::Matrix3d& axes, const Eigen:
       const Coordinates point = load_point(loaded.view(), i);
       if (!is_valid(point)) continue;
       const Eigen::Vector3d from = Eigen::Vector3d(point.x, point.y, point.z) - origin,
-                            along = axes.transpose() * from;
-      low = low.cwiseMin(along);
-      high = high.cwiseMax(along);
+                            projection = axes.transpose() * from;
+      low = low.cwiseMin(projection);
+      high = high.cwiseMax(projection);
       farthest = std::max(farthest, from.cwiseAbs().sum() + origin.cwiseAbs().sum());
     }
   }
@@ -67,53 +67,53 @@ void slabs_of(const PointView& points, const Eigen::Matrix3d& axes, const Eigen:
 
 }  // namespace
 
-Obb BoxFilter::face(const Obb& box, const BoxState& sighting) {
+Obb BoxFilter::align_axes(const Obb& box, const BoxState& state) {
   if (box.empty()) return box;
-  const Eigen::Matrix3d turn = sighting.sensor.linear();
-  Obb facing = box;
+  const Eigen::Matrix3d rotation = state.sensor.linear();
+  Obb aligned = box;
   if (known_) {
-    const Eigen::Matrix3d axes = orthonormal_axes(turn.transpose() * axes_);
-    facing = box.oriented_as(Obb(box.center(), axes, box.half_extents()));
+    const Eigen::Matrix3d axes = orthonormal_axes(rotation.transpose() * axes_);
+    aligned = box.oriented_as(Obb(box.center(), axes, box.half_extents()));
   }
-  if (sighting.moving && upright_) {
+  if (state.moving && upright_) {
     int best = 0;
     for (int k = 1; k < 4; ++k) {
-      if (turned(facing.axes(), k).col(0).dot(sighting.velocity) >
-          turned(facing.axes(), best).col(0).dot(sighting.velocity))
+      if (rotated_by_quarters(aligned.axes(), k).col(0).dot(state.velocity) >
+          rotated_by_quarters(aligned.axes(), best).col(0).dot(state.velocity))
         best = k;
     }
-    for (double& said : said_)
-      said *= kVoteDecay;
-    said_[static_cast<std::size_t>(best)] += 1;
-    if (best != 0 && said_[static_cast<std::size_t>(best)] > said_[0] + kVoteLead) {
-      Eigen::Vector3d half = facing.half_extents();
+    for (double& vote : votes_)
+      vote *= kVoteDecay;
+    votes_[static_cast<std::size_t>(best)] += 1;
+    if (best != 0 && votes_[static_cast<std::size_t>(best)] > votes_[0] + kVoteLead) {
+      Eigen::Vector3d half = aligned.half_extents();
       if (best % 2 == 1) std::swap(half.x(), half.y());
-      facing = Obb(facing.center(), turned(facing.axes(), best), half);
-      std::rotate(said_.begin(), said_.begin() + best, said_.end());
+      aligned = Obb(aligned.center(), rotated_by_quarters(aligned.axes(), best), half);
+      std::rotate(votes_.begin(), votes_.begin() + best, votes_.end());
       if (best % 2 == 1) std::swap(sizes_[0], sizes_[1]);
     }
   }
   known_ = true;
-  axes_ = turn * facing.axes();
-  return facing;
+  axes_ = rotation * aligned.axes();
+  return aligned;
 }
 
-double BoxFilter::smoothed_yaw(const Obb& box, const BoxState& sighting) {
+double BoxFilter::smoothed_yaw(const Obb& box, const BoxState& state) {
   const double yaw =
-      Obb(box.center(), orthonormal_axes(sighting.sensor.linear() * box.axes()), box.half_extents()).yaw();
-  if (!sighting.merged) {
-    const double forget = sighting.moving ? kMovingDecay : kStaticDecay;
+      Obb(box.center(), orthonormal_axes(state.sensor.linear() * box.axes()), box.half_extents()).yaw();
+  if (!state.merged) {
+    const double decay = state.moving ? kMovingDecay : kStaticDecay;
     // Longer sides have more weight, since their direction is more accurate.
     const double weight = box.half_extents().head<2>().maxCoeff();
-    cosine_ = forget * cosine_ + weight * std::cos(4 * yaw);
-    sine_ = forget * sine_ + weight * std::sin(4 * yaw);
+    cosine_ = decay * cosine_ + weight * std::cos(4 * yaw);
+    sine_ = decay * sine_ + weight * std::sin(4 * yaw);
   }
   if (cosine_ == 0 && sine_ == 0) return 0;
   // The rotation to apply, radians.
   return std::remainder(std::atan2(sine_, cosine_) / 4 - yaw, std::acos(0.0));
 }
 
-double BoxFilter::grown(std::size_t axis, double seen, bool merged) {
+double BoxFilter::grown_size(std::size_t axis, double seen, bool merged) {
   double& size = sizes_[axis];
   if (seen > size && !merged) {
     const double more = seen - size;
@@ -122,25 +122,25 @@ double BoxFilter::grown(std::size_t axis, double seen, bool merged) {
   return std::max(size, seen);
 }
 
-Obb BoxFilter::steady(const Obb& box, const PointView& points, const BoxState& sighting, bool smooth,
-                      bool grow) {
+Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth,
+                        bool grow) {
   if (box.empty() || !upright_) return box;
-  if (sighting.separated) {
+  if (state.separated) {
     sizes_ = {};
     detections_ = 0;
   }
-  if (!sighting.merged) ++detections_;
+  if (!state.merged) ++detections_;
   Eigen::Matrix3d axes = box.axes();
   if (smooth) {
-    axes = about_third(axes, smoothed_yaw(box, sighting));
-    axes_ = sighting.sensor.linear() * axes;  // face() then follows the smoothed axes
+    axes = about_third(axes, smoothed_yaw(box, state));
+    axes_ = state.sensor.linear() * axes;  // align_axes() then follows the smoothed axes
   }
   Eigen::Vector3d low, high;
   slabs_of(points, axes, box.center(), low, high);
   if (!(low.array() <= high.array()).all()) return box;
   for (int i = 0; grow && i < 2; ++i) {
     const double more =
-        grown(static_cast<std::size_t>(i), high[i] - low[i], sighting.merged) - (high[i] - low[i]);
+        grown_size(static_cast<std::size_t>(i), high[i] - low[i], state.merged) - (high[i] - low[i]);
     const double sensor = -axes.col(i).dot(box.center());
     // A sensor inside the box: grow on both sides.
     const double above = sensor < low[i] ? 1 : sensor > high[i] ? 0 : 0.5;

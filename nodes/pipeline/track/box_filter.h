@@ -33,9 +33,9 @@ class BoxFilter {
   /// frame. Axis 0 of a moving object comes to point in the direction of motion: each frame votes for the
   /// axis nearest to the velocity, older votes decay, and an axis with a lead of two votes becomes axis 0.
   /// Empty boxes are returned unchanged.
-  Obb face(const Obb& box, const BoxState& sighting);
+  Obb align_axes(const Obb& box, const BoxState& state);
 
-  /// Returns a smoothed box around all points; `box` must come from face().
+  /// Returns a smoothed box around all points; `box` must come from align_axes().
   ///
   /// With `smooth`, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90 degrees,
   /// so it does not matter which side was taken as the longer one. With `grow`, length and width approach the
@@ -45,16 +45,16 @@ class BoxFilter {
   ///
   /// The third axis is unchanged. Every valid point is inside (Obb::contains()). Boxes that are empty or not
   /// upright are returned unchanged. O(points).
-  Obb steady(const Obb& box, const PointView& points, const BoxState& sighting, bool smooth, bool grow);
+  Obb smoothed(const Obb& box, const PointView& points, const BoxState& state, bool smooth, bool grow);
 
  private:
-  double smoothed_yaw(const Obb& box, const BoxState& sighting);
-  double grown(std::size_t axis, double seen, bool merged);
+  double smoothed_yaw(const Obb& box, const BoxState& state);
+  double grown_size(std::size_t axis, double seen, bool merged);
 
   bool upright_;
   bool known_ = false;
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // of the last box, in the fixed frame
-  std::array<double, 4> said_{};                        // votes for axis 0, 1, -0, -1 as the front
+  std::array<double, 4> votes_{};                       // votes for axis 0, 1, -0, -1 as the front
   double cosine_ = 0, sine_ = 0;                        // weighted sums over time for four times the yaw
   std::array<double, 2> sizes_{};
   std::size_t detections_ = 0;

@@ -31,12 +31,12 @@ class BoxGrid {
   /// Calls visit(index) for boxes near a position: for all whose centres are within one side length of it in
   /// x and y, and for some that are up to two side lengths away.
   template <typename Visit>
-  void visit_near(const Eigen::Vector3d& place, const Visit& visit) const {
-    const double x = square(place.x()), y = square(place.y());
+  void visit_near(const Eigen::Vector3d& position, const Visit& visit) const {
+    const double x = square(position.x()), y = square(position.y());
     // A counted loop: beyond 2^53, adding 1 does not change a double.
-    for (const double beside : {-1.0, 0.0, 1.0}) {
-      const double column = x + beside;
-      if (beside != 0 && column == x) continue;
+    for (const double offset : {-1.0, 0.0, 1.0}) {
+      const double column = x + offset;
+      if (offset != 0 && column == x) continue;
       auto cell = std::lower_bound(cells_.begin(), cells_.end(), Cell{column, y - 1, 0});
       for (; cell != cells_.end() && cell->x == column && cell->y <= y + 1; ++cell)
         visit(cell->box);

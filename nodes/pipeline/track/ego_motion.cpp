@@ -64,13 +64,13 @@ std::size_t EgoMotion::refine(const std::vector<Aabb>& expected, const std::vect
   }
   from /= static_cast<double>(pairs_.size());
   to /= static_cast<double>(pairs_.size());
-  double along = 0, across = 0;
+  double dot = 0, cross = 0;
   for (const Pair& pair : pairs_) {
     const Eigen::Vector2d a = pair.from - from, b = pair.to - to;
-    along += a.dot(b);
-    across += a.x() * b.y() - a.y() * b.x();
+    dot += a.dot(b);
+    cross += a.x() * b.y() - a.y() * b.x();
   }
-  motion.yaw = std::atan2(across, along);
+  motion.yaw = std::atan2(cross, dot);
   motion.shift.setZero();
   motion.shift = to - motion * from;
   return pairs_.size();
@@ -93,14 +93,14 @@ void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>&
       ++votes_[bin(x, y)];
     });
   }
-  unsigned most = 0;
+  unsigned max_votes = 0;
   for (int y = 1; y < kBins - 1; ++y) {
     for (int x = 1; x < kBins - 1; ++x) {
       unsigned sum = 0;
       for (int i = 0; i < 9; ++i)
         sum += votes_[bin(x + i % 3 - 1, y + i / 3 - 1)];
-      if (sum <= most) continue;
-      most = sum;
+      if (sum <= max_votes) continue;
+      max_votes = sum;
       motion.shift = kBin * Eigen::Vector2d(x - kBins / 2, y - kBins / 2);
     }
   }
@@ -108,30 +108,30 @@ void EgoMotion::vote(const std::vector<Aabb>& expected, const std::vector<Aabb>&
 
 bool EgoMotion::estimate(const std::vector<Aabb>& expected, const std::vector<Aabb>& seen,
                          const PlanarMotion& guess, PlanarMotion& motion) {
-  const auto few = static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), small));
-  if (few < kMinPairs || seen.size() < kMinPairs) return false;
+  const auto candidates = static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), small));
+  if (candidates < kMinPairs || seen.size() < kMinPairs) return false;
   grid_.fill(seen, kMaxShift);
   if (pairs_.capacity() < expected.size()) pairs_.reserve(4 * expected.size());
   votes_.reserve(std::size_t{kBins} * kBins);
-  const auto settle = [&](PlanarMotion& from) {
+  const auto refine_from = [&](PlanarMotion& from) {
     for (const double radius : {2.0, 1.5, 1.0, 0.7, 0.5, kAgreement, kAgreement})
       refine(expected, seen, from, radius);
     match(expected, seen, from, kAgreement);
     return pairs_.size();
   };
   PlanarMotion best = guess;
-  std::size_t agree = settle(best);
-  if (5 * agree < 2 * few) {
+  std::size_t agree = refine_from(best);
+  if (5 * agree < 2 * candidates) {
     for (const double degrees : {0.0, -1.5, 1.5, -3.0, 3.0}) {
       PlanarMotion other{degrees * 3.14159265358979323846 / 180};
       vote(expected, seen, other);
-      const std::size_t others = settle(other);
+      const std::size_t others = refine_from(other);
       if (others <= agree) continue;
       agree = others;
       best = other;
     }
   }
-  if (agree < kMinPairs || 10 * agree < 3 * few) return false;
+  if (agree < kMinPairs || 10 * agree < 3 * candidates) return false;
   motion = best;
   return true;
 }

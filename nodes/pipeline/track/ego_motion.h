@@ -24,8 +24,8 @@ struct PlanarMotion {
   }
   PlanarMotion operator*(const PlanarMotion& first) const { return {yaw + first.yaw, *this * first.shift}; }
   PlanarMotion inverse() const {
-    const PlanarMotion turn{-yaw};
-    return {-yaw, -(turn * shift)};
+    const PlanarMotion rotation{-yaw};
+    return {-yaw, -(rotation * shift)};
   }
 };
 

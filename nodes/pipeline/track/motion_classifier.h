@@ -19,23 +19,23 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 class MotionClassifier {
  public:
   /// Adds a measurement, `seconds` after the last one: the centre of the box in the fixed frame, half its
-  /// size along the sensor's axes, and the rotation `turn` from the sensor's axes to the fixed frame. Metres.
-  void add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Eigen::Matrix3d& turn,
+  /// size along the sensor's axes, and the `rotation` from the sensor's axes to the fixed frame. Metres.
+  void add(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, const Eigen::Matrix3d& rotation,
            double seconds);
 
   bool moving() const { return moving_; }
 
  private:
-  struct Sighting {
+  struct Measurement {
     double seconds = 0;  // since the first measurement
     Eigen::Vector3d centre = Eigen::Vector3d::Zero(), half = Eigen::Vector3d::Zero();
   };
   static constexpr std::size_t kCapacity = 8;
 
-  const Sighting& past(std::size_t i) const { return past_[(first_ + i) % kCapacity]; }
-  void judge(const Sighting& now, const Eigen::Matrix3d& turn);
+  const Measurement& past(std::size_t i) const { return past_[(first_ + i) % kCapacity]; }
+  void classify(const Measurement& now, const Eigen::Matrix3d& rotation);
 
-  std::array<Sighting, kCapacity> past_;  // ring buffer
+  std::array<Measurement, kCapacity> past_;  // ring buffer
   std::size_t first_ = 0, count_ = 0;
   double seconds_ = 0;
   bool moving_ = false;

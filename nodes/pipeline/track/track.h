@@ -18,7 +18,7 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 /// Difference between a box and the expected box of a track, along the sensor's axes, metres.
-struct Change {
+struct BoxDifference {
   Eigen::Vector3d centre, size;
   /// The smaller displacement of the two opposite faces; 0 if they move apart or towards each other. A part
   /// that comes into or goes out of view moves one face only, hence gives 0.
@@ -28,18 +28,19 @@ struct Change {
 /// One tracked object.
 struct Track {
   MotionFilter motion;  // in the fixed frame
-  MotionClassifier judge;
+  MotionClassifier motion_classifier;
   // Faces of the box relative to the position, along the sensor's axes.
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
-  Eigen::Vector3d expected = Eigen::Vector3d::Zero();  // position in the sensor's frame
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();    // position at the last frame, in the fixed frame
-  double unseen = 0;                                   // seconds since the last detection
-  std::size_t seen = 0, missed = 0, hidden = 0, age = 0;
+  Eigen::Vector3d expected_position = Eigen::Vector3d::Zero();  // in the sensor's frame
+  Eigen::Vector3d previous_position = Eigen::Vector3d::Zero();  // at the last frame, in the fixed frame
+  double seconds_unseen = 0;                                    // since the last detection
+  std::size_t detections = 0, age = 0;                          // age: in frames
+  std::size_t missed = 0, occluded = 0;  // missed and occluded frames since the last detection
   double yaw = 0, yaw_variance = 1;
-  bool alive = false, moving = false;
+  bool active = false, moving = false;
   std::optional<std::uint32_t> id;
   std::optional<std::size_t> split_from;  // slot of the track whose expected box held this track's first box
-  std::size_t detections_since_split = 0;       // detections since the split or the last occlusion
+  std::size_t detections_since_split = 0;  // since the split or the last occlusion
 
   void start(const Aabb& box, const Pose& sensor);
   void predict(double seconds);
@@ -48,13 +49,13 @@ struct Track {
   /// static. If static tracks were predicted by their velocities, an error of the sensor's velocity would
   /// pass into these velocities and stay there.
   Aabb static_box(const Pose& sensor) const;
-  Aabb expected_box() const { return {expected + low, expected + high}; }
-  Change change_to(const Aabb& box) const;
+  Aabb expected_box() const { return {expected_position + low, expected_position + high}; }
+  BoxDifference difference_to(const Aabb& box) const;
   void correct(const Aabb& box, const Pose& sensor, double seconds);
 
-  /// Returns the reported state. `apparent` is the velocity of static points in the sensor's frame. With
-  /// `fixed`, the state is in the fixed frame, otherwise in the sensor's frame.
-  TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent) const;
+  /// Returns the reported state. `apparent_velocity` is the velocity of static points in the sensor's frame.
+  /// With `fixed`, the state is in the fixed frame, otherwise in the sensor's frame.
+  TrackEntry entry(const Pose& sensor, bool fixed, const Eigen::Vector3d& apparent_velocity) const;
 
  private:
   void classify_motion(const Eigen::Vector3d& half, const Pose& sensor, double seconds);

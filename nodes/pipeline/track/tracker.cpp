@@ -18,13 +18,13 @@ namespace {
 
 constexpr double kGateCost = 16;         // four standard deviations, squared
 constexpr std::size_t kOccludedFramesPerMiss = 4;  // occluded frames that count as one missed frame
-constexpr std::size_t kSeparate = 5;     // detections in a row that prove a split
+constexpr std::size_t kSplitDetections = 5;        // detections in a row that prove a split
 
-bool holds(const Aabb& box, const Eigen::Vector3d& place) {
-  return (box.min().array() <= place.array()).all() && (place.array() <= box.max().array()).all();
+bool contains_point(const Aabb& box, const Eigen::Vector3d& position) {
+  return (box.min().array() <= position.array()).all() && (position.array() <= box.max().array()).all();
 }
 
-Pose moved(const Pose& sensor, const PlanarMotion& motion) {
+Pose after_motion(const Pose& sensor, const PlanarMotion& motion) {
   Pose step = Pose::Identity();
   step.linear() = Eigen::AngleAxisd(motion.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   step.translation() << motion.shift, 0;
@@ -40,13 +40,13 @@ struct Tracker::State {
   void move_sensor(double seconds, const std::vector<Aabb>& boxes, const std::optional<Pose>& pose);
   void find_sensor(double seconds, const std::vector<Aabb>& boxes);
   void find_pairs(const std::vector<Aabb>& boxes, double gate);
-  void join(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
-  void miss(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void assign_boxes(double seconds, const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
+  void count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments);
   void start(const std::vector<Aabb>& boxes, std::size_t box, std::vector<Assignment>& assignments);
-  void separate(std::vector<Assignment>& assignments);
-  void bury(std::size_t death);
+  void find_splits(std::vector<Assignment>& assignments);
+  void prune(std::size_t death);
   std::size_t free_slot();
-  Eigen::Vector3d apparent(const Eigen::Vector3d& place) const;
+  Eigen::Vector3d apparent_velocity(const Eigen::Vector3d& position) const;
 
   std::vector<Track> tracks;
   std::vector<std::size_t> free;
@@ -60,16 +60,16 @@ struct Tracker::State {
   PlanarMotion step;  // motion of static points in the sensor's frame within step_seconds
   double step_seconds = 0;
   Pose sensor = Pose::Identity();
-  bool posed = false;  // tracks are in the frame of given poses
+  bool has_given_poses = false;  // tracks are in the frame of given poses
   std::int64_t last_stamp_ns = 0;
   bool started = false;
   std::uint32_t next_id = 0;
 };
 
-// Returns the velocity of a static point at `place` relative to the sensor.
-Eigen::Vector3d Tracker::State::apparent(const Eigen::Vector3d& place) const {
+// Returns the velocity of a static point at `position` relative to the sensor.
+Eigen::Vector3d Tracker::State::apparent_velocity(const Eigen::Vector3d& position) const {
   if (!(step_seconds > 0)) return Eigen::Vector3d::Zero();
-  const Eigen::Vector2d now = place.head<2>(), before = step.inverse() * now;
+  const Eigen::Vector2d now = position.head<2>(), before = step.inverse() * now;
   const Eigen::Vector2d velocity = (now - before) / step_seconds;
   return {velocity.x(), velocity.y(), 0};
 }
@@ -77,7 +77,7 @@ Eigen::Vector3d Tracker::State::apparent(const Eigen::Vector3d& place) const {
 void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes) {
   expected.clear();
   for (const Track& track : tracks)
-    if (track.alive && track.missed == 0) expected.push_back(track.static_box(sensor));
+    if (track.active && track.missed == 0) expected.push_back(track.static_box(sensor));
   PlanarMotion guess;
   if (step_seconds > 0) {
     const double part = seconds / step_seconds;
@@ -85,7 +85,7 @@ void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes)
   }
   PlanarMotion motion = guess;
   const bool found = ego.estimate(expected, boxes, guess, motion);
-  sensor = moved(sensor, motion);
+  sensor = after_motion(sensor, motion);
   // Within less than 20 ms, the noise of positions exceeds the motion.
   if (!found || seconds < 0.02) return;
   step = motion;
@@ -94,23 +94,23 @@ void Tracker::State::find_sensor(double seconds, const std::vector<Aabb>& boxes)
 
 void Tracker::State::move_sensor(double seconds, const std::vector<Aabb>& boxes,
                                  const std::optional<Pose>& pose) {
-  if (!pose || !posed) find_sensor(seconds, boxes);
-  if (pose && !posed) {  // moves existing tracks into the fixed frame
+  if (!pose || !has_given_poses) find_sensor(seconds, boxes);
+  if (pose && !has_given_poses) {  // moves existing tracks into the fixed frame
     for (Track& track : tracks) {
-      const Eigen::Matrix3d turn = pose->linear() * sensor.linear().transpose();
-      const Eigen::Vector3d place =
-          turn * (track.motion.place() - sensor.translation()) + pose->translation();
-      const Eigen::Vector3d velocity = turn * track.motion.velocity();
+      const Eigen::Matrix3d rotation = pose->linear() * sensor.linear().transpose();
+      const Eigen::Vector3d position =
+          rotation * (track.motion.position() - sensor.translation()) + pose->translation();
+      const Eigen::Vector3d velocity = rotation * track.motion.velocity();
       for (int i = 0; i < 3; ++i) {
-        track.motion.axes[static_cast<std::size_t>(i)].place = place[i];
+        track.motion.axes[static_cast<std::size_t>(i)].position = position[i];
         track.motion.axes[static_cast<std::size_t>(i)].velocity = velocity[i];
       }
     }
-    posed = true;
+    has_given_poses = true;
   }
   if (pose) sensor = *pose;
   for (Track& track : tracks)
-    if (track.alive) track.expect(sensor);
+    if (track.active) track.expect(sensor);
 }
 
 void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
@@ -118,7 +118,7 @@ void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
   grid.fill(boxes, 3 * gate);
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];
-    if (!track.alive) continue;
+    if (!track.active) continue;
     grid.visit_near(track.expected_box().center(), [&](std::size_t b) {
       const double cost = cost_of(track, boxes[b], gate) + (track.id ? 0 : 1);
       if (cost < kGateCost) pairs.push_back({t, b, cost});
@@ -126,8 +126,8 @@ void Tracker::State::find_pairs(const std::vector<Aabb>& boxes, double gate) {
   }
 }
 
-void Tracker::State::join(double seconds, const std::vector<Aabb>& boxes,
-                          std::vector<Assignment>& assignments) {
+void Tracker::State::assign_boxes(double seconds, const std::vector<Aabb>& boxes,
+                                  std::vector<Assignment>& assignments) {
   track_taken.assign(tracks.size(), 0);
   box_taken.assign(boxes.size(), 0);
   predicted.assign(boxes.size(), Aabb());
@@ -144,19 +144,19 @@ void Tracker::State::join(double seconds, const std::vector<Aabb>& boxes,
 
 // Counts missed frames. A track whose expected centre is inside the box of another track is probably part of
 // that box; it continues when the objects separate.
-void Tracker::State::miss(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
+void Tracker::State::count_misses(const std::vector<Aabb>& boxes, std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
     Track& track = tracks[t];
-    if (!track.alive || track_taken[t] != 0) continue;
-    bool hides = false;
+    if (!track.active || track_taken[t] != 0) continue;
+    bool occluded = false;
     const Eigen::Vector3d centre = track.expected_box().center();
     grid.visit_near(centre, [&](std::size_t b) {
-      if (!holds(boxes[b], centre)) return;
-      hides = true;
+      if (!contains_point(boxes[b], centre)) return;
+      occluded = true;
       if (track.id) assignments[b].merged = true;
     });
-    if (hides) track.detections_since_split = 0;
-    if (hides && ++track.hidden % kOccludedFramesPerMiss != 0) continue;
+    if (occluded) track.detections_since_split = 0;
+    if (occluded && ++track.occluded % kOccludedFramesPerMiss != 0) continue;
     ++track.missed;
   }
 }
@@ -169,29 +169,30 @@ void Tracker::State::start(const std::vector<Aabb>& boxes, std::size_t box,
   assignments[box].fresh = true;
   const Eigen::Vector3d centre = boxes[box].center();
   grid.visit_near(centre, [&](std::size_t b) {
-    if (box_taken[b] != 0 && holds(predicted[b], centre)) tracks[slot].split_from = assignments[b].slot;
+    if (box_taken[b] != 0 && contains_point(predicted[b], centre))
+      tracks[slot].split_from = assignments[b].slot;
   });
 }
 
-void Tracker::State::separate(std::vector<Assignment>& assignments) {
+void Tracker::State::find_splits(std::vector<Assignment>& assignments) {
   for (const Assignment& own : assignments) {
     Track& track = tracks[own.slot];
-    if (!track.split_from || ++track.detections_since_split < kSeparate) continue;
+    if (!track.split_from || ++track.detections_since_split < kSplitDetections) continue;
     const Track& other = tracks[*track.split_from];
-    const bool lives = other.alive && other.age > track.age;  // a reused slot holds a younger track
-    const std::size_t box = lives ? assignment.columns()[*track.split_from] : SparseAssignment::none;
+    const bool is_active = other.active && other.age > track.age;  // a reused slot holds a younger track
+    const std::size_t box = is_active ? assignment.columns()[*track.split_from] : SparseAssignment::none;
     if (box != SparseAssignment::none) assignments[box].separated = true;
-    if (!lives || box != SparseAssignment::none) track.split_from.reset();
+    if (!is_active || box != SparseAssignment::none) track.split_from.reset();
   }
 }
 
-void Tracker::State::bury(std::size_t death) {
+void Tracker::State::prune(std::size_t death) {
   free.clear();
   for (std::size_t t = tracks.size(); t-- > 0;) {
     Track& track = tracks[t];
-    track.alive = track.alive && track.missed < death;
+    track.active = track.active && track.missed < death;
     ++track.age;
-    if (!track.alive) free.push_back(t);
+    if (!track.active) free.push_back(t);
   }
 }
 
@@ -226,21 +227,23 @@ void Tracker::update(std::int64_t stamp_ns, const std::vector<Aabb>& boxes, cons
   s.expected.reserve(s.tracks.capacity());
   s.pairs.reserve(4 * s.tracks.capacity());
   for (Track& track : s.tracks)
-    if (track.alive) track.predict(seconds);
+    if (track.active) track.predict(seconds);
   s.move_sensor(seconds, boxes, pose);
   s.find_pairs(boxes, config.gate);
-  s.join(seconds, boxes, assignments);
-  s.miss(boxes, assignments);
-  s.bury(config.death);
+  s.assign_boxes(seconds, boxes, assignments);
+  s.count_misses(boxes, assignments);
+  s.prune(config.death);
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     if (s.box_taken[b] == 0) s.start(boxes, b, assignments);
     Track& track = s.tracks[assignments[b].slot];
     assignments[b].moving = track.moving;
     assignments[b].velocity = s.sensor.linear().transpose() * track.motion.velocity();
-    if (!track.id && track.seen >= config.birth) track.id = s.next_id++;
-    if (track.id) assignments[b].track = track.entry(s.sensor, pose.has_value(), s.apparent(track.expected));
+    if (!track.id && track.detections >= config.birth) track.id = s.next_id++;
+    if (track.id)
+      assignments[b].track =
+          track.entry(s.sensor, pose.has_value(), s.apparent_velocity(track.expected_position));
   }
-  s.separate(assignments);
+  s.find_splits(assignments);
 }
 
 const Pose& Tracker::sensor() const {
@@ -249,9 +252,9 @@ const Pose& Tracker::sensor() const {
 
 void Tracker::reset() {
   for (Track& track : state_->tracks)
-    track.alive = false;
+    track.active = false;
   state_->started = false;
-  state_->posed = false;
+  state_->has_given_poses = false;
   state_->step = PlanarMotion();
   state_->step_seconds = 0;
   state_->sensor = Pose::Identity();

@@ -41,7 +41,7 @@ StreamRunner::Callbacks ClusterVolumes::callbacks() {
   calls.process = [this](const Frame& frame, FrameResult& result) { pipeline_.process(frame, result); };
   calls.on_result = [this](const Frame& frame, const FrameResult& result) { publish(frame, result); };
   calls.on_lost = [this](const Frame&, Loss loss, const std::string& reason) {
-    health_.lost();
+    health_.count_lost();
     if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": a cloud is lost: " << reason);
   };
   calls.on_silence = [this](double seconds) {
@@ -88,10 +88,10 @@ void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
   const std::int64_t lifetime = lifetime_.next(frame.header.stamp_ns);
   if (markers_.getNumSubscribers() > 0) {
     const auto markers = boost::make_shared<visualization_msgs::MarkerArray>();
-    fill_markers(frame, result, drawn(result), lifetime, shown_, *markers);
+    fill_markers(frame, result, viewer_shapes(result), lifetime, shown_, *markers);
     markers_.publish(markers);
   }
-  if (!health_.heeds(frame, result)) return;
+  if (!health_.record_frame(frame, result)) return;
   const auto array = boost::make_shared<diagnostic_msgs::DiagnosticArray>();
   health_.fill(frame, *array);
   array->status.front().name = name_ + ": objects in clouds";

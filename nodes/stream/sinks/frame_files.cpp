@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const SinkDescription& with_folder(const SinkDescription& description) {
+const SinkDescription& with_created_folder(const SinkDescription& description) {
   std::error_code failure;
-  fs::create_directories(description.place, failure);
-  if (!fs::is_directory(description.place)) throw IoError("cannot be made a folder");
+  fs::create_directories(description.target, failure);
+  if (!fs::is_directory(description.target)) throw IoError("cannot create this folder");
   return description;
 }
 
@@ -36,9 +36,9 @@ class FilesSink : public FrameSink {
  public:
   using Write = void (*)(const fs::path&, const Frame&, const FrameResult&);
   FilesSink(const SinkDescription& description, Write write_file)
-      : description_(with_folder(description)), write_(write_file) {}
+      : description_(with_created_folder(description)), write_(write_file) {}
   void write(const Frame& frame, const FrameResult& result) override {
-    write_(description_.place / numbered("frame", frame, description_.kind->files), frame, result);
+    write_(description_.target / numbered("frame", frame, description_.kind->files), frame, result);
   }
 
  private:
@@ -80,7 +80,7 @@ void write_labels(const fs::path& file, const Frame& frame, const FrameResult& r
 class VtpSink : public FrameSink {
  public:
   explicit VtpSink(const SinkDescription& description)
-      : description_(with_folder(description)), index_(description.place / "frames.pvd") {}
+      : description_(with_created_folder(description)), index_(description.target / "frames.pvd") {}
   void write(const Frame& frame, const FrameResult& result) override {
     const bool tracked = result.config->track.enabled;
     std::string entries = add("frame", frame, volumes_vtp(cluster_entries(result), tracked), 0);
@@ -98,7 +98,7 @@ class VtpSink : public FrameSink {
 
   std::string add(const char* stem, const Frame& frame, const std::string& content, int part) {
     const std::string name = numbered(stem, frame, description_.kind->files);
-    write_file_atomically(description_.place / name, content);
+    write_file_atomically(description_.target / name, content);
     if (!first_stamp_ns_) first_stamp_ns_ = frame.header.stamp_ns;
     return pvd_entry({static_cast<double>(frame.header.stamp_ns - *first_stamp_ns_) / 1e9, name, part});
   }

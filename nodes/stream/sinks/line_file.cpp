@@ -23,7 +23,7 @@ LineFile::LineFile(const std::filesystem::path& file) : descriptor_(STDOUT_FILEN
   constexpr int flags = O_WRONLY | O_CREAT | O_CLOEXEC;
   descriptor_ = ::open(file.c_str(), flags | O_EXCL, 0644);
   if (descriptor_ >= 0) {
-    made_ = file;
+    created_ = file;
   } else if (descriptor_ = ::open(file.c_str(), flags, 0644); descriptor_ < 0) {
     throw IoError(system_reason(errno));
   }
@@ -31,14 +31,14 @@ LineFile::LineFile(const std::filesystem::path& file) : descriptor_(STDOUT_FILEN
 
 LineFile::~LineFile() {
   if (descriptor_ > STDOUT_FILENO) ::close(descriptor_);
-  if (!made_.empty()) ::unlink(made_.c_str());
+  if (!created_.empty()) ::unlink(created_.c_str());
 }
 
 // Empties a regular file. Other files, such as pipes, keep their content: ftruncate() fails with EINVAL.
 void LineFile::begin() {
   if (std::exchange(begun_, true) || descriptor_ == STDOUT_FILENO) return;
   if (::ftruncate(descriptor_, 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));
-  made_.clear();
+  created_.clear();
 }
 
 void LineFile::write(std::string text, std::string_view tail) {

@@ -36,7 +36,7 @@ class LineFile {
 
   int descriptor_;
   off_t tail_ = 0;
-  std::filesystem::path made_;  // a file that was created here and is still empty; removed at the end
+  std::filesystem::path created_;  // a file that was created here and is still empty; removed at the end
   bool begun_ = false;
 };
 

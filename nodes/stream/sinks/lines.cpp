@@ -37,7 +37,7 @@ using LinesOfFrame = std::string(const FrameReport&, const ClusterSource&);
 class LineSink : public FrameSink {
  public:
   LineSink(const SinkDescription& description, std::string heading, LinesOfFrame* lines)
-      : heading_(std::move(heading)), lines_(lines), file_(description.place) {}
+      : heading_(std::move(heading)), lines_(lines), file_(description.target) {}
   void write(const Frame& frame, const FrameResult& result) override {
     write(lines_(report_without_clusters(frame, result), cluster_source(result)));
   }

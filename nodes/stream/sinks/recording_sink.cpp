@@ -31,7 +31,7 @@ class Recorder final : public MessageSender {
   void send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& cdr) override {
     writer_->write(topic, stamp_ns, stamp_ns, cdr.data(), cdr.size());
   }
-  void settings(const std::string& yaml, std::int64_t stamp_ns) override {
+  void announce_settings(const std::string& yaml, std::int64_t stamp_ns) override {
     writer_->attach("config.yaml", "application/yaml", yaml, stamp_ns);
   }
   void close() override { writer_->close(); }
@@ -44,11 +44,11 @@ template <class Writer>
 std::unique_ptr<FrameSink> open_recording_sink(const SinkDescription& description) {
   MessageTopics topics;
   topics.points = description.points;
-  return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.place)), topics);
+  return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.target)), topics);
 }
 
 std::unique_ptr<FrameSink> open_mcap_sink(const SinkDescription& description) {
-  create_parent_folders(description.place);
+  create_parent_folders(description.target);
   return open_recording_sink<McapWriter>(description);
 }
 

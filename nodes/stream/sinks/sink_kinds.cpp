@@ -30,7 +30,7 @@ class FunctionSink : public FrameSink {
 // Labelled clouds are made only while somebody subscribes. Scenes are for Foxglove, which shows markers, too.
 std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
   MessageTopics topics;
-  topics.prefix = description.place.string();
+  topics.prefix = description.target.string();
   topics.points = true;
   topics.scene = topics.poses = false;
   return make_message_sink(middleware("dds").carrier(""), topics);
@@ -39,7 +39,7 @@ std::unique_ptr<FrameSink> open_dds_sink(const SinkDescription& description) {
 std::unique_ptr<FrameSink> open_ws_sink(const SinkDescription& description) {
   MessageTopics topics;
   topics.points = topics.frames = true;
-  return make_message_sink(middleware("ws").carrier(description.place.string()), topics);
+  return make_message_sink(middleware("ws").carrier(description.target.string()), topics);
 }
 
 const std::vector<SinkKind>& sink_kinds() {
@@ -62,7 +62,7 @@ std::string sink_syntax() {
   std::string all;
   for (const SinkKind& kind : sink_kinds()) {
     if (!all.empty()) all += &kind == &sink_kinds().back() ? " or " : ", ";
-    all += std::string(kind.name) + ':' + std::string(kind.place);
+    all += std::string(kind.name) + ':' + std::string(kind.target);
   }
   return all;
 }
@@ -71,11 +71,11 @@ SinkDescription parse_sink(const std::string& description) {
   const std::size_t colon = std::min(description.find(':'), description.size());
   for (const SinkKind& kind : sink_kinds()) {
     if (description.compare(0, colon, kind.name) != 0) continue;
-    std::string place = description.substr(std::min(colon + 1, description.size()));
-    const bool points = kind.place.ends_with("[,points]") && place.ends_with(kPoints);
-    if (points) place.resize(place.size() - kPoints.size());
+    std::string target = description.substr(std::min(colon + 1, description.size()));
+    const bool points = kind.target.ends_with("[,points]") && target.ends_with(kPoints);
+    if (points) target.resize(target.size() - kPoints.size());
     const bool may_be_printed = kind.files.empty() && !kind.live;
-    if (!place.empty() && (may_be_printed || place != "-")) return {&kind, place, points};
+    if (!target.empty() && (may_be_printed || target != "-")) return {&kind, target, points};
   }
   throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
 }

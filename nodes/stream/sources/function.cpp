@@ -16,7 +16,7 @@ class FunctionSource : public FrameSource {
   explicit FunctionSource(std::function<bool(Frame&)> function)
       : function_(std::make_shared<std::function<bool(Frame&)>>(std::move(function))) {}
 
-  Next next(Frame& frame, std::chrono::milliseconds patience) override {
+  Next next(Frame& frame, std::chrono::milliseconds timeout) override {
     if (!answer_.valid()) {
       std::packaged_task<Answer()> call([function = function_] {
         Answer answer;
@@ -26,7 +26,7 @@ class FunctionSource : public FrameSource {
       answer_ = call.get_future();
       std::thread(std::move(call)).detach();
     }
-    if (answer_.wait_for(patience) != std::future_status::ready) return Next::nothing;
+    if (answer_.wait_for(timeout) != std::future_status::ready) return Next::timeout;
     Answer answer = answer_.get();
     frame = std::move(answer.frame);
     return answer.more ? Next::frame : Next::end;

@@ -25,9 +25,9 @@ class MessageSource final : public FrameSource {
     if (!options.poses.empty()) poses_ = Poses(options.poses, std::nullopt);
   }
 
-  Next next(Frame& frame, std::chrono::milliseconds patience) override {
+  Next next(Frame& frame, std::chrono::milliseconds timeout) override {
     ReceivedMessage message;
-    if (!receiver_->next(message, patience)) return Next::nothing;
+    if (!receiver_->next(message, timeout)) return Next::timeout;
     const auto came = std::chrono::steady_clock::now();
     frame = Frame();
     frame.file = name_;

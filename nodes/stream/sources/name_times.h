@@ -14,12 +14,13 @@ namespace pcl_bv {
 
 /// The format of a time in a name, the most reliable first.
 enum class TimeKind : std::uint8_t {
-  epoch,   ///< Since 1970: 1317384506.25, 1317384506_250000000, or a whole number of s, ms, us or ns.
-  date,    ///< 20121214T142259.814212, 2024-03-21T12-59-59.900Z, 2024_03_21_12_59_59
-  day,     ///< 12-59-59.900: hours, minutes, seconds
-  decimal  ///< 899.011149430: seconds since an unknown start
+  epoch,        ///< Since 1970: 1317384506.25, 1317384506_250000000, or a whole number of s, ms, us or ns.
+  date,         ///< 20121214T142259.814212, 2024-03-21T12-59-59.900Z, 2024_03_21_12_59_59
+  time_of_day,  ///< 12-59-59.900: hours, minutes, seconds
+  decimal       ///< 899.011149430: seconds since an unknown start
 };
-inline constexpr TimeKind kTimeKinds[]{TimeKind::epoch, TimeKind::date, TimeKind::day, TimeKind::decimal};
+inline constexpr TimeKind kTimeKinds[]{TimeKind::epoch, TimeKind::date, TimeKind::time_of_day,
+                                       TimeKind::decimal};
 
 /// A time in a name. What its fraction means depends on the other names of the folder.
 struct ParsedTime {
@@ -39,7 +40,7 @@ std::int64_t stamp_of(const ParsedTime& time);
 struct NameTimes {
   std::vector<std::int64_t> stamps;  ///< Nanoseconds; -1 for a name without a time.
   bool sort = false;     ///< The order of the names is not that of their times: sort by time.
-  std::string remark{};  ///< Warning that the times do not ascend; usually empty.
+  std::string warning{};  ///< Warning that the times do not ascend; usually empty.
 };
 
 /// Returns the stamps of names given in their natural order, in the format whose times ascend, if there is

@@ -25,9 +25,9 @@ class Packets final : public FrameSource {
     const auto begin = std::chrono::steady_clock::now();
     const auto sweep = std::make_shared<VelodyneSweep>();
     while (!reader_.next(*sweep)) {
-      if (++loop_ >= options_.loops || place_ == 0) return Next::end;
+      if (++loop_ >= options_.loops || index_ == 0) return Next::end;
       reader_.rewind();
-      place_ = 0;
+      index_ = 0;
     }
     frame = Frame();
     frame.file = name_;
@@ -36,7 +36,7 @@ class Packets final : public FrameSource {
                                 ? sweep->stamp_ns
                                 : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
     frame.header.frame_id = options_.frame_id.empty() ? "velodyne" : options_.frame_id;
-    frame.pose = poses_.at(place_++, frame.header.stamp_ns);
+    frame.pose = poses_.at(index_++, frame.header.stamp_ns);
     ++seq_;
     if (!sweep->points.empty()) {
       const VelodynePoint& first = sweep->points.front();
@@ -52,9 +52,9 @@ class Packets final : public FrameSource {
 
   std::vector<std::string> take_warnings() override {
     const std::vector<std::string> all = reader_.warning_lines();
-    if (all.size() <= remarks_) return {};
-    std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(remarks_), all.end());
-    remarks_ = all.size();
+    if (all.size() <= warnings_taken_) return {};
+    std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(warnings_taken_), all.end());
+    warnings_taken_ = all.size();
     return fresh;
   }
 
@@ -72,7 +72,7 @@ class Packets final : public FrameSource {
   VelodyneReader reader_;
   Poses poses_;
   std::uint64_t seq_ = 0;
-  std::size_t place_ = 0, loop_ = 0, remarks_ = 0;
+  std::size_t index_ = 0, loop_ = 0, warnings_taken_ = 0;
 };
 
 }  // namespace

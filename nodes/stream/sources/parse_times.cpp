@@ -127,7 +127,7 @@ std::optional<ParsedTime> take_clock_time(NameReader& name) {
   NameReader at = name;
   if (NameReader hours = name; hours.number(2, true) < 0 || hours.here() == '.')
     return std::nullopt;  // a decimal number
-  ParsedTime time{TimeKind::day};
+  ParsedTime time{TimeKind::time_of_day};
   time.seconds = take_clock(at, true, time);
   if (time.seconds < 0) return std::nullopt;
   name = at;
@@ -152,7 +152,7 @@ std::optional<ParsedTime> epoch_of(std::int64_t value) {
 
 // Reads a number with or without a decimal point.
 std::optional<ParsedTime> take_number(NameReader& name) {
-  constexpr std::int64_t since_2001 = 1'000'000'000, most = INT64_MAX / kSecond - 1;
+  constexpr std::int64_t since_2001 = 1'000'000'000, max_seconds = INT64_MAX / kSecond - 1;
   const std::int64_t value = whole(name.take_digits());
   NameReader behind = name;
   const bool point = behind.take("."), dash = !point && behind.take("_-");
@@ -162,7 +162,8 @@ std::optional<ParsedTime> take_number(NameReader& name) {
   if ((point && digits > 0) || (dash && seconds && digits >= 3 && digits <= 9)) {
     time = std::nullopt;
     const TimeKind kind = seconds ? TimeKind::epoch : TimeKind::decimal;
-    if (value >= 0 && value <= most) time = ParsedTime{kind, value, std::string(behind.take_digits()), dash};
+    if (value >= 0 && value <= max_seconds)
+      time = ParsedTime{kind, value, std::string(behind.take_digits()), dash};
     if (!time) behind.take_digits();
     name = behind;
   }

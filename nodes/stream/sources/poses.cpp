@@ -46,16 +46,16 @@ std::optional<Pose> pose_of_rows(const Numbers& rows) {
   Eigen::Matrix<double, 3, 4> m;
   for (std::size_t i = 0; i < 12; ++i)
     m(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = static_cast<double>(rows[i]);
-  const Eigen::Matrix3d turn = m.leftCols<3>();
-  if (!(turn * turn.transpose()).isIdentity(1e-3) || turn.determinant() < 0) return std::nullopt;
-  return pose_of(Eigen::Quaterniond(turn), m.col(3));
+  const Eigen::Matrix3d rotation = m.leftCols<3>();
+  if (!(rotation * rotation.transpose()).isIdentity(1e-3) || rotation.determinant() < 0) return std::nullopt;
+  return pose_of(Eigen::Quaterniond(rotation), m.col(3));
 }
 
 std::optional<Pose> pose_of_tum(const Numbers& n) {
   const auto number = [&](std::size_t i) { return static_cast<double>(n[i]); };
-  const Eigen::Quaterniond turn(number(7), number(4), number(5), number(6));
-  if (std::abs(turn.squaredNorm() - 1) > 1e-2) return std::nullopt;
-  return pose_of(turn, {number(1), number(2), number(3)});
+  const Eigen::Quaterniond rotation(number(7), number(4), number(5), number(6));
+  if (std::abs(rotation.squaredNorm() - 1) > 1e-2) return std::nullopt;
+  return pose_of(rotation, {number(1), number(2), number(3)});
 }
 
 std::string text_of(const std::filesystem::path& file) {
@@ -76,7 +76,7 @@ std::optional<Pose> camera_from_calibration(const std::filesystem::path& poses) 
     if (!line.starts_with("Tr:")) continue;
     const Numbers rows = numbers_of(std::string_view(line).substr(3));
     std::optional<Pose> pose = rows.size() == 12 ? pose_of_rows(rows) : std::nullopt;
-    if (!pose) throw IoError(file.string() + ": Tr is no pose of 12 numbers");
+    if (!pose) throw IoError(file.string() + ": Tr is not a pose (12 numbers: a rotation and a translation)");
     return pose;
   }
   return std::nullopt;
@@ -88,8 +88,8 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
   std::istringstream stream(text_of(file));
   std::size_t line_number = 0, columns = 0;
   const auto fail = [&](const std::string& what) {
-    const std::string place = line_number > 0 ? ": line " + std::to_string(line_number) : "";
-    throw IoError(file.string() + place + ": " + what);
+    const std::string where = line_number > 0 ? ": line " + std::to_string(line_number) : "";
+    throw IoError(file.string() + where + ": " + what);
   };
   const std::optional<Pose> camera = camera_from_calibration(file);
   for (std::string line; std::getline(stream, line);) {
@@ -98,7 +98,7 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
     const Numbers numbers = numbers_of(line);
     if (columns == 0) columns = numbers.size();
     if (numbers.size() != columns || (columns != 8 && columns != 12))
-      fail("not 12 numbers (KITTI), nor 8 (TUM), as in the lines before");
+      fail("must have 12 numbers (KITTI) or 8 (TUM), as many as the lines before");
     by_stamp_ = columns == 8;
     std::optional<Pose> pose = by_stamp_ ? pose_of_tum(numbers) : pose_of_rows(numbers);
     if (!pose) fail("not a rotation");
@@ -111,8 +111,7 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
   line_number = 0;
   if (poses_.empty()) fail("no poses");
   if (by_stamp_) return;
-  if (!frames)
-    fail("poses by frame, but of a live source nobody knows the first one: by time they have 8 numbers");
+  if (!frames) fail("a live source needs poses by time (TUM: 8 numbers per line), not by frame (KITTI)");
   if (poses_.size() != *frames)
     fail(std::to_string(poses_.size()) + " poses of " + std::to_string(*frames) + " frames");
 }

@@ -30,21 +30,21 @@ class Recorded final : public FrameSource {
     const auto begin = std::chrono::steady_clock::now();
     RecordedMessage message;
     while (!reader_->next(message)) {
-      if (++loop_ >= options_.loops || place_ == 0) return Next::end;
+      if (++loop_ >= options_.loops || index_ == 0) return Next::end;
       reader_->select({topic_});
-      place_ = 0;
+      index_ = 0;
     }
     frame = Frame();
     frame.file = name_;
     frame.header.seq = seq_++;
     frame.header.stamp_ns = frame.recorded_ns = message.log_time_ns;
-    const std::size_t place = place_++;
+    const std::size_t index = index_++;
     try {
       read(message, frame);
     } catch (const std::exception& error) {
       throw FrameError(std::move(frame), error.what());
     }
-    frame.pose = poses_.at(place, frame.header.stamp_ns);
+    frame.pose = poses_.at(index, frame.header.stamp_ns);
     frame.decode_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return Next::frame;
@@ -52,8 +52,8 @@ class Recorded final : public FrameSource {
 
   std::vector<std::string> take_warnings() override {
     const std::vector<std::string>& all = reader_->warning_lines();
-    std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(remarks_), all.end());
-    remarks_ = all.size();
+    std::vector<std::string> fresh(all.begin() + static_cast<std::ptrdiff_t>(warnings_taken_), all.end());
+    warnings_taken_ = all.size();
     return fresh;
   }
 
@@ -83,7 +83,7 @@ class Recorded final : public FrameSource {
   std::size_t topic_;
   Poses poses_;
   std::uint64_t seq_ = 0;
-  std::size_t place_ = 0, loop_ = 0, remarks_ = 0;
+  std::size_t index_ = 0, loop_ = 0, warnings_taken_ = 0;
 };
 
 std::unique_ptr<FrameSource> open_recorded(const std::string& name, const ReplayOptions& options) {

@@ -70,7 +70,7 @@ std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::str
   }
   const auto count = std::count_if(topics.begin(), topics.end(), has_clouds);
   if (count > 1)
-    throw std::invalid_argument("several topics have clouds: " + clouds + "; say which with --topic");
+    throw std::invalid_argument("several topics have clouds: " + clouds + "; choose one with --topic");
   if (count == 0)
     throw IoError("no topic of " + std::string(msg::PointCloud2::ros_type) +
                   "; topics: " + topics_with_types(topics));
@@ -100,10 +100,10 @@ struct RecordedClouds::State {
   std::unique_ptr<VelodyneReader> packets;  // used instead of `reader` for a packet capture
   std::size_t topic = 0;
   std::size_t next = 0;  // number of the next cloud in the file
-  std::map<std::size_t, std::function<RawCloud()>> passed_over;  // by number: the cloud, or its error
+  std::map<std::size_t, std::function<RawCloud()>> skipped;      // by number: the cloud, or its error
   std::string note;                                              // of the last cloud that was read
   std::map<std::size_t, std::string> notes;  // by number: notes that differ from the one before
-  std::vector<std::string> taken;            // remarks that take_warnings() has returned
+  std::vector<std::string> taken;            // warnings that take_warnings() has returned
   mutable std::mutex mutex;
 
   void rewind() {
@@ -136,18 +136,18 @@ struct RecordedClouds::State {
   }
 
   // Stores the cloud that take() has read.
-  void pass_over() {
-    std::function<RawCloud()>& stored = passed_over[next];
+  void skip() {
+    std::function<RawCloud()>& stored = skipped[next];
     try {
       const auto made = std::make_shared<RawCloud>(noted_cloud());
       stored = [made] { return std::move(*made); };
     } catch (const std::exception&) {
       stored = [error = std::current_exception()]() -> RawCloud { std::rethrow_exception(error); };
     }
-    if (passed_over.size() > kMaxSkipped) passed_over.erase(passed_over.begin());
+    if (skipped.size() > kMaxSkipped) skipped.erase(skipped.begin());
   }
 
-  std::vector<std::string> remarks() const {
+  std::vector<std::string> warnings() const {
     return packets ? packets->warning_lines() : reader->warning_lines();
   }
 
@@ -181,7 +181,7 @@ std::size_t RecordedClouds::count() {
 RawCloud RecordedClouds::load(std::size_t number) {
   const std::lock_guard lock(state_->mutex);
   State& state = *state_;
-  if (const auto stored = state.passed_over.extract(number)) return stored.mapped()();
+  if (const auto stored = state.skipped.extract(number)) return stored.mapped()();
   if (number < state.next) state.rewind();
   for (;;) {
     if (!state.take()) throw IoError("the recording ends before this cloud");
@@ -189,30 +189,30 @@ RawCloud RecordedClouds::load(std::size_t number) {
     if (number - state.next > kMaxSkipped) {
       ++state.next;
     } else {
-      state.pass_over();
+      state.skip();
     }
   }
 }
 
-std::string RecordedClouds::unsaid(std::size_t number) const {
+std::string RecordedClouds::new_note(std::size_t number) const {
   const std::lock_guard lock(state_->mutex);
   const auto found = state_->notes.find(number);
   return found == state_->notes.end() ? std::string() : found->second;
 }
 
-std::vector<std::string> RecordedClouds::remarks() const {
+std::vector<std::string> RecordedClouds::warnings() const {
   const std::lock_guard lock(state_->mutex);
-  return state_->remarks();
+  return state_->warnings();
 }
 
-// Compares remarks by their texts, since damage is found again when a part is read again.
+// Compares warnings by their texts, since damage is found again when a part is read again.
 std::vector<std::string> RecordedClouds::take_warnings() {
   const std::lock_guard lock(state_->mutex);
   std::vector<std::string> fresh;
-  for (std::string& remark : state_->remarks()) {
-    if (std::find(state_->taken.begin(), state_->taken.end(), remark) != state_->taken.end()) continue;
-    state_->taken.push_back(remark);
-    fresh.push_back(std::move(remark));
+  for (std::string& warning : state_->warnings()) {
+    if (std::find(state_->taken.begin(), state_->taken.end(), warning) != state_->taken.end()) continue;
+    state_->taken.push_back(warning);
+    fresh.push_back(std::move(warning));
   }
   return fresh;
 }

@@ -48,12 +48,12 @@ class RecordedClouds {
 
   /// Returns the note of a loaded cloud. Empty if the cloud before it has the same note, which is usual for
   /// the clouds of one driver.
-  std::string unsaid(std::size_t number) const;
+  std::string new_note(std::size_t number) const;
 
   /// Returns a line for each damage found so far.
-  std::vector<std::string> remarks() const;
+  std::vector<std::string> warnings() const;
 
-  /// Returns the lines of remarks() that no earlier call has returned.
+  /// Returns the lines of warnings() that no earlier call has returned.
   std::vector<std::string> take_warnings();
 
  private:

@@ -29,13 +29,13 @@ class Replay : public FrameSource {
 
   Next next(Frame& frame, std::chrono::milliseconds) override {
     if (seq_ == end_) return Next::end;
-    const std::size_t place = seq_ % length_;
-    frame = named(place);
+    const std::size_t index = seq_ % length_;
+    frame = named(index);
     ++seq_;
     const auto begin = std::chrono::steady_clock::now();
     try {
       if (frame.header.stamp_ns < 0) throw std::runtime_error("no time in its name");
-      load_(place, frame);
+      load_(index, frame);
     } catch (const std::exception& error) {
       throw FrameError(std::move(frame), error.what());
     }
@@ -45,20 +45,20 @@ class Replay : public FrameSource {
   }
 
   std::vector<std::string> take_warnings() override {
-    if (times_.remark.empty()) return {};
-    return {std::exchange(times_.remark, {})};
+    if (times_.warning.empty()) return {};
+    return {std::exchange(times_.warning, {})};
   }
 
  private:
-  Frame named(std::size_t place) const {
+  Frame named(std::size_t index) const {
     Frame frame;
-    if (!files_.empty()) frame.file = files_[place].string();
+    if (!files_.empty()) frame.file = files_[index].string();
     frame.header.seq = seq_;
     frame.header.frame_id = options_.frame_id;
     frame.header.stamp_ns = options_.own_stamps
-                                ? times_.stamps[place]
+                                ? times_.stamps[index]
                                 : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
-    frame.pose = poses_.at(place, frame.header.stamp_ns);
+    frame.pose = poses_.at(index, frame.header.stamp_ns);
     return frame;
   }
 

@@ -30,10 +30,11 @@ NameTimes times_of(std::vector<std::filesystem::path>& files) {
     stems.push_back(file.stem().string());
   NameTimes times = times_of_names(stems);
   if (std::all_of(times.stamps.begin(), times.stamps.end(), [](std::int64_t stamp) { return stamp < 0; }))
-    throw std::invalid_argument(files.front().string() +
-                                ": no time in its name, nor in others: whole numbers count frames, except "
-                                "seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262, and "
-                                "nanoseconds from 1e16 on");
+    throw std::invalid_argument(
+        files.front().string() +
+        ": no time in its name nor in any other name; whole numbers are frame numbers, except "
+        "seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262, and "
+        "nanoseconds from 1e16 on");
   if (!times.sort) return times;
   std::vector<std::pair<std::int64_t, std::filesystem::path>> sorted;
   for (std::size_t i = 0; i < files.size(); ++i)
@@ -42,7 +43,7 @@ NameTimes times_of(std::vector<std::filesystem::path>& files) {
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (std::size_t i = 0; i < files.size(); ++i)
     std::tie(times.stamps[i], files[i]) = std::move(sorted[i]);
-  times.remark = "the frames come in the order of the times in their names, which is not that of the names";
+  times.warning = "the frames are sorted by the times in their names, since the names are in another order";
   return times;
 }
 
@@ -82,10 +83,10 @@ Pose pose_of(const std::array<double, 12>& rows) {
 std::unique_ptr<FrameSource> open_rural_road(const std::string& name, const ReplayOptions& options) {
   const RuralRoadSequenceSpec spec = parse_rural_road_sequence(name.substr(kSynth.size()));
   const bool own_poses = options.poses.empty();
-  return make_replay(spec.frames, {}, options, [spec, own_poses](std::size_t place, Frame& frame) {
-    RuralRoadFrame made = make_rural_road_frame(spec.options, place);
-    if (own_poses) frame.pose = pose_of(made.pose);
-    const auto xyz = std::make_shared<std::vector<float>>(std::move(made.cloud.xyz));
+  return make_replay(spec.frames, {}, options, [spec, own_poses](std::size_t index, Frame& frame) {
+    RuralRoadFrame generated = make_rural_road_frame(spec.options, index);
+    if (own_poses) frame.pose = pose_of(generated.pose);
+    const auto xyz = std::make_shared<std::vector<float>>(std::move(generated.cloud.xyz));
     frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
     frame.owner = xyz;
     if (frame.header.frame_id.empty()) frame.header.frame_id = "verges";
@@ -98,9 +99,9 @@ std::unique_ptr<FrameSource> open_synth(const std::string& name, const ReplayOpt
   const StreetSequenceSpec spec = parse_street_sequence(name.substr(kSynth.size()));
   StreetOptions street;
   street.seed = spec.seed;
-  return make_replay(spec.frames, {}, options, [street](std::size_t place, Frame& frame) {
+  return make_replay(spec.frames, {}, options, [street](std::size_t index, Frame& frame) {
     const auto xyz =
-        std::make_shared<std::vector<float>>(std::move(make_street_frame(street, place).cloud.xyz));
+        std::make_shared<std::vector<float>>(std::move(make_street_frame(street, index).cloud.xyz));
     frame.points = PointView::of(xyz->data(), 3 * sizeof(float), xyz->size() / 3);
     frame.owner = xyz;
     if (frame.header.frame_id.empty()) frame.header.frame_id = "street";
@@ -132,7 +133,7 @@ const std::vector<SourceKind>& source_kinds() {
 
 const SourceKind& source_kind(const std::string& name) {
   return *std::find_if(source_kinds().begin(), source_kinds().end() - 1,
-                       [&](const SourceKind& kind) { return kind.takes(name); });
+                       [&](const SourceKind& kind) { return kind.accepts(name); });
 }
 
 std::string source_syntax() {

@@ -32,11 +32,11 @@ class Poses {
 };
 
 /// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
-/// empty. `load` fills in the cloud with index `place` and its owner, and throws if it cannot. `times` are
+/// empty. `load` fills in the cloud number `index` and its owner, and throws if it cannot. `times` are
 /// the stamps if options.own_stamps is set.
 std::unique_ptr<FrameSource> make_replay(std::size_t length, std::vector<std::filesystem::path> files,
                                          const ReplayOptions& options,
-                                         std::function<void(std::size_t place, Frame&)> load,
+                                         std::function<void(std::size_t index, Frame&)> load,
                                          NameTimes times = {});
 
 std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptions& options);

@@ -78,26 +78,26 @@ bool are_frame_numbers(const Times& times) {
 }
 
 NameTimes interpretation_of(const Times& times) {
-  NameTimes meaning;
+  NameTimes interpretation;
   const bool unpadded = are_unpadded(times);
-  meaning.stamps = unpadded ? unpadded_stamps(times) : decimal_stamps(times);
-  if (times.front().kind == TimeKind::day) {
+  interpretation.stamps = unpadded ? unpadded_stamps(times) : decimal_stamps(times);
+  if (times.front().kind == TimeKind::time_of_day) {
     std::int64_t days = 0;
-    for (std::size_t i = 1; i < meaning.stamps.size(); ++i) {
-      if (meaning.stamps[i] + days < meaning.stamps[i - 1] - kDay / 2) days += kDay;
-      meaning.stamps[i] += days;
+    for (std::size_t i = 1; i < interpretation.stamps.size(); ++i) {
+      if (interpretation.stamps[i] + days < interpretation.stamps[i - 1] - kDay / 2) days += kDay;
+      interpretation.stamps[i] += days;
     }
   }
   const auto other_length = [&](const ParsedTime& time) {
     return time.fraction.size() != times.front().fraction.size();
   };
-  meaning.sort =
-      !unpadded && !ascend(meaning.stamps) && std::any_of(times.begin(), times.end(), other_length);
-  return meaning;
+  interpretation.sort =
+      !unpadded && !ascend(interpretation.stamps) && std::any_of(times.begin(), times.end(), other_length);
+  return interpretation;
 }
 
 // Returns the last (or first) time of this kind in each name; empty if a name has none.
-Times chosen(const std::vector<Times>& all, TimeKind kind, bool last) {
+Times times_of_kind(const std::vector<Times>& all, TimeKind kind, bool last) {
   Times times;
   const auto is_kind = [kind](const ParsedTime& time) { return time.kind == kind; };
   for (const Times& some : all) {
@@ -131,15 +131,15 @@ NameTimes times_of_names(const std::vector<std::string>& stems) {
   std::optional<NameTimes> found;
   for (const TimeKind kind : kTimeKinds) {
     for (const bool last : {true, false}) {
-      Times times = chosen(all, kind, last);
+      Times times = times_of_kind(all, kind, last);
       if (times.empty()) continue;
       if (are_frame_numbers(times)) {
         for (ParsedTime& time : times)
           time.fraction.clear();
       }
-      NameTimes meaning = interpretation_of(times);
-      if (ascend(meaning.stamps)) return meaning;
-      if (!found || (meaning.sort && !found->sort)) found = std::move(meaning);
+      NameTimes interpretation = interpretation_of(times);
+      if (ascend(interpretation.stamps)) return interpretation;
+      if (!found || (interpretation.sort && !found->sort)) found = std::move(interpretation);
     }
   }
   if (!found) {
@@ -147,14 +147,14 @@ NameTimes times_of_names(const std::vector<std::string>& stems) {
     for (const std::string& stem : stems)
       found->stamps.push_back(stamp_in_name(stem));
   }
-  if (!found->sort) found->remark = order_warning(found->stamps, stems);
+  if (!found->sort) found->warning = order_warning(found->stamps, stems);
   return *std::move(found);
 }
 
 std::int64_t stamp_in_name(std::string_view stem) {
   const std::vector<Times> one{times_in(stem)};
   for (const TimeKind kind : kTimeKinds) {
-    if (const Times times = chosen(one, kind, true); !times.empty()) return stamp_of(times.front());
+    if (const Times times = times_of_kind(one, kind, true); !times.empty()) return stamp_of(times.front());
   }
   return -1;
 }

@@ -34,7 +34,7 @@ class MessageSink final : public FrameSink {
     Frame frame = original;
     if (frame.header.frame_id.empty()) frame.header.frame_id = "lidar";
     note_settings(result, frame.header.stamp_ns);
-    if (wanted(points_topic_)) {
+    if (has_subscribers(points_topic_)) {
       topics::set_labelled(frame, result, cloud_);
       cloud_bytes_.resize(std::size_t{cloud_.point_step} * cloud_.width);
       write_labelled_points(frame, result, cloud_bytes_.data());
@@ -42,15 +42,16 @@ class MessageSink final : public FrameSink {
       send(*points_topic_, frame, cloud_);
     }
     const std::int64_t lifetime = lifetime_.next(frame.header.stamp_ns);
-    if (wanted(objects_topic_)) {
+    if (has_subscribers(objects_topic_)) {
       fill_detections(frame, result, objects_);
       send(*objects_topic_, frame, objects_);
     }
     draw(frame, result, lifetime);
-    if (wanted(frames_topic_)) send_frame(report_without_clusters(frame, result), cluster_source(result));
+    if (has_subscribers(frames_topic_))
+      send_frame(report_without_clusters(frame, result), cluster_source(result));
     if (frame.pose && sends_poses_) send_pose(frame);
-    const bool due = health_.heeds(frame, result);
-    if (due && wanted(diagnostics_topic_)) {
+    const bool due = health_.record_frame(frame, result);
+    if (due && has_subscribers(diagnostics_topic_)) {
       msg::DiagnosticArray array;
       health_.fill(frame, array);
       send(*diagnostics_topic_, frame, array);
@@ -58,18 +59,20 @@ class MessageSink final : public FrameSink {
   }
 
   void write_lost(const Frame& frame, const std::string& reason) override {
-    health_.lost();
-    carrier_->notice("frame " + std::to_string(frame.header.seq) + " is lost: " + reason);
-    if (wanted(frames_topic_)) send_frame(report_of_lost(frame, reason), {});
+    health_.count_lost();
+    carrier_->notify("frame " + std::to_string(frame.header.seq) + " is lost: " + reason);
+    if (has_subscribers(frames_topic_)) send_frame(report_of_lost(frame, reason), {});
   }
-  void offer(const std::shared_ptr<RemoteSettings>& settings) override { carrier_->offer(settings); }
+  void offer_settings(const std::shared_ptr<RemoteSettings>& settings) override {
+    carrier_->offer_settings(settings);
+  }
   std::vector<std::string> take_warnings() override { return carrier_->take_warnings(); }
   void close() override { carrier_->close(); }
 
  private:
   using Topic = std::optional<std::size_t>;
 
-  bool wanted(Topic topic) const { return topic && carrier_->wanted(*topic); }
+  bool has_subscribers(Topic topic) const { return topic && carrier_->has_subscribers(*topic); }
 
   template <class Message>
   void send(std::size_t topic, const Frame& frame, const Message& message) {
@@ -86,9 +89,9 @@ class MessageSink final : public FrameSink {
   }
 
   void draw(const Frame& frame, const FrameResult& result, std::int64_t lifetime) {
-    const bool markers = wanted(markers_topic_), scene = wanted(scene_topic_);
+    const bool markers = has_subscribers(markers_topic_), scene = has_subscribers(scene_topic_);
     if (!markers && !scene) return;
-    const std::vector<VolumeShape> volumes = drawn(result);
+    const std::vector<VolumeShape> volumes = viewer_shapes(result);
     if (markers) {
       fill_markers(frame, result, volumes, lifetime, shown_markers_, markers_);
       send(*markers_topic_, frame, markers_);
@@ -105,18 +108,19 @@ class MessageSink final : public FrameSink {
     noted_ = result.config;
     StreamConfig config;
     config.pipeline = *result.config;
-    carrier_->settings(to_yaml(config), stamp_ns);
+    carrier_->announce_settings(to_yaml(config), stamp_ns);
   }
 
   void send_pose(const Frame& frame) {
     if (!pose_topic_) pose_topic_ = carrier_->add_topic({"/tf", msg::TFMessage::ros_type});
-    const Eigen::Quaterniond turn(frame.pose->linear());
+    const Eigen::Quaterniond rotation(frame.pose->linear());
     const Eigen::Vector3d at = frame.pose->translation();
     msg::TransformStamped transform;
     topics::set_time(frame.header.stamp_ns, transform.header.stamp);
     transform.header.frame_id = "map";
     transform.child_frame_id = frame.header.frame_id;
-    transform.transform = {{at.x(), at.y(), at.z()}, {turn.x(), turn.y(), turn.z(), turn.w()}};
+    transform.transform = {{at.x(), at.y(), at.z()},
+                           {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};
     send(*pose_topic_, frame, msg::TFMessage{{transform}});
   }
 

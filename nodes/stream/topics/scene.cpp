@@ -40,9 +40,9 @@ void add_volume(const VolumeShape& volume, const msg::SceneColor& colour, msg::S
       lines.thickness = 1.5;
       lines.scale_invariant = true;
       lines.color = {colour.r, colour.g, colour.b, 1};
-      lines.points.resize(volume.ends.size());
-      for (std::size_t k = 0; k < volume.ends.size(); ++k)
-        topics::set_point(volume.ends[k], lines.points[k]);
+      lines.points.resize(volume.line_points.size());
+      for (std::size_t k = 0; k < volume.line_points.size(); ++k)
+        topics::set_point(volume.line_points[k], lines.points[k]);
   }
 }
 
@@ -77,7 +77,7 @@ void fill_scene(const Frame& frame, const FrameResult& result, const std::vector
     now.emplace(entity.id, 0);
     const msg::SceneColor colour = scene_colour(result, i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
-      if (result.has(i, m) && !empty(result.volume(i, m)))
+      if (result.is_requested(i, m) && !empty(result.volume(i, m)))
         add_volume(volumes[i * result.methods.size() + m], colour, entity);
     }
     add_facts(result, i, entity);

@@ -43,7 +43,7 @@ void write_labelled_points(const Frame& frame, const FrameResult& result, std::b
   }
 }
 
-bool StreamHealth::heeds(const Frame& frame, const FrameResult& result) {
+bool StreamHealth::record_frame(const Frame& frame, const FrameResult& result) {
   slowest_ms_ = std::max(slowest_ms_, result.ms.total);
   objects_ = result.clusters.size();
   if (warned_config_ != result.config) warning_.clear();

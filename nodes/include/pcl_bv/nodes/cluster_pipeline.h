@@ -22,8 +22,9 @@ template <typename PointT>
 Frame make_frame(typename pcl::PointCloud<PointT>::ConstPtr cloud) {
   if (cloud == nullptr) throw std::invalid_argument("make_frame: the cloud is a null pointer");
   Frame frame;
-  constexpr std::uint64_t most = INT64_MAX / 1000;
-  const std::uint64_t microseconds = cloud->header.stamp < most ? cloud->header.stamp : most;
+  constexpr std::uint64_t max_microseconds = INT64_MAX / 1000;
+  const std::uint64_t microseconds =
+      cloud->header.stamp < max_microseconds ? cloud->header.stamp : max_microseconds;
   frame.header = {cloud->header.seq, static_cast<std::int64_t>(microseconds) * 1000, cloud->header.frame_id};
   frame.points = point_view(*cloud);
   const auto& sensor = cloud->sensor_origin_;

@@ -40,10 +40,11 @@ struct FrameResult {
   FrameHeader header;
   /// The configuration that was used; never null.
   std::shared_ptr<const PipelineConfig> config = std::make_shared<PipelineConfig>();
-  std::size_t points = 0;          ///< Number of points of the cloud, valid or not.
-  Counts counts;                   ///< Number of points in no cluster, by reason.
-  std::vector<std::int32_t> kept;  ///< Indices of the points that passed the filter; see points_after_filter().
-  GroundSplit ground;              ///< Ground and other points; `found` is false without ground removal.
+  std::size_t points = 0;  ///< Number of points of the cloud, valid or not.
+  Counts counts;           ///< Number of points in no cluster, by reason.
+  /// Indices of the points that passed the filter; see points_after_filter().
+  std::vector<std::int32_t> passed_filter;
+  GroundSplit ground;  ///< Ground and other points; `found` is false without ground removal.
   /// Sensor position, the centre of ground zones: ground.sensor if given; otherwise Frame::sensor or the
   /// origin, if the points lie around it; otherwise the densest part of the cloud (find_sensor()). The origin
   /// if no enabled setting depends on it.
@@ -56,7 +57,7 @@ struct FrameResult {
   /// index list: read clusters by points_of().
   Clusters clusters;
   std::vector<std::int64_t> class_of;  ///< Class of each cluster if cluster.class_field is set; else empty.
-  /// Used instead of `kept` for large clouds without index lists.
+  /// Used instead of `passed_filter` for large clouds without index lists.
   std::shared_ptr<const PointSource> filtered;
 
   TrackTime track_time = TrackTime::stamps;  ///< Meaningful only with tracking.
@@ -66,9 +67,9 @@ struct FrameResult {
   /// Requested methods in order: the union over all classes.
   std::vector<const Method*> methods;
   std::vector<AnyVolume> volumes;  ///< Volumes: for each cluster, one per entry of `methods`.
-  /// For each volume: 0 if the cluster's class does not request it, and it is empty. If `wanted` is empty,
+  /// For each volume: 0 if the cluster's class does not request it, and it is empty. If `requested` is empty,
   /// all volumes are requested.
-  std::vector<std::uint8_t> wanted;
+  std::vector<std::uint8_t> requested;
   /// For each volume: the result of its fit. A failed fit leaves the volume empty.
   std::vector<EstimationResult> results;
   StageTimes ms;
@@ -78,8 +79,8 @@ struct FrameResult {
     return volumes[cluster * methods.size() + method];
   }
   /// Returns whether the cluster's class requests `methods[method]`.
-  bool has(std::size_t cluster, std::size_t method) const {
-    return wanted.empty() || wanted[cluster * methods.size() + method] != 0;
+  bool is_requested(std::size_t cluster, std::size_t method) const {
+    return requested.empty() || requested[cluster * methods.size() + method] != 0;
   }
 
   /// Returns the points that passed the filter, or the points of a cluster, as views of `cloud` (the frame's

@@ -40,7 +40,7 @@ class FrameSink {
   virtual void write_lost(const Frame&, const std::string& /*reason*/) {}
 
   /// Offers settings that the readers of the results may see and change. Called before the first frame.
-  virtual void offer(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
+  virtual void offer_settings(const std::shared_ptr<RemoteSettings>& /*settings*/) {}
 
   /// Returns the warnings since the last call that affect no frame, one line each.
   virtual std::vector<std::string> take_warnings() { return {}; }
@@ -53,12 +53,12 @@ struct SinkDescription;
 
 /// An entry of the table of sinks.
 struct SinkKind {
-  std::string_view name;   ///< Text before the colon: "vtp".
-  std::string_view place;  ///< Syntax of the text after the colon, for help: "FOLDER[,points]".
-  /// Extension of the files if `place` is a folder with a file per frame; else empty.
+  std::string_view name;    ///< Text before the colon: "vtp".
+  std::string_view target;  ///< Syntax of the text after the colon, for help: "FOLDER[,points]".
+  /// Extension of the files if `target` is a folder with a file per frame; else empty.
   std::string_view files;
   std::unique_ptr<FrameSink> (*open)(const SinkDescription&);
-  bool live = false;  ///< Sends to listeners: the place is not a file.
+  bool live = false;  ///< Sends to listeners: the target is not a file.
 };
 
 /// Returns the table of sinks: jsonl, csv, mcap, rosbag2, dds, ws, vtp, image, labels.
@@ -71,7 +71,7 @@ std::string sink_syntax();
 struct SinkDescription {
   const SinkKind* kind = nullptr;
   /// File or folder ("-": standard output); dds: topic prefix; ws: [HOST:]PORT.
-  std::filesystem::path place;
+  std::filesystem::path target;
   bool points = false;  ///< Write the points of each frame, too.
 };
 
@@ -95,9 +95,9 @@ std::unique_ptr<FrameSink> make_sink(std::function<void(const Frame&, const Fram
 /// alive() may be called from any thread.
 class SinkGroup {
  public:
-  /// `say` is called with a line for each failure, but not if a sink fails as it did the time before. Throws
-  /// std::invalid_argument if `say` is empty.
-  explicit SinkGroup(std::function<void(const std::string&)> say);
+  /// `report` is called with a line for each failure, but not if a sink fails as it did the time before.
+  /// Throws std::invalid_argument if `report` is empty.
+  explicit SinkGroup(std::function<void(const std::string&)> report);
 
   /// If nothing was written and close() was not called, for example because another sink could not be opened,
   /// each sink removes the files that it created. Folders that were created for the sinks are then removed if
@@ -111,13 +111,13 @@ class SinkGroup {
   void add(const SinkDescription& description);
 
   /// Offers the settings to all sinks added so far.
-  void offer(const std::shared_ptr<RemoteSettings>& settings);
+  void offer_settings(const std::shared_ptr<RemoteSettings>& settings);
 
   /// Write to all sinks that have not been given up.
   void write(const Frame& frame, const FrameResult& result);
   void write_lost(const Frame& frame, const std::string& reason);
 
-  /// Closes all sinks. Says for each sink that lacks more than one frame how many frames it lacks.
+  /// Closes all sinks. Reports for each sink that lacks more than one frame how many frames it lacks.
   void close();
 
   bool failed() const { return failed_; }  ///< Whether an output failed other than by a closed pipe.
@@ -127,7 +127,7 @@ class SinkGroup {
 
  private:
   struct Member;
-  void complain(Member& member, const std::string& problem);
+  void report_failure(Member& member, const std::string& problem);
   template <typename Do>
   bool attempt(Member& member, const Do& what);
   template <typename Do>
@@ -136,7 +136,7 @@ class SinkGroup {
   std::function<void(const std::string&)> report_;
   std::vector<std::unique_ptr<Member>> members_;
   // Path of each sink, and its outermost folder or file that did not exist.
-  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> made_;
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> created_;
   bool used_ = false;
   std::atomic<bool> failed_{false}, alive_{false};
 };

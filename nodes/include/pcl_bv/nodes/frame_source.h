@@ -36,7 +36,7 @@ class FrameError : public std::runtime_error {
 enum class Next : std::uint8_t {
   frame,
   end,
-  nothing  ///< No frame has come yet; call next() again.
+  timeout  ///< No frame has come yet; call next() again.
 };
 
 /// A sequence of frames.
@@ -44,10 +44,10 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  /// Replaces `frame` by the next frame if it comes within `patience`; reading an existing file may take
+  /// Replaces `frame` by the next frame if it comes within `timeout`; reading an existing file may take
   /// longer. Throws FrameError for a frame that cannot be read; the next call continues with the following
   /// frame. Must not be called again after Next::end or after any other exception.
-  virtual Next next(Frame& frame, std::chrono::milliseconds patience) = 0;
+  virtual Next next(Frame& frame, std::chrono::milliseconds timeout) = 0;
 
   /// Returns the warnings about the source as a whole since the last call, one line each.
   virtual std::vector<std::string> take_warnings() { return {}; }
@@ -91,15 +91,15 @@ enum class FrameTimes : std::uint8_t {
   live       ///< Live messages; there is no other choice.
 };
 
-/// An entry of the table of sources. `takes` tells whether this kind opens the name.
+/// An entry of the table of sources. `accepts` tells whether this kind opens the name.
 struct SourceKind {
   std::string_view syntax;
   FrameTimes times;
-  bool (*takes)(const std::string& name);
+  bool (*accepts)(const std::string& name);
   std::unique_ptr<FrameSource> (*open)(const std::string& name, const ReplayOptions& options);
 };
 
-/// Returns the table of sources. The first kind that takes a name opens it; the last kind takes any name.
+/// Returns the table of sources. The first kind that accepts a name opens it; the last kind accepts any name.
 const std::vector<SourceKind>& source_kinds();
 /// Returns the kind that opens this name.
 const SourceKind& source_kind(const std::string& name);

@@ -26,7 +26,7 @@ class FrameWarnings {
 
  private:
   std::shared_ptr<const PipelineConfig> config_;
-  std::uint32_t said_ = 0;  // kinds already returned, one bit each
+  std::uint32_t returned_ = 0;  // kinds already returned, one bit each
   bool searched_ = false;   // another up direction was searched because of little ground
 };
 

@@ -21,13 +21,13 @@ class LatencyHistogram {
   std::uint64_t count() const { return count_; }
   double max() const { return max_; }  ///< Longest duration, milliseconds; 0 if empty.
 
-  /// Returns the duration that the share `part` (0 to 1) of all durations does not exceed: the nearest rank,
-  /// milliseconds, at most 1 % above the exact value. 0 if empty.
-  double percentile(double part) const;
+  /// Returns the duration, milliseconds, that a `share` (0 to 1) of all durations does not exceed: the
+  /// nearest rank, at most 1 % above the exact value. 0 if empty.
+  double percentile(double share) const;
 
  private:
   static constexpr std::size_t kBinCount = 2084;  // ln(1e9) / ln(1.01) + 1
-  std::array<std::uint32_t, kBinCount> classes_{};
+  std::array<std::uint32_t, kBinCount> bins_{};
   std::uint64_t count_ = 0;
   double max_ = 0;
 };

@@ -139,7 +139,7 @@ struct PipelineConfig {
   std::vector<const Method*> methods_of(const ClassConfig* own) const;
 
   /// Returns the execution policy for `threads`.
-  ParallelPolicy policy() const;
+  ParallelPolicy parallel_policy() const;
 };
 
 /// Returns the configuration for any cloud: no filter, no ground removal, all points one object, all

@@ -25,7 +25,7 @@ enum class QueuePolicy : std::uint8_t {
 
 /// Returns what `automatic` means: drop_oldest if frames come at a pace of their own (`paced`), else block.
 /// Returns other policies unchanged.
-QueuePolicy resolved(QueuePolicy policy, bool paced);
+QueuePolicy resolved_policy(QueuePolicy policy, bool paced);
 
 /// Settings of a StreamRunner.
 struct RunnerConfig {

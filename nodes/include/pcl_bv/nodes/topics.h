@@ -37,18 +37,18 @@ struct VolumeShape {
   std::array<double, 3> position{};
   std::array<double, 4> orientation{0, 0, 0, 1};  ///< x, y, z, w.
   std::array<double, 3> size{};                   ///< Full lengths along its axes; 1 for lines.
-  std::vector<std::array<double, 3>> ends;        ///< Of lines: two points each, in the frame of the points.
+  std::vector<std::array<double, 3>> line_points;  ///< Two points per line, in the frame of the points.
 };
 
-/// Returns the shape of a volume; for an empty volume `lines` without ends.
-VolumeShape drawn(const AnyVolume& volume);
+/// Returns the shape of a volume; for an empty volume `lines` without points.
+VolumeShape viewer_shape(const AnyVolume& volume);
 
 /// Returns the shapes of all volumes in the order of FrameResult::volumes; for missing volumes `lines`
-/// without ends. Call it once for all messages: computing the edges of a k-DOP costs as much as its fit.
-std::vector<VolumeShape> drawn(const FrameResult& result);
+/// without points. Call it once for all messages: computing the edges of a k-DOP costs as much as its fit.
+std::vector<VolumeShape> viewer_shapes(const FrameResult& result);
 
 /// Returns the box of a cluster: its first volume that is a box, otherwise the axis-aligned box of its first
-/// volume. Without volumes: `lines` without ends.
+/// volume. Without volumes: `lines` without points.
 VolumeShape box_of(const FrameResult& result, std::size_t cluster);
 
 /// Returns the red, green, blue and alpha of a cluster, 0 to 1. A tracked object keeps its colour.
@@ -187,7 +187,7 @@ class ShownObjects {
 
 /// Fills a visualization_msgs/MarkerArray with a marker for each volume that is not empty, and deletes the
 /// markers of `shown` that have ended. The namespace is the method; the id is that of the track, or negative
-/// until there is one. Markers last `lifetime_ns`. `volumes` is drawn(result).
+/// until there is one. Markers last `lifetime_ns`. `volumes` is viewer_shapes(result).
 template <class Array>
 void fill_markers(const Frame& frame, const FrameResult& result, const std::vector<VolumeShape>& volumes,
                   std::int64_t lifetime_ns, ShownObjects& shown, Array& array) {
@@ -209,7 +209,7 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
     const auto id =
         tracked ? static_cast<std::int32_t>(result.tracks[i]->id) : -1 - static_cast<std::int32_t>(i);
     for (std::size_t m = 0; m < result.methods.size(); ++m) {
-      if (!result.has(i, m) || empty(result.volume(i, m))) continue;
+      if (!result.is_requested(i, m) || empty(result.volume(i, m))) continue;
       const VolumeShape& volume = volumes[i * result.methods.size() + m];
       Marker& marker = add(std::string(result.methods[m]->name), id);
       now.emplace(marker.ns, id);
@@ -232,9 +232,9 @@ void fill_markers(const Frame& frame, const FrameResult& result, const std::vect
           marker.scale.x = 0.03;
           break;
       }
-      marker.points.resize(volume.ends.size());
-      for (std::size_t k = 0; k < volume.ends.size(); ++k)
-        topics::set_point(volume.ends[k], marker.points[k]);
+      marker.points.resize(volume.line_points.size());
+      for (std::size_t k = 0; k < volume.line_points.size(); ++k)
+        topics::set_point(volume.line_points[k], marker.points[k]);
     }
   }
   for (const auto& ended : shown.replace(std::move(now)))
@@ -293,10 +293,10 @@ void fill_points(const Frame& frame, const FrameResult& result, Cloud& cloud) {
 class StreamHealth {
  public:
   /// Counts a lost frame.
-  void lost() { ++lost_; }
+  void count_lost() { ++lost_; }
 
   /// Records a frame. Returns whether a diagnostic message is due.
-  bool heeds(const Frame& frame, const FrameResult& result);
+  bool record_frame(const Frame& frame, const FrameResult& result);
 
   /// Fills a diagnostic_msgs/DiagnosticArray. Its values are the numbers of frames and of lost frames, the
   /// number of objects in the last frame, and the duration of the slowest frame since the last message. Its

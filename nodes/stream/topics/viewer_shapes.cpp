@@ -22,18 +22,19 @@ std::array<double, 3> array_of(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const Eigen::Quaterniond& turn,
+VolumeShape solid(VolumeShape::Kind kind, const Eigen::Vector3d& center, const Eigen::Quaterniond& rotation,
                   const Eigen::Vector3d& size) {
-  return {kind, array_of(center), {turn.x(), turn.y(), turn.z(), turn.w()}, array_of(size), {}};
+  return {
+      kind, array_of(center), {rotation.x(), rotation.y(), rotation.z(), rotation.w()}, array_of(size), {}};
 }
 
 // Returns the rotation from z to a unit axis. For a downward axis it goes by way of the opposite axis, which
 // is better conditioned. Eigen's FromTwoVectors() uses a singular value decomposition for opposite vectors,
 // which took half of this unit's compile time.
-Eigen::Quaterniond turn_to(const Eigen::Vector3d& axis) {
+Eigen::Quaterniond rotation_to(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d up = axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
-  const Eigen::Quaterniond turn = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();
-  return axis.z() < 0 ? turn * Eigen::Quaterniond(0, 1, 0, 0) : turn;
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(1 + up.z(), -up.y(), up.x(), 0).normalized();
+  return axis.z() < 0 ? rotation * Eigen::Quaterniond(0, 1, 0, 0) : rotation;
 }
 
 // Returns the edges of the faces, each once.
@@ -46,8 +47,8 @@ VolumeShape wires(const Mesh& mesh) {
       edges.insert(std::minmax(face[k], face[(k + 1) % face.size()]));
   }
   for (const auto& [a, b] : edges) {
-    volume.ends.push_back(array_of(mesh.vertices[static_cast<std::size_t>(a)]));
-    volume.ends.push_back(array_of(mesh.vertices[static_cast<std::size_t>(b)]));
+    volume.line_points.push_back(array_of(mesh.vertices[static_cast<std::size_t>(a)]));
+    volume.line_points.push_back(array_of(mesh.vertices[static_cast<std::size_t>(b)]));
   }
   return volume;
 }
@@ -72,7 +73,7 @@ struct Draw {
                  2 * ellipsoid.radii());
   }
   VolumeShape operator()(const Cylinder& cylinder) const {
-    return solid(Kind::cylinder, cylinder.center(), turn_to(cylinder.axis()),
+    return solid(Kind::cylinder, cylinder.center(), rotation_to(cylinder.axis()),
                  {2 * cylinder.radius(), 2 * cylinder.radius(), 2 * cylinder.half_height()});
   }
   template <class Volume>
@@ -83,16 +84,16 @@ struct Draw {
 
 }  // namespace
 
-VolumeShape drawn(const AnyVolume& volume) {
+VolumeShape viewer_shape(const AnyVolume& volume) {
   return empty(volume) ? VolumeShape() : std::visit(Draw{}, volume);
 }
 
-std::vector<VolumeShape> drawn(const FrameResult& result) {
+std::vector<VolumeShape> viewer_shapes(const FrameResult& result) {
   std::vector<VolumeShape> volumes;
   volumes.reserve(result.volumes.size());
   for (std::size_t i = 0; i < result.clusters.size(); ++i) {
     for (std::size_t m = 0; m < result.methods.size(); ++m)
-      volumes.push_back(result.has(i, m) ? drawn(result.volume(i, m)) : VolumeShape());
+      volumes.push_back(result.is_requested(i, m) ? viewer_shape(result.volume(i, m)) : VolumeShape());
   }
   return volumes;
 }
@@ -101,11 +102,12 @@ VolumeShape box_of(const FrameResult& result, std::size_t cluster) {
   const AnyVolume* first = nullptr;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     const AnyVolume& volume = result.volume(cluster, m);
-    if (!result.has(cluster, m) || empty(volume)) continue;
-    if (std::holds_alternative<Aabb>(volume) || std::holds_alternative<Obb>(volume)) return drawn(volume);
+    if (!result.is_requested(cluster, m) || empty(volume)) continue;
+    if (std::holds_alternative<Aabb>(volume) || std::holds_alternative<Obb>(volume))
+      return viewer_shape(volume);
     if (first == nullptr) first = &volume;
   }
-  return first == nullptr ? VolumeShape() : drawn(AnyVolume(aabb(*first)));
+  return first == nullptr ? VolumeShape() : viewer_shape(AnyVolume(aabb(*first)));
 }
 
 std::array<float, 4> colour_of(const FrameResult& result, std::size_t cluster) {
