@@ -27,10 +27,10 @@ std::size_t threads_for_queries(std::size_t count) {
 template <typename Ask>
 void query_blocks(std::size_t count, const Execution& execution, const Ask& ask) {
   for_each_range(limit_threads(execution.parallel, threads_for_queries(count)), count, kBlock,
-               [&](std::size_t begin, std::size_t end) {
-                 const FloatEnvironment environment;
-                 ask(begin, end);
-               });
+                 [&](std::size_t begin, std::size_t end) {
+                   const FloatEnvironment environment;
+                   ask(begin, end);
+                 });
 }
 
 void require_in_memory(const PointView& places) {
@@ -103,9 +103,9 @@ void any_inside(const PointTree& tree, const std::vector<Sphere>& spheres, std::
   query_blocks(spheres.size(), execution, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Sphere& sphere = spheres[i];
-      inside[i] = static_cast<std::uint8_t>(
-          !sphere.empty() &&
-          any_in_ball(execution.isa, tree.packed(), coordinates(sphere.center()), sphere.contained_square()));
+      inside[i] = static_cast<std::uint8_t>(!sphere.empty() && any_in_ball(execution.isa, tree.packed(),
+                                                                           coordinates(sphere.center()),
+                                                                           sphere.max_squared_distance()));
     }
   });
 }

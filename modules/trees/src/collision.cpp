@@ -41,8 +41,8 @@ struct Prepared {
 
 // Returns whether a point may be within `margin` of a moved volume. Conservative; takes a fiftieth of the
 // time of touches().
-bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double stretch,
-               double margin) {
+bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose,
+                   double stretch, double margin) {
   if (volume.body.empty()) return false;
   if (volume.around.empty()) return true;
   const Image center = transform_point(pose, coordinates(volume.around.center()));
@@ -51,7 +51,7 @@ bool may_be_within(const PointTree& points, const Prepared& volume, const Eigen:
 
 // Returns whether a point is within `margin` of a moved volume.
 bool touches(const PointTree& points, const Prepared& volume, const Eigen::Isometry3d& pose, double margin) {
-  const ConvexBody body = volume.body.moved(pose);
+  const ConvexBody body = volume.body.transformed(pose);
   const PointView places = points.packed().view();
   return walk_inside(points.isa(), points.packed(), grown(transformed(volume.turning, pose), margin),
                      [&](std::size_t packet, std::uint32_t bits) {
@@ -103,14 +103,14 @@ namespace {
 // returns true.
 template <typename Found>
 bool each_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
-                  double margin, const Found& found) {
+                 double margin, const Found& found) {
   const FloatEnvironment environment;
   require(pose, margin);
   const std::vector<Prepared>& prepared = volumes.state().prepared;
   const double stretch = max_stretch(pose);
   for (std::size_t i = 0; i < prepared.size(); ++i) {
-    if (may_be_within(points, prepared[i], pose, stretch, margin) && touches(points, prepared[i], pose, margin) &&
-        found(static_cast<std::int32_t>(i))) {
+    if (may_be_within(points, prepared[i], pose, stretch, margin) &&
+        touches(points, prepared[i], pose, margin) && found(static_cast<std::int32_t>(i))) {
       return true;
     }
   }
@@ -129,7 +129,7 @@ bool each_pair(const MovingVolumes& volumes, const MovingVolumes& others, const 
     const Prepared& other = moving.prepared[j];
     if (other.body.empty()) continue;
     const PositionBounds near = extent_near(other.turning, pose, margin);
-    const ConvexBody body = other.body.moved(pose);
+    const ConvexBody body = other.body.transformed(pose);
     const bool ended = state.boxes.visit(state.boxes.query(near.low, near.high), [&](std::uint32_t i) {
       return within(state.prepared[i].body, body, margin) &&
              found(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));

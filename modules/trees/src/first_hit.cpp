@@ -51,7 +51,7 @@ class FirstHit final : public PacketVisitor {
 // Returns the point with the smallest index inside a sphere that does not move.
 std::optional<PointHit> smallest_index_inside(UsableIsa isa, const PackedTree& tree, const Sphere& sphere) {
   std::vector<Neighbor> found;
-  list_in_ball(isa, tree, coordinates(sphere.center()), sphere.contained_square(), found);
+  list_in_ball(isa, tree, coordinates(sphere.center()), sphere.max_squared_distance(), found);
   if (found.empty()) return std::nullopt;
   const auto lower = [](const Neighbor& a, const Neighbor& b) { return a.index < b.index; };
   return PointHit{std::min_element(found.begin(), found.end(), lower)->index, 0};

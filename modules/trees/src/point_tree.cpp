@@ -97,7 +97,8 @@ bool PointTree::any_near(const Eigen::Vector3d& place, double distance) const {
 
 bool PointTree::any_inside(const Sphere& sphere) const {
   const FloatEnvironment environment;
-  return !sphere.empty() && any_in_ball(isa_, tree_, coordinates(sphere.center()), sphere.contained_square());
+  return !sphere.empty() &&
+         any_in_ball(isa_, tree_, coordinates(sphere.center()), sphere.max_squared_distance());
 }
 
 }  // namespace pcl_bv
