@@ -166,8 +166,7 @@ class Kdop {
 
   std::shared_ptr<const KdopSet> set_;
   std::array<double, 2 * max_inline_slabs> inline_numbers_{};
-  std::vector<double>
-      heap_numbers_;  // replaces inline_numbers_ for more than max_inline_slabs slabs, else empty
+  std::vector<double> heap_numbers_;  // used instead for more than max_inline_slabs slabs, else empty
 };
 
 /// Returns whether both have equal sets of directions and equal slabs.
