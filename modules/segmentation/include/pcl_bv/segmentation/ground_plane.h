@@ -35,7 +35,7 @@ struct GroundScratch {
   std::vector<Eigen::Vector3d> sample, support, lowest;
 };
 
-/// Position of the sensor of a cloud: see find_sensor() in sensor_place.h.
+/// Position of the sensor of a cloud: see find_sensor() in sensor_position.h.
 struct SensorPosition {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< Position in the frame of the cloud, metres.
   /// Whether the points lie around the assumed position. If not, `at` is estimated.
@@ -49,7 +49,7 @@ struct GroundSplit {
   /// Unit normal of the plane, pointing up; 0 if not found. The height of p above the plane is normal.p -
   /// offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double offset = 0;     ///< Metres, in the frame of the cloud.
+  double offset = 0;  ///< Metres, in the frame of the cloud.
   /// Only from GroundZones: the centre of its rings. A given position is not checked.
   SensorPosition sensor{};
   /// Only from GroundZones: no plane was found, and level ground at sensor_height was assumed.
