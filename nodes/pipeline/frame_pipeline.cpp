@@ -123,13 +123,13 @@ void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, 
     return pcl_bv::find_sensor(frame.points, config.ground.up, place, result.ground.scratch);
   };
   result.sensor = look(Eigen::Vector3d::Zero());
-  result.around_origin = result.sensor.around;
+  result.around_origin = result.sensor.confirmed;
   if (config.ground.sensor) {
     result.sensor = look(*config.ground.sensor);
-    result.sensor.at = *config.ground.sensor;
+    result.sensor.position = *config.ground.sensor;
   } else if (frame.sensor) {
     const SensorPosition said = look(*frame.sensor);
-    if (said.around) result.sensor = said;
+    if (said.confirmed) result.sensor = said;
   }
 }
 

@@ -91,14 +91,14 @@ void GroundZones::split(const PointView& points, const GroundZonesSettings& sett
   if (!scratch_) scratch_ = std::make_unique<Scratch>();
   split.sensor = settings.sensor ? SensorPosition{*settings.sensor}
                                  : find_sensor(points, settings.up, Eigen::Vector3d::Zero(), split.scratch);
-  const bool estimated = !settings.sensor && !split.sensor.around;
+  const bool estimated = !settings.sensor && !split.sensor.confirmed;
   const std::optional<double> height = estimated ? std::nullopt : settings.sensor_height;
-  const ZoneFrame frame(settings.up, split.sensor.at);
+  const ZoneFrame frame(settings.up, split.sensor.position);
   scratch_->read(points, frame, policy);
   std::optional<Plane> central =
-      scratch_->central_plane(points, settings, split.sensor.at, height, split.scratch);
-  split.level = !central && height;
-  if (split.level) central = frame.level(*height);
+      scratch_->central_plane(points, settings, split.sensor.position, height, split.scratch);
+  split.assumed_level = !central && height;
+  if (split.assumed_level) central = frame.level(*height);
   if (central) {
     const Slope plane = frame.slope(*central);
     const double max_slope = std::tan(settings.max_slope_degrees * std::numbers::pi / 180);

@@ -109,10 +109,10 @@ SensorPosition find_sensor(const PointView& points, const Vector3d& up, const Ve
   Vector3d at = Vector3d::Zero();
   if (share_near(flat, at, kNear) < kNearShare) {
     const Vector3d densest = densest_position(flat);
-    result.around = lies_around_assumed(flat, densest);
-    if (!result.around) {
+    result.confirmed = lies_around_assumed(flat, densest);
+    if (!result.confirmed) {
       at = densest;
-      result.at += at.x() * frame.u + at.y() * frame.v;
+      result.position += at.x() * frame.u + at.y() * frame.v;
     }
   }
   result.far_share = 1 - share_near(flat, at, edge);
