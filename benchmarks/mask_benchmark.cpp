@@ -111,7 +111,7 @@ void add_many(const std::string& scene, Isa isa, std::size_t count, unsigned thr
     const std::vector<Region> regions = regions_about(points, count);
     std::vector<ConvexRegion> convex;
     for (const auto& [volume, padding] : regions)
-      convex.push_back(convex_region(grown(volume, padding)));
+      convex.push_back(convex_region(inflated(volume, padding)));
     const RegionTests tests(convex);
     const RegionMask mask(regions);
     const Execution execution{policy_of(threads), isa};

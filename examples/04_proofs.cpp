@@ -29,6 +29,7 @@ int main() {
   pcl_bv::Sphere sphere;
   pcl_bv::SphereCertificate certificate;  // up to four weighted points
   pcl_bv::fit_smallest_sphere(points, sphere, certificate);
-  std::cout << "radius " << sphere.radius() << ", of no enclosing sphere below " << certificate.lower_bound << "\n";
+  std::cout << "radius " << sphere.radius() << "; no enclosing sphere has a radius below "
+            << certificate.lower_bound << "\n";
   return outside == 0 && sphere.radius() <= certificate.lower_bound * (1 + 1e-12) ? 0 : 1;
 }

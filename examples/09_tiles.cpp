@@ -29,7 +29,7 @@ int main() {
   pcl_bv::AnyVolume from_parts, at_once;
   all.fit(method, from_parts);
   method.fit(whole, at_once, {});
-  std::cout << "volume " << pcl_bv::volume(from_parts) << " m3, the bits of the whole: " << std::boolalpha
-            << (from_parts == at_once) << "\n";
+  std::cout << "volume " << pcl_bv::volume(from_parts)
+            << " m3, equal to the fit of the whole cloud: " << std::boolalpha << (from_parts == at_once) << "\n";
   return from_parts == at_once ? 0 : 1;
 }

@@ -27,8 +27,8 @@ int main() {
   std::cout << "nearest point " << nearest->index << ", " << seen.size() << " points in view\n";
 
   // Paths of 4 m and 6 m, with the radius of the robot: the longer path hits the wall.
-  const bool short_way = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {4, 0, 1}, 0.5));
-  const bool long_way = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {6, 0, 1}, 0.5));
+  const bool short_path = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {4, 0, 1}, 0.5));
+  const bool long_path = tree.any_inside(pcl_bv::Capsule({0, 0, 1}, {6, 0, 1}, 0.5));
   const auto hit = tree.first_hit({0, 0, 1}, {1, 0, 0}, 0.05);
 
   // An arm of two links: first at the pose of its model, then 4.08 m ahead of it.
@@ -41,7 +41,7 @@ int main() {
   pcl_bv::list_within(tree, arm, pose, 0.05, touching);
   std::cout << "the ray hits at " << hit->t << " m; " << touching.size() << " link touches the wall\n";
 
-  const bool right = !seen.empty() && !short_way && long_way && hit->t > 4.9 && hit->t < 5 && !here &&
+  const bool right = !seen.empty() && !short_path && long_path && hit->t > 4.9 && hit->t < 5 && !here &&
                      touching == std::vector<std::int32_t>{1};
   return right ? 0 : 1;
 }

@@ -123,13 +123,13 @@ void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, 
     return pcl_bv::find_sensor(frame.points, config.ground.up, position, result.ground.scratch);
   };
   result.sensor = find_around(Eigen::Vector3d::Zero());
-  result.around_origin = result.sensor.around;
+  result.around_origin = result.sensor.confirmed;
   if (config.ground.sensor) {
     result.sensor = find_around(*config.ground.sensor);
-    result.sensor.at = *config.ground.sensor;
+    result.sensor.position = *config.ground.sensor;
   } else if (frame.sensor) {
     const SensorPosition stated = find_around(*frame.sensor);
-    if (stated.around) result.sensor = stated;
+    if (stated.confirmed) result.sensor = stated;
   }
 }
 

@@ -38,7 +38,7 @@ struct Found {
   }
   std::optional<OtherUp> other_up() const {
     const double share = result.counts.ground > 0 ? ground_share() : 0;
-    return find_other_up(frame.points, plane_settings(config().ground), result.sensor.at, share);
+    return find_other_up(frame.points, plane_settings(config().ground), result.sensor.position, share);
   }
 };
 
@@ -76,12 +76,12 @@ std::string little_ground(const Found& f) {
 }
 
 std::string sensor_elsewhere(const Found& f) {
-  if (!f.zones() || f.result.sensor.around) return {};
+  if (!f.zones() || f.result.sensor.confirmed) return {};
   if (const auto& given = f.config().ground.sensor)
     return "few points lie around ground.sensor " + text_of(*given) +
            ", the centre of ground zones: ground may be missed";
   return "the points do not lie around the origin: ground zones are centred at " +
-         text_of(f.result.sensor.at) +
+         text_of(f.result.sensor.position) +
          ", where the points are densest; if the sensor was elsewhere, use ground.sensor";
 }
 
@@ -98,11 +98,11 @@ std::string origin_elsewhere(const Found& f) {
 std::string far_points(const Found& f) {
   if (!f.zones() || f.result.sensor.far_share < kMinFarShare) return {};
   return percent(f.result.sensor.far_share) + " of the points are 100 m or more from " +
-         text_of(f.result.sensor.at) + ", the centre of ground zones: the ground there is a rough estimate";
+         text_of(f.result.sensor.position) + ", the centre of ground zones: the ground there is a rough estimate";
 }
 
 std::string level_ground(const Found& f) {
-  if (!f.zones() || !f.result.ground.level || f.result.counts.ground == 0) return {};
+  if (!f.zones() || !f.result.ground.assumed_level || f.result.counts.ground == 0) return {};
   return "no plane lies ground.sensor_height " + to_text(*f.config().ground.sensor_height) +
          " m below the sensor, within 0.5 m: level ground is assumed there";
 }

@@ -33,8 +33,8 @@ void split_ground(const PointView& points, const GroundConfig& config, const Sen
     split_ground(points, plane_settings(config), split);
   } else if (config.method == GroundMethod::zones) {
     auto settings = settings_of<GroundZonesSettings>(config);
-    settings.sensor = sensor.at;
-    if (!sensor.around && !config.sensor) settings.sensor_height.reset();
+    settings.sensor = sensor.position;
+    if (!sensor.confirmed && !config.sensor) settings.sensor_height.reset();
     zones.split(points, settings, split, policy);
   }
 }

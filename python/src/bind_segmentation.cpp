@@ -98,7 +98,7 @@ void warn_of_ground(const PointView& points, const GroundConfig& config, const G
   result.counts.ground = found.split.ground.size();
   result.counts.nonfinite = points.count - result.counts.ground - found.split.rest.size();
   result.sensor = found.split.sensor;
-  result.ground.level = found.split.level;
+  result.ground.assumed_level = found.split.assumed_level;
   std::vector<std::string> texts;
   {
     const py::gil_scoped_release unlocked;
@@ -146,7 +146,7 @@ GroundObject find_ground(py::handle points, py::handle method, py::handle up, py
     GroundZones().split(array.view, settings, found.split, policy);
     if (config.sensor) {
       found.split.sensor = find_sensor(array.view, config.up, *config.sensor, found.split.scratch);
-      found.split.sensor.at = *config.sensor;
+      found.split.sensor.position = *config.sensor;
     }
   }
   warn_of_ground(array.view, config, found);

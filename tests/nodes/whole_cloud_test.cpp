@@ -247,8 +247,8 @@ TEST(GroundPlace, ZonesStandAboutTheSensorWhereverItIs) {
   const FrameResult without = result_of(config, third_orientation(moved, 0).points);
   EXPECT_LT(std::abs(static_cast<double>(found) - static_cast<double>(ground)),
             0.001 * static_cast<double>(ground));
-  EXPECT_FALSE(without.sensor.around);
-  EXPECT_NEAR(without.sensor.at.x(), 64, 5);
+  EXPECT_FALSE(without.sensor.confirmed);
+  EXPECT_NEAR(without.sensor.position.x(), 64, 5);
   EXPECT_LT(std::abs(static_cast<double>(without.counts.ground) - static_cast<double>(ground)),
             0.01 * static_cast<double>(ground));
 }

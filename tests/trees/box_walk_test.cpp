@@ -47,7 +47,7 @@ struct Bounds {
 
   template <typename Limit, typename Visit>
   void visit(const Limit& limit, const Visit& visit) const {
-    descend(
+    visit_nearest_first(
         boxes, [&](std::size_t group) { return of_group.at(group); }, limit, visit);
   }
 };

@@ -44,10 +44,10 @@ TEST(ConvexRegion, HasABoxAroundTheVolumeLargerByTheMargin) {
         const double most = std::max(tight.min().cwiseAbs().maxCoeff(), tight.max().cwiseAbs().maxCoeff());
         ASSERT_TRUE(is_within(tight, box)) << shape_name(volume);
         if (has_planes(volume)) {
-          ASSERT_TRUE(is_within(box, aabb(grown(tight, 1e-11 * most)))) << shape_name(volume);
+          ASSERT_TRUE(is_within(box, aabb(inflated(tight, 1e-11 * most)))) << shape_name(volume);
         } else {
-          ASSERT_TRUE(is_within(aabb(grown(volume, 0.97 * 0x1p-40 * most)), box)) << shape_name(volume);
-          ASSERT_TRUE(is_within(box, aabb(grown(volume, 1.03 * 0x1p-40 * most)))) << shape_name(volume);
+          ASSERT_TRUE(is_within(aabb(inflated(volume, 0.97 * 0x1p-40 * most)), box)) << shape_name(volume);
+          ASSERT_TRUE(is_within(box, aabb(inflated(volume, 1.03 * 0x1p-40 * most)))) << shape_name(volume);
         }
       }
     }
@@ -175,7 +175,7 @@ TEST(ConvexRegion, WithoutASideAlongAnAxisEndsWhereOtherPlanesMeet) {
     (open % 2 == 0 ? high : low)[open / 2] *= 2;
     const Aabb box = box_of(convex_region(Hull({low, high}, {}, planes, 3)));
     EXPECT_TRUE(is_within(Aabb(low, high), box)) << open;
-    EXPECT_TRUE(is_within(box, aabb(grown(Aabb(low, high), 1e-11)))) << open;
+    EXPECT_TRUE(is_within(box, aabb(inflated(Aabb(low, high), 1e-11)))) << open;
   }
 }
 

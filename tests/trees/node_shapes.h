@@ -109,7 +109,7 @@ struct Tree {
     const BoxLevels& levels = boxes.levels();
     expected.assign(levels.groups.size() * kTreeWidth, nothing());
     for (std::size_t item = 0; item < volumes.size(); ++item) {
-      const std::uint32_t number = boxes.number(item);
+      const std::uint32_t number = boxes.volume_index(item);
       expected[item] = shape_of(volumes[number], extents[number]);
       expected[item].volumes = {number};
       expected[item].tolerance = 0x1p-21L;

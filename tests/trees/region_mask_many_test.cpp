@@ -69,7 +69,7 @@ TEST(RegionMask, OfAnyNumberOfRegionsIsTheLoopOverThem) {
       for (const auto& cloud : {scanned(points, 31), test::gaussian<float>(points, 32)}) {
         std::vector<AnyVolume> volumes;
         for (const auto& [volume, padding] : regions)
-          volumes.push_back(grown(volume, padding));
+          volumes.push_back(inflated(volume, padding));
         Marks expected;
         for (std::size_t i = 0; i < points; ++i) {
           const Coordinates p = load_point(cloud.view(), i);

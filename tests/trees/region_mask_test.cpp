@@ -49,7 +49,7 @@ Marks contained(const std::vector<Region>& regions, const PointView& points) {
   for (std::size_t i = 0; i < points.count; ++i) {
     const Coordinates p = load_point(points, i);
     inside.push_back(is_valid(p) && std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
-                       return contains(grown(region.volume, region.padding), Vector3d(p.x, p.y, p.z));
+                       return contains(inflated(region.volume, region.padding), Vector3d(p.x, p.y, p.z));
                      }));
   }
   return inside;

@@ -60,8 +60,8 @@ bool holds(const Rational& s, const ExactPoint& n, const Cylinder& cylinder) {
 }
 
 template <typename Shape>
-void expect_reaches(const Shape& shape, double room) {
-  const Reaches found = reaches(shape, 13);
+void expect_support_bounds(const Shape& shape, double room) {
+  const CubeSupportBounds found = cube_support_bounds(shape, 13);
   for (std::size_t i = 0; i < 13; ++i) {
     for (const int sign : {1, -1}) {
       const double bound = sign > 0 ? found.up[i] : found.down[i];
@@ -88,7 +88,7 @@ Eigen::Matrix3d axes_at(Random& random, std::size_t i, double shear) {
   return axes;
 }
 
-TEST(Reaches, AreExactBoundsOfNeedlesAndPlatesAtRightAnglesToADirection) {
+TEST(CubeSupportBounds, AreExactBoundsOfNeedlesAndPlatesAtRightAnglesToADirection) {
   Random random(71);
   for (int round = 0; round < 60; ++round) {
     const double shear = round % 3 == 0 ? 1e-13 : 0, size = std::exp(random.uniform(-7, 14));
@@ -97,31 +97,35 @@ TEST(Reaches, AreExactBoundsOfNeedlesAndPlatesAtRightAnglesToADirection) {
     const double room = (0x1p-43 + 32 * shear) * size + 0x1p-48 * center.cwiseAbs().maxCoeff();
     for (const Vector3d& half :
          {Vector3d(1, 0, 0), Vector3d(1, 1e-9, 1e-9), Vector3d(1, 1, 1e-12), Vector3d(1, 0.1, 0)}) {
-      ASSERT_NO_FATAL_FAILURE(expect_reaches(Obb(center, axes, size * half), room)) << half.transpose();
-      ASSERT_NO_FATAL_FAILURE(expect_reaches(Ellipsoid(center, axes, size * half), room)) << half.transpose();
+      ASSERT_NO_FATAL_FAILURE(expect_support_bounds(Obb(center, axes, size * half), room))
+          << half.transpose();
+      ASSERT_NO_FATAL_FAILURE(expect_support_bounds(Ellipsoid(center, axes, size * half), room))
+          << half.transpose();
     }
     for (const double thin : {0.0, 1e-12, 1e-6}) {
-      ASSERT_NO_FATAL_FAILURE(expect_reaches(Cylinder(center, axes.col(0), thin * size, size), room)) << thin;
-      ASSERT_NO_FATAL_FAILURE(expect_reaches(Cylinder(center, axes.col(2), size, thin * size), room)) << thin;
+      ASSERT_NO_FATAL_FAILURE(expect_support_bounds(Cylinder(center, axes.col(0), thin * size, size), room))
+          << thin;
+      ASSERT_NO_FATAL_FAILURE(expect_support_bounds(Cylinder(center, axes.col(2), size, thin * size), room))
+          << thin;
     }
   }
 }
 
-TEST(Reaches, AreExactBoundsOfRoundVolumesAndOfPoints) {
+TEST(CubeSupportBounds, AreExactBoundsOfRoundVolumesAndOfPoints) {
   Random random(72);
   for (const double radius : {0.0, 1e-3, 1.0, 3e5}) {
     const double room = 0x1p-43 * radius;
     const Vector3d zero = Vector3d::Zero(), least(1e-300, 1e-300, 1e-300);
-    ASSERT_NO_FATAL_FAILURE(expect_reaches(Sphere(zero, radius), room + 1e-300));
-    ASSERT_NO_FATAL_FAILURE(expect_reaches(
+    ASSERT_NO_FATAL_FAILURE(expect_support_bounds(Sphere(zero, radius), room + 1e-300));
+    ASSERT_NO_FATAL_FAILURE(expect_support_bounds(
         Ellipsoid(zero, random.isometry(1).linear(), radius * Vector3d(1, 0.4, 0.2) + least), room + 1e-299));
-    ASSERT_NO_FATAL_FAILURE(expect_reaches(
+    ASSERT_NO_FATAL_FAILURE(expect_support_bounds(
         Obb(zero, random.isometry(1).linear(), radius * Vector3d(1, 0.4, 0.2)), room + 1e-300));
     ASSERT_NO_FATAL_FAILURE(
-        expect_reaches(Cylinder(zero, random.vector(1), radius, 0.5 * radius), room + 1e-300));
+        expect_support_bounds(Cylinder(zero, random.vector(1), radius, 0.5 * radius), room + 1e-300));
   }
   const Capsule capsule({1, 2, 3}, {4, -5, 6}, 0.5);
-  const Reaches found = reaches(capsule, 13);
+  const CubeSupportBounds found = cube_support_bounds(capsule, 13);
   for (std::size_t i = 0; i < 13; ++i) {
     const Vector3d n(kCubeDirections[i][0], kCubeDirections[i][1], kCubeDirections[i][2]);
     const double grown = 0.5 * std::sqrt(n.squaredNorm());
@@ -130,12 +134,12 @@ TEST(Reaches, AreExactBoundsOfRoundVolumesAndOfPoints) {
   }
 }
 
-TEST(Reaches, OfAKdopAreItsOwnSlabsWhateverTheirPlaceInTheSet) {
+TEST(CubeSupportBounds, OfAKdopAreItsOwnSlabsWhateverTheirPlaceInTheSet) {
   const auto set = std::make_shared<const KdopSet>(
       std::vector<Vector3d>{{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, -1}});
   Random random(73);
   const Kdop kdop = around(Kdop(set), random.cloud(scales()[1], Span::solid, 20));
-  const Reaches found = reaches(kdop, 13);
+  const CubeSupportBounds found = cube_support_bounds(kdop, 13);
   for (const auto& [slab, i] : {std::pair{0, 3}, std::pair{4, 12}}) {
     EXPECT_EQ(found.up[static_cast<std::size_t>(i)], kdop.max(static_cast<std::size_t>(slab)));
     EXPECT_EQ(found.down[static_cast<std::size_t>(i)], -kdop.min(static_cast<std::size_t>(slab)));

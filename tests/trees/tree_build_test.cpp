@@ -27,9 +27,9 @@ Items<T> items_of(const test::TestCloud<T>& cloud) {
   Items<T> items;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     PositionedItem<T> item;
-    load_point(cloud.view(), i, item.place);
-    item.number = static_cast<std::int32_t>(i);
-    if (is_valid({item.place[0], item.place[1], item.place[2]})) items.push_back(item);
+    load_point(cloud.view(), i, item.position);
+    item.index = static_cast<std::int32_t>(i);
+    if (is_valid({item.position[0], item.position[1], item.position[2]})) items.push_back(item);
   }
   return items;
 }
@@ -62,21 +62,21 @@ void order_by_sorting(Items<T>& items, std::size_t begin, std::size_t end,
   double length = 0;
   for (std::size_t axis = 0; axis < 3 && begin < end; ++axis) {
     const auto [low, high] = std::minmax_element(
-        first, last, [axis](const auto& a, const auto& b) { return a.place[axis] < b.place[axis]; });
-    const double side = static_cast<double>(high->place[axis]) - static_cast<double>(low->place[axis]);
+        first, last, [axis](const auto& a, const auto& b) { return a.position[axis] < b.position[axis]; });
+    const double side = static_cast<double>(high->position[axis]) - static_cast<double>(low->position[axis]);
     if (side > length) longest = axis;
     length = std::max(length, side);
   }
   const std::size_t count = end - begin;
   if (count <= 16 || length == 0) {
     std::vector<std::int64_t> numbers;
-    std::transform(first, last, std::back_inserter(numbers), [](const auto& item) { return item.number; });
+    std::transform(first, last, std::back_inserter(numbers), [](const auto& item) { return item.index; });
     std::sort(numbers.begin(), numbers.end());
     leaves.push_back(numbers);
     return;
   }
   std::sort(first, last, [longest](const auto& a, const auto& b) {
-    return std::pair(a.place[longest], a.number) < std::pair(b.place[longest], b.number);
+    return std::pair(a.position[longest], a.index) < std::pair(b.position[longest], b.index);
   });
   std::size_t unit = 16;
   while (16 * unit < count)
@@ -105,7 +105,7 @@ TYPED_TEST(TreeBuildOf, OrdersItemsAsSortingAlongLongestSidesDoes) {
     for (const std::vector<std::int64_t>& leaf : leaves) {
       std::vector<std::int64_t> found;
       for (std::size_t i = 0; i < leaf.size(); ++i)
-        found.push_back(order[place++].number);
+        found.push_back(order[place++].index);
       std::sort(found.begin(), found.end());
       ASSERT_EQ(found, leaf) << "before place " << place;
     }
@@ -217,7 +217,7 @@ TEST(BoxLevels, TellHowLittleABallMayBeThatSurelyHoldsAPoint) {
       for (int place = 0; place < 20; ++place)
         found = std::min(found, projection_lower_bound(somewhere(), low[k], high[k]));
     }
-    find_face_cover_squares(boxes);
+    find_min_side_radii(boxes);
     const double told = static_cast<double>(boxes.min_side_radius[0]) / (boxes.scale * boxes.scale);
     EXPECT_LE(told, found + 1e-5);
     EXPECT_NEAR(told, least, 1e-5);

@@ -93,16 +93,16 @@ TEST(VolumeBoxes, OverlappingIsWhatComparisonOfEachSideSays) {
 
 TEST(VolumeBoxes, QueriesReachTheSlackBeyondTheirBox) {
   const VolumeBoxes boxes = boxes_of({bounds({1000, 0, -50}, {1300, 20, 50})});
-  EXPECT_EQ(VolumeBoxes::slack(0), 0x1p-20);
-  EXPECT_EQ(VolumeBoxes::slack(-3), 0x1p-18);
+  EXPECT_EQ(VolumeBoxes::margin(0), 0x1p-20);
+  EXPECT_EQ(VolumeBoxes::margin(-3), 0x1p-18);
   for (const double at : {0.0, 1.0, 40.0, 1e7}) {
     const Vector3d low(1000 - at, -at, -20 - at), high(1200 + at, 5 + at, 20 + 2 * at);
     const BoxQuery query = boxes.query(coordinates(low), coordinates(high));
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       const double least = boxes.to_frame(low[axis], k), most = boxes.to_frame(high[axis], k);
-      EXPECT_NEAR(query.low[axis], least - VolumeBoxes::slack(least), 0.1 * VolumeBoxes::slack(least));
-      EXPECT_NEAR(query.high[axis], most + VolumeBoxes::slack(most), 0.1 * VolumeBoxes::slack(most));
+      EXPECT_NEAR(query.low[axis], least - VolumeBoxes::margin(least), 0.1 * VolumeBoxes::margin(least));
+      EXPECT_NEAR(query.high[axis], most + VolumeBoxes::margin(most), 0.1 * VolumeBoxes::margin(most));
     }
   }
   for (const double low : {-1e99, 1e99}) {
@@ -127,9 +127,9 @@ std::vector<PositionBounds> odd_extents(Random& random) {
     const Vector3d unit = Vector3d::Unit(axis), one = Vector3d::Ones(), low = vector(extents[3].low),
                    high = vector(extents[4].high);
     const PositionBounds nowhere = bounds(1e6 * one, 2e6 * one - 1.1e6 * unit),
-                      open = bounds((unit.array() > 0).select(Vector3d::Constant(-kInfinity), low),
-                                    vector(extents[3].high)),
-                      far = bounds(vector(extents[4].low), high + 1e101 * unit);
+                         open = bounds((unit.array() > 0).select(Vector3d::Constant(-kInfinity), low),
+                                       vector(extents[3].high)),
+                         far = bounds(vector(extents[4].low), high + 1e101 * unit);
     for (const PositionBounds& extent : {nowhere, open, far})
       extents.insert(extents.begin() + 11 * axis, extent);
   }
@@ -137,24 +137,24 @@ std::vector<PositionBounds> odd_extents(Random& random) {
 }
 
 void expect_visits(const VolumeBoxes& boxes, const std::vector<PositionBounds>& extents, Random& random) {
-  std::vector<std::uint32_t> everywhere;
+  std::vector<std::uint32_t> without_box;
   for (std::uint32_t i = 0; i < extents.size(); ++i) {
     if (vector(extents[i].low).minCoeff() < -1e100 || vector(extents[i].high).maxCoeff() > 1e100)
-      everywhere.push_back(i);
+      without_box.push_back(i);
   }
-  ASSERT_EQ(everywhere.size(), 6U);
-  ASSERT_EQ(boxes.everywhere(), everywhere);
+  ASSERT_EQ(without_box.size(), 6U);
+  ASSERT_EQ(boxes.without_box(), without_box);
   for (int i = 0; i < 200; ++i) {
     const Vector3d at = Vector3d(500, -70, 3) + random.vector(30);
     const PositionBounds asked = bounds(at, at + Vector3d::Constant(i % 4));
     std::vector<std::uint32_t> found = visited(boxes, boxes.query(asked.low, asked.high));
-    ASSERT_TRUE(std::equal(everywhere.begin(), everywhere.end(), found.begin()));
+    ASSERT_TRUE(std::equal(without_box.begin(), without_box.end(), found.begin()));
     std::sort(found.begin(), found.end());
     ASSERT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
     for (std::uint32_t k = 0; k < extents.size(); ++k) {
       const bool is_found = std::binary_search(found.begin(), found.end(), k);
       ASSERT_GE(is_found, overlap(extents[k], asked, 0)) << k;
-      const bool has_no_box = std::binary_search(everywhere.begin(), everywhere.end(), k);
+      const bool has_no_box = std::binary_search(without_box.begin(), without_box.end(), k);
       ASSERT_LE(is_found, has_no_box || overlap(extents[k], asked, 1e-3)) << k;
     }
   }
@@ -202,7 +202,7 @@ TEST(VolumeBoxes, LieInTheOrderOfTheirMiddles) {
       shuffled.push_back(extents[i]);
     const VolumeBoxes boxes = boxes_of(shuffled);
     for (std::uint32_t item = 0; item < 256; ++item)
-      ASSERT_EQ(place[boxes.number(item)] / 16, item / 16) << axis;
+      ASSERT_EQ(place[boxes.volume_index(item)] / 16, item / 16) << axis;
   }
 }
 

@@ -45,7 +45,7 @@ std::pair<Group<T>, Group<T>> split(const Group<T>& group) {
 template <typename T>
 bool any_link_of_groups(Group<T> a, Group<T> b, T r2) {
   if (!(min_squared_distance(a.box, b.box) < r2)) return false;
-  if (greatest_squared_distance(a.box, b.box) < r2) return true;
+  if (max_squared_distance(a.box, b.box) < r2) return true;
   if (a.count * b.count <= max_direct_pairs) {
     return any_link_of_few(PointRun<T>{a.points, a.count}, PointRun<T>{b.points, b.count}, r2);
   }

@@ -48,7 +48,8 @@ inline constexpr std::size_t max_direct_pairs = 256;
 /// Returns whether squared_distance(p, q) < r2 for some p of a and q of b. Neither may be empty.
 template <typename T>
 bool any_link(PointRun<T> a, PointRun<T> b, T r2, LinkScratch<T>& scratch) {
-  return a.count * b.count <= max_direct_pairs ? any_link_of_few(a, b, r2) : any_link_of_many(a, b, r2, scratch);
+  return a.count * b.count <= max_direct_pairs ? any_link_of_few(a, b, r2)
+                                               : any_link_of_many(a, b, r2, scratch);
 }
 
 }  // namespace pcl_bv

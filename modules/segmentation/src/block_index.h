@@ -20,9 +20,9 @@ class BlockIndex {
  public:
   /// Removes all keys. The capacity stays, clamped to a range that suits the number of points.
   void reset(std::size_t points) {
-    const std::size_t least = std::bit_ceil(std::max<std::size_t>(points / 4, 64));
+    const std::size_t min_slots = std::bit_ceil(std::max<std::size_t>(points / 4, 64));
     count_ = 0;
-    reserve_links(std::clamp(slots_.size(), least, 16 * least));
+    allocate_slots(std::clamp(slots_.size(), min_slots, 16 * min_slots));
   }
 
   /// Returns the number of a key. New keys get 0, 1, 2, ...
@@ -42,7 +42,7 @@ class BlockIndex {
   };
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  void reserve_links(std::size_t slots) {
+  void allocate_slots(std::size_t slots) {
     slots_.assign(slots, {0, none});
     old_.reserve(slots / 2);  // So that no later call has to allocate it.
     shift_ = 64U - static_cast<unsigned>(std::bit_width(slots - 1));
@@ -60,7 +60,7 @@ class BlockIndex {
 
   Slot* grow(Key key) {
     old_ = slots_;
-    reserve_links(2 * old_.size());
+    allocate_slots(2 * old_.size());
     for (const Slot& slot : old_) {
       if (slot.number != none) *find(slot.key) = slot;
     }

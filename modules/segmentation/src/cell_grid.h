@@ -65,7 +65,7 @@ struct CellGrid {
   }
 
   template <typename Key, typename T>
-  CellKey<Key> place(const Point<T>& p) const {
+  CellKey<Key> key_of(const Point<T>& p) const {
     return near ? packed<Key>(near_cell(0, p.x), near_cell(1, p.y), near_cell(2, p.z))
                 : packed<Key>(cell(0, p.x), cell(1, p.y), cell(2, p.z));
   }

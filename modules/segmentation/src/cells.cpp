@@ -21,15 +21,15 @@ void find_runs(const std::vector<Point<T>>& points, const CellGrid& grid, BlockK
   Key last = 0;
   std::uint64_t occupied = 0;  // a register is faster than memory
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    const CellKey<Key> place = grid.template place<Key>(points[i]);
-    keys.bit_of_point[i] = place.bit;
-    if (place.block != last) {
+    const CellKey<Key> key = grid.template key_of<Key>(points[i]);
+    keys.bit_of_point[i] = key.bit;
+    if (key.block != last) {
       if (!part.runs.empty()) part.runs.back().occupied = occupied;
       occupied = 0;
-      last = place.block;
+      last = key.block;
       part.runs.push_back({last, 0, static_cast<std::uint32_t>(i), 0});
     }
-    occupied |= std::uint64_t{1} << place.bit;
+    occupied |= std::uint64_t{1} << key.bit;
   }
   if (!part.runs.empty()) part.runs.back().occupied = occupied;
 }
@@ -130,9 +130,9 @@ void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, const
   cells.begin[count] = end;
   keys.parts.for_each(policy, [&](CellPart<Key>& part) {
     for (std::size_t i = part.begin; i < part.end; ++i) {
-      const std::uint32_t place = part.next[cells.node[i]]++;
-      cells.points[place] = points[i];
-      if (cells.by_point) cells.node[i] = place;
+      const std::uint32_t position = part.next[cells.node[i]]++;
+      cells.points[position] = points[i];
+      if (cells.by_point) cells.node[i] = position;
     }
   });
 }

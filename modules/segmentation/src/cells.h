@@ -86,9 +86,9 @@ struct BlockKeys {
 
   /// Frees all memory but that of `keys`.
   void release_memory() {
-    BlockKeys kept;
-    kept.keys.swap(keys);
-    *this = std::move(kept);
+    BlockKeys only_keys;
+    only_keys.keys.swap(keys);
+    *this = std::move(only_keys);
   }
 };
 

@@ -30,7 +30,7 @@ bool is_no_return(const Coordinates& p) {
   return p.x == 0 && p.y == 0 && p.z == 0;
 }
 
-bool counts(const Coordinates& p) {
+bool is_used(const Coordinates& p) {
   return is_valid(p) && !is_no_return(p);
 }
 
@@ -70,7 +70,7 @@ double nearest_listed(const PointView& points, std::size_t i, const Coordinates&
   const std::size_t end = std::min(points.count, i + kNeighboursInList + 1);
   for (std::size_t j = i - std::min(i, kNeighboursInList); j < end; ++j) {
     const Coordinates q = load_point(points, j);
-    if (j != i && counts(q)) best = std::min(best, distance(p, q));
+    if (j != i && is_used(q)) best = std::min(best, distance(p, q));
   }
   return best;
 }
@@ -83,7 +83,7 @@ std::vector<Sample> take_samples(const PointView& points, std::size_t before, st
   std::size_t k = (before * samples + used - 1) / used;  // sample k is usable point k * used / samples
   for (std::size_t i = 0, rank = before; i < points.count && k < samples; ++i) {
     const Coordinates p = load_point(points, i);
-    if (!counts(p)) continue;
+    if (!is_used(p)) continue;
     if (rank++ != k * used / samples) continue;
     taken.push_back({p, points.index(i), nearest_listed(points, i, p)});
     ++k;
@@ -102,20 +102,20 @@ double median(const std::vector<Sample>& samples) {
 }
 
 // Lowers the distances of the samples, which are sorted along `axis`, by comparing them with the points. The
-// search radius `reach` shrinks with the median.
+// search radius shrinks with the median.
 void lower_distances(const PointView& points, double Coordinates::*axis, std::vector<Sample>& samples) {
-  constexpr std::size_t points_per_reach = 4096;
+  constexpr std::size_t points_per_update = 4096;
   const auto before = [&](const Sample& sample, double at) { return sample.point.*axis < at; };
-  double reach = 0;
+  double radius = 0;
   for (std::size_t i = 0; i < points.count; ++i) {
-    if (i % points_per_reach == 0) reach = median(samples);
+    if (i % points_per_update == 0) radius = median(samples);
     const Coordinates p = load_point(points, i);
-    if (!counts(p)) continue;
-    auto sample = std::lower_bound(samples.begin(), samples.end(), p.*axis - reach, before);
-    for (; sample != samples.end() && sample->point.*axis <= p.*axis + reach; ++sample) {
+    if (!is_used(p)) continue;
+    auto sample = std::lower_bound(samples.begin(), samples.end(), p.*axis - radius, before);
+    for (; sample != samples.end() && sample->point.*axis <= p.*axis + radius; ++sample) {
       const Coordinates& q = sample->point;
       const bool near =
-          std::abs(p.x - q.x) <= reach && std::abs(p.y - q.y) <= reach && std::abs(p.z - q.z) <= reach;
+          std::abs(p.x - q.x) <= radius && std::abs(p.y - q.y) <= radius && std::abs(p.z - q.z) <= radius;
       if (near && sample->index != points.index(i))
         sample->nearest = std::min(sample->nearest, distance(p, q));
     }
@@ -128,8 +128,8 @@ double Coordinates::*longest_axis(const Aabb& box) {
   return axis == 0 ? &Coordinates::x : axis == 1 ? &Coordinates::y : &Coordinates::z;
 }
 
-std::vector<Sample> sample(const PointView& points, const std::vector<ChunkCounts>& chunks,
-                           std::size_t used) {
+std::vector<Sample> all_samples(const PointView& points, const std::vector<ChunkCounts>& chunks,
+                                std::size_t used) {
   std::vector<Sample> samples;
   std::size_t before = 0;
   for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
@@ -175,7 +175,7 @@ CloudStatistics cloud_statistics(const PointView& points, const ParallelPolicy& 
     found.zero += chunk.zero;
     found.box.merge(chunk.box);
   }
-  if (used >= 2) found.spacing = spacing(points, sample(points, chunks, used), found.box, policy);
+  if (used >= 2) found.spacing = spacing(points, all_samples(points, chunks, used), found.box, policy);
   return found;
 }
 

@@ -25,14 +25,14 @@ struct Component {
 struct Collector {
   std::vector<std::uint32_t> size;
   std::vector<std::uint32_t> next;  ///< Where the next point index goes.
-  std::vector<Component> kept;
+  std::vector<Component> selected;
 };
 
 /// Appends the components of allowed sizes to `clusters`, the largest first, and adds the points of the
 /// others to its counts. The point with the index numbers[i] is in the component roots[node[i]].
-void collect(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
-             std::uint32_t noise, const std::vector<std::int32_t>& numbers, const ClusterSettings& settings,
-             Collector& collector, Clusters& clusters);
+void write_clusters(const std::vector<std::uint32_t>& roots, const std::vector<std::uint32_t>& node,
+                    std::uint32_t noise, const std::vector<std::int32_t>& numbers,
+                    const ClusterSettings& settings, Collector& collector, Clusters& clusters);
 
 /// Appends one cluster of `from`.
 void append(const Clusters& from, std::size_t cluster, Clusters& to);

@@ -50,7 +50,7 @@ struct CoreSearch {
     std::size_t found = 0;
     const auto skip = [&](const Box<T>& box) {
       if (!(min_squared_distance(at, box) < r2)) return true;
-      if (!(greatest_squared_distance(at, box) < r2)) return false;
+      if (!(max_squared_distance(at, box) < r2)) return false;
       found += group_size;
       return true;
     };
@@ -70,7 +70,7 @@ template <typename T>
 bool is_core(const CoreSearch<T>& search, const Point<T>& p, Neighbourhood<T>& near) {
   std::size_t found = 0;
   for (std::size_t i = 0; found < search.min_points; ++i) {
-    if (i == near.size()) near.complete();
+    if (i == near.size()) near.add_other_blocks();
     if (i == near.size()) return false;
     found += search.count(near[i], p, search.min_points - found);
   }
@@ -85,7 +85,7 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
   std::vector<std::uint8_t>& core = search.scratch.core;
   const BlocksAround* around = nullptr;
   std::uint64_t core_cells = 0;
-  std::uint64_t sparse_cells = 0;
+  std::uint64_t cells_with_non_core = 0;
   std::uint32_t cell = block.first_cell;
   for (std::uint64_t rest = block.occupied; rest != 0; rest &= rest - 1, ++cell) {
     const PositionRange own{search.cells.begin[cell], search.cells.begin[cell + 1]};
@@ -97,15 +97,15 @@ void mark_core(const CoreSearch<T>& search, std::size_t number, FindAround find_
     }
     if (around == nullptr) around = &find_around();
     near.start(*around, static_cast<unsigned>(std::countr_zero(rest)));
-    if (near.points() < search.min_points) near.complete();
+    if (near.points() < search.min_points) near.add_other_blocks();
     const bool too_few = near.points() < search.min_points;
     for (std::uint32_t i = own.begin; i < own.end; ++i) {
       core[i] = !too_few && is_core(search, search.cells.points[i], near) ? 1 : 0;
-      (core[i] != 0 ? core_cells : sparse_cells) |= bit;
+      (core[i] != 0 ? core_cells : cells_with_non_core) |= bit;
     }
   }
   search.scratch.core_cells[number] = core_cells;
-  search.scratch.sparse_cells[number] = sparse_cells;
+  search.scratch.cells_with_non_core[number] = cells_with_non_core;
 }
 
 // Returns the position of the core point to which a point that is not core belongs, or `noise`.
@@ -113,26 +113,26 @@ template <typename T>
 std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const Neighbourhood<T>& near) {
   const CoreScratch<T>& scratch = search.scratch;
   const Box<T> at{p, p};
-  T least = search.r2;
+  T min_d2 = search.r2;
   std::uint32_t nearest = noise;
-  const auto look = [&](const PositionRange& run) {
+  const auto search_run = [&](const PositionRange& run) {
     search.by_group(
-        run, [&](const Box<T>& box) { return min_squared_distance(at, box) > least; },
+        run, [&](const Box<T>& box) { return min_squared_distance(at, box) > min_d2; },
         [&](std::uint32_t begin, std::uint32_t end) {
           for (std::uint32_t i = begin; i < end; ++i) {
             const T d2 = squared_distance(search.cells.points[i], p);
-            if (scratch.core[i] == 0 || d2 > least) continue;
+            if (scratch.core[i] == 0 || d2 > min_d2) continue;
             // Equal to another core point's distance, or to r2, which is not linked.
-            const bool tie = d2 == least;
+            const bool tie = d2 == min_d2;
             if (tie && (nearest == noise || scratch.number[i] > scratch.number[nearest])) continue;
-            least = d2;
+            min_d2 = d2;
             nearest = i;
           }
           return true;
         });
   };
   for (std::size_t i = 0; i < near.size(); ++i)
-    look(near[i]);
+    search_run(near[i]);
   return nearest;
 }
 
@@ -140,15 +140,15 @@ template <typename T, typename FindAround>
 void label_border(const CoreSearch<T>& search, std::size_t number, FindAround find_around,
                   Neighbourhood<T>& near) {
   CoreScratch<T>& scratch = search.scratch;
-  if (scratch.sparse_cells[number] == 0) return;
+  if (scratch.cells_with_non_core[number] == 0) return;
   const Block& block = search.cells.blocks[number];
   const BlocksAround& around = find_around();
-  for (std::uint64_t rest = scratch.sparse_cells[number]; rest != 0; rest &= rest - 1) {
+  for (std::uint64_t rest = scratch.cells_with_non_core[number]; rest != 0; rest &= rest - 1) {
     const auto bit = static_cast<unsigned>(std::countr_zero(rest));
     const std::uint32_t cell = block.cell(bit);
     const PositionRange own{search.cells.begin[cell], search.cells.begin[cell + 1]};
     near.start(around, bit);
-    near.complete();
+    near.add_other_blocks();
     for (std::uint32_t i = own.begin; i < own.end; ++i) {
       if (scratch.core[i] == 0) scratch.label[i] = nearest_core(search, search.cells.points[i], near);
     }
@@ -161,7 +161,7 @@ void start_scratch(const Cells<T>& cells, CoreScratch<T>& scratch) {
   scratch.core.assign(points, 0);
   scratch.label.assign(points, noise);
   scratch.core_cells.resize(cells.blocks.size());
-  scratch.sparse_cells.resize(cells.blocks.size());
+  scratch.cells_with_non_core.resize(cells.blocks.size());
   scratch.number.resize(points);
   for (std::size_t i = 0; i < points; ++i)
     scratch.number[cells.node[i]] = static_cast<std::uint32_t>(i);

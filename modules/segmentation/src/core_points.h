@@ -18,10 +18,10 @@ template <typename T>
 struct CoreScratch {
   std::vector<std::uint8_t> core;         ///< For each position in Cells::points, whether it is a core point.
   std::vector<std::uint64_t> core_cells;  ///< For each block, its cells with core points.
-  std::vector<std::uint64_t> sparse_cells;  ///< For each block, its cells with other points.
-  std::vector<std::uint32_t> number;        ///< For each position, the index in the points of make_cells().
-  std::vector<std::uint32_t> label;         ///< For each border point, its core point; later the node.
-  std::vector<Box<T>> groups;               ///< Boxes of `group_size` positions each.
+  std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, its cells with other points.
+  std::vector<std::uint32_t> number;  ///< For each position, the index in the points of make_cells().
+  std::vector<std::uint32_t> label;   ///< For each border point, its core point; later the node.
+  std::vector<Box<T>> groups;         ///< Boxes of `group_size` positions each.
 };
 
 /// Number of consecutive positions with a common box: cells of very many points are tested group by group.

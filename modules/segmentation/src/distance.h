@@ -59,7 +59,7 @@ T min_squared_distance(const Box<T>& a, const Box<T>& b) {
 
 /// Returns an upper bound of squared_distance() for all pairs of points in the two boxes.
 template <typename T>
-T greatest_squared_distance(const Box<T>& a, const Box<T>& b) {
+T max_squared_distance(const Box<T>& a, const Box<T>& b) {
   const auto span = [](T a_min, T a_max, T b_min, T b_max) { return std::max(b_max - a_min, a_max - b_min); };
   return squared_norm(span(a.min.x, a.max.x, b.min.x, b.max.x), span(a.min.y, a.max.y, b.min.y, b.max.y),
                       span(a.min.z, a.max.z, b.min.z, b.max.z));

@@ -48,7 +48,7 @@ void check(const ClusterSettings& settings) {
             << ", must be finite and at least 0";
   } else if (settings.tolerance_per_metre > 0 && settings.min_points > 1) {
     message << "cluster min_points is " << settings.min_points
-            << ", must be 1 where the tolerance grows with the range";
+            << ", must be 1 if tolerance_per_metre is above 0";
   } else {
     return;
   }
@@ -61,8 +61,9 @@ void check(const ClusterSettings& settings) {
 template <typename T>
 double inverse_cell_side(T r2) {
   using limits = std::numeric_limits<T>;
-  const double reach = std::sqrt(static_cast<double>(std::clamp(r2, limits::denorm_min(), limits::max())));
-  return std::sqrt(3.0) * (1 + 1e-6) / reach;
+  const double max_difference =
+      std::sqrt(static_cast<double>(std::clamp(r2, limits::denorm_min(), limits::max())));
+  return std::sqrt(3.0) * (1 + 1e-6) / max_difference;
 }
 
 // Returns whether all points of a cell are certainly linked. The margin of the cells' side covers the
@@ -123,7 +124,7 @@ struct EuclideanClusterer::Scratch {
     levels.start(scratch.valid.points);
     for (std::size_t i = 0;; ++i) {
       const RangeLevel level = range_level(settings.tolerance, settings.tolerance_per_metre, i);
-      if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) || !levels.climb(level)) break;
+      if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) || !levels.advance_to(level)) break;
       link(levels.points(), box_of(levels.points().data(), levels.points().size()),
            double{static_cast<float>(level.tolerance)}, 1, policy);
       levels.unite(sets.roots(), scratch.cells.node);
@@ -134,19 +135,21 @@ struct EuclideanClusterer::Scratch {
   void extract(const PointView& view, const ClusterSettings& settings, const ParallelPolicy& policy,
                Clusters& clusters) {
     auto& scratch = std::get<PointScratch<T>>(points);
-    gather(view, policy, scratch.valid);
+    copy_valid_points(view, policy, scratch.valid);
     const std::size_t count = scratch.valid.points.size();
     if (count == 0) return;
     if (settings.tolerance_per_metre > 0) {
       link_by_range<T>(settings, policy);
       same.resize(count);
       std::iota(same.begin(), same.end(), 0U);
-      collect(scratch.levels.roots(), same, no_root, scratch.valid.numbers, settings, collector, clusters);
+      write_clusters(scratch.levels.roots(), same, no_root, scratch.valid.numbers, settings, collector,
+                     clusters);
       return;
     }
     const std::uint32_t noise =
         link(scratch.valid.points, scratch.valid.box, settings.tolerance, settings.min_points, policy);
-    collect(sets.roots(), scratch.cells.node, noise, scratch.valid.numbers, settings, collector, clusters);
+    write_clusters(sets.roots(), scratch.cells.node, noise, scratch.valid.numbers, settings, collector,
+                   clusters);
   }
 
   /// Appends the clusters. Those above max_size are left out only for Oversized::drop.

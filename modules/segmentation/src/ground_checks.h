@@ -33,11 +33,11 @@ inline void check_ground(const char* who, double distance, double max_slope_degr
 }
 
 /// Throws std::length_error if a point index exceeds 2^31 - 1. Index lists have 32-bit indices anyway.
-inline void check_numbers(const PointView& points) {
-  constexpr std::size_t max_number = std::numeric_limits<std::int32_t>::max();
-  if (points.indices || points.empty() || points.first + points.count - 1 <= max_number) return;
-  throw std::length_error("point number " + std::to_string(points.first + points.count - 1) +
-                          " does not fit an index (0 .. 2147483647)");
+inline void check_indices(const PointView& points) {
+  constexpr std::size_t max_index = std::numeric_limits<std::int32_t>::max();
+  if (points.indices || points.empty() || points.first + points.count - 1 <= max_index) return;
+  throw std::length_error("point index " + std::to_string(points.first + points.count - 1) +
+                          " is too large, must be at most 2147483647");
 }
 
 }  // namespace pcl_bv

@@ -31,20 +31,20 @@ class GroundSurface {
 
  private:
   /// The state of a walk in the current ring, by sector.
-  struct Front {
-    RingRow height;  // expected height of the ground
-    RingRow slope;   // slope of the ground, outwards
-    RingRow anchor;  // height where ground was last seen
-    RingRow age;     // metres since ground was last seen
-    void share(float width);
+  struct WalkState {
+    RingRow height;        // expected height of the ground
+    RingRow slope;         // slope of the ground, outwards
+    RingRow last_ground;   // height where ground was last seen
+    RingRow since_ground;  // metres since ground was last seen
+    void mix_with_neighbours(float width);
   };
 
   void estimate_outwards(const CellSummary& cells);
   void interpolate_inwards();
-  void connect();
+  void compute_lines();
 
   std::size_t rings_ = 0;  // number of rings up to the last with a point
-  std::vector<float> height_, anchor_, age_;
+  std::vector<float> height_, last_ground_, since_ground_;
   std::vector<std::uint8_t> seen_;
   std::vector<Line> lines_;
 };

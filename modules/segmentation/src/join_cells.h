@@ -18,7 +18,7 @@ template <typename T>
 struct JoinScratch {
   std::vector<LinkScratch<T>> links;  ///< One for each chunk.
   /// For each cell, whether some of its points may not be linked; empty if there is no such cell.
-  std::vector<std::uint8_t> loose;
+  std::vector<std::uint8_t> non_solid;
 };
 
 /// Sets `sets` to the connected components of the nodes, and Block::united of each block.

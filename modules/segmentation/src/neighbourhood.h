@@ -75,8 +75,8 @@ struct PositionRange {
 };
 
 /// The points in all cells at most two cells away from a cell along each axis, including the cell itself.
-/// start() takes those of the same block, complete() adds those of other blocks. Consecutive occupied cells
-/// of a block form one run: for the 125 cells there are mostly about ten runs.
+/// start() takes those of the same block, add_other_blocks() adds those of other blocks. Consecutive occupied
+/// cells of a block form one run: for the 125 cells there are mostly about ten runs.
 template <typename T>
 class Neighbourhood {
  public:
@@ -89,14 +89,14 @@ class Neighbourhood {
     count_ = 0;
     points_ = 0;
     add(1, 1, 1);
-    complete_ = false;
+    has_other_blocks_ = false;
   }
 
   /// Adds the runs in other blocks. At most seven matter: a cell in the lower half of its block is never
   /// within two cells of the next block, nor a cell in the upper half within two of the block before.
-  void complete() {
-    if (complete_) return;
-    complete_ = true;
+  void add_other_blocks() {
+    if (has_other_blocks_) return;
+    has_other_blocks_ = true;
     const auto side = [this](unsigned shift) { return (bit_ >> shift & 3) < 2 ? 0U : 2U; };
     for (unsigned i = 1; i < 8; ++i)
       add((i & 1) != 0 ? side(0) : 1, (i & 2) != 0 ? side(2) : 1, (i & 4) != 0 ? side(4) : 1);
@@ -126,7 +126,7 @@ class Neighbourhood {
   const Cells<T>& cells_;
   const BlocksAround* around_ = nullptr;
   unsigned bit_ = 0;
-  bool complete_ = false;
+  bool has_other_blocks_ = false;
   std::size_t count_ = 0, points_ = 0;
   std::array<PositionRange, 125> runs_;  // Only the first count_ are set.
 };

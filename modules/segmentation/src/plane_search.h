@@ -34,16 +34,16 @@ std::optional<Plane> find_ground_plane(const PointView& points, const Eigen::Vec
                                        std::size_t sample_size = default_sample_size);
 
 /// Stores `plane` in the split and fills its lists. visit(put) must call put(index, is_ground) for each valid
-/// point, at most `most` times. Each index is written to both lists, and the end of one list advances. This
-/// takes half the time of a branch, which clouds in scan order make unpredictable.
+/// point, at most `max_count` times. Each index is written to both lists, and the end of one list advances.
+/// This takes half the time of a branch, which clouds in scan order make unpredictable.
 template <typename Visit>
-void write_split(const std::optional<Plane>& plane, std::size_t most, GroundSplit& split,
+void write_split(const std::optional<Plane>& plane, std::size_t max_count, GroundSplit& split,
                  const Visit& visit) {
   split.found = plane.has_value();
   split.normal = plane ? plane->normal : Eigen::Vector3d::Zero();
   split.offset = plane ? plane->offset : 0;
-  split.ground.resize(most);
-  split.rest.resize(most);
+  split.ground.resize(max_count);
+  split.rest.resize(max_count);
   std::size_t ground = 0, rest = 0;
   visit([&](std::int32_t number, bool is_ground) {
     split.ground[ground] = split.rest[rest] = number;

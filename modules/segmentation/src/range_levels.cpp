@@ -13,9 +13,10 @@ namespace pcl_bv {
 RangeLevel range_level(float tolerance, float per_metre, std::size_t level) {
   // Not exp2(), which differs between libraries.
   constexpr std::array<double, 4> quarters{1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
-  const double grown = std::ldexp(double{tolerance} * quarters[level % 4], static_cast<int>(level / 4));
-  const double range = (grown - double{tolerance}) / double{per_metre};
-  return {grown, range * range};
+  const double level_tolerance =
+      std::ldexp(double{tolerance} * quarters[level % 4], static_cast<int>(level / 4));
+  const double range = (level_tolerance - double{tolerance}) / double{per_metre};
+  return {level_tolerance, range * range};
 }
 
 template <typename T>
@@ -27,17 +28,17 @@ void RangeLevels<T>::start(const std::vector<Point<T>>& points) {
 }
 
 template <typename T>
-bool RangeLevels<T>::climb(const RangeLevel& level) {
-  std::size_t kept = 0;
+bool RangeLevels<T>::advance_to(const RangeLevel& level) {
+  std::size_t count = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Point<T> p = points_[i];
     if (squared_norm<double>(p.x, p.y, p.z) < level.min_squared_range) continue;
-    points_[kept] = p;
-    position_[kept++] = position_[i];
+    points_[count] = p;
+    position_[count++] = position_[i];
   }
-  points_.resize(kept);
-  position_.resize(kept);
-  return kept > 0;
+  points_.resize(count);
+  position_.resize(count);
+  return count > 0;
 }
 
 template <typename T>

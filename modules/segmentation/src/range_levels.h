@@ -31,7 +31,7 @@ class RangeLevels {
   void start(const std::vector<Point<T>>& points);
 
   /// Removes the points that do not reach the level. Returns false if none are left.
-  bool climb(const RangeLevel& level);
+  bool advance_to(const RangeLevel& level);
 
   /// Returns the points that reach the current level.
   const std::vector<Point<T>>& points() const { return points_; }
@@ -44,7 +44,7 @@ class RangeLevels {
 
  private:
   std::vector<Point<T>> points_;
-  std::vector<std::uint32_t> position_;  // position of each point in those of start()
+  std::vector<std::uint32_t> position_;       // position of each point in those of start()
   std::vector<std::uint32_t> first_of_root_;  // for each root, a point that has it
   UnionFind sets_;
 };

@@ -31,32 +31,32 @@ constexpr double kNearShare = 0.05, kDenseShare = 0.5;
 /// Points seen from above, relative to the assumed position of the sensor: (u, v, 0).
 using FlatPoints = std::vector<Vector3d>;
 
-void sample_from_above(const PointView& points, const UpFrame& frame, const Vector3d& said,
+void sample_from_above(const PointView& points, const UpFrame& frame, const Vector3d& assumed,
                        FlatPoints& flat) {
   draw_sample(points, 1, kSample, flat);
   flat.erase(std::remove(flat.begin(), flat.end(), Vector3d(Vector3d::Zero())), flat.end());
   for (Vector3d& p : flat)
-    p = Vector3d(dot3(p - said, frame.u), dot3(p - said, frame.v), 0);
+    p = Vector3d(dot3(p - assumed, frame.u), dot3(p - assumed, frame.v), 0);
 }
 
-/// Returns the share of the points within `radius` of `place`.
-double share_near(const FlatPoints& points, const Vector3d& place, double radius) {
+/// Returns the share of the points within `radius` of `position`.
+double share_near(const FlatPoints& points, const Vector3d& position, double radius) {
   const auto near = std::count_if(points.begin(), points.end(), [&](const Vector3d& p) {
-    return (p - place).squaredNorm() < radius * radius;
+    return (p - position).squaredNorm() < radius * radius;
   });
   return static_cast<double>(near) / static_cast<double>(points.size());
 }
 
-/// Returns the mean of the points within kNear of `place`, or `place` if there are none.
-Vector3d mean_near(const FlatPoints& points, const Vector3d& place) {
+/// Returns the mean of the points within kNear of `position`, or `position` if there are none.
+Vector3d mean_near(const FlatPoints& points, const Vector3d& position) {
   Vector3d sum = Vector3d::Zero();
   double count = 0;
   for (const Vector3d& p : points) {
-    if ((p - place).squaredNorm() >= kNear * kNear) continue;
+    if ((p - position).squaredNorm() >= kNear * kNear) continue;
     sum += p;
     ++count;
   }
-  return count > 0 ? Vector3d(sum / count) : place;
+  return count > 0 ? Vector3d(sum / count) : position;
 }
 
 /// Returns the position where the points are densest: the centre of the fullest of squares of 25 m, in steps
@@ -72,11 +72,11 @@ Vector3d densest_position(const FlatPoints& points) {
   }
   std::sort(corners.begin(), end_of_all);
   Square best{};
-  std::ptrdiff_t most = 0;
+  std::ptrdiff_t largest = 0;
   for (auto begin = corners.begin(); begin != end_of_all;) {
     const auto end = std::upper_bound(begin, end_of_all, *begin);
-    if (end - begin > most) {
-      most = end - begin;
+    if (end - begin > largest) {
+      largest = end - begin;
       best = *begin;
     }
     begin = end;
@@ -94,33 +94,34 @@ bool lies_around_assumed(const FlatPoints& points, const Vector3d& densest) {
 
 }  // namespace
 
-SensorPosition find_sensor(const PointView& points, const Vector3d& up, const Vector3d& said,
-                        GroundScratch& scratch) {
+SensorPosition find_sensor(const PointView& points, const Vector3d& up, const Vector3d& assumed,
+                           GroundScratch& scratch) {
   const FloatEnvironment environment;
   const UpFrame frame(up);
   for (int axis = 0; axis < 3; ++axis)
-    require(std::abs(said[axis]) <= kMaxCoordinate, "sensor", "place", said[axis], "finite");
+    require(std::abs(assumed[axis]) <= kMaxCoordinate, "find_sensor", "a coordinate of the assumed position",
+            assumed[axis], "from -1e100 to 1e100");
   FlatPoints& flat = scratch.sample;
-  sample_from_above(points, frame, said, flat);
-  SensorPosition place{said};
-  if (flat.size() < kFewPoints) return place;
+  sample_from_above(points, frame, assumed, flat);
+  SensorPosition result{assumed};
+  if (flat.size() < kFewPoints) return result;
   constexpr double edge = ring_width * (ring_count - 1);
   Vector3d at = Vector3d::Zero();
   if (share_near(flat, at, kNear) < kNearShare) {
     const Vector3d densest = densest_position(flat);
-    place.around = lies_around_assumed(flat, densest);
-    if (!place.around) {
+    result.confirmed = lies_around_assumed(flat, densest);
+    if (!result.confirmed) {
       at = densest;
-      place.at += at.x() * frame.u + at.y() * frame.v;
+      result.position += at.x() * frame.u + at.y() * frame.v;
     }
   }
-  place.far_share = 1 - share_near(flat, at, edge);
-  return place;
+  result.far_share = 1 - share_near(flat, at, edge);
+  return result;
 }
 
 std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneSettings& settings,
                                      const Vector3d& sensor, double found) {
-  constexpr double least_height = 0.2, least_share = 0.03, most_share = 0.95, most_below = 0.1;
+  constexpr double min_height = 0.2, min_share = 0.03, max_share = 0.95, max_below_share = 0.1;
   const FloatEnvironment environment;
   const Vector3d up = normalized_up(settings.up);
   GroundPlaneSettings search = settings;
@@ -133,7 +134,7 @@ std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneS
     search.up = direction;
     if (dot3(normalized_up(direction), up) > 0.9) continue;
     const std::optional<Plane> plane = find_ground_plane(points, sensor, search, scratch, 2048);
-    if (!plane || height_above(*plane, sensor) < least_height) continue;
+    if (!plane || height_above(*plane, sensor) < min_height) continue;
     draw_sample(points, search.seed, kSample, scratch.sample);
     double near = 0, below = 0;
     for (const Vector3d& p : scratch.sample) {
@@ -142,7 +143,7 @@ std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneS
       below += height < -search.distance;
     }
     const double share = near / static_cast<double>(scratch.sample.size());
-    if (share >= std::max(least_share, 3 * found) && share <= most_share && below <= most_below * near)
+    if (share >= std::max(min_share, 3 * found) && share <= max_share && below <= max_below_share * near)
       return OtherUp{direction, share};
   }
   return {};

@@ -75,11 +75,11 @@ UpFrame::UpFrame(const Vector3d& any_length) : up(normalized_up(any_length)) {
   Vector3d axis = Vector3d::Zero();
   axis[nearest] = std::copysign(1, up[nearest]);
   along_axis = up == axis;
-  const auto turned = [&](Index i) -> Vector3d {  // rotated as the axis is rotated to up
+  const auto rotated = [&](Index i) -> Vector3d {  // rotated as the axis is rotated to up
     return Vector3d::Unit(i) - up[i] / (1 + std::abs(up[nearest])) * (up + axis);
   };
-  u = turned((nearest + 1) % 3);
-  v = turned((nearest + 2) % 3);
+  u = rotated((nearest + 1) % 3);
+  v = rotated((nearest + 2) % 3);
 }
 
 }  // namespace pcl_bv

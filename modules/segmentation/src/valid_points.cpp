@@ -52,7 +52,7 @@ void copy_valid_part(const PointView& points, ValidPoints<T>& valid, CopyPart<T>
     part.box.extend(valid.points[to]);
     ++to;
   }
-  part.kept = to - part.begin;
+  part.valid = to - part.begin;
 }
 
 // Moves the points of a part to position `to`.
@@ -60,7 +60,7 @@ template <typename T>
 void append(const CopyPart<T>& from, std::size_t to, ValidPoints<T>& valid) {
   const auto move_down = [&](auto& all) {
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(from.begin);
-    std::copy_n(first, from.kept, all.begin() + static_cast<std::ptrdiff_t>(to));
+    std::copy_n(first, from.valid, all.begin() + static_cast<std::ptrdiff_t>(to));
   };
   if (to == from.begin) return;
   move_down(valid.points);
@@ -70,27 +70,27 @@ void append(const CopyPart<T>& from, std::size_t to, ValidPoints<T>& valid) {
 }  // namespace
 
 template <typename T>
-void gather(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>& valid) {
-  check_numbers(view);
+void copy_valid_points(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>& valid) {
+  check_indices(view);
   const PointView sorted = ascending(view, valid.sorted_list);
   valid.points.resize(sorted.count);
   valid.numbers.resize(sorted.count);
   valid.parts.cut(sorted.count, policy);
   valid.parts.for_each(policy, [&](CopyPart<T>& part) { copy_valid_part(sorted, valid, part); });
-  std::size_t kept = 0;
+  std::size_t count = 0;
   valid.box = valid.parts.front().box;
   for (const CopyPart<T>& part : valid.parts) {
-    if (part.kept == 0) continue;
-    append(part, kept, valid);
-    kept += part.kept;
+    if (part.valid == 0) continue;
+    append(part, count, valid);
+    count += part.valid;
     valid.box.extend(part.box.min);
     valid.box.extend(part.box.max);
   }
-  valid.points.resize(kept);
-  valid.numbers.resize(kept);
+  valid.points.resize(count);
+  valid.numbers.resize(count);
 }
 
-template void gather(const PointView&, const ParallelPolicy&, ValidPoints<float>&);
-template void gather(const PointView&, const ParallelPolicy&, ValidPoints<double>&);
+template void copy_valid_points(const PointView&, const ParallelPolicy&, ValidPoints<float>&);
+template void copy_valid_points(const PointView&, const ParallelPolicy&, ValidPoints<double>&);
 
 }  // namespace pcl_bv

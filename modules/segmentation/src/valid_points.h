@@ -18,8 +18,8 @@ namespace pcl_bv {
 template <typename T>
 struct CopyPart {
   std::size_t begin, end;
-  std::size_t kept;  ///< Number of valid points.
-  Box<T> box;        ///< Box of the valid points.
+  std::size_t valid;  ///< Number of valid points.
+  Box<T> box;         ///< Box of the valid points.
 };
 
 template <typename T>
@@ -34,6 +34,6 @@ struct ValidPoints {
 /// Fills `valid` with each valid point of `view`, once. T is the scalar type of the view. Throws
 /// std::length_error if a point index exceeds 2^31 - 1.
 template <typename T>
-void gather(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>& valid);
+void copy_valid_points(const PointView& view, const ParallelPolicy& policy, ValidPoints<T>& valid);
 
 }  // namespace pcl_bv

@@ -24,7 +24,7 @@ constexpr float pit_depth = 0.2F;
 
 // An object stands in a cell if it has points this far above its lowest one, metres. Curbs are lower, and
 // things above a road are higher.
-constexpr float stands_from = 0.3F, stands_to = 2;
+constexpr float object_from = 0.3F, object_to = 2;
 
 // Clamps to the range of float.
 float in_float(double value) {
@@ -55,7 +55,7 @@ std::size_t load(const PointView& points, std::size_t begin, std::size_t end, st
 }
 
 // Where load() stores points.
-struct Place {
+struct LoadTarget {
   float *u, *v, *height;
   std::int32_t* number;
 };
@@ -63,7 +63,7 @@ struct Place {
 // Loads floats for an up direction along an axis and a sensor at the origin: coordinates are only reordered,
 // and the sign of the height may change.
 std::size_t load_upright(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
-                         const Place& to) {
+                         const LoadTarget& to) {
   const std::size_t step = view.step();
   const std::size_t u_at = (frame.nearest + 1) % 3 * step, v_at = (frame.nearest + 2) % 3 * step;
   const std::size_t height_at = static_cast<std::size_t>(frame.nearest) * step;
@@ -80,7 +80,7 @@ std::size_t load_upright(const PointView& view, std::size_t begin, std::size_t e
 
 template <typename T>
 std::size_t load_rotated(const PointView& view, std::size_t begin, std::size_t end, const ZoneFrame& frame,
-                        const Place& to) {
+                         const LoadTarget& to) {
   const std::size_t step = view.step();
   return load(view, begin, end, to.number, [&](const std::byte* x, std::size_t n) {
     const Coordinates p{load_coordinate<T>(x), load_coordinate<T>(x + step),
@@ -121,7 +121,7 @@ void ZonePoints::read_part(const PointView& view, const ZoneFrame& frame, ZonePa
   const auto load_batch = upright ? load_upright : is_float ? load_rotated<float> : load_rotated<double>;
   std::size_t to = part.begin;
   for (std::size_t i = part.begin; i < part.end; i += kBatch) {
-    const Place batch{u_.data() + to, v_.data() + to, height.data() + to, number.data() + to};
+    const LoadTarget batch{u_.data() + to, v_.data() + to, height.data() + to, number.data() + to};
     const std::size_t count = load_batch(view, i, std::min(i + kBatch, part.end), frame, batch);
     float* const ranges = range.data() + to;
     std::uint16_t* const cells = cell.data() + to;
@@ -131,7 +131,7 @@ void ZonePoints::read_part(const PointView& view, const ZoneFrame& frame, ZonePa
     }
     to += count;
   }
-  part.kept = to - part.begin;
+  part.valid = to - part.begin;
 }
 
 void ZonePoints::read(const PointView& view, const ZoneFrame& frame, const ParallelPolicy& policy) {
@@ -149,7 +149,7 @@ void ZonePoints::list_near(std::size_t rings, std::vector<std::int32_t>& numbers
   numbers.resize(number.size());
   std::size_t count = 0;
   for (const ZonePart& part : parts) {
-    for (std::size_t i = part.begin; i < part.begin + part.kept; ++i) {
+    for (std::size_t i = part.begin; i < part.begin + part.valid; ++i) {
       numbers[count] = number[i];
       count += cell[i] < rings * sector_count;
     }
@@ -161,54 +161,54 @@ void ZonePoints::find_lowest(const Slope& plane, ZonePart& part) {
   const FloatEnvironment environment;
   const auto offset = static_cast<float>(plane.offset), slope_u = static_cast<float>(plane.slope_u),
              slope_v = static_cast<float>(plane.slope_v);
-  std::vector<float>& low = part.cells.low;
-  low.assign(cell_count, no_low);
-  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
+  std::vector<float>& lowest = part.cells.lowest;
+  lowest.assign(cell_count, no_lowest);
+  for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
     height[i] -= offset + (u_[i] * slope_u + v_[i] * slope_v);
-  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i)
-    low[cell[i]] = std::min(low[cell[i]], height[i]);
+  for (std::size_t i = part.begin; i < part.begin + part.valid; ++i)
+    lowest[cell[i]] = std::min(lowest[cell[i]], height[i]);
 }
 
 void ZonePoints::fill_pits() {
-  float* const low = parts.front().cells.low.data();
+  float* const lowest = parts.front().cells.lowest.data();
   RingRow before, here, after;
-  before.fill(no_low);
-  here.copy(low);
+  before.fill(no_lowest);
+  here.copy(lowest);
   for (std::size_t ring = 0; ring + 1 < ring_count; ++ring) {
-    after.copy(low + (ring + 1) * sector_count);
-    float* const own = low + ring * sector_count;
+    after.copy(lowest + (ring + 1) * sector_count);
+    float* const own = lowest + ring * sector_count;
     for (std::size_t s = 0; s < sector_count; ++s) {
       const float left = std::min(before[s], std::min(here[s], after[s]));
       const float right = std::min(before[s + 2], std::min(here[s + 2], after[s + 2]));
       const float around = std::min(std::min(left, right), std::min(before[s + 1], after[s + 1]));
-      own[s] = here[s + 1] < around - pit_depth && around < no_low ? around : here[s + 1];
+      own[s] = here[s + 1] < around - pit_depth && around < no_lowest ? around : here[s + 1];
     }
     before = here;
     here = after;
   }
 }
 
-void ZonePoints::find_objects(const std::vector<float>& low, ZonePart& part) const {
-  std::vector<std::uint8_t>& stands = part.cells.stands;
-  stands.assign(cell_count, 0);
-  for (std::size_t i = part.begin; i < part.begin + part.kept; ++i) {
-    const float over = height[i] - low[cell[i]];
-    stands[cell[i]] |= static_cast<std::uint8_t>((over > stands_from) & (over < stands_to));
+void ZonePoints::find_objects(const std::vector<float>& lowest, ZonePart& part) const {
+  std::vector<std::uint8_t>& has_object = part.cells.has_object;
+  has_object.assign(cell_count, 0);
+  for (std::size_t i = part.begin; i < part.begin + part.valid; ++i) {
+    const float over = height[i] - lowest[cell[i]];
+    has_object[cell[i]] |= static_cast<std::uint8_t>((over > object_from) & (over < object_to));
   }
 }
 
-void ZonePoints::place(const Slope& plane, const ParallelPolicy& policy) {
+void ZonePoints::measure_from(const Slope& plane, const ParallelPolicy& policy) {
   parts.for_each(policy, [&](ZonePart& part) { find_lowest(plane, part); });
   CellSummary& all = parts.front().cells;
   for (const ZonePart& part : parts) {
     for (std::size_t i = 0; i < cell_count; ++i)
-      all.low[i] = std::min(all.low[i], part.cells.low[i]);
+      all.lowest[i] = std::min(all.lowest[i], part.cells.lowest[i]);
   }
   fill_pits();
-  parts.for_each(policy, [&](ZonePart& part) { find_objects(all.low, part); });
+  parts.for_each(policy, [&](ZonePart& part) { find_objects(all.lowest, part); });
   for (const ZonePart& part : parts) {
     for (std::size_t i = 0; i < cell_count; ++i)
-      all.stands[i] |= part.cells.stands[i];
+      all.has_object[i] |= part.cells.has_object[i];
   }
 }
 

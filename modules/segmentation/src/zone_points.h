@@ -31,8 +31,8 @@ struct Slope {
 struct ZoneFrame : UpFrame {
   Eigen::Vector3d sensor;
 
-  ZoneFrame(const Eigen::Vector3d& direction, const Eigen::Vector3d& place)
-      : UpFrame(direction), sensor(place) {}
+  ZoneFrame(const Eigen::Vector3d& direction, const Eigen::Vector3d& position)
+      : UpFrame(direction), sensor(position) {}
 
   /// Converts a point of the cloud.
   GroundPoint point(const Coordinates& p) const;
@@ -42,19 +42,20 @@ struct ZoneFrame : UpFrame {
   Plane level(double height) const;
 };
 
-/// Facts about each cell, from some of the points.
+/// A summary of each cell, from some of the points.
 struct CellSummary {
-  std::vector<float> low;  ///< Height of the lowest point above the plane, metres; no_low if empty.
+  /// Height of the lowest point above the plane, metres; no_lowest if empty.
+  std::vector<float> lowest;
   /// Whether an object stands in the cell: it has points 0.3 to 2 m above the lowest one.
-  std::vector<std::uint8_t> stands;
+  std::vector<std::uint8_t> has_object;
 };
 
-inline constexpr float no_low = 1e30F;
+inline constexpr float no_lowest = 1e30F;
 
 /// A part of the points of a view, which one thread takes.
 struct ZonePart {
   std::size_t begin, end;  ///< Range in the view.
-  std::size_t kept;        ///< Number of valid points, stored from `begin`.
+  std::size_t valid;       ///< Number of valid points, stored from `begin`.
   CellSummary cells;
 };
 
@@ -65,7 +66,7 @@ class ZonePoints {
   std::vector<std::int32_t> number;  ///< Index in the cloud.
   std::vector<std::uint16_t> cell;
   std::vector<float> range;  ///< Horizontal distance from the sensor, metres.
-  /// Metres above the sensor; after place(), above its plane.
+  /// Metres above the sensor; after measure_from(), above its plane.
   std::vector<float> height;
 
   /// Replaces all points by the valid points of a view. O(n).
@@ -75,16 +76,16 @@ class ZonePoints {
   void list_near(std::size_t rings, std::vector<std::int32_t>& numbers) const;
 
   /// Makes the heights relative to `plane`, and computes cells().
-  void place(const Slope& plane, const ParallelPolicy& policy);
+  void measure_from(const Slope& plane, const ParallelPolicy& policy);
 
-  /// Returns the facts of all cells, which place() stores in the first part.
+  /// Returns the summary of all cells, which measure_from() stores in the first part.
   const CellSummary& cells() const { return parts.front().cells; }
 
  private:
   void read_part(const PointView& view, const ZoneFrame& frame, ZonePart& part);
   void find_lowest(const Slope& plane, ZonePart& part);
   void fill_pits();
-  void find_objects(const std::vector<float>& low, ZonePart& part) const;
+  void find_objects(const std::vector<float>& lowest, ZonePart& part) const;
 
   std::vector<float> u_, v_;
 };

@@ -11,15 +11,16 @@
 namespace pcl_bv {
 
 /// Throws std::invalid_argument with the text "<what_it_must_be>, not <value>".
-[[noreturn]] inline void refuse(const std::string& what_it_must_be, double value) {
+[[noreturn]] inline void throw_out_of_range_value(const std::string& what_it_must_be, double value) {
   std::ostringstream what;
   what << what_it_must_be << ", not " << value;
   throw std::invalid_argument(what.str());
 }
 
 /// Throws std::invalid_argument if the distance is negative or NaN.
-inline void require_distance(const char* whose, double distance) {
-  if (!(distance >= 0)) refuse(std::string(whose) + ": a distance must be 0 or more", distance);
+inline void require_distance(const char* class_name, double distance) {
+  if (!(distance >= 0))
+    throw_out_of_range_value(std::string(class_name) + ": a distance must be 0 or more", distance);
 }
 
 /// Returns the largest Neighbor::squared_distance of points within a distance.

@@ -18,15 +18,15 @@ class BodyDistance {
     size_ = taxicab3(box.min()) + taxicab3(box.max());
   }
 
-  double of(const Eigen::Vector3d& point) const { return distance(body_, point); }
+  double distance_to(const Eigen::Vector3d& point) const { return distance(body_, point); }
 
-  /// Returns a lower bound of of(p) for all p in the box; NaN for an empty box. Distances of two points from
-  /// the volume differ at most by the distance between the points. distance() is below the exact distance by
-  /// at most 1e-12 of the distance and of the sizes.
-  double at_least(const PlainBox& box) const {
+  /// Returns a lower bound of distance_to(p) for all p in the box; NaN for an empty box. Distances of two
+  /// points from the volume differ at most by the distance between the points. distance() is below the exact
+  /// distance by at most 1e-12 of the distance and of the sizes.
+  double lower_bound(const PlainBox& box) const {
     const Eigen::Vector3d middle = 0.5 * (box.low + box.high);
-    const double reach = 0.5 * norm3(Eigen::Vector3d(box.high - box.low)), away = of(middle);
-    return away - reach - 0x1p-36 * (away + reach + size_ + taxicab3(middle));
+    const double radius = 0.5 * norm3(Eigen::Vector3d(box.high - box.low)), away = distance_to(middle);
+    return away - radius - 0x1p-36 * (away + radius + size_ + taxicab3(middle));
   }
 
  private:

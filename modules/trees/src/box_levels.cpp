@@ -16,7 +16,7 @@ std::size_t groups_of(std::size_t below) {
 
 // Error bound of the rounding to float and of the two roundings before it. The second term is for denormal
 // floats.
-float doubt(float rounded) {
+float rounding_error_bound(float rounded) {
   return std::abs(rounded) * 0x1p-22F + std::numeric_limits<float>::min();
 }
 
@@ -35,13 +35,13 @@ const BoxGroup& empty_group() {
 // Returns the squared radius of the smallest ball that covers a face of one of the boxes; the best centre is
 // the middle of the face. Each face of a tight box has a point, so the ball certainly holds one.
 float min_side_radius(const BoxGroup& group) {
-  float least = std::numeric_limits<float>::infinity();
+  float smallest = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
     const float x = group.high[0][k] - group.low[0][k], y = group.high[1][k] - group.low[1][k],
                 z = group.high[2][k] - group.low[2][k];
-    least = std::min({least, x * x + y * y, y * y + z * z, z * z + x * x});
+    smallest = std::min({smallest, x * x + y * y, y * y + z * z, z * z + x * x});
   }
-  return least / 4;
+  return smallest / 4;
 }
 
 }  // namespace
@@ -78,10 +78,10 @@ void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, co
   BoxGroup& group = boxes.groups[item / kTreeWidth];
   const std::size_t k = item % kTreeWidth;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto least = static_cast<float>((low[axis] - boxes.origin[axis]) * boxes.scale);
-    const auto most = static_cast<float>((high[axis] - boxes.origin[axis]) * boxes.scale);
-    group.low[axis][k] = least - doubt(least);
-    group.high[axis][k] = most + doubt(most);
+    const auto smallest = static_cast<float>((low[axis] - boxes.origin[axis]) * boxes.scale);
+    const auto largest = static_cast<float>((high[axis] - boxes.origin[axis]) * boxes.scale);
+    group.low[axis][k] = smallest - rounding_error_bound(smallest);
+    group.high[axis][k] = largest + rounding_error_bound(largest);
   }
 }
 
@@ -98,7 +98,7 @@ void raise_levels(BoxLevels& boxes) {
   }
 }
 
-void find_face_cover_squares(BoxLevels& boxes) {
+void find_min_side_radii(BoxLevels& boxes) {
   boxes.min_side_radius.resize(boxes.groups.size());
   std::transform(boxes.groups.begin(), boxes.groups.end(), boxes.min_side_radius.begin(), min_side_radius);
 }

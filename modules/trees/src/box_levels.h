@@ -22,6 +22,6 @@ void set_item_box(BoxLevels& boxes, std::size_t item, const Coordinates& low, co
 void raise_levels(BoxLevels& boxes);
 
 /// Sets BoxLevels::min_side_radius from the boxes. O(items), in the calling thread.
-void find_face_cover_squares(BoxLevels& boxes);
+void find_min_side_radii(BoxLevels& boxes);
 
 }  // namespace pcl_bv

@@ -14,9 +14,9 @@ namespace pcl_bv {
 
 /// Where contains() of a volume holds in a box.
 enum class Relation : std::uint8_t {
-  apart,    ///< For no point of the box.
-  holds,    ///< For each point of the box.
-  crosses,  ///< For some points only, or undecided because of rounding.
+  outside,   ///< For no point of the box.
+  inside,    ///< For each point of the box.
+  crossing,  ///< For some points only, or undecided because of rounding.
 };
 
 /// A box given by two corners, in the frame of the volume.
@@ -28,7 +28,7 @@ struct PlainBox {
 PlainBox plain_box(const BoxLevels& boxes, const BoxGroup& group, std::size_t k);
 
 /// Returns the relation of a box to the region of convex_region(). Exact for RegionShape::box. For the other
-/// shapes it is `crosses` also if the surface is within a margin of the box, which covers rounding: 2^-38
+/// shapes it is `crossing` also if the surface is within a margin of the box, which covers rounding: 2^-38
 /// (|low|_1 + |high|_1 + |region.center|_1 + radius) + 4 doubt + 2^-480. For slabs and bodies the margin is
 /// added to the distances along each axis.
 Relation relation(const ConvexRegion& region, const PlainBox& box);

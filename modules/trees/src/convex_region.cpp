@@ -29,7 +29,7 @@ ConvexRegion around(const AnyVolume& volume, RegionShape shape, const Eigen::Vec
                     const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity()) {
   const Aabb tight = aabb(volume);
   const double size = std::max(tight.min().cwiseAbs().maxCoeff(), tight.max().cwiseAbs().maxCoeff());
-  const Aabb box = aabb(grown(volume, margin(size)));
+  const Aabb box = aabb(inflated(volume, margin(size)));
   ConvexRegion region;
   region.shape = shape;
   region.low = coordinates(box.min());

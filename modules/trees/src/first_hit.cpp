@@ -32,7 +32,7 @@ class FirstHit final : public PacketVisitor {
     for (; points != 0; points &= points - 1) {
       const std::size_t at = packet * kTreeWidth + static_cast<std::size_t>(std::countr_zero(points));
       const auto inside =
-          Sphere(vector(load_point(places_, at)), ball_.radius).intersect(origin_, direction_);
+          Sphere(vector(load_point(points_, at)), ball_.radius).intersect(origin_, direction_);
       if (!inside) continue;
       const PointHit hit{tree_.indices[at], inside->enter};
       if (best_.index < 0 || hit.t < best_.t || (hit.t == best_.t && hit.index < best_.index)) best_ = hit;
@@ -42,7 +42,7 @@ class FirstHit final : public PacketVisitor {
 
  private:
   const PackedTree& tree_;
-  PointView places_ = tree_.view();
+  PointView points_ = tree_.view();
   Eigen::Vector3d origin_, direction_;
   SweptBall ball_;
   PointHit best_{-1, 0};
@@ -51,7 +51,7 @@ class FirstHit final : public PacketVisitor {
 // Returns the point with the smallest index inside a sphere that does not move.
 std::optional<PointHit> smallest_index_inside(UsableIsa isa, const PackedTree& tree, const Sphere& sphere) {
   std::vector<Neighbor> found;
-  list_in_ball(isa, tree, coordinates(sphere.center()), sphere.contained_square(), found);
+  list_in_ball(isa, tree, coordinates(sphere.center()), sphere.max_squared_distance(), found);
   if (found.empty()) return std::nullopt;
   const auto lower = [](const Neighbor& a, const Neighbor& b) { return a.index < b.index; };
   return PointHit{std::min_element(found.begin(), found.end(), lower)->index, 0};
@@ -63,7 +63,7 @@ std::optional<PointHit> PointTree::first_hit(const Eigen::Vector3d& origin, cons
                                              double radius) const {
   const FloatEnvironment environment;
   if (!(radius >= 0 && radius <= kMaxCoordinate))
-    refuse("PointTree: the radius of a moving sphere must be from 0 to 1e100", radius);
+    throw_out_of_range_value("PointTree: the radius of a moving sphere must be from 0 to 1e100", radius);
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
   if (direction.isZero(0)) return smallest_index_inside(isa_, tree_, Sphere(origin, radius));
   return FirstHit(tree_, origin, direction, radius).among(isa_);

@@ -15,11 +15,11 @@ namespace pcl_bv {
 namespace {
 
 // Upper bound of how much n . p grows if p moves by `padding`.
-double reach(const Eigen::Vector3d& n, double padding) {
+double support_growth(const Eigen::Vector3d& n, double padding) {
   return multiply_up(sqrt_up(Expansion().add_dot(n, n).up()), padding);
 }
 
-struct Grow {
+struct Inflate {
   double padding;
 
   AnyVolume operator()(const Aabb& box) const {
@@ -30,7 +30,7 @@ struct Grow {
   AnyVolume operator()(const Kdop& kdop) const {
     SlabVector min = kdop.min(), max = kdop.max();
     for (Eigen::Index i = 0; i < min.size(); ++i) {
-      const double by = reach(kdop.set()->direction(static_cast<std::size_t>(i)), padding);
+      const double by = support_growth(kdop.set()->direction(static_cast<std::size_t>(i)), padding);
       min[i] = -add_up(-min[i], by);
       max[i] = add_up(max[i], by);
     }
@@ -44,7 +44,7 @@ struct Grow {
   AnyVolume operator()(const Obb& box) const {
     Eigen::Vector3d half = box.half_extents();
     for (int i = 0; i < 3; ++i)
-      half[i] = add_up(half[i], reach(box.axis(i), padding));
+      half[i] = add_up(half[i], support_growth(box.axis(i), padding));
     return Obb(box.center(), box.axes(), half);
   }
 
@@ -65,48 +65,48 @@ struct Grow {
   // y^2 is at most (1 + 2^-38) padding^2.
   AnyVolume operator()(const Ellipsoid& ellipsoid) const {
     const double ball = multiply_up(padding, 1 + 0x1p-38);
-    const double m = middle(ellipsoid.radii());
-    const auto grow = [&](double r) {
+    const double m = nearly_minimal_m(ellipsoid.radii());
+    const auto inflate = [&](double r) {
       const double quotient = m > 0 ? next_up(multiply_up(r, r) / m) : 0;
       const double sum = add_up(multiply_up(r, r), multiply_up(ball, add_up(add_up(ball, m), quotient)));
       return sqrt_up(sum);
     };
-    return Ellipsoid(ellipsoid.center(), ellipsoid.axes(), ellipsoid.radii().unaryExpr(grow));
+    return Ellipsoid(ellipsoid.center(), ellipsoid.axes(), ellipsoid.radii().unaryExpr(inflate));
   }
 
   AnyVolume operator()(const Hull& hull) const {
     std::vector<HullPlane> planes = hull.planes();
     for (HullPlane& plane : planes)
-      plane.offset = add_up(plane.offset, reach(plane.normal, padding));
+      plane.offset = add_up(plane.offset, support_growth(plane.normal, padding));
     return Hull(hull.vertices(), hull.triangles(), planes, hull.rank());
   }
 
   // Returns the m of a nearly minimal volume: at the minimum, m^2 is the mean of the r^2 with the weights
   // 1/R^2. Any m > 0 gives a valid volume.
-  double middle(const Eigen::Vector3d& radii) const {
-    const double greatest = radii.maxCoeff();
-    if (greatest == 0) return 0;
+  double nearly_minimal_m(const Eigen::Vector3d& radii) const {
+    const double largest = radii.maxCoeff();
+    if (largest == 0) return 0;
     double m = 1;  // in units of the largest radius, in which nothing overflows
     for (int round = 0; round < 32; ++round) {
       double squares = 0, weights = 0;
       for (int i = 0; i < 3; ++i) {
-        const double r = radii[i] / greatest, by = padding / greatest;
+        const double r = radii[i] / largest, by = padding / largest;
         const double weight = 1 / (r * r + by * (by + m + r * r / m));
         squares += weight * r * r;
         weights += weight;
       }
       m = std::sqrt(squares / weights);
     }
-    return std::isnan(m) ? greatest : m * greatest;  // NaN: squares left the range of double
+    return std::isnan(m) ? largest : m * largest;  // NaN: squares left the range of double
   }
 };
 
 }  // namespace
 
-AnyVolume grown(const AnyVolume& volume, double padding) {
+AnyVolume inflated(const AnyVolume& volume, double padding) {
   const FloatEnvironment environment;
   if (padding == 0 || empty(volume)) return volume;
-  return std::visit(Grow{padding}, volume);
+  return std::visit(Inflate{padding}, volume);
 }
 
 }  // namespace pcl_bv

@@ -10,6 +10,6 @@ namespace pcl_bv {
 
 /// Returns the volume inflated as Region says; padding 0 returns it unchanged. For a Hull only the planes
 /// move: use contains() of the result, not member functions that use the vertices.
-AnyVolume grown(const AnyVolume& volume, double padding);
+AnyVolume inflated(const AnyVolume& volume, double padding);
 
 }  // namespace pcl_bv

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All sums here have a few terms below a few times 1 + |place| in double, so their errors are below 2^-45 of
-// that. This is negligible against the slack of 2^-20, so no bound adds a margin of its own.
+// All sums here have a few terms below a few times 1 + |point| in double, so their errors are below 2^-45 of
+// that. This is negligible against the margin of 2^-20, so no bound adds a margin of its own.
 
 #include "node_bounds.h"
 
@@ -36,17 +36,19 @@ void clip(double start, double slope, double low, double high, double& enter, do
   exit = std::min(exit, std::max(a, b));
 }
 
-// Returns where the ray enters, at least 0; infinity if the interval has no t >= 0. The margin accepts what
-// underflow may have added to the interval.
+// Returns where the ray enters, at least 0; infinity if the interval has no t >= 0. The margin accepts
+// what underflow may have added to the interval.
 double entered(const FrameRay& ray, double enter, double exit) {
-  return enter - ray.margin <= exit + ray.margin ? std::max(0.0, enter - ray.margin) : kInfinity;
+  return enter - ray.underflow_margin <= exit + ray.underflow_margin
+             ? std::max(0.0, enter - ray.underflow_margin)
+             : kInfinity;
 }
 
 }  // namespace
 
-FramePoint::FramePoint(const VolumeBoxes& boxes, const Coordinates& place) {
-  at = (vector(place) - vector(boxes.levels().origin)) * boxes.levels().scale;
-  slack = VolumeBoxes::slack(at.cwiseAbs().maxCoeff());
+FramePoint::FramePoint(const VolumeBoxes& boxes, const Coordinates& point) {
+  at = (vector(point) - vector(boxes.levels().origin)) * boxes.levels().scale;
+  margin = VolumeBoxes::margin(at.cwiseAbs().maxCoeff());
 }
 
 FrameRay::FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Coordinates& direction)
@@ -54,29 +56,29 @@ FrameRay::FrameRay(const VolumeBoxes& boxes, const Coordinates& origin, const Co
   const int length = std::ilogb(vector(direction).cwiseAbs().maxCoeff());
   u = vector(direction).unaryExpr([&](double x) { return std::ldexp(x, -length); });
   exponent = length + std::ilogb(boxes.levels().scale);
-  margin = std::ldexp(0x1p-1020, exponent);
+  underflow_margin = std::ldexp(0x1p-1020, exponent);
 }
 
 double FrameRay::time(double t) const {
   return std::ldexp(t, exponent);
 }
 
-double distance_to_box(const FramePoint& place, const BoxGroup& group, std::size_t k) {
+double distance_to_box(const FramePoint& point, const BoxGroup& group, std::size_t k) {
   double squares = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double at = place.at[axis],
+    const double at = point.at[axis],
                  gap = std::max(0.0, std::max(group.low[axis][k] - at, at - group.high[axis][k]));
     squares += gap * gap;
   }
-  return std::max(0.0, std::sqrt(squares) - 2 * place.slack);
+  return std::max(0.0, std::sqrt(squares) - 2 * point.margin);
 }
 
 double enter_box(const FrameRay& ray, const BoxGroup& group, std::size_t k) {
   if (group.low[0][k] > group.high[0][k]) return kInfinity;  // empty
   double enter = 0, exit = kInfinity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    clip(ray.from.at[axis], ray.u[axis], group.low[axis][k] - ray.from.slack,
-         group.high[axis][k] + ray.from.slack, enter, exit);
+    clip(ray.from.at[axis], ray.u[axis], group.low[axis][k] - ray.from.margin,
+         group.high[axis][k] + ray.from.margin, enter, exit);
   }
   return entered(ray, enter, exit);
 }
@@ -108,7 +110,7 @@ void NodeShapes::measure(NodeBounds kind, const VolumeBoxes& boxes, const std::v
     fill(
         slabs_, boxes.levels(), policy,
         [&](std::size_t item) {
-          return has_box(item) ? slabs_of(boxes, volumes[boxes.number(item)]) : Slabs();
+          return has_box(item) ? slabs_of(boxes, volumes[boxes.volume_index(item)]) : Slabs();
         },
         [](const Slabs* slabs, std::size_t count) {
           Slabs all;
@@ -120,7 +122,7 @@ void NodeShapes::measure(NodeBounds kind, const VolumeBoxes& boxes, const std::v
     fill(
         balls_, boxes.levels(), policy,
         [&](std::size_t item) {
-          return has_box(item) ? ball_of(boxes, volumes[boxes.number(item)]) : Ball();
+          return has_box(item) ? ball_of(boxes, volumes[boxes.volume_index(item)]) : Ball();
         },
         [](const Ball* balls, std::size_t count) { return joined(balls, count); });
   }
@@ -178,28 +180,28 @@ NodeShapes::Ball NodeShapes::joined(const Ball* balls, std::size_t count) {
   return all;
 }
 
-double NodeShapes::distance(std::size_t shape, const FramePoint& place) const {
+double NodeShapes::distance(std::size_t shape, const FramePoint& point) const {
   double farthest = 0;
   if (!slabs_.empty()) {
     const Slabs& slabs = slabs_[shape];
     for (std::size_t i = 3; i < kSlabs; ++i) {
-      const double s = dot3(cube_vector(i), place.at);
+      const double s = dot3(cube_vector(i), point.at);
       farthest = std::max(farthest, std::max(slabs.min[i] - s, s - slabs.max[i]) / 1.7320508075688774);
     }
   } else if (!balls_.empty()) {
     const Ball& ball = balls_[shape];
-    farthest = norm3(Eigen::Vector3d(place.at - ball.center.cast<double>())) - ball.radius;
+    farthest = norm3(Eigen::Vector3d(point.at - ball.center.cast<double>())) - ball.radius;
   }
-  return std::max(0.0, farthest - 2 * place.slack);
+  return std::max(0.0, farthest - 2 * point.margin);
 }
 
-std::uint32_t NodeShapes::may_contain(std::size_t group, std::uint32_t bits, const FramePoint& place) const {
-  std::uint32_t held = 0;
+std::uint32_t NodeShapes::may_contain(std::size_t group, std::uint32_t bits, const FramePoint& point) const {
+  std::uint32_t found = 0;
   for (; bits != 0; bits &= bits - 1) {
     const int k = std::countr_zero(bits);
-    if (distance(group * kTreeWidth + static_cast<std::size_t>(k), place) <= 0) held |= 1U << k;
+    if (distance(group * kTreeWidth + static_cast<std::size_t>(k), point) <= 0) found |= 1U << k;
   }
-  return held;
+  return found;
 }
 
 double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
@@ -209,22 +211,22 @@ double NodeShapes::enter(std::size_t shape, const FrameRay& ray) const {
     if (slabs.min[3] > slabs.max[3]) return kInfinity;
     for (std::size_t i = 3; i < kSlabs; ++i) {
       const Eigen::Vector3d d = cube_vector(i);
-      clip(dot3(d, ray.from.at), dot3(d, ray.u), slabs.min[i] - 4 * ray.from.slack,
-           slabs.max[i] + 4 * ray.from.slack, enter, exit);
+      clip(dot3(d, ray.from.at), dot3(d, ray.u), slabs.min[i] - 4 * ray.from.margin,
+           slabs.max[i] + 4 * ray.from.margin, enter, exit);
     }
   } else if (!balls_.empty()) {
     const Ball& ball = balls_[shape];
     if (ball.radius < 0) return kInfinity;
     const Eigen::Vector3d q = ball.center.cast<double>() - ray.from.at;
-    const double radius = ball.radius + 4 * ray.from.slack, uu = dot3(ray.u, ray.u),
+    const double radius = ball.radius + 4 * ray.from.margin, uu = dot3(ray.u, ray.u),
                  nearest = dot3(q, ray.u) / uu;
-    const double least =
-        dot3(q, q) - nearest * nearest * uu;  // error < 2^-48 |q|^2, and (4 slack)^2 >= 2^-38 |q|^2
-    const double half = radius * radius - least;
+    // The error is below 2^-48 |q|^2, and (4 margin)^2 is at least 2^-38 |q|^2.
+    const double min_square = dot3(q, q) - nearest * nearest * uu;
+    const double half = radius * radius - min_square;
     if (half < 0) return kInfinity;
-    const double reach = std::sqrt(half / uu);
-    enter = std::max(0.0, nearest - reach);
-    exit = nearest + reach;
+    const double half_length = std::sqrt(half / uu);
+    enter = std::max(0.0, nearest - half_length);
+    exit = nearest + half_length;
   }
   return entered(ray, enter, exit);
 }

@@ -30,7 +30,7 @@ constexpr std::size_t kFences = 6;
 // vertex is ill-conditioned and its bound useless.
 constexpr double kMaxErrorBound = 0x1p-26;
 
-double greatest(const Eigen::Vector3d& v) {
+double max_abs(const Eigen::Vector3d& v) {
   return v.cwiseAbs().maxCoeff();
 }
 
@@ -56,7 +56,7 @@ PlaneBody::PlaneBody(const Hull& hull) {
 bool PlaneBody::add_fences(const Aabb& about) {
   if (about.empty()) return false;
   origin_ = about.center();
-  const double margin = (about.max() - about.min()).sum() + 0x1p-30 * greatest(origin_) + 0x1p-900;
+  const double margin = (about.max() - about.min()).sum() + 0x1p-30 * max_abs(origin_) + 0x1p-900;
   for (int k = 0; k < 3; ++k) {
     add(Eigen::Vector3d::Unit(k), about.max()[k] + margin);
     add(-Eigen::Vector3d::Unit(k), margin - about.min()[k]);
@@ -89,15 +89,15 @@ std::optional<std::size_t> PlaneBody::most_violated(const Eigen::Vector3d& point
 
 // The dual simplex method (Lemke 1954). After every step the weights are valid; the limit on the steps ends a
 // cycle.
-PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
-  Corner corner{{}, direction.cwiseAbs()};
+PlaneBody::PlaneVertex PlaneBody::optimal_vertex(const Eigen::Vector3d& direction) const {
+  PlaneVertex vertex{{}, direction.cwiseAbs()};
   for (std::size_t k = 0; k < 3; ++k)
-    corner.sides[k] = 2 * k + (direction[static_cast<Eigen::Index>(k)] < 0 ? 1 : 0);
+    vertex.planes[k] = 2 * k + (direction[static_cast<Eigen::Index>(k)] < 0 ? 1 : 0);
   for (std::size_t step = 0; step < 4 * planes_.size(); ++step) {
     Eigen::Matrix3d normals;
     Eigen::Vector3d offsets;
     for (int k = 0; k < 3; ++k) {
-      const std::size_t side = corner.sides[static_cast<std::size_t>(k)];
+      const std::size_t side = vertex.planes[static_cast<std::size_t>(k)];
       normals.row(k) = planes_[side].normal.transpose();
       offsets[k] = local_offsets_[side];
     }
@@ -105,54 +105,54 @@ PlaneBody::Corner PlaneBody::farthest(const Eigen::Vector3d& direction) const {
     const std::optional<std::size_t> side = most_violated(inverse * offsets);
     if (!side) break;
     // Compares as if all normals had length 1; otherwise long normals would hide short ones.
-    const Eigen::Vector3d share = inverse.transpose() * planes_[*side].normal,
-                          of_units = share.cwiseProduct(normals.rowwise().norm());
+    const Eigen::Vector3d component = inverse.transpose() * planes_[*side].normal,
+                          of_units = component.cwiseProduct(normals.rowwise().norm());
     Eigen::Index leaving = 0;
     const double change =
-        (of_units.array() > 0x1p-40 * greatest(of_units))
-            .select(corner.weights.cwiseQuotient(share), Eigen::Vector3d::Constant(kInfinity))
+        (of_units.array() > 0x1p-40 * max_abs(of_units))
+            .select(vertex.weights.cwiseQuotient(component), Eigen::Vector3d::Constant(kInfinity))
             .minCoeff(&leaving);
     if (change == kInfinity) break;
-    corner.weights = (corner.weights - change * share).cwiseMax(0.0);
-    corner.weights[leaving] = change;
-    corner.sides[static_cast<std::size_t>(leaving)] = *side;
+    vertex.weights = (vertex.weights - change * component).cwiseMax(0.0);
+    vertex.weights[leaving] = change;
+    vertex.planes[static_cast<std::size_t>(leaving)] = *side;
   }
-  return corner;
+  return vertex;
 }
 
 PlaneBody::Proof PlaneBody::prove(const Eigen::Vector3d& direction) const {
-  const Corner corner = farthest(direction);
-  Expansion bound, doubt;
+  const PlaneVertex vertex = optimal_vertex(direction);
+  Expansion bound, error_bound;
   std::array<Expansion, 3> residual;
   for (std::size_t k = 0; k < 3; ++k)
     residual[k].add(direction[static_cast<Eigen::Index>(k)]);
   for (std::size_t i = 0; i < 3; ++i) {
-    const double weight = corner.weights[static_cast<Eigen::Index>(i)];
-    if (corner.sides[i] < kFences || weight == 0) continue;
-    const HullPlane& plane = planes_[corner.sides[i]];
+    const double weight = vertex.weights[static_cast<Eigen::Index>(i)];
+    if (vertex.planes[i] < kFences || weight == 0) continue;
+    const HullPlane& plane = planes_[vertex.planes[i]];
     bound.add_product(weight, plane.offset).add(multiply_up(weight, kSmallestNormal));
-    doubt.add(multiply_up(weight, 0x1p-46 * greatest(plane.normal)));
+    error_bound.add(multiply_up(weight, 0x1p-46 * max_abs(plane.normal)));
     for (std::size_t k = 0; k < 3; ++k)
       residual[k].add_product(-weight, plane.normal[static_cast<Eigen::Index>(k)]);
   }
   for (const Expansion& part : residual)
-    doubt.add(part.magnitude_up());
-  return {bound.up(), doubt.up()};
+    error_bound.add(part.magnitude_up());
+  return {bound.up(), error_bound.up()};
 }
 
 void PlaneBody::prove_box() {
   std::array<Proof, 6> proofs;  // along x, y, z, then -x, -y, -z
-  double reach = 0;
+  double largest = 0;
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     proofs[i] = prove((i < 3 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<int>(i % 3)));
-    reach = std::max(reach, std::abs(proofs[i].bound));
-    if (!(proofs[i].doubt <= kMaxErrorBound && 2 * reach < kInfinity)) return;
+    largest = std::max(largest, std::abs(proofs[i].bound));
+    if (!(proofs[i].error_bound <= kMaxErrorBound && 2 * largest < kInfinity)) return;
   }
-  const auto end = [&](const Proof& proof) {
-    return add_up(proof.bound, multiply_up(proof.doubt, 2 * reach));
+  const auto upper_bound = [&](const Proof& proof) {
+    return add_up(proof.bound, multiply_up(proof.error_bound, 2 * largest));
   };
-  const Aabb box(-Eigen::Vector3d(end(proofs[3]), end(proofs[4]), end(proofs[5])),
-                 {end(proofs[0]), end(proofs[1]), end(proofs[2])});
+  const Aabb box(-Eigen::Vector3d(upper_bound(proofs[3]), upper_bound(proofs[4]), upper_bound(proofs[5])),
+                 {upper_bound(proofs[0]), upper_bound(proofs[1]), upper_bound(proofs[2])});
   // An empty box proves that no point is in all half-spaces. contains() may still accept points by rounding,
   // so no box is stored.
   if (!box.empty()) box_ = box;
@@ -161,9 +161,9 @@ void PlaneBody::prove_box() {
 double PlaneBody::support_bound_up(const Eigen::Vector3d& direction) const {
   if (!box_) return kInfinity;
   const Proof proof = prove(direction);
-  if (!(proof.doubt <= kMaxErrorBound * taxicab3(direction))) return kInfinity;
-  const double size = std::max(greatest(box_->min()), greatest(box_->max()));
-  return add_up(proof.bound, multiply_up(proof.doubt, size));
+  if (!(proof.error_bound <= kMaxErrorBound * taxicab3(direction))) return kInfinity;
+  const double size = std::max(max_abs(box_->min()), max_abs(box_->max()));
+  return add_up(proof.bound, multiply_up(proof.error_bound, size));
 }
 
 std::optional<Aabb> PlaneBody::box() const {

@@ -30,20 +30,20 @@ class PlaneBody {
   std::optional<Aabb> box() const;
 
  private:
-  // direction . p <= bound + doubt |p|, where |p| is the largest absolute coordinate of p
+  // direction . p <= bound + error_bound |p|, where |p| is the largest absolute coordinate of p
   struct Proof {
     double bound;
-    double doubt;
+    double error_bound;
   };
   // A vertex: the intersection of three planes.
-  struct Corner {
-    std::array<std::size_t, 3> sides;
+  struct PlaneVertex {
+    std::array<std::size_t, 3> planes;
     Eigen::Vector3d weights;  // of the planes' normals; the weighted sum is the direction
   };
 
   bool add_fences(const Aabb& about);
   void add(const Eigen::Vector3d& normal, double offset);
-  Corner farthest(const Eigen::Vector3d& direction) const;
+  PlaneVertex optimal_vertex(const Eigen::Vector3d& direction) const;
   std::optional<std::size_t> most_violated(const Eigen::Vector3d& point) const;
   Proof prove(const Eigen::Vector3d& direction) const;
   void prove_box();

@@ -62,9 +62,9 @@ void PointForest::insert(const PointView& points, const Execution& execution) {
   for (; kind_ == ForestTrees::merged && kept > 0 && trees_[kept - 1].count < 2 * count; --kept)
     count += trees_[kept - 1].count;
   if (kept < trees_.size()) {
-    std::vector<Tree> together(trees_.begin() + static_cast<std::ptrdiff_t>(kept), trees_.end());
-    together.push_back(std::move(newest));
-    newest = joined(together.data(), together.size(), execution);
+    std::vector<Tree> to_merge(trees_.begin() + static_cast<std::ptrdiff_t>(kept), trees_.end());
+    to_merge.push_back(std::move(newest));
+    newest = joined(to_merge.data(), to_merge.size(), execution);
     trees_.resize(kept);
   }
   trees_.push_back(std::move(newest));
@@ -75,8 +75,8 @@ PointForest::Tree PointForest::joined(const Tree* trees, std::size_t count, cons
   const std::uint64_t first = trees[0].first,
                       points = trees[count - 1].first + trees[count - 1].count - first;
   if (points > std::numeric_limits<std::int32_t>::max())
-    throw std::invalid_argument("PointForest: a tree takes 2147483647 points at most, not " +
-                                std::to_string(points));
+    throw std::invalid_argument("PointForest: the merged tree would have " + std::to_string(points) +
+                                " points, must be at most 2147483647");
   const bool floats = std::all_of(trees, trees + count, [](const Tree& tree) {
     return tree.tree.packed().scalar == ScalarType::float32 || tree.tree.empty();
   });
@@ -94,7 +94,7 @@ PointForest::Tree PointForest::joined(const Tree* trees, std::size_t count, cons
 
 void PointForest::drop_oldest() {
   if (kind_ == ForestTrees::merged)
-    throw std::logic_error("PointForest: batches whose trees are merged cannot be taken out");
+    throw std::logic_error("PointForest: drop_oldest() needs a forest of ForestTrees::kept");
   if (!trees_.empty()) trees_.pop_front();
 }
 

@@ -23,8 +23,8 @@ std::vector<AnyVolume> inflated_volumes(const std::vector<Region>& regions) {
   std::vector<AnyVolume> volumes;
   for (const auto& [volume, padding] : regions) {
     if (!(padding >= 0 && padding <= kMaxCoordinate))
-      refuse("RegionMask: the padding of a region must be from 0 to 1e100", padding);
-    if (!empty(volume)) volumes.push_back(grown(volume, padding));
+      throw_out_of_range_value("RegionMask: the padding of a region must be from 0 to 1e100", padding);
+    if (!empty(volume)) volumes.push_back(inflated(volume, padding));
   }
   return volumes;
 }
@@ -62,12 +62,12 @@ RegionMask::RegionMask(const std::vector<Region>& regions)
 
 bool RegionMask::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
-  const Coordinates place = coordinates(point);
-  if (!is_valid(place)) return false;
-  const auto ask = [&](const AnyVolume& volume) { return pcl_bv::contains(volume, point); };
-  if (!boxes_) return std::any_of(volumes_.begin(), volumes_.end(), ask);
-  return boxes_->visit(boxes_->query(place, place),
-                       [&](std::uint32_t number) { return ask(volumes_[number]); });
+  const Coordinates position = coordinates(point);
+  if (!is_valid(position)) return false;
+  const auto contains_point = [&](const AnyVolume& volume) { return pcl_bv::contains(volume, point); };
+  if (!boxes_) return std::any_of(volumes_.begin(), volumes_.end(), contains_point);
+  return boxes_->visit(boxes_->query(position, position),
+                       [&](std::uint32_t index) { return contains_point(volumes_[index]); });
 }
 
 void RegionMask::mark_chunk(const PointView& points, std::uint8_t* marks, const Execution& execution) const {

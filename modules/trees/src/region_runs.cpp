@@ -26,8 +26,8 @@ void choose(const VolumeBoxes& boxes, const RunBox& run, Chosen& chosen) {
   if (!(run.low[0] <= run.high[0] && run.low[1] <= run.high[1] && run.low[2] <= run.high[2])) return;
   const BoxQuery query =
       boxes.query({run.low[0], run.low[1], run.low[2]}, {run.high[0], run.high[1], run.high[2]});
-  boxes.visit(query, [&](std::uint32_t number) {
-    chosen.push_back(number);
+  boxes.visit(query, [&](std::uint32_t index) {
+    chosen.push_back(index);
     return false;
   });
 }
@@ -55,9 +55,9 @@ struct SortedPoints {
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.count; ++i) {
       PositionedItem<T>& item = items[count];
-      load_point(points, i, item.place);
-      item.number = static_cast<std::int32_t>(i);
-      count += is_valid({item.place[0], item.place[1], item.place[2]});
+      load_point(points, i, item.position);
+      item.index = static_cast<std::int32_t>(i);
+      count += is_valid({item.position[0], item.position[1], item.position[2]});
     }
     order.sort(count, Serial{});
     return count;
@@ -72,28 +72,28 @@ struct Scratch {
 };
 
 Scratch& scratch() {
-  thread_local Scratch kept;
-  return kept;
+  thread_local Scratch reused;
+  return reused;
 }
 
 // Estimates the mean number of regions whose boxes overlap a run, from a sample of the runs.
 double mean_overlapping_regions(const VolumeBoxes& boxes, Runs& runs) {
   const std::size_t step = std::max<std::size_t>(1, runs.count / kRunsOfSample);
-  std::size_t reached = 0, looked = 0;
-  for (std::size_t run = 0; run < runs.count; run += step, ++looked) {
+  std::size_t overlaps = 0, sampled = 0;
+  for (std::size_t run = 0; run < runs.count; run += step, ++sampled) {
     choose(boxes, runs.boxes[run], runs.next);
-    reached += runs.next.size();
+    overlaps += runs.next.size();
   }
-  return static_cast<double>(reached) / static_cast<double>(std::max<std::size_t>(looked, 1));
+  return static_cast<double>(overlaps) / static_cast<double>(std::max<std::size_t>(sampled, 1));
 }
 
-enum class Way { all, in_order, sorted };
+enum class TestStrategy { all, in_order, sorted };
 
-Way cheapest(const VolumeBoxes& boxes, Runs& runs) {
+TestStrategy cheapest(const VolumeBoxes& boxes, Runs& runs) {
   const double by_runs = kChooseCost + kTestChosenCost * mean_overlapping_regions(boxes, runs);
   const auto by_all = static_cast<double>(boxes.size());
-  if (by_all <= std::min(by_runs, kSortCost)) return Way::all;
-  return by_runs <= kSortCost ? Way::in_order : Way::sorted;
+  if (by_all <= std::min(by_runs, kSortCost)) return TestStrategy::all;
+  return by_runs <= kSortCost ? TestStrategy::in_order : TestStrategy::sorted;
 }
 
 void states_in_order(UsableIsa isa, const PointView& points, const RegionTests& regions,
@@ -124,11 +124,11 @@ void states_sorted(UsableIsa isa, const PointView& points, const RegionTests& re
   const std::size_t count = sorted.load(points);
   std::fill(states, states + points.count, static_cast<std::uint8_t>(RegionState::outside));
   sorted.states.resize(count);
-  const PointView view = PointView::of(sorted.order[0].place, sizeof(PositionedItem<T>), count);
+  const PointView view = PointView::of(sorted.order[0].position, sizeof(PositionedItem<T>), count);
   runs.measure(isa, view);
   states_in_order(isa, view, regions, boxes, runs, sorted.states.data());
   for (std::size_t i = 0; i < count; ++i)
-    states[sorted.order[i].number] = sorted.states[i];
+    states[sorted.order[i].index] = sorted.states[i];
 }
 
 }  // namespace
@@ -137,10 +137,10 @@ void region_states_by_runs(UsableIsa isa, const PointView& points, const RegionT
                            const VolumeBoxes& boxes, std::uint8_t* states) {
   auto& [runs, floats, doubles] = scratch();
   runs.measure(isa, points);
-  const Way way = cheapest(boxes, runs);
-  if (way == Way::all) {
+  const TestStrategy strategy = cheapest(boxes, runs);
+  if (strategy == TestStrategy::all) {
     region_states(isa, points, regions, states);
-  } else if (way == Way::in_order) {
+  } else if (strategy == TestStrategy::in_order) {
     states_in_order(isa, points, regions, boxes, runs, states);
   } else if (points.scalar == ScalarType::float32) {
     states_sorted(isa, points, regions, boxes, runs, floats, states);

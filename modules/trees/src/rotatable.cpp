@@ -15,18 +15,18 @@ Hull hull_of(const Kdop& kdop) {
   const Mesh mesh = kdop.mesh();
   if (mesh.vertices.empty()) return {};
   const Aabb box = kdop.aabb();
-  const double doubt = 0x1p-48 * (taxicab3(box.min()) + taxicab3(box.max())) + kSmallestNormal;
+  const double error_bound = 0x1p-48 * (taxicab3(box.min()) + taxicab3(box.max())) + kSmallestNormal;
   std::vector<HullPlane> planes;
   for (std::size_t i = 0; i < kdop.size(); ++i) {
     const Eigen::Vector3d& n = kdop.set()->direction(i);
     const double length = n.stableNorm();
-    planes.push_back({n / length, kdop.max(i) / length + doubt});
-    planes.push_back({-n / length, -kdop.min(i) / length + doubt});
+    planes.push_back({n / length, kdop.max(i) / length + error_bound});
+    planes.push_back({-n / length, -kdop.min(i) / length + error_bound});
   }
   return {mesh.vertices, {}, planes, 3};
 }
 
-struct Turnable {
+struct ToRotatable {
   AnyVolume operator()(const Aabb& box) const { return Obb(box); }
   AnyVolume operator()(const Kdop& kdop) const { return kdop.empty() ? Hull() : hull_of(kdop); }
   template <typename Volume>
@@ -37,9 +37,9 @@ struct Turnable {
 
 }  // namespace
 
-AnyVolume turnable(const AnyVolume& volume) {
+AnyVolume rotatable(const AnyVolume& volume) {
   const FloatEnvironment environment;
-  return std::visit(Turnable{}, volume);
+  return std::visit(ToRotatable{}, volume);
 }
 
 }  // namespace pcl_bv

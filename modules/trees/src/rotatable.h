@@ -12,6 +12,6 @@ namespace pcl_bv {
 /// a Kdop. transformed() of these two types would bound the rotated shape along the old axes. Other types are
 /// returned unchanged. The Hull is larger by about 1e-14 of the coordinates. Takes 20 us for a 26-DOP. A Kdop
 /// whose slabs have no common point becomes empty.
-AnyVolume turnable(const AnyVolume& volume);
+AnyVolume rotatable(const AnyVolume& volume);
 
 }  // namespace pcl_bv

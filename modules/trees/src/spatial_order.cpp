@@ -27,7 +27,7 @@ Side longest_side(const ItemRun<T>& run) {
   Extremes<T> extremes;
   for (std::size_t i = 0; i < run.count; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      extremes.add(axis, run.items[i].place[axis]);
+      extremes.add(axis, run.items[i].position[axis]);
   }
   const auto [low, high] = extremes.bounds();
   Side longest{};
@@ -61,7 +61,7 @@ void fill_bins(const ItemRun<T>& run, const Side& side, std::size_t bins, std::u
   // Rounding may move the last item to the end of the last bin, but not beyond it.
   const double per_length = (static_cast<double>(bins) - 0x1p-20) / side.length;
   for (std::size_t i = 0; i < run.count; ++i) {
-    const double along = static_cast<double>(run.items[i].place[side.axis]) - side.low;
+    const double along = static_cast<double>(run.items[i].position[side.axis]) - side.low;
     const auto bin = static_cast<std::uint16_t>(static_cast<std::int32_t>(along * per_length));
     run.bins[i] = bin;
     ++counts[bin];
@@ -76,28 +76,28 @@ struct Buckets {
   std::array<std::size_t, kMaxParts + 1> of_cut{};  // bucket of the bin that the cut passes through
 
   Buckets(const Cuts& cuts, std::size_t bins, const std::uint32_t* counts) {
-    std::size_t place = 0, bucket = 0, cut = 1;
+    std::size_t position = 0, bucket = 0, cut = 1;
     for (std::size_t bin = 0; bin < bins; ++bin) {
-      const std::size_t end = place + counts[bin];
+      const std::size_t end = position + counts[bin];
       const bool through = cut < cuts.parts && cuts.at[cut] < end;
-      if (through && place > begin[bucket]) begin[++bucket] = place;
+      if (through && position > begin[bucket]) begin[++bucket] = position;
       of_bin[bin] = static_cast<std::uint8_t>(bucket);
       if (through) {
         for (; cut < cuts.parts && cuts.at[cut] < end; ++cut)
           of_cut[cut] = bucket;
         begin[++bucket] = end;
       }
-      place = end;
+      position = end;
     }
-    std::fill(begin.begin() + static_cast<std::ptrdiff_t>(bucket) + 1, begin.end(), place);
+    std::fill(begin.begin() + static_cast<std::ptrdiff_t>(bucket) + 1, begin.end(), position);
   }
 };
 
 template <typename T>
 void move_items(const ItemRun<T>& run, const Buckets& buckets) {
-  std::array<std::size_t, 2 * kMaxParts> place = buckets.begin;
+  std::array<std::size_t, 2 * kMaxParts> position = buckets.begin;
   for (std::size_t i = 0; i < run.count; ++i)
-    run.other[place[buckets.of_bin[run.bins[i]]]++] = run.items[i];
+    run.other[position[buckets.of_bin[run.bins[i]]]++] = run.items[i];
 }
 
 // Moves the items to `other`, each to the positions of its part.
@@ -109,7 +109,7 @@ void cut(const ItemRun<T>& run, const Side& side, const Cuts& cuts) {
   const Buckets buckets(cuts, bins, counts.data());
   move_items(run, buckets);
   const auto precedes = [axis = side.axis](const PositionedItem<T>& a, const PositionedItem<T>& b) {
-    return a.place[axis] < b.place[axis] || (a.place[axis] == b.place[axis] && a.number < b.number);
+    return a.position[axis] < b.position[axis] || (a.position[axis] == b.position[axis] && a.index < b.index);
   };
   for (std::size_t c = 1; c < cuts.parts; ++c) {
     const std::size_t bucket = buckets.of_cut[c];

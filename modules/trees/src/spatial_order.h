@@ -18,8 +18,8 @@ namespace pcl_bv {
 /// An item with the position that represents it, which must be valid. 16 bytes for float, 32 for double.
 template <typename T>
 struct PositionedItem {
-  T place[3];
-  std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t> number;
+  T position[3];
+  std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t> index;
 };
 
 /// A box around positions; empty if low is above high.
@@ -63,7 +63,7 @@ struct ItemRun {
 ///
 /// The longest side of the box around the items is cut into up to four parts. Each part begins at a multiple
 /// of the largest 16^k (k > 0) below the number of items. The parts are cut likewise. Items with equal
-/// coordinates are ordered by number. Runs of at most 16 items, or with all items at one position, are not
+/// coordinates are ordered by index. Runs of at most 16 items, or with all items at one position, are not
 /// cut. Which items are in such a run depends on the items only, and their order within it on the order
 /// before; neither depends on the policy. With fewer than 1000 items a bin, a cut is one pass that counts and
 /// one that moves, and divides a run by four.
@@ -77,7 +77,7 @@ class SpatialOrder {
   void sort(std::size_t count, const ParallelPolicy& policy);
 
   /// Returns the item in a position of the sorted order.
-  const PositionedItem<T>& operator[](std::size_t place) const { return items_[place]; }
+  const PositionedItem<T>& operator[](std::size_t position) const { return items_[position]; }
 
  private:
   void split_for_threads(std::size_t runs, const ParallelPolicy& policy);

@@ -23,11 +23,11 @@ double inflate_by_rounding(double magnitude) {
 
 // Returns the norm, without squares that leave the range of double.
 double length(const Eigen::Vector3d& v) {
-  const double greatest = v.cwiseAbs().maxCoeff();
-  return greatest > 0 ? norm3(Eigen::Vector3d(v / greatest)) * greatest : 0;
+  const double largest = v.cwiseAbs().maxCoeff();
+  return largest > 0 ? norm3(Eigen::Vector3d(v / largest)) * largest : 0;
 }
 
-void add_axes(const Aabb& box, Reaches& found) {
+void add_axes(const Aabb& box, CubeSupportBounds& found) {
   for (std::size_t k = 0; k < 3; ++k) {
     found.up[k] = box.max()[static_cast<int>(k)];
     found.down[k] = -box.min()[static_cast<int>(k)];
@@ -43,44 +43,44 @@ double half_width_up(const Eigen::Vector3d& n, const Sphere& sphere, const Eigen
 // Splits n into the sum of weights[i] axes[i] and a remainder. Valid for any weights.
 struct AlongAxes {
   Eigen::Vector3d weights;
-  double rest = 0;  // upper bound of |remainder . q|
+  double remainder_bound = 0;  // upper bound of |remainder . q|
 
   AlongAxes(const Eigen::Vector3d& n, const Eigen::Matrix3d& axes, const Eigen::Vector3d& half)
       : weights(dot3(n, axes.col(0)), dot3(n, axes.col(1)), dot3(n, axes.col(2))) {
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d parts = weights.cwiseProduct(axes.row(k).transpose());
       const double left = n[k] - ((parts[0] + parts[1]) + parts[2]);
-      rest += (std::abs(left) + 0x1p-49 * (std::abs(n[k]) + taxicab3(parts))) * half[k];
+      remainder_bound += (std::abs(left) + 0x1p-49 * (std::abs(n[k]) + taxicab3(parts))) * half[k];
     }
   }
 };
 
 double half_width_up(const Eigen::Vector3d& n, const Obb& box, const Eigen::Vector3d& half) {
   const AlongAxes along(n, box.axes(), half);
-  return inflate_by_rounding(dot3(along.weights.cwiseAbs(), box.half_extents()) + along.rest);
+  return inflate_by_rounding(dot3(along.weights.cwiseAbs(), box.half_extents()) + along.remainder_bound);
 }
 
 // Cauchy's inequality bounds the projection.
 double half_width_up(const Eigen::Vector3d& n, const Ellipsoid& ellipsoid, const Eigen::Vector3d& half) {
   const AlongAxes along(n, ellipsoid.axes(), half);
-  return inflate_by_rounding(length(along.weights.cwiseProduct(ellipsoid.radii())) + along.rest);
+  return inflate_by_rounding(length(along.weights.cwiseProduct(ellipsoid.radii())) + along.remainder_bound);
 }
 
 // q has a part along the axis, of at most half_height, and a perpendicular part, of at most the radius. For
 // the perpendicular part any multiple of the axis may be subtracted from n.
 double half_width_up(const Eigen::Vector3d& n, const Cylinder& cylinder, const Eigen::Vector3d&) {
   const Eigen::Vector3d& a = cylinder.axis();
-  const double along = dot3(n, a), doubt = 0x1p-49 * taxicab3(n);
-  const Eigen::Vector3d across = n - along * a;
-  return inflate_by_rounding((std::abs(along) + doubt) * cylinder.half_height() +
-                  (length(across) + doubt) * cylinder.radius());
+  const double along = dot3(n, a), error_bound = 0x1p-49 * taxicab3(n);
+  const Eigen::Vector3d perpendicular = n - along * a;
+  return inflate_by_rounding((std::abs(along) + error_bound) * cylinder.half_height() +
+                             (length(perpendicular) + error_bound) * cylinder.radius());
 }
 
 struct Measure {
   std::size_t count;
 
-  Reaches operator()(const Aabb& box) const {
-    Reaches found;
+  CubeSupportBounds operator()(const Aabb& box) const {
+    CubeSupportBounds found;
     add_axes(box, found);
     for (std::size_t i = 3; i < count; ++i) {
       const Eigen::Vector3d n = cube_vector(i);
@@ -90,9 +90,9 @@ struct Measure {
     return found;
   }
 
-  Reaches operator()(const Kdop& kdop) const {
+  CubeSupportBounds operator()(const Kdop& kdop) const {
     const PlaneBody body(kdop);
-    Reaches found = of_planes(body);
+    CubeSupportBounds found = of_planes(body);
     add_axes(kdop.aabb(), found);
     for (std::size_t i = 3; i < count; ++i) {
       for (std::size_t slab = 0; slab < kdop.size(); ++slab) {
@@ -104,17 +104,18 @@ struct Measure {
     return found;
   }
 
-  Reaches operator()(const Hull& hull) const { return of_planes(PlaneBody(hull)); }
+  CubeSupportBounds operator()(const Hull& hull) const { return of_planes(PlaneBody(hull)); }
 
-  Reaches operator()(const Capsule& capsule) const {
+  CubeSupportBounds operator()(const Capsule& capsule) const {
     return centered(capsule.aabb(), [&](const Eigen::Vector3d& n) {
-      return std::max(support_bound_up(n, capsule.a(), capsule.radius()), support_bound_up(n, capsule.b(), capsule.radius()));
+      return std::max(ball_support_up(n, capsule.a(), capsule.radius()),
+                      ball_support_up(n, capsule.b(), capsule.radius()));
     });
   }
 
   // Sphere, Obb, Cylinder, Ellipsoid.
   template <typename Shape>
-  Reaches operator()(const Shape& shape) const {
+  CubeSupportBounds operator()(const Shape& shape) const {
     const Aabb box = shape.aabb();
     const Eigen::Vector3d center = shape.center();
     const Eigen::Vector3d half = 0.5 * (box.max() - box.min());
@@ -123,23 +124,23 @@ struct Measure {
     });
   }
 
-  static double support_bound_up(const Eigen::Vector3d& n, const Eigen::Vector3d& center, double radius) {
+  static double ball_support_up(const Eigen::Vector3d& n, const Eigen::Vector3d& center, double radius) {
     return Expansion().add_dot(n, center).add(inflate_by_rounding(length(n) * radius)).up();
   }
 
-  template <typename Reach>
-  Reaches centered(const Aabb& box, const Reach& reach) const {
-    Reaches found;
+  template <typename SupportBound>
+  CubeSupportBounds centered(const Aabb& box, const SupportBound& support_bound) const {
+    CubeSupportBounds found;
     add_axes(box, found);
     for (std::size_t i = 3; i < count; ++i) {
-      found.up[i] = reach(cube_vector(i));
-      found.down[i] = reach(-cube_vector(i));
+      found.up[i] = support_bound(cube_vector(i));
+      found.down[i] = support_bound(-cube_vector(i));
     }
     return found;
   }
 
-  Reaches of_planes(const PlaneBody& body) const {
-    Reaches found;
+  CubeSupportBounds of_planes(const PlaneBody& body) const {
+    CubeSupportBounds found;
     for (std::size_t i = 0; i < count; ++i) {
       found.up[i] = body.support_bound_up(cube_vector(i));
       found.down[i] = body.support_bound_up(-cube_vector(i));
@@ -150,7 +151,7 @@ struct Measure {
 
 }  // namespace
 
-Reaches reaches(const AnyVolume& volume, std::size_t count) {
+CubeSupportBounds cube_support_bounds(const AnyVolume& volume, std::size_t count) {
   return std::visit(Measure{count}, volume);
 }
 

@@ -12,19 +12,19 @@
 namespace pcl_bv {
 
 /// A transformed point, rounded, and a bound of the rounding errors of its three products and three sums.
-struct Image {
-  Coordinates place;
+struct TransformedPoint {
+  Coordinates position;
   double error;
 };
 
-inline Image transform_point(const Eigen::Isometry3d& pose, const Coordinates& p) {
-  double places[3], sizes = 0;
+inline TransformedPoint transform_point(const Eigen::Isometry3d& pose, const Coordinates& p) {
+  double sums[3], sizes = 0;
   for (int k = 0; k < 3; ++k) {
     const double x = pose(k, 0) * p.x, y = pose(k, 1) * p.y, z = pose(k, 2) * p.z;
-    places[k] = ((x + y) + z) + pose(k, 3);
+    sums[k] = ((x + y) + z) + pose(k, 3);
     sizes += std::abs(x) + std::abs(y) + std::abs(z) + std::abs(pose(k, 3));
   }
-  return {{places[0], places[1], places[2]}, 0x1p-50 * sizes + 0x1p-500};
+  return {{sums[0], sums[1], sums[2]}, 0x1p-50 * sizes + 0x1p-500};
 }
 
 /// Returns an upper bound of |M v| / |v| for the linear part M. Its square is at most the largest absolute

@@ -14,7 +14,8 @@
 namespace pcl_bv {
 namespace {
 
-constexpr PositionBounds kEmptyBounds = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+constexpr PositionBounds kEmptyBounds = {{kInfinity, kInfinity, kInfinity},
+                                         {-kInfinity, -kInfinity, -kInfinity}};
 
 template <typename T>
 std::vector<PointPacket<T>>& packets_of(PackedTree& tree) {
@@ -25,7 +26,7 @@ std::vector<PointPacket<T>>& packets_of(PackedTree& tree) {
   }
 }
 
-void widen(PositionBounds& bounds, const PositionBounds& other) {
+void merge_into(PositionBounds& bounds, const PositionBounds& other) {
   bounds.low = {std::min(bounds.low.x, other.low.x), std::min(bounds.low.y, other.low.y),
                 std::min(bounds.low.z, other.low.z)};
   bounds.high = {std::max(bounds.high.x, other.high.x), std::max(bounds.high.y, other.high.y),
@@ -34,14 +35,14 @@ void widen(PositionBounds& bounds, const PositionBounds& other) {
 
 template <typename T>
 void load_part(const PointView& points, LoadPart& part, PositionedItem<T>* to) {
-  std::size_t place = part.begin;
+  std::size_t position = part.begin;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    PositionedItem<T>& item = to[place];
-    load_point(points, i, item.place);
-    item.number = static_cast<std::int32_t>(points.index(i));
-    if (is_valid({item.place[0], item.place[1], item.place[2]})) ++place;
+    PositionedItem<T>& item = to[position];
+    load_point(points, i, item.position);
+    item.index = static_cast<std::int32_t>(points.index(i));
+    if (is_valid({item.position[0], item.position[1], item.position[2]})) ++position;
   }
-  part.valid = place - part.begin;
+  part.valid = position - part.begin;
 }
 
 // Loads the valid points and returns their number.
@@ -78,12 +79,12 @@ void fill_packets(PackedTree& tree, const ParallelPolicy& policy, PointParts<Pac
     part.bounds = kEmptyBounds;
     for (std::size_t p = part.begin; p < part.end; ++p) {
       fill(p, packets[p]);
-      widen(part.bounds, bounds_of(packets[p]));
+      merge_into(part.bounds, bounds_of(packets[p]));
     }
   });
   PositionBounds all = kEmptyBounds;
   for (const PacketPart& part : parts)
-    widen(all, part.bounds);
+    merge_into(all, part.bounds);
   reset_levels(tree.boxes, packets.size(), all);
   parts.for_each(policy, [&](const PacketPart& part) {
     for (std::size_t p = part.begin; p < part.end; ++p) {
@@ -92,7 +93,7 @@ void fill_packets(PackedTree& tree, const ParallelPolicy& policy, PointParts<Pac
     }
   });
   raise_levels(tree.boxes);
-  find_face_cover_squares(tree.boxes);
+  find_min_side_radii(tree.boxes);
 }
 
 template <typename T>
@@ -108,8 +109,8 @@ void build(const PointView& points, const ParallelPolicy& policy, TreeScratch& s
     for (std::size_t k = 0; k < count; ++k) {
       const PositionedItem<T>& item = order[first + k];
       for (std::size_t axis = 0; axis < 3; ++axis)
-        *packet.at(axis, k) = item.place[axis];
-      tree.indices[first + k] = static_cast<std::int32_t>(item.number);
+        *packet.at(axis, k) = item.position[axis];
+      tree.indices[first + k] = static_cast<std::int32_t>(item.index);
     }
     for (std::size_t k = count; k < kTreeWidth; ++k) {
       for (std::size_t axis = 0; axis < 3; ++axis)

@@ -31,7 +31,7 @@ class TreeOverlap {
 
  private:
   bool near(const PlainBox& box) const {
-    const AnyVolume moved = grown(Obb(Aabb(box.low, box.high)).transformed(pose_), margin_);
+    const AnyVolume moved = inflated(Obb(Aabb(box.low, box.high)).transformed(pose_), margin_);
     return walk_inside(points_.isa(), points_.packed(), moved,
                        [](std::size_t, std::uint32_t) { return true; });
   }
@@ -55,9 +55,9 @@ class TreeOverlap {
 
 // The factor 1 + 2^-48 covers the six roundings of Neighbor::squared_distance, the two here and two in
 // `distance`: 2^-49 in all. The square does not underflow because the error of an image is at least 2^-500.
-bool any_within(const PointTree& points, const Image& place, double distance) {
-  const double reach = distance + place.error;
-  return any_in_ball(points.isa(), points.packed(), place.place, reach * reach * (1 + 0x1p-48));
+bool any_within(const PointTree& points, const TransformedPoint& point, double distance) {
+  const double limit = distance + point.error;
+  return any_in_ball(points.isa(), points.packed(), point.position, limit * limit * (1 + 0x1p-48));
 }
 
 bool trees_within(const PointTree& points, const PointTree& others, const Eigen::Isometry3d& pose,

@@ -53,40 +53,40 @@ void VolumeBoxes::build(const std::vector<PositionBounds>& extents, const Parall
   // Position in the order for volumes without a box; valid also if no volume has a box.
   const auto anywhere = [&](std::size_t axis) { return std::min(all.low[axis], kMaxCoordinate); };
   for (std::size_t i = 0; i < extents.size(); ++i) {
-    items[i].number = static_cast<std::int64_t>(i);
+    items[i].index = static_cast<std::int64_t>(i);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double middle = extents[i].low[axis] / 2 + extents[i].high[axis] / 2;
-      items[i].place[axis] = has_box(extents[i]) ? middle : anywhere(axis);
+      items[i].position[axis] = has_box(extents[i]) ? middle : anywhere(axis);
     }
   }
   order.sort(extents.size(), policy);
   order_.resize(extents.size());
   for (std::size_t item = 0; item < extents.size(); ++item)
-    order_[item] = static_cast<std::uint32_t>(order[item].number);
+    order_[item] = static_cast<std::uint32_t>(order[item].index);
   refit(extents);
 }
 
 void VolumeBoxes::refit(const std::vector<PositionBounds>& extents) {
   reset_levels(boxes_, extents.size(), around(extents));
-  everywhere_.clear();
+  without_box_.clear();
   for (std::size_t item = 0; item < extents.size(); ++item) {
     const PositionBounds& extent = extents[order_[item]];
     if (has_box(extent)) {
       set_item_box(boxes_, item, extent.low, extent.high);
     } else if (is_nonempty(extent)) {
-      everywhere_.push_back(order_[item]);
+      without_box_.push_back(order_[item]);
     }
   }
-  std::sort(everywhere_.begin(), everywhere_.end());
+  std::sort(without_box_.begin(), without_box_.end());
   raise_levels(boxes_);
 }
 
 BoxQuery VolumeBoxes::query(const Coordinates& low, const Coordinates& high) const {
   BoxQuery query;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double least = to_frame(low[axis], axis), most = to_frame(high[axis], axis);
-    query.low[axis] = static_cast<float>(std::clamp(least - slack(least), -0x1p100, 0x1p100));
-    query.high[axis] = static_cast<float>(std::clamp(most + slack(most), -0x1p100, 0x1p100));
+    const double low_x = to_frame(low[axis], axis), high_x = to_frame(high[axis], axis);
+    query.low[axis] = static_cast<float>(std::clamp(low_x - margin(low_x), -0x1p100, 0x1p100));
+    query.high[axis] = static_cast<float>(std::clamp(high_x + margin(high_x), -0x1p100, 0x1p100));
   }
   return query;
 }

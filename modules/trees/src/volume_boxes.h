@@ -47,22 +47,22 @@ class VolumeBoxes {
   const BoxLevels& levels() const { return boxes_; }
   std::size_t size() const { return order_.size(); }
   /// Returns the index of the volume in position `item` of the order.
-  std::uint32_t number(std::size_t item) const { return order_[item]; }
+  std::uint32_t volume_index(std::size_t item) const { return order_[item]; }
 
   /// Returns the indices of the volumes without a box, ascending.
-  const std::vector<std::uint32_t>& everywhere() const { return everywhere_; }
+  const std::vector<std::uint32_t>& without_box() const { return without_box_; }
 
-  /// Margin by which queries at a coordinate `place`, in the frame of the boxes, extend the boxes: a volume
+  /// Margin by which queries at a coordinate x, in the frame of the boxes, extend the boxes: a volume
   /// whose extended box a point or a ray misses cannot change the answer. Rounding errors in double are below
   /// 2^-40 of the distance and the sizes. Flat ellipsoids and sharp hulls amplify them by less than 2^20;
   /// volumes with a larger factor are tested without a box (see volume_tree.cpp).
-  static double slack(double place) { return 0x1p-20 * (1 + std::abs(place)); }
+  static double margin(double x) { return 0x1p-20 * (1 + std::abs(x)); }
 
   double to_frame(double coordinate, std::size_t axis) const {
     return (coordinate - boxes_.origin[axis]) * boxes_.scale;
   }
 
-  /// Returns the box [low, high], extended by slack().
+  /// Returns the box [low, high], extended by margin().
   BoxQuery query(const Coordinates& low, const Coordinates& high) const;
 
   /// Calls visit(index) for the volumes without a box, then for those whose box overlaps the query. Stops and
@@ -73,7 +73,7 @@ class VolumeBoxes {
  private:
   BoxLevels boxes_;
   std::vector<std::uint32_t> order_;  // index of the volume in each position
-  std::vector<std::uint32_t> everywhere_;
+  std::vector<std::uint32_t> without_box_;
 };
 
 /// Returns the boxes of a group that overlap a box, as bits.
@@ -94,8 +94,8 @@ inline std::uint32_t overlapping(const BoxGroup& group, const BoxQuery& query) {
 
 template <typename Visit>
 bool VolumeBoxes::visit(const BoxQuery& query, const Visit& visit) const {
-  for (const std::uint32_t number : everywhere_) {
-    if (visit(number)) return true;
+  for (const std::uint32_t index : without_box_) {
+    if (visit(index)) return true;
   }
   return walk(
       boxes_, [&](std::size_t group) { return overlapping(boxes_.groups[group], query); },

@@ -14,8 +14,9 @@
 namespace pcl_bv {
 namespace {
 
-// Returns whether the ends of a ray's interval may be farther from the volume than slack() covers.
-bool is_loose(const AnyVolume& volume) {
+// Returns whether the ends of a ray's interval may be farther from the volume than VolumeBoxes::margin()
+// covers.
+bool is_too_flat_for_rays(const AnyVolume& volume) {
   const auto* const ellipsoid = std::get_if<Ellipsoid>(&volume);
   return ellipsoid != nullptr && !ellipsoid->empty() &&
          !(ellipsoid->radii().maxCoeff() <= 0x1p20 * ellipsoid->radii().minCoeff());
@@ -27,27 +28,29 @@ void require_usable(const std::vector<AnyVolume>& volumes, const Execution& exec
     what << "VolumeTree: takes 0 to 2147483647 volumes, not " << volumes.size();
     throw std::invalid_argument(what.str());
   }
-  if (execution.supports != nullptr) throw std::invalid_argument("VolumeTree: takes no supports");
+  if (execution.supports != nullptr)
+    throw std::invalid_argument("VolumeTree: Execution::supports must be null");
 }
 
 }  // namespace
 
-void VolumeTree::Nodes::measure(bool anew, const Execution& execution) {
+void VolumeTree::Nodes::measure(bool new_order, const Execution& execution) {
   std::vector<PositionBounds> extents(volumes.size());
-  for_each_range(execution.parallel, volumes.size(), kVolumesOfChunk, [&](std::size_t begin, std::size_t end) {
-    const FloatEnvironment environment;
-    for (std::size_t i = begin; i < end; ++i)
-      extents[i] = extent_of(volumes[i]);
-  });
-  if (anew) {
+  for_each_range(execution.parallel, volumes.size(), kVolumesOfChunk,
+                 [&](std::size_t begin, std::size_t end) {
+                   const FloatEnvironment environment;
+                   for (std::size_t i = begin; i < end; ++i)
+                     extents[i] = extent_of(volumes[i]);
+                 });
+  if (new_order) {
     boxes.build(extents, execution.parallel);
   } else {
     boxes.refit(extents);
   }
   shapes.measure(kind, boxes, volumes, execution.parallel);
-  loose.clear();
+  too_flat_for_rays.clear();
   for (std::uint32_t i = 0; i < volumes.size(); ++i) {
-    if (is_loose(volumes[i])) loose.push_back(i);
+    if (is_too_flat_for_rays(volumes[i])) too_flat_for_rays.push_back(i);
   }
 }
 
@@ -67,7 +70,7 @@ void VolumeTree::refit(std::vector<AnyVolume> volumes, const Execution& executio
   require_usable(volumes, execution);
   if (volumes.size() != size()) {
     std::ostringstream what;
-    what << "VolumeTree: refit() takes as many volumes as there are, " << size() << ", not "
+    what << "VolumeTree: refit() takes " << size() << " volumes, as many as the tree has, not "
          << volumes.size();
     throw std::invalid_argument(what.str());
   }

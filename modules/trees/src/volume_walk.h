@@ -69,26 +69,26 @@ class VolumeWalk {
                       end = std::min(first + kTreeWidth, boxes.child_counts[level]);
     for (std::size_t item = first; item < end; ++item) {
       switch (volume_.relation_to(boxes, group, item - first)) {
-        case Relation::apart:
+        case Relation::outside:
           break;
-        case Relation::holds:
+        case Relation::inside:
           if (report_all(level, item)) return true;
           break;
-        case Relation::crosses:
-          if (level == 0 ? take(item, volume_.inside(isa_, tree_, item)) : visit(level - 1, item))
+        case Relation::crossing:
+          if (level == 0 ? report(item, volume_.inside(isa_, tree_, item)) : visit(level - 1, item))
             return true;
       }
     }
     return false;
   }
 
-  bool take(std::size_t packet, std::uint32_t bits) const { return bits != 0 && found_(packet, bits); }
+  bool report(std::size_t packet, std::uint32_t bits) const { return bits != 0 && found_(packet, bits); }
 
   bool report_all(std::size_t level, std::size_t item) const {
     const std::size_t packets = std::size_t{1} << 4 * level;
     const std::size_t end = std::min((item + 1) * packets, tree_.boxes.child_counts[0]);
     for (std::size_t packet = item * packets; packet < end; ++packet) {
-      if (take(packet, valid_points(packet))) return true;
+      if (report(packet, valid_points(packet))) return true;
     }
     return false;
   }

@@ -42,18 +42,18 @@ double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return norm_up(difference);
 }
 
-bool within(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
+bool ball_inside_ball(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
   const double slack = r - s;
   const Eigen::Vector3d q = a - b;
   const double d2 = dot3(q, q);
   // The relative errors of d2 and slack^2 are at most 5 * 2^-53 and 3 * 2^-53; 2^-48 is 32 * 2^-53.
-  constexpr double doubt = 0x1p-48;
+  constexpr double error_bound = 0x1p-48;
   const double limit = slack * slack;
   if (limit > kSmallExtent * kSmallExtent) {
-    if (d2 < limit * (1 - doubt)) return true;
-    if (d2 > limit * (1 + doubt)) return false;
+    if (d2 < limit * (1 - error_bound)) return true;
+    if (d2 > limit * (1 + error_bound)) return false;
   } else if (q.cwiseAbs().maxCoeff() < kSmallExtent && r > 0 && r < kSmallExtent) {
-    return within(a * kLift, b * kLift, r * kLift, s * kLift);
+    return ball_inside_ball(a * kLift, b * kLift, r * kLift, s * kLift);
   }
   Expansion excess;
   for (int i = 0; i < 3; ++i)
@@ -69,7 +69,7 @@ Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half) {
   return {-upper(-center), upper(center)};
 }
 
-double skew(const Eigen::Matrix3d& axes) {
+double orthonormality_error(const Eigen::Matrix3d& axes) {
   if (!axes.allFinite()) return kNan;
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
@@ -90,7 +90,7 @@ double matrix_norm_up(const Eigen::Matrix3d& m) {
   return sqrt_up(result);
 }
 
-TransformedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
+TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
   const Eigen::Vector3d moved = transform * p;
   Eigen::Vector3d error;
   for (int i = 0; i < 3; ++i) {

@@ -19,14 +19,14 @@ double distance_up(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 /// Returns whether |a - b| <= r - s by exact arithmetic, for r >= s >= 0. Also returns false if products
 /// underflow so far that the comparison cannot be decided.
-bool within(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s);
+bool ball_inside_ball(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s);
 
 /// Returns a box that encloses all center + q with |q[i]| <= half[i], by exact arithmetic.
 Aabb box_around(const Eigen::Vector3d& center, const Eigen::Vector3d& half);
 
 /// Returns how far the columns of `axes` are from orthonormal: the largest magnitude of an entry of
 /// axes' axes - 1. NaN if an entry of `axes` is not finite.
-double skew(const Eigen::Matrix3d& axes);
+double orthonormality_error(const Eigen::Matrix3d& axes);
 
 /// Returns an upper bound of |M v| / |v| over all v: sqrt(max row sum of |M'M|), rounded up; 1 for the
 /// identity.
@@ -37,7 +37,7 @@ struct TransformedPoint {
   Eigen::Vector3d point;
   double error;
 };
-TransformedPoint move_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
+TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
 
 /// An upper bound of |m v - factor w|, by exact arithmetic.
 double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,

@@ -102,13 +102,13 @@ std::optional<RayInterval> Capsule::intersect(const Eigen::Vector3d& origin,
   if (empty() || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
   // The radius is inflated by the rounding error of the axis; contains() has a similar tolerance.
   const double size = (b_ - a_).lpNorm<1>() + radius_;
-  const double grown = radius_ + 0x1p-46 * size + kSmallestNormal;
+  const double inflated = radius_ + 0x1p-46 * size + kSmallestNormal;
   std::optional<RayInterval> all;
-  unite(Sphere(a_, grown).intersect(origin, direction), all);
-  unite(Sphere(b_, grown).intersect(origin, direction), all);
+  unite(Sphere(a_, inflated).intersect(origin, direction), all);
+  unite(Sphere(b_, inflated).intersect(origin, direction), all);
   if (a_ != b_) {
     const double half = (b_ - a_).stableNorm() / 2;
-    unite(Cylinder(center(), b_ - a_, grown, half * (1 + 0x1p-48)).intersect(origin, direction), all);
+    unite(Cylinder(center(), b_ - a_, inflated, half * (1 + 0x1p-48)).intersect(origin, direction), all);
   }
   if (contains(origin)) unite(RayInterval{0, all ? all->exit : 0}, all);
   return all;
@@ -139,7 +139,7 @@ Mesh Capsule::mesh() const {
 Capsule Capsule::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const TransformedPoint a = move_point(transform, a_), b = move_point(transform, b_);
+  const TransformedPoint a = transform_point(transform, a_), b = transform_point(transform, b_);
   const double radius =
       add_up(multiply_up(radius_, matrix_norm_up(transform.linear())), std::max(a.error, b.error));
   return {a.point, b.point, radius};

@@ -60,13 +60,13 @@ void ClippedCube::collapse() {
 
 void ClippedCube::clip() {
   crossings_.clear();
-  std::vector<Loop> kept;
+  std::vector<Loop> remaining;
   for (Loop& loop : loops_) {
     if (std::none_of(loop.begin(), loop.end(), [&](auto v) { return height(v) < 0; })) continue;
-    const bool whole = std::none_of(loop.begin(), loop.end(), [&](auto v) { return height(v) > 0; });
-    kept.push_back(whole ? std::move(loop) : clip_loop(loop));
+    const bool is_uncut = std::none_of(loop.begin(), loop.end(), [&](auto v) { return height(v) > 0; });
+    remaining.push_back(is_uncut ? std::move(loop) : clip_loop(loop));
   }
-  loops_ = std::move(kept);
+  loops_ = std::move(remaining);
   close();
 }
 

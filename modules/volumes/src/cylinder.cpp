@@ -22,13 +22,13 @@ using namespace volumes_internal;
 
 namespace {
 
-// A vector q from the centre, relative to the axis.
-struct Seen {
-  double along;            // q . axis
-  Eigen::Vector3d across;  // q x axis, whose length is the distance of q from the axis
+// The components of a vector q from the centre, along and across the axis.
+struct AxisComponents {
+  double along;           // q . axis
+  Eigen::Vector3d cross;  // q x axis, whose length is the distance of q from the axis
 };
 
-Seen see(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
+AxisComponents axis_components(const Eigen::Vector3d& axis, const Eigen::Vector3d& q) {
   return {dot3(q, axis), q.cross(axis)};
 }
 
@@ -65,15 +65,15 @@ Cylinder::Cylinder(const Eigen::Vector3d& center, const Eigen::Vector3d& axis, d
 }
 
 // Errors, with U = 2^-53: each component of q is off by U of itself, `along` by 5 U |q|_1, each component of
-// `across` by 6 U |q|_1 and its length by 11 U |q|_1. Computing the length adds 4 U of it, and |axis| another
+// `cross` by 6 U |q|_1 and its length by 11 U |q|_1. Computing the length adds 4 U of it, and |axis| another
 // 4 U. The tolerance of 32 U |q|_1 exceeds all sums of these.
 bool Cylinder::contains(const Eigen::Vector3d& point) const {
   const FloatEnvironment environment;
   if (empty()) return false;
   const Eigen::Vector3d q = point - center_;
-  const auto [along, across] = see(axis_, q);
-  const double doubt = 0x1p-48 * taxicab3(q) + kSmallestNormal;
-  return std::abs(along) <= half_height_ + doubt && across.stableNorm() <= radius_ + doubt &&
+  const auto [along, cross] = axis_components(axis_, q);
+  const double error_bound = 0x1p-48 * taxicab3(q) + kSmallestNormal;
+  return std::abs(along) <= half_height_ + error_bound && cross.stableNorm() <= radius_ + error_bound &&
          point.allFinite();
 }
 
@@ -91,9 +91,9 @@ Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   const Eigen::Vector3d d = direction.stableNormalized();
   // For d nearly parallel to the axis, d - (d . axis) axis would be rounding noise in any direction.
-  const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));
+  const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));
   return center_ + (dot3(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
-         radius_ * across.stableNormalized();
+         radius_ * perpendicular.stableNormalized();
 }
 
 double Cylinder::distance(const Eigen::Vector3d& point) const {
@@ -101,36 +101,36 @@ double Cylinder::distance(const Eigen::Vector3d& point) const {
   if (point.hasNaN()) return kNan;
   if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
-  const auto [along, across] = see(axis_, point - center_);
+  const auto [along, cross] = axis_components(axis_, point - center_);
   return Eigen::Vector2d(std::max(0.0, std::abs(along) - half_height_),
-                         std::max(0.0, across.stableNorm() - radius_))
+                         std::max(0.0, cross.stableNorm() - radius_))
       .stableNorm();
 }
 
 // The part of the ray inside the cylinder is no farther from the ray's origin than |q|, half_height and the
-// radius allow, so its ends are off by less than `doubt`: half of that covers the positions, half the square
-// roots. A cylinder that is inflated by `doubt` therefore encloses the exact cylinder.
+// radius allow, so its ends are off by less than `error_bound`: half of that covers the positions, half the
+// square roots. A cylinder that is inflated by `error_bound` therefore encloses the exact cylinder.
 std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction) const {
   return intersect_ray(*this, origin, direction, [&](RayClip& ray) {
     const auto [exponent, u] = ScaledDirection(direction);
     const Eigen::Vector3d q = origin - center_;
-    const double doubt = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + kSmallestNormal;
+    const double error_bound = 0x1p-44 * (q.lpNorm<1>() + half_height_ + radius_) + kSmallestNormal;
     const bool held = contains(origin);
-    const auto [along, across] = see(axis_, q);
-    const auto [step, turn] = see(axis_, u);
-    const double height = std::max(half_height_, held ? std::abs(along) : 0) + doubt;
-    const double slope_doubt = 0x1p-48 * u.lpNorm<1>();
+    const auto [along, cross] = axis_components(axis_, q);
+    const auto [step, step_cross] = axis_components(axis_, u);
+    const double height = std::max(half_height_, held ? std::abs(along) : 0) + error_bound;
+    const double slope_error_bound = 0x1p-48 * u.lpNorm<1>();
     RayClip scaled;
-    scaled.keep(step - slope_doubt, height - along);
-    scaled.keep(-step - slope_doubt, height + along);
-    const double radius = std::max(radius_, held ? across.stableNorm() : 0) + doubt;
-    const double speed = turn.stableNorm();
+    scaled.keep(step - slope_error_bound, height - along);
+    scaled.keep(-step - slope_error_bound, height + along);
+    const double radius = std::max(radius_, held ? cross.stableNorm() : 0) + error_bound;
+    const double speed = step_cross.stableNorm();
     if (speed > 0) {
-      const double nearest = -dot3(across / speed, turn / speed);
-      const double h = (across + nearest * turn).stableNorm();
+      const double nearest = -dot3(cross / speed, step_cross / speed);
+      const double h = (cross + nearest * step_cross).stableNorm();
       scaled.keep_within_radius(nearest, h, radius, speed, 0);
-    } else if (across.stableNorm() > radius) {
+    } else if (cross.stableNorm() > radius) {
       return ray.keep(0, -1);
     }
     const auto found = scaled.interval();
@@ -143,13 +143,13 @@ std::optional<RayInterval> Cylinder::intersect(const Eigen::Vector3d& origin,
 Aabb Cylinder::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  Eigen::Vector3d grown;
+  Eigen::Vector3d inflated;
   for (int i = 0; i < 3; ++i) {
     const double a = axis_[i], b = axis_[(i + 1) % 3], c = axis_[(i + 2) % 3];
     const double half = half_height_ * std::abs(a) + radius_ * std::sqrt(b * b + c * c);
-    grown[i] = half + 0x1p-47 * (half_height_ + radius_) + kSmallestNormal;
+    inflated[i] = half + 0x1p-47 * (half_height_ + radius_) + kSmallestNormal;
   }
-  return box_around(center_, grown);
+  return box_around(center_, inflated);
 }
 
 Mesh Cylinder::mesh() const {
@@ -167,10 +167,10 @@ Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
-  const TransformedPoint center = move_point(transform, center_);
-  const Eigen::Vector3d turned = m * axis_;
-  const Eigen::Vector3d axis = unit_axis(turned);
-  const double length = turned.stableNorm();
+  const TransformedPoint center = transform_point(transform, center_);
+  const Eigen::Vector3d rotated = m * axis_;
+  const Eigen::Vector3d axis = unit_axis(rotated);
+  const double length = rotated.stableNorm();
   const double e = multiply_up(half_height_ * (1 + 0x1p-49), difference_up(m, axis_, length, axis));
   const double back = multiply_up(radius_ * (1 + 0x1p-49), difference_up(m.transpose(), axis, length, axis_));
   const double moved = add_up(center.error, e);

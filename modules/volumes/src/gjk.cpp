@@ -16,23 +16,23 @@
 namespace pcl_bv::volumes_internal {
 namespace {
 
-Eigen::Vector3d inverse_rotated(const Eigen::Matrix3d& turn, const Eigen::Vector3d& d) {
-  return {dot3(turn.col(0), d), dot3(turn.col(1), d), dot3(turn.col(2), d)};
+Eigen::Vector3d inverse_rotated(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& d) {
+  return {dot3(rotation.col(0), d), dot3(rotation.col(1), d), dot3(rotation.col(2), d)};
 }
 
 // Tolerances of the two number types. `margin`: the origin is inside four points only if the volumes that
 // they span with it exceed this (coordinates are below 4 in magnitude, so sums of six products of three
-// numbers are off by 1e-13). `nothing`: shorter lengths are treated as 0. `rounding`: absolute error of a
-// projection.
+// numbers are off by 1e-13). `negligible_length`: shorter lengths are treated as 0. `rounding`: absolute
+// error of a projection.
 template <typename Real>
 struct Precision;
 template <>
 struct Precision<double> {
-  static constexpr double margin = 0x1p-36, nothing = 0x1p-36, rounding = 0x1p-51;
+  static constexpr double margin = 0x1p-36, negligible_length = 0x1p-36, rounding = 0x1p-51;
 };
 template <>
 struct Precision<DoubleDouble> {
-  static constexpr double margin = 0, nothing = 0x1p-96, rounding = 0x1p-100;
+  static constexpr double margin = 0, negligible_length = 0x1p-96, rounding = 0x1p-100;
 };
 
 // Return b + delta - a. In DoubleDouble, delta + rest is the exact difference of the origins.
@@ -51,7 +51,7 @@ Vector<DoubleDouble> difference(const Eigen::Vector3d& delta, const Eigen::Vecto
 
 class GjkSearch {
  public:
-  GjkSearch(const Placed& a, const Placed& b, Goal goal, double bound)
+  GjkSearch(const PosedShape& a, const PosedShape& b, Goal goal, double bound)
       : a_(a), b_(b), goal_(goal), bound_(bound), radii_(add_up(a.radius, b.radius)) {
     double extent = std::max(a.size, b.size);
     for (int k = 0; k < 3; ++k) {
@@ -71,10 +71,10 @@ class GjkSearch {
   double run() {
     if (overlap_) return 0;
     lower_bound_ = bounding_ball_gap();
-    if (!done() && a_.shape.kind == b_.shape.kind && a_.turn == nullptr && b_.turn == nullptr) {
+    if (!done() && a_.shape.kind == b_.shape.kind && a_.rotation == nullptr && b_.rotation == nullptr) {
       const Gap gap = a_.shape.parallel_gap(b_.shape);
       lower_bound_ = std::max(lower_bound_, gap.bound);
-      if (gap.whole) return gap.bound;
+      if (gap.is_exact) return gap.bound;
     }
     if (!done()) search<double>();
     if (!done() && !settled()) search<DoubleDouble>();
@@ -82,13 +82,13 @@ class GjkSearch {
   }
 
  private:
-  bool done() const { return overlap_ || (goal_ == Goal::enough && lower_bound_ > bound_); }
+  bool done() const { return overlap_ || (goal_ == Goal::exceeds_bound && lower_bound_ > bound_); }
 
   // Returns the distance of the bounding balls around the origins, a lower bound that decides most pairs of a
   // scene.
   double bounding_ball_gap() const {
-    const double reach = add_up(add_up(a_.size, b_.size), radii_);
-    const double apart = length3(delta_) * (1 - 0x1p-49) - reach;
+    const double radii = add_up(add_up(a_.size, b_.size), radii_);
+    const double apart = length3(delta_) * (1 - 0x1p-49) - radii;
     return apart > 0 ? apart * (1 - 0x1p-52) : 0;
   }
 
@@ -103,10 +103,10 @@ class GjkSearch {
   // 3.01 U, each further step by U of its result.
   double certified(const Eigen::Vector3d& d) const {
     const double x = d[0] * delta_[0], y = d[1] * delta_[1], z = d[2] * delta_[2];
-    const double reach_a = a_.support_value_up(d), reach_b = b_.support_value_up(-d);
+    const double support_a = a_.support_value_up(d), support_b = b_.support_value_up(-d);
     const double terms =
-        ((std::abs(x) + std::abs(y)) + std::abs(z)) + (std::abs(reach_a) + std::abs(reach_b));
-    const double gap = (((x + y) + z) - reach_a) - reach_b - 0x1p-50 * terms;
+        ((std::abs(x) + std::abs(y)) + std::abs(z)) + (std::abs(support_a) + std::abs(support_b));
+    const double gap = (((x + y) + z) - support_a) - support_b - 0x1p-50 * terms;
     if (!(gap > 0)) return 0;
     const double apart = gap / norm3(d) * (1 - 0x1p-50) - radii_;
     return apart > 0 ? apart * (1 - 0x1p-52) : 0;
@@ -148,7 +148,7 @@ class GjkSearch {
       if (!(length < upper)) break;
       upper = length;
       if (near_enough(length)) return;
-      if (length < P::nothing) break;
+      if (length < P::negligible_length) break;
       for (std::size_t k = 0; k < 3; ++k)
         d[static_cast<int>(k)] = static_cast<double>((*foot)[k]) / length;
     }
@@ -157,70 +157,71 @@ class GjkSearch {
   }
 
   // Returns whether two points of the cores, `length` apart after scaling, prove that the bodies overlap (for
-  // Goal::enough: that their distance is below the bound) by more than rounding errors.
+  // Goal::exceeds_bound: that their distance is below the bound) by more than rounding errors.
   bool near_enough(double length) {
-    if (goal_ == Goal::best && lower_bound_ > 0) return false;
-    overlap_ = length / scale_ * (1 + 0x1p-40) < radii_ + (goal_ == Goal::enough ? bound_ : 0);
+    if (goal_ == Goal::distance && lower_bound_ > 0) return false;
+    overlap_ = length / scale_ * (1 + 0x1p-40) < radii_ + (goal_ == Goal::exceeds_bound ? bound_ : 0);
     return overlap_;
   }
 
-  const Placed &a_, &b_;
+  const PosedShape &a_, &b_;
   const Goal goal_;
   const double bound_, radii_;
   Eigen::Vector3d delta_, delta_rest_;
-  double scale_ = 1;           // power of two that scales lengths to about 1
-  Eigen::Vector3d direction_;  // initial direction, then the best direction of a search
-  bool overlap_ = false;          // the bodies overlap or are nearer than bound_
-  double lower_bound_ = 0;           // best proven lower bound of the distance
-  double upper_bound_ = kInfinity;   // distance of two points of the cores, up to rounding
+  double scale_ = 1;                // power of two that scales lengths to about 1
+  Eigen::Vector3d direction_;       // initial direction, then the best direction of a search
+  bool overlap_ = false;            // the bodies overlap or are nearer than bound_
+  double lower_bound_ = 0;          // best proven lower bound of the distance
+  double upper_bound_ = kInfinity;  // distance of two points of the cores, up to rounding
 };
 
 // Numbers of one body, by which a pair is ordered, so that the order of the arguments does not matter.
-auto key(const Placed& p) {
-  const Eigen::Vector3d mark = p.shape.mark();
+auto key(const PosedShape& p) {
+  const Eigen::Vector3d order_key = p.shape.order_key();
   return std::array{static_cast<double>(p.shape.kind),
                     p.origin[0],
                     p.origin[1],
                     p.origin[2],
                     p.radius,
                     p.size,
-                    mark[0],
-                    mark[1],
-                    mark[2]};
+                    order_key[0],
+                    order_key[1],
+                    order_key[2]};
 }
 
 }  // namespace
 
-Placed::Placed(const ConvexBody& body)
+PosedShape::PosedShape(const ConvexBody& body)
     : shape(*body.shape_),
-      turn(body.is_rotated_ ? &body.rotation_ : nullptr),
+      rotation(body.is_rotated_ ? &body.rotation_ : nullptr),
       origin(body.origin_),
       size(body.size_),
       radius(body.radius_) {}
 
-Placed::Placed(const Shape& point, const Eigen::Vector3d& at)
-    : shape(point), turn(nullptr), origin(at), size(0), radius(0) {}
+PosedShape::PosedShape(const SupportShape& point, const Eigen::Vector3d& at)
+    : shape(point), rotation(nullptr), origin(at), size(0), radius(0) {}
 
-Eigen::Vector3d Placed::support(const Eigen::Vector3d& d) const {
-  if (turn == nullptr) return shape.support(d);
-  const Eigen::Vector3d q = shape.support(inverse_rotated(*turn, d));
-  return {dot3(turn->row(0), q), dot3(turn->row(1), q), dot3(turn->row(2), q)};
+Eigen::Vector3d PosedShape::support(const Eigen::Vector3d& d) const {
+  if (rotation == nullptr) return shape.support(d);
+  const Eigen::Vector3d q = shape.support(inverse_rotated(*rotation, d));
+  return {dot3(rotation->row(0), q), dot3(rotation->row(1), q), dot3(rotation->row(2), q)};
 }
 
-// d . (turn q) = (turn' d) . q. The rounding error of turn' d is below 4 U of its terms (U = 2^-53).
-double Placed::support_value_up(const Eigen::Vector3d& d) const {
-  if (turn == nullptr) return shape.support_value_up(d);
+// d . (rotation q) = (rotation' d) . q. With U = 2^-53, the rounding error of rotation' d is below 4 U of its
+// terms.
+double PosedShape::support_value_up(const Eigen::Vector3d& d) const {
+  if (rotation == nullptr) return shape.support_value_up(d);
   double terms = 0;
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i)
-      terms += std::abs((*turn)(i, j) * d[i]);
+      terms += std::abs((*rotation)(i, j) * d[i]);
   }
-  const double reach = shape.support_value_up(inverse_rotated(*turn, d));
+  const double value = shape.support_value_up(inverse_rotated(*rotation, d));
   const double lost = 0x1p-51 * terms * shape.size + kSmallestNormal;
-  return reach + lost + 0x1p-51 * (std::abs(reach) + lost);
+  return value + lost + 0x1p-51 * (std::abs(value) + lost);
 }
 
-double lower_bound(const Placed& a, const Placed& b, Goal goal, double bound) {
+double lower_bound(const PosedShape& a, const PosedShape& b, Goal goal, double bound) {
   return key(b) < key(a) ? GjkSearch(b, a, goal, bound).run() : GjkSearch(a, b, goal, bound).run();
 }
 

@@ -46,7 +46,7 @@ class HalfSpaces::DualSimplex {
     for (int step = 0; step < 60; ++step) {
       const Frame frame(all_, basis);
       const Eigen::Vector3d corner =
-          frame.combine({slack_[basis.sides[0]], slack_[basis.sides[1]], slack_[basis.sides[2]]});
+          frame.corner_at({slack_[basis.sides[0]], slack_[basis.sides[1]], slack_[basis.sides[2]]});
       const std::size_t entering = most_violated(corner, tolerance, candidates);
       if (entering == all_.size() || !frame.exchange(all_.normal(entering), entering, basis)) break;
     }
@@ -66,34 +66,34 @@ class HalfSpaces::DualSimplex {
     }
 
     // Returns the corner q with normals[k] . q = s[k].
-    Eigen::Vector3d combine(const Eigen::Vector3d& s) const {
+    Eigen::Vector3d corner_at(const Eigen::Vector3d& s) const {
       return ((s[0] / determinant) * crosses[0] + (s[1] / determinant) * crosses[1]) +
              (s[2] / determinant) * crosses[2];
     }
 
     // Returns the coefficients of d as a sum of multiples of the normals.
-    Eigen::Vector3d shares(const Eigen::Vector3d& d) const {
+    Eigen::Vector3d components(const Eigen::Vector3d& d) const {
       return {dot3(crosses[0], d) / determinant, dot3(crosses[1], d) / determinant,
               dot3(crosses[2], d) / determinant};
     }
 
     // Lets the half-space `entering` replace one of the three. Returns false if none of them can leave.
     bool exchange(const Eigen::Vector3d& normal, std::size_t entering, Basis& basis) const {
-      const Eigen::Vector3d share = shares(normal);
+      const Eigen::Vector3d component = components(normal);
       const double negligible =
-          0x1p-40 * std::max({std::abs(share[0]), std::abs(share[1]), std::abs(share[2])});
+          0x1p-40 * std::max({std::abs(component[0]), std::abs(component[1]), std::abs(component[2])});
       int leaving = -1;
       double step = kInfinity;
       for (int k = 0; k < 3; ++k) {
-        if (!(share[k] > negligible)) continue;
-        const double ratio = basis.weights[k] / share[k];
-        if (ratio > step || (ratio == step && share[k] <= share[leaving])) continue;
+        if (!(component[k] > negligible)) continue;
+        const double ratio = basis.weights[k] / component[k];
+        if (ratio > step || (ratio == step && component[k] <= component[leaving])) continue;
         leaving = k;
         step = ratio;
       }
       if (leaving < 0) return false;
       for (int k = 0; k < 3; ++k)
-        basis.weights[k] = std::max(0.0, basis.weights[k] - step * share[k]);
+        basis.weights[k] = std::max(0.0, basis.weights[k] - step * component[k]);
       basis.weights[leaving] = step;
       basis.sides[static_cast<std::size_t>(leaving)] = entering;
       return true;
@@ -127,7 +127,7 @@ class HalfSpaces::DualSimplex {
       Eigen::Vector3d rest = direction_;
       for (int k = 0; k < 3; ++k)
         rest -= basis.weights[k] * frame.normals[static_cast<std::size_t>(k)];
-      const Eigen::Vector3d more = frame.shares(rest);
+      const Eigen::Vector3d more = frame.components(rest);
       for (int k = 0; k < 3; ++k)
         basis.weights[k] = std::max(0.0, basis.weights[k] + more[k]);
     }
@@ -161,8 +161,8 @@ void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::
 // Each side of the box is proven without the box, with a residual r. If |r|_1 < 1 for all six directions
 // +-e_k, the body is bounded: a v in its recession cone with the largest component v_k = +-1 would satisfy
 // +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1, a contradiction. So there is a largest |q|_inf, R, with
-// R <= reach + |r|_1 R.
-bool HalfSpaces::enclose(double guess) {
+// R <= largest_bound + |r|_1 R.
+bool HalfSpaces::add_box(double guess) {
   const std::size_t usable = size();
   for (int side = 0; side < 6; ++side) {
     x_.push_back(side % 3 == 0 ? (side < 3 ? 1 : -1) : 0);
@@ -170,8 +170,8 @@ bool HalfSpaces::enclose(double guess) {
     z_.push_back(side % 3 == 2 ? (side < 3 ? 1 : -1) : 0);
     offset_.push_back(guess);
   }
-  std::array<Proof, box_sides> proofs;
-  double reach = 0, residual = 0;
+  std::array<DualBound, box_sides> bounds;
+  double largest_bound = 0, residual = 0;
   for (std::size_t side = 0; side < box_sides; ++side) {
     const Eigen::Vector3d direction = normal(usable + side);
     const auto every = [&](const auto& visit) {
@@ -179,16 +179,16 @@ bool HalfSpaces::enclose(double guess) {
         visit(i);
     };
     const DualSimplex simplex(*this, direction, Eigen::Vector3d::Zero());
-    proofs[side] = prove(simplex.solve(start(direction), 0x1p-50 * guess, every), direction, usable);
-    if (!std::isfinite(proofs[side].reach) || !proofs[side].residual.allFinite()) return false;
-    reach = std::max(reach, proofs[side].reach);
-    residual = std::max(residual, taxicab3(proofs[side].residual));
+    bounds[side] = prove(simplex.solve(start(direction), 0x1p-50 * guess, every), direction, usable);
+    if (!std::isfinite(bounds[side].bound) || !bounds[side].residual.allFinite()) return false;
+    largest_bound = std::max(largest_bound, bounds[side].bound);
+    residual = std::max(residual, taxicab3(bounds[side].residual));
   }
   if (residual > 0.25) return false;
-  const double most = reach / (1 - residual) * (1 + 0x1p-50);
+  const double largest = largest_bound / (1 - residual) * (1 + 0x1p-50);
   for (std::size_t side = 0; side < box_sides; ++side) {
-    const double rest = taxicab3(proofs[side].residual) * most * (1 + 0x1p-50) + kSmallestNormal;
-    offset_[usable + side] = add_up(proofs[side].reach, rest);
+    const double rest = taxicab3(bounds[side].residual) * largest * (1 + 0x1p-50) + kSmallestNormal;
+    offset_[usable + side] = add_up(bounds[side].bound, rest);
   }
   for (std::size_t k = 0; k < 3; ++k)
     max_abs_[static_cast<int>(k)] = std::max({0.0, offset_[usable + k], offset_[usable + k + 3]});
@@ -211,27 +211,27 @@ HalfSpaces::Basis HalfSpaces::start(const Eigen::Vector3d& direction) const {
 
 // Uses only half-spaces with an index below `usable`. The sums are off by at most 4.01 U (U = 2^-53) of their
 // terms; 8 U also cover adding the error bound.
-HalfSpaces::Proof HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& direction,
-                                    std::size_t usable) const {
+HalfSpaces::DualBound HalfSpaces::prove(const Basis& basis, const Eigen::Vector3d& direction,
+                                        std::size_t usable) const {
   Eigen::Vector3d rest = direction, terms = direction.cwiseAbs();
-  double reach = 0, magnitude = 0;
+  double sum = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
     const std::size_t i = basis.sides[static_cast<std::size_t>(k)];
     const double weight = basis.weights[k];
     if (i >= usable || weight == 0) continue;
-    reach += weight * offset_[i];
+    sum += weight * offset_[i];
     magnitude += weight * std::abs(offset_[i]);
     const Eigen::Vector3d part = weight * normal(i);
     rest -= part;
     terms += part.cwiseAbs();
   }
-  return {reach + (0x1p-50 * magnitude + kSmallestNormal), rest.cwiseAbs() + 0x1p-50 * terms};
+  return {sum + (0x1p-50 * magnitude + kSmallestNormal), rest.cwiseAbs() + 0x1p-50 * terms};
 }
 
 double HalfSpaces::bound(const Basis& basis, const Eigen::Vector3d& direction) const {
-  const auto [reach, residual] = prove(basis, direction, size());
+  const auto [dual_bound, residual] = prove(basis, direction, size());
   const double rest = dot3(residual, max_abs_) * (1 + 0x1p-50) + kSmallestNormal;
-  return reach + rest + 0x1p-51 * (std::abs(reach) + rest);
+  return dual_bound + rest + 0x1p-51 * (std::abs(dual_bound) + rest);
 }
 
 // First tries only the half-spaces at the vertex, which suffice unless rounding hides a short edge.

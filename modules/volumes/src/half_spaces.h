@@ -28,9 +28,9 @@ class HalfSpaces {
   /// Adds a box that encloses the body by exact arithmetic; to be called once, after the last add(). `guess`
   /// must exceed half the width of the body. Returns false if no box can be proven: the body may be
   /// unbounded.
-  bool enclose(double guess);
+  bool add_box(double guess);
 
-  /// Returns an upper bound, by exact arithmetic, of direction . q over the body. Needs the box of enclose().
+  /// Returns an upper bound, by exact arithmetic, of direction . q over the body. Needs the box of add_box().
   /// `vertex` should be a point of the body whose projection on `direction` is about the largest; any other
   /// point makes the bound slower and less tight, but not wrong.
   double support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const;
@@ -49,16 +49,16 @@ class HalfSpaces {
     Eigen::Vector3d weights;
   };
 
-  /// The bound that a basis proves: direction . q <= reach + residual . |q|, where |q| is by component.
-  struct Proof {
-    double reach;
+  /// The bound that a basis proves: direction . q <= bound + residual . |q|, where |q| is by component.
+  struct DualBound {
+    double bound;
     Eigen::Vector3d residual;
   };
 
   class DualSimplex;
 
   Basis start(const Eigen::Vector3d& direction) const;
-  Proof prove(const Basis& basis, const Eigen::Vector3d& direction, std::size_t usable) const;
+  DualBound prove(const Basis& basis, const Eigen::Vector3d& direction, std::size_t usable) const;
   double bound(const Basis& basis, const Eigen::Vector3d& direction) const;
 
   std::vector<double> x_, y_, z_, offset_;

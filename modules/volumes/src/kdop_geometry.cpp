@@ -48,7 +48,7 @@ Eigen::Vector3d Kdop::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   if (empty()) return Eigen::Vector3d::Constant(kNan);
   const LocalSlabs slabs = local_slabs(*this);
-  return slabs.origin + farthest(slabs, direction).corner;
+  return slabs.origin + farthest_corner(slabs, direction).corner;
 }
 
 double Kdop::distance(const Eigen::Vector3d& point) const {
@@ -114,12 +114,12 @@ Kdop Kdop::transformed(const Eigen::Isometry3d& transform) const {
   SlabVector lower(min().size()), upper(lower.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Eigen::Vector3d& n = set_->direction(i);
-    const auto reach = [&](const Eigen::Vector3d& direction) {
-      const double turned = support_up(*this, slabs, transform.linear(), direction);
-      return Expansion().add(turned).add_dot(direction, transform.translation()).up();
+    const auto support_bound = [&](const Eigen::Vector3d& direction) {
+      const double rotated = support_up(*this, slabs, transform.linear(), direction);
+      return Expansion().add(rotated).add_dot(direction, transform.translation()).up();
     };
-    lower[i] = -reach(-n);
-    upper[i] = reach(n);
+    lower[i] = -support_bound(-n);
+    upper[i] = support_bound(n);
   }
   return {set_, lower, upper};
 }

@@ -44,7 +44,7 @@ bool most_violated(const LocalSlabs& slabs, const Eigen::Vector3d& point, SlabSi
 
 // Lets `side` replace one of the three sides such that the weights stay >= 0. Returns false if none can
 // leave.
-bool pivot(Farthest& f, const Eigen::Matrix3d& normals_inverse, const Eigen::Vector3d& normal,
+bool pivot(FarthestCorner& f, const Eigen::Matrix3d& normals_inverse, const Eigen::Vector3d& normal,
            const SlabSide& side) {
   const Eigen::Vector3d share = normals_inverse.transpose() * normal;
   int leaving = -1;
@@ -63,9 +63,9 @@ bool pivot(Farthest& f, const Eigen::Matrix3d& normals_inverse, const Eigen::Vec
   return true;
 }
 
-Farthest start(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
+FarthestCorner start(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d weights = slabs.basis_inverse.transpose() * direction;
-  Farthest f{{}, weights.cwiseAbs(), {}};
+  FarthestCorner f{{}, weights.cwiseAbs(), {}};
   for (std::size_t k = 0; k < 3; ++k) {
     f.sides[k] = {slabs.set.basis()[k], weights[k] < 0 ? -1.0 : 1.0};
   }
@@ -75,13 +75,13 @@ Farthest start(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
 // Returns an upper bound of |p| per coordinate over the basis slabs. An entry of the inverse that nearly
 // cancels may have no correct digit, but its error is below 1e-9 / |direction|, since the determinant of the
 // normalised basis directions is at least 1e-6. The factor 1.01 covers all other errors.
-Eigen::Vector3d reach(const Kdop& kdop, const LocalSlabs& slabs) {
+Eigen::Vector3d coordinate_bound(const Kdop& kdop, const LocalSlabs& slabs) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
     const std::size_t i = slabs.set.basis()[k];
     const double largest = std::max(std::abs(kdop.min(i)), std::abs(kdop.max(i)));
-    const double doubt = 1e-9 / slabs.set.direction(i).norm();
-    result.array() += 1.01 * largest * (slabs.basis_inverse.col(k).array().abs() + doubt);
+    const double error_bound = 1e-9 / slabs.set.direction(i).norm();
+    result.array() += 1.01 * largest * (slabs.basis_inverse.col(k).array().abs() + error_bound);
   }
   return result;
 }
@@ -108,8 +108,8 @@ LocalSlabs local_slabs(const Kdop& kdop) {
   return result;
 }
 
-Farthest farthest(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
-  Farthest f = start(slabs, direction);
+FarthestCorner farthest_corner(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
+  FarthestCorner f = start(slabs, direction);
   // 360,000 random cases took at most 6 steps. The limit is against cycling; reaching it costs only
   // tightness.
   const std::size_t limit = 8 * slabs.set.size();
@@ -131,7 +131,7 @@ Farthest farthest(const LocalSlabs& slabs, const Eigen::Vector3d& direction) {
 
 double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix3d& matrix,
                   const Eigen::Vector3d& direction) {
-  const Farthest f = farthest(slabs, matrix.transpose() * direction);
+  const FarthestCorner f = farthest_corner(slabs, matrix.transpose() * direction);
   Expansion bound;
   std::array<Expansion, 3> residual;  // direction' * matrix - sum of weights * normals
   for (std::size_t k = 0; k < 3; ++k)
@@ -144,7 +144,7 @@ double support_up(const Kdop& kdop, const LocalSlabs& slabs, const Eigen::Matrix
       residual[k].add_product(-sign * weight, slabs.set.direction(slab)[k]);
     }
   }
-  const Eigen::Vector3d coordinates = reach(kdop, slabs);
+  const Eigen::Vector3d coordinates = coordinate_bound(kdop, slabs);
   for (std::size_t k = 0; k < 3; ++k) {
     bound.add(multiply_up(residual[k].magnitude_up(), coordinates[k]));
   }

@@ -32,7 +32,7 @@ struct SlabSide {
 
 /// The farthest corner along a direction, and the proof: direction = sum of weights[i] * (outward normal of
 /// sides[i]), with weights >= 0.
-struct Farthest {
+struct FarthestCorner {
   std::array<SlabSide, 3> sides;
   Eigen::Vector3d weights;
   Eigen::Vector3d corner;  ///< Relative to the origin.
@@ -41,7 +41,7 @@ struct Farthest {
 /// Finds the farthest corner by the dual simplex method, which starts at the farthest corner of the basis
 /// slabs. Each step keeps the weights >= 0, so the bound that they prove holds in spite of rounding errors of
 /// the corner.
-Farthest farthest(const LocalSlabs& slabs, const Eigen::Vector3d& direction);
+FarthestCorner farthest_corner(const LocalSlabs& slabs, const Eigen::Vector3d& direction);
 
 /// Returns an upper bound, by exact arithmetic, of direction . (matrix * p) over all p of a k-DOP that is not
 /// empty. Tight to a few units in the last place of the coordinates.

@@ -47,7 +47,7 @@ Obb::Obb(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes, const Eigen
     : Obb() {
   const FloatEnvironment environment;
   if ((half_extents.array() < 0).any()) return;
-  if (!center.allFinite() || !half_extents.allFinite() || !(skew(axes) <= 1e-12)) {
+  if (!center.allFinite() || !half_extents.allFinite() || !(orthonormality_error(axes) <= 1e-12)) {
     throw std::invalid_argument(
         "Obb: center and half extents must be finite (or a half extent negative, for an empty box), and "
         "axes unit and orthogonal to 1e-12");
@@ -174,27 +174,28 @@ std::array<Eigen::Vector3d, 8> Obb::corners() const {
   return result;
 }
 
-// For the direction w, let y_i = axis(i) . w, rounded, and r = w - A y (`lacking`). Each q = p - center of
+// For the direction w, let y_i = axis(i) . w, rounded, and r = w - A y (`residual`). Each q = p - center of
 // the box satisfies w . q <= sum |y_i| h_i + |r| |q|, with |q| <= 1.001 |h|_1.
 double Obb::support_value_up(const Eigen::Vector3d& direction) const {
   Eigen::Vector3d y;
-  double reach = 0;
+  double bound = 0;
   for (int i = 0; i < 3; ++i) {
     y[i] = dot3(axes_.col(i), direction);
-    reach = add_up(reach, multiply_up(std::abs(y[i]), half_extents_[i]));
+    bound = add_up(bound, multiply_up(std::abs(y[i]), half_extents_[i]));
   }
-  Eigen::Vector3d lacking;
+  Eigen::Vector3d residual;
   for (int k = 0; k < 3; ++k)
-    lacking[k] = Expansion().add(-direction[k]).add_dot(axes_.row(k), y).magnitude_up();
-  if (lacking.isZero(0)) return reach;
-  return add_up(reach, multiply_up(1.001 * half_extents_.sum(), norm_up(lacking)));
+    residual[k] = Expansion().add(-direction[k]).add_dot(axes_.row(k), y).magnitude_up();
+  if (residual.isZero(0)) return bound;
+  return add_up(bound, multiply_up(1.001 * half_extents_.sum(), norm_up(residual)));
 }
 
 Aabb Obb::aabb() const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  return box_around(center_, {support_value_up(Eigen::Vector3d::UnitX()), support_value_up(Eigen::Vector3d::UnitY()),
-                              support_value_up(Eigen::Vector3d::UnitZ())});
+  return box_around(center_,
+                    {support_value_up(Eigen::Vector3d::UnitX()), support_value_up(Eigen::Vector3d::UnitY()),
+                     support_value_up(Eigen::Vector3d::UnitZ())});
 }
 
 Mesh Obb::mesh() const {
@@ -212,7 +213,7 @@ Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
   const Eigen::Matrix3d axes = orthonormal_axes(m * axes_);
-  const TransformedPoint center = move_point(transform, center_);
+  const TransformedPoint center = transform_point(transform, center_);
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
     Eigen::Vector3d w, rounding;

@@ -63,7 +63,7 @@ void limit_yaw(Eigen::Matrix3d& axes) {
 
 using Order = std::array<int, 3>;
 
-Obb named(const Obb& box, const Order& order, const Eigen::Matrix3d& axes) {
+Obb with_axes(const Obb& box, const Order& order, const Eigen::Matrix3d& axes) {
   const Eigen::Vector3d& h = box.half_extents();
   return {box.center(), axes, {h[order[0]], h[order[1]], h[order[2]]}};
 }
@@ -105,7 +105,7 @@ Obb Obb::canonical() const {
   }
   Eigen::Matrix3d sorted;
   sorted << axis(order[0]), axis(order[1]), axis(order[2]);
-  return named(*this, order, sorted);  // Obb's constructor negates axis 2 if the axes are left-handed
+  return with_axes(*this, order, sorted);  // Obb's constructor negates axis 2 if the axes are left-handed
 }
 
 Obb Obb::upright(const Eigen::Vector3d& up) const {
@@ -127,9 +127,9 @@ Obb Obb::upright(const Eigen::Vector3d& up) const {
   const Heading a = heading_of(axes), b = heading_of(quarter);
   const double nearer = std::abs(b.ahead) - std::abs(a.ahead);
   const bool square = std::abs(longer) <= same_size, diagonal = std::abs(nearer) <= same_component;
-  const bool turn = !square ? longer > 0 : !diagonal ? nearer > 0 : b.left > a.left;
-  if (turn) return named(*this, {second, first, third}, quarter);
-  return named(*this, {first, second, third}, axes);
+  const bool swap_axes = !square ? longer > 0 : !diagonal ? nearer > 0 : b.left > a.left;
+  if (swap_axes) return with_axes(*this, {second, first, third}, quarter);
+  return with_axes(*this, {first, second, third}, axes);
 }
 
 double Obb::yaw() const {
@@ -143,7 +143,7 @@ Obb Obb::oriented_as(const Obb& previous) const {
   if (empty() || previous.empty()) return *this;
   Order order{0, 1, 2}, best = order;
   Eigen::Vector3d best_signs = Eigen::Vector3d::Ones();
-  double most = -4;
+  double largest = -4;
   do {
     Eigen::Vector3d along, signs;
     for (int i = 0; i < 3; ++i) {
@@ -152,20 +152,20 @@ Obb Obb::oriented_as(const Obb& previous) const {
     }
     const bool even = (order[1] - order[0] + 3) % 3 == 1;  // permutations 012, 120, 201
     if ((signs.prod() > 0) != even) {                      // left-handed: negate the axis that costs least
-      Eigen::Index least;
-      along.cwiseAbs().minCoeff(&least);
-      signs[least] = -signs[least];
+      Eigen::Index smallest;
+      along.cwiseAbs().minCoeff(&smallest);
+      signs[smallest] = -signs[smallest];
     }
     const double sum = dot3(along, signs);
-    if (sum <= most) continue;
-    most = sum;
+    if (sum <= largest) continue;
+    largest = sum;
     best = order;
     best_signs = signs;
   } while (std::next_permutation(order.begin(), order.end()));
   Eigen::Matrix3d axes;
   for (int i = 0; i < 3; ++i)
     axes.col(i) = best_signs[i] * axes_.col(best[i]);
-  return named(*this, best, axes);
+  return with_axes(*this, best, axes);
 }
 
 }  // namespace pcl_bv

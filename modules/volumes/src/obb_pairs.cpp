@@ -41,10 +41,10 @@ double projection_up(const Eigen::Vector3d& axis, const Eigen::Vector3d& to, con
 // as upright boxes, axes with that third axis.
 Eigen::Matrix3d third_orientation(const Eigen::Vector3d& third, const Eigen::Vector3d& other_third) {
   if (third != other_third) return Eigen::Matrix3d::Identity();
-  Eigen::Index least = 0;
-  third.cwiseAbs().minCoeff(&least);
+  Eigen::Index smallest = 0;
+  third.cwiseAbs().minCoeff(&smallest);
   Eigen::Matrix3d from_third;
-  from_third << third, Eigen::Vector3d::Unit(least), Eigen::Vector3d::Zero();
+  from_third << third, Eigen::Vector3d::Unit(smallest), Eigen::Vector3d::Zero();
   from_third = orthonormal_axes(from_third);
   Eigen::Matrix3d axes;
   axes << from_third.col(1), from_third.col(2), third;
@@ -60,12 +60,12 @@ bool Obb::overlaps(const Obb& other) const {
   const double size =
       (between.lpNorm<1>() + half_extents_.sum() + other.half_extents_.sum()) + kSmallestNormal;
   const auto apart = [&](const Eigen::Vector3d& direction) {
-    double reach = 4e-12 * size;
+    double limit = 4e-12 * size;
     for (int i = 0; i < 3; ++i) {
-      reach += half_extents_[i] * std::abs(dot3(axes_.col(i), direction));
-      reach += other.half_extents_[i] * std::abs(dot3(other.axes_.col(i), direction));
+      limit += half_extents_[i] * std::abs(dot3(axes_.col(i), direction));
+      limit += other.half_extents_[i] * std::abs(dot3(other.axes_.col(i), direction));
     }
-    return std::abs(dot3(between, direction)) > reach;
+    return std::abs(dot3(between, direction)) > limit;
   };
   for (int i = 0; i < 3; ++i) {
     if (apart(axes_.col(i)) || apart(other.axes_.col(i))) return false;
@@ -108,7 +108,8 @@ Obb Obb::merged(const Obb& other) const {
     return from_slabs(axes, low, high);
   };
   Obb best = along(first.axes_);
-  for (const Eigen::Matrix3d& axes : {second.axes_, third_orientation(first.axes_.col(2), second.axes_.col(2))}) {
+  for (const Eigen::Matrix3d& axes :
+       {second.axes_, third_orientation(first.axes_.col(2), second.axes_.col(2))}) {
     const Obb box = along(axes);
     if (is_smaller(box, best)) best = box;
   }

@@ -57,15 +57,15 @@ ConvexBody::ConvexBody(const AnyVolume& volume) : ConvexBody() {
   size_ = shape_->size;
 }
 
-// A point origin + turn q + e, with |e| <= radius, moves to M (origin + turn q + e) + t. That is the new
-// origin plus (M turn) q, up to the rounding errors of both, plus M e, which is at most stretch * radius
-// long.
-ConvexBody ConvexBody::moved(const Eigen::Isometry3d& transform) const {
+// A point origin + rotation q + e, with |e| <= radius, moves to M (origin + rotation q + e) + t. That is the
+// new origin plus (M rotation) q, up to the rounding errors of both, plus M e, which is at most stretch *
+// radius long.
+ConvexBody ConvexBody::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return *this;
   ConvexBody result = *this;
   const Eigen::Matrix3d m = transform.linear();
-  const TransformedPoint origin = move_point(transform, origin_);
+  const TransformedPoint origin = transform_point(transform, origin_);
   const double stretch = matrix_norm_up(m);
   double lost = origin.error;
   result.rotation_ = m;
@@ -83,28 +83,28 @@ ConvexBody ConvexBody::moved(const Eigen::Isometry3d& transform) const {
 
 bool overlaps(const ConvexBody& a, const ConvexBody& b) {
   const FloatEnvironment environment;
-  return !a.empty() && !b.empty() && !(lower_bound(Placed(a), Placed(b), Goal::enough, 0) > 0);
+  return !a.empty() && !b.empty() && !(lower_bound(PosedShape(a), PosedShape(b), Goal::exceeds_bound, 0) > 0);
 }
 
 double distance(const ConvexBody& a, const ConvexBody& b) {
   const FloatEnvironment environment;
   if (a.empty() || b.empty()) return kInfinity;
-  return lower_bound(Placed(a), Placed(b), Goal::best, 0);
+  return lower_bound(PosedShape(a), PosedShape(b), Goal::distance, 0);
 }
 
 double distance(const ConvexBody& body, const Eigen::Vector3d& point) {
   const FloatEnvironment environment;
   if (point.hasNaN()) return kNan;
   if (body.empty() || !point.allFinite()) return kInfinity;
-  static const std::shared_ptr<const Shape> shape = make_shape(Sphere(Eigen::Vector3d::Zero(), 0));
-  return lower_bound(Placed(body), Placed(*shape, point), Goal::best, 0);
+  static const std::shared_ptr<const SupportShape> shape = make_shape(Sphere(Eigen::Vector3d::Zero(), 0));
+  return lower_bound(PosedShape(body), PosedShape(*shape, point), Goal::distance, 0);
 }
 
 bool within(const ConvexBody& a, const ConvexBody& b, double margin) {
   const FloatEnvironment environment;
   if (a.empty() || b.empty()) return margin == kInfinity;
   if (margin < 0) return false;
-  return !(lower_bound(Placed(a), Placed(b), Goal::enough, margin) > margin);
+  return !(lower_bound(PosedShape(a), PosedShape(b), Goal::exceeds_bound, margin) > margin);
 }
 
 bool overlaps(const AnyVolume& a, const AnyVolume& b) {

@@ -22,7 +22,8 @@ struct Polytope {
   std::vector<Eigen::Vector3d> vertices;  ///< Empty if the slabs have no point in common.
   std::vector<Face> faces;                ///< Counter-clockwise seen from outside.
   double volume = 0;
-  Eigen::Vector3d centroid = Eigen::Vector3d::Constant(kNan);  ///< Relative to the origin; NaN without vertices.
+  /// Relative to the origin; NaN without vertices.
+  Eigen::Vector3d centroid = Eigen::Vector3d::Constant(kNan);
 };
 
 /// The size of a polytope and its first moment.

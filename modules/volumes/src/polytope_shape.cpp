@@ -20,24 +20,26 @@
 namespace pcl_bv::volumes_internal {
 namespace {
 
-class PolytopeShape : public Shape {
+class PolytopeShape : public SupportShape {
  public:
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     std::size_t best = 0;
-    double greatest = -kInfinity;
+    double largest = -kInfinity;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      const double reach = (x_[i] * d[0] + y_[i] * d[1]) + z_[i] * d[2];
-      if (reach > greatest) {
-        greatest = reach;
+      const double projection = (x_[i] * d[0] + y_[i] * d[1]) + z_[i] * d[2];
+      if (projection > largest) {
+        largest = projection;
         best = i;
       }
     }
     return {x_[best], y_[best], z_[best]};
   }
 
-  double support_value_up(const Eigen::Vector3d& d) const override { return half_spaces_.support_value_up(d, support(d)); }
+  double support_value_up(const Eigen::Vector3d& d) const override {
+    return half_spaces_.support_value_up(d, support(d));
+  }
 
-  Eigen::Vector3d mark() const override { return {x_.front(), y_.front(), z_.front()}; }
+  Eigen::Vector3d order_key() const override { return {x_.front(), y_.front(), z_.front()}; }
 
  protected:
   // `corners` are relative to `from`.
@@ -60,7 +62,7 @@ class PolytopeShape : public Shape {
     guess_ = 2 * (high - low).maxCoeff() + 0x1p-40 * at.maxCoeff() + kSmallestNormal;
   }
 
-  void enclose() { size = half_spaces_.enclose(guess_) ? half_spaces_.radius_up() : kInfinity; }
+  void add_box() { size = half_spaces_.add_box(guess_) ? half_spaces_.radius_up() : kInfinity; }
 
   HalfSpaces half_spaces_;
 
@@ -81,7 +83,7 @@ class HullShape final : public PolytopeShape {
     half_spaces_.reserve(hull.planes().size());
     for (const HullPlane& plane : hull.planes())
       half_spaces_.add(plane.normal, plane.offset, origin);
-    enclose();
+    add_box();
   }
 };
 
@@ -94,10 +96,10 @@ class KdopShape final : public PolytopeShape {
       half_spaces_.add(kdop.set()->direction(i), kdop.max(i), origin);
       half_spaces_.add(-kdop.set()->direction(i), -kdop.min(i), origin);
     }
-    enclose();
+    add_box();
   }
 
-  Gap parallel_gap(const Shape& other) const override {
+  Gap parallel_gap(const SupportShape& other) const override {
     const Kdop& b = static_cast<const KdopShape&>(other).kdop_;
     if (*kdop_.set() != *b.set()) return {0, false};
     double best = 0;
@@ -116,13 +118,13 @@ class KdopShape final : public PolytopeShape {
 
 }  // namespace
 
-std::shared_ptr<Shape> make_polytope(const Hull& hull) {
+std::shared_ptr<SupportShape> make_polytope(const Hull& hull) {
   return std::make_shared<HullShape>(hull);
 }
 
 // Slabs that miss each other only by rounding have no corners but may have a point in common. Then the
 // corners of their box are used.
-std::shared_ptr<Shape> make_polytope(const Kdop& kdop) {
+std::shared_ptr<SupportShape> make_polytope(const Kdop& kdop) {
   Polytope polytope = intersect_slabs(kdop);
   if (polytope.vertices.empty()) {
     if (kdop.tightened().empty()) return nullptr;

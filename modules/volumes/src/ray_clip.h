@@ -38,10 +38,11 @@ class RayClip {
   }
 
   /// Keeps the t where the ray is within `radius` of a point or a line. With s = t 2^exponent, the squared
-  /// distance of the ray is least^2 + (speed (s - nearest))^2.
-  void keep_within_radius(double nearest, double least, double radius, double speed, int exponent) {
-    if (least > radius) return keep(0, -1);
-    const double half = std::sqrt(radius - least) * std::sqrt(radius + least) / speed * (1 + 0x1p-49);
+  /// distance of the ray is min_distance^2 + (speed (s - nearest))^2.
+  void keep_within_radius(double nearest, double min_distance, double radius, double speed, int exponent) {
+    if (min_distance > radius) return keep(0, -1);
+    const double half =
+        std::sqrt(radius - min_distance) * std::sqrt(radius + min_distance) / speed * (1 + 0x1p-49);
     keep_between(std::ldexp(nearest - half, -exponent), std::ldexp(nearest + half, -exponent));
   }
 

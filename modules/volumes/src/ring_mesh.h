@@ -14,9 +14,9 @@ namespace pcl_bv::volumes_internal {
 /// An axis and two unit vectors perpendicular to it, right-handed.
 struct Triad {
   explicit Triad(const Eigen::Vector3d& a) : axis(a) {
-    Eigen::Index least = 0;
-    a.cwiseAbs().minCoeff(&least);
-    u = Eigen::Vector3d::Unit(least).cross(a).stableNormalized();
+    Eigen::Index smallest = 0;
+    a.cwiseAbs().minCoeff(&smallest);
+    u = Eigen::Vector3d::Unit(smallest).cross(a).stableNormalized();
     v = a.cross(u);
   }
   Eigen::Vector3d axis, u, v;

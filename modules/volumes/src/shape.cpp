@@ -27,7 +27,7 @@ double length3(const Eigen::Vector3d& v) {
 
 namespace {
 
-class AabbShape final : public Shape {
+class AabbShape final : public SupportShape {
  public:
   explicit AabbShape(const Aabb& box) : box_(box) {
     origin = 0.5 * box.min() + 0.5 * box.max();
@@ -51,7 +51,7 @@ class AabbShape final : public Shape {
   }
 
   // The distance itself: gaps along the axes, rounded down.
-  Gap parallel_gap(const Shape& other) const override {
+  Gap parallel_gap(const SupportShape& other) const override {
     const Aabb& b = static_cast<const AabbShape&>(other).box_;
     Eigen::Vector3d gap;
     for (int k = 0; k < 3; ++k) {
@@ -62,7 +62,7 @@ class AabbShape final : public Shape {
     return {std::max({gap[0], gap[1], gap[2], length3(gap) * (1 - 0x1p-50)}), true};
   }
 
-  Eigen::Vector3d mark() const override { return high_; }
+  Eigen::Vector3d order_key() const override { return high_; }
 
  private:
   Aabb box_;
@@ -106,14 +106,14 @@ Eigen::Matrix3d dual(const Eigen::Matrix3d& axes) {
   return result;
 }
 
-Eigen::Vector3d combined(const Eigen::Matrix3d& columns, const Eigen::Vector3d& s) {
+Eigen::Vector3d linear_combination(const Eigen::Matrix3d& columns, const Eigen::Vector3d& s) {
   return {dot3(columns.row(0), s), dot3(columns.row(1), s), dot3(columns.row(2), s)};
 }
 
 // By this factor, |q| can exceed the length computed from components along axes orthonormal to 1e-12.
 constexpr double kSkewFactor = 1 + 0x1p-36;
 
-class ObbShape final : public Shape {
+class ObbShape final : public SupportShape {
  public:
   explicit ObbShape(const Obb& box) : axes_(box.axes()), dual_(dual(axes_)), half_(box.half_extents()) {
     origin = box.center();
@@ -124,16 +124,16 @@ class ObbShape final : public Shape {
     Eigen::Vector3d s;
     for (int i = 0; i < 3; ++i)
       s[i] = dot3(dual_.col(i), d) < 0 ? -half_[i] : half_[i];
-    return combined(dual_, s);
+    return linear_combination(dual_, s);
   }
 
   double support_value_up(const Eigen::Vector3d& d) const override {
     const auto [y, residual] = Components(axes_, d);
-    const double reach = (std::abs(y[0]) * half_[0] + std::abs(y[1]) * half_[1]) + std::abs(y[2]) * half_[2];
-    return reach * (1 + 0x1p-50) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
+    const double value = (std::abs(y[0]) * half_[0] + std::abs(y[1]) * half_[1]) + std::abs(y[2]) * half_[2];
+    return value * (1 + 0x1p-50) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
   }
 
-  Eigen::Vector3d mark() const override { return half_; }
+  Eigen::Vector3d order_key() const override { return half_; }
 
  private:
   Eigen::Matrix3d axes_, dual_;
@@ -142,7 +142,7 @@ class ObbShape final : public Shape {
 
 // With s_i = axis i . q: sum y_i s_i = sum (y_i r_i)(s_i / r_i) <= |(y_i r_i)| by Cauchy-Schwarz, since
 // |(s_i / r_i)| <= 1.
-class EllipsoidShape final : public Shape {
+class EllipsoidShape final : public SupportShape {
  public:
   explicit EllipsoidShape(const Ellipsoid& e) : axes_(e.axes()), dual_(dual(axes_)), radii_(e.radii()) {
     origin = e.center();
@@ -157,16 +157,16 @@ class EllipsoidShape final : public Shape {
     if (!(length > 0)) return Eigen::Vector3d::Zero();
     for (int i = 0; i < 3; ++i)
       s[i] = radii_[i] * (s[i] / length);
-    return combined(dual_, s);
+    return linear_combination(dual_, s);
   }
 
   double support_value_up(const Eigen::Vector3d& d) const override {
     const auto [y, residual] = Components(axes_, d);
-    const double reach = length3({y[0] * radii_[0], y[1] * radii_[1], y[2] * radii_[2]});
-    return reach * (1 + 0x1p-49) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
+    const double value = length3({y[0] * radii_[0], y[1] * radii_[1], y[2] * radii_[2]});
+    return value * (1 + 0x1p-49) + (residual * size * (1 + 0x1p-50) + kSmallestNormal);
   }
 
-  Eigen::Vector3d mark() const override { return radii_; }
+  Eigen::Vector3d order_key() const override { return radii_; }
 
  private:
   Eigen::Matrix3d axes_, dual_;
@@ -176,7 +176,7 @@ class EllipsoidShape final : public Shape {
 // With the axis u, each point is q = t u + v with |t| <= h / |u|, v perpendicular to u and |v| <= r. So
 // d . q <= (h |d . u| + r |d x u|) / |u|, where |u| is 1 to 2^-50. The error of d . u is below 4 U |d|, the
 // error of d x u below 6 U |d|.
-class CylinderShape final : public Shape {
+class CylinderShape final : public SupportShape {
  public:
   explicit CylinderShape(const Cylinder& c)
       : axis_(c.axis()), core_radius_(c.radius()), half_height_(c.half_height()) {
@@ -186,19 +186,19 @@ class CylinderShape final : public Shape {
 
   Eigen::Vector3d support(const Eigen::Vector3d& d) const override {
     const double along = dot3(axis_, d);
-    const Eigen::Vector3d across = cross3(axis_, cross3(d, axis_));  // perpendicular even if it is tiny
-    const double length = length3(across);
+    const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));  // also if it is tiny
+    const double length = length3(perpendicular);
     Eigen::Vector3d end = (along < 0 ? -half_height_ : half_height_) * axis_;
     if (!(length > 0)) return end;
-    return end + core_radius_ * Eigen::Vector3d(across / length);
+    return end + core_radius_ * Eigen::Vector3d(perpendicular / length);
   }
 
   double support_value_up(const Eigen::Vector3d& d) const override {
-    const double reach = half_height_ * std::abs(dot3(axis_, d)) + core_radius_ * length3(cross3(axis_, d));
-    return reach * (1 + 0x1p-48) + (0x1p-49 * (half_height_ + core_radius_) * taxicab3(d) + kSmallestNormal);
+    const double value = half_height_ * std::abs(dot3(axis_, d)) + core_radius_ * length3(cross3(axis_, d));
+    return value * (1 + 0x1p-48) + (0x1p-49 * (half_height_ + core_radius_) * taxicab3(d) + kSmallestNormal);
   }
 
-  Eigen::Vector3d mark() const override { return axis_; }
+  Eigen::Vector3d order_key() const override { return axis_; }
 
  private:
   Eigen::Vector3d axis_;
@@ -206,7 +206,7 @@ class CylinderShape final : public Shape {
 };
 
 // The shape of capsules, spheres and points. Both ends are rounded once, relative to the origin.
-class SegmentShape final : public Shape {
+class SegmentShape final : public SupportShape {
  public:
   SegmentShape(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double around) {
     radius = around;
@@ -227,14 +227,14 @@ class SegmentShape final : public Shape {
     return std::max(dot3(a_, d), dot3(b_, d)) + (0x1p-50 * dot3(magnitude, max_abs_) + kSmallestNormal);
   }
 
-  Eigen::Vector3d mark() const override { return a_; }
+  Eigen::Vector3d order_key() const override { return a_; }
 
  private:
   Eigen::Vector3d a_, b_, max_abs_;
 };
 
 struct Maker {
-  using Result = std::shared_ptr<Shape>;
+  using Result = std::shared_ptr<SupportShape>;
 
   Result operator()(const Aabb& v) const { return std::make_shared<AabbShape>(v); }
   Result operator()(const Kdop& v) const { return make_polytope(v); }
@@ -252,9 +252,9 @@ struct Maker {
 
 }  // namespace
 
-std::shared_ptr<Shape> make_shape(const AnyVolume& volume) {
+std::shared_ptr<SupportShape> make_shape(const AnyVolume& volume) {
   if (empty(volume)) return nullptr;
-  std::shared_ptr<Shape> shape = std::visit(Maker(), volume);
+  std::shared_ptr<SupportShape> shape = std::visit(Maker(), volume);
   if (shape) shape->kind = static_cast<int>(volume.index());
   return shape;
 }

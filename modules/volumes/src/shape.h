@@ -12,17 +12,17 @@
 
 namespace pcl_bv::volumes_internal {
 
-/// A lower bound of a distance. If `whole`, it is the distance up to rounding, and 0 only if the distance is
-/// 0.
+/// A lower bound of a distance. If `is_exact`, it is the distance up to rounding, and 0 only if the distance
+/// is 0.
 struct Gap {
   double bound;
-  bool whole;
+  bool is_exact;
 };
 
 /// A core, relative to a nearby origin, and all points within `radius` of it.
-class Shape {
+class SupportShape {
  public:
-  virtual ~Shape() = default;
+  virtual ~SupportShape() = default;
 
   /// Returns a point of the core that is farthest along the direction, up to rounding.
   virtual Eigen::Vector3d support(const Eigen::Vector3d& direction) const = 0;
@@ -33,10 +33,10 @@ class Shape {
 
   /// Returns a lower bound of the distance to another shape of the same kind, from faces that are parallel in
   /// both. Both shapes must be at their original pose.
-  virtual Gap parallel_gap(const Shape&) const { return {0, false}; }
+  virtual Gap parallel_gap(const SupportShape&) const { return {0, false}; }
 
   /// Returns some numbers that distinguish shapes of one kind; they order the two shapes of a pair.
-  virtual Eigen::Vector3d mark() const = 0;
+  virtual Eigen::Vector3d order_key() const = 0;
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   double size = 0;    ///< Upper bound of |q|. Infinite if no bound is known.
@@ -45,10 +45,10 @@ class Shape {
 };
 
 /// Returns null for an empty volume, and for a k-DOP whose slabs are proven to have no point in common.
-std::shared_ptr<Shape> make_shape(const AnyVolume& volume);
+std::shared_ptr<SupportShape> make_shape(const AnyVolume& volume);
 
-std::shared_ptr<Shape> make_polytope(const Kdop& kdop);
-std::shared_ptr<Shape> make_polytope(const Hull& hull);
+std::shared_ptr<SupportShape> make_polytope(const Kdop& kdop);
+std::shared_ptr<SupportShape> make_polytope(const Hull& hull);
 
 /// Returns sqrt(x^2 + y^2 + z^2) with a relative error of at most 4 * 2^-53, in the whole range of double.
 double length3(const Eigen::Vector3d& v);

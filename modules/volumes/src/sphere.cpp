@@ -37,8 +37,8 @@ Sphere around(const Sphere& big, const Sphere& small) {
   const double d = step.stableNorm();
   const double part = std::clamp(((d - big.radius()) + small.radius()) / (2 * d), 0.0, 1.0);
   const Eigen::Vector3d center = big.center() + part * step;
-  const auto reach = [&](const Sphere& s) { return add_up(distance_up(center, s.center()), s.radius()); };
-  return {center, std::max(reach(big), reach(small))};
+  const auto far_side = [&](const Sphere& s) { return add_up(distance_up(center, s.center()), s.radius()); };
+  return {center, std::max(far_side(big), far_side(small))};
 }
 
 // Returns the limit of the computed squared distance d2 for |a - b| <= r, so large that no pair is rejected
@@ -64,9 +64,9 @@ void clip_by_sphere(RayClip& ray, const Sphere& sphere, const Eigen::Vector3d& o
   const Eigen::Vector3d q = origin - sphere.center();
   const double nearest = -q.dot(u) / u.squaredNorm();
   const double h = (q + nearest * u).stableNorm();
-  const double doubt = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
+  const double error_bound = 0x1p-47 * q.lpNorm<1>() + kSmallestNormal;
   const double held = sphere.contains(origin) ? q.stableNorm() : 0;
-  const double radius = std::max(sphere.radius(), held) + doubt;
+  const double radius = std::max(sphere.radius(), held) + error_bound;
   ray.keep_within_radius(nearest, h, radius, u.norm(), exponent);
 }
 
@@ -90,7 +90,7 @@ bool Sphere::contains(const Eigen::Vector3d& point) const {
   return !empty() && within_rounding(point, center_, radius_) && point.allFinite();
 }
 
-double Sphere::contained_square() const {
+double Sphere::max_squared_distance() const {
   return empty() ? -1 : square_within_rounding(radius_);
 }
 
@@ -136,7 +136,7 @@ Aabb Sphere::aabb() const {
 Sphere Sphere::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const TransformedPoint center = move_point(transform, center_);
+  const TransformedPoint center = transform_point(transform, center_);
   return {center.point, add_up(multiply_up(radius_, matrix_norm_up(transform.linear())), center.error)};
 }
 
@@ -151,7 +151,9 @@ Sphere& Sphere::merge(const Sphere& other) {
   const bool this_first = precedes(*this, other);
   const Sphere big = this_first ? *this : other;
   const Sphere small = this_first ? other : *this;
-  return *this = within(small.center_, big.center_, big.radius_, small.radius_) ? big : around(big, small);
+  return *this = ball_inside_ball(small.center_, big.center_, big.radius_, small.radius_)
+                     ? big
+                     : around(big, small);
 }
 
 FloatSphere Sphere::cast_float() const {

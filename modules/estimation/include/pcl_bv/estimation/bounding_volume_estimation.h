@@ -99,7 +99,8 @@ class BoundingVolumeEstimation : public pcl::PCLBase<PointT> {
 
  private:
   const PointCloud& cloud() const {
-    if (!this->input_) throw std::logic_error("BoundingVolumeEstimation: compute() before setInputCloud()");
+    if (!this->input_)
+      throw std::logic_error("BoundingVolumeEstimation: call setInputCloud() before compute()");
     return *this->input_;
   }
 
@@ -149,7 +150,8 @@ class KdopEstimation : public BoundingVolumeEstimation<PointT, Kdop> {
 
   /// Sets directions that replace the K / 2 built-in ones. Throws std::invalid_argument for a null pointer.
   void setDirections(std::shared_ptr<const KdopSet> directions) {
-    if (!directions) throw std::invalid_argument("KdopEstimation::setDirections: a null pointer");
+    if (!directions)
+      throw std::invalid_argument("KdopEstimation::setDirections: directions must not be null");
     directions_ = std::move(directions);
   }
   const std::shared_ptr<const KdopSet>& getDirections() const { return directions_; }
@@ -197,7 +199,7 @@ class SphereEstimation : public BoundingVolumeEstimation<PointT, Sphere> {
   /// because the other methods have no proof.
   EstimationResult compute(Sphere& sphere, SphereCertificate& certificate) const {
     if (options_.method != SphereMethod::exact)
-      throw std::invalid_argument("SphereEstimation: only the method exact has a certificate");
+      throw std::invalid_argument("SphereEstimation: compute() with a certificate needs SphereMethod::exact");
     return fit_smallest_sphere(this->input(), sphere, certificate, this->execution());
   }
 
@@ -266,15 +268,17 @@ class BestEstimation : public BoundingVolumeEstimation<PointT, AnyVolume> {
   /// Sets the methods to choose from, by name; best_candidates() by default. Throws std::invalid_argument for
   /// an unknown name and for `best` itself (the message contains the name), and for an empty list.
   void setMethods(const std::vector<std::string>& names) {
-    std::vector<const Method*> among;
+    std::vector<const Method*> candidates;
     for (const std::string& name : names) {
-      among.push_back(find_method(name));
-      if (among.back() == nullptr || among.back()->name == "best") {
-        throw std::invalid_argument("BestEstimation::setMethods: '" + name + "' is no method to choose from");
+      candidates.push_back(find_method(name));
+      if (candidates.back() == nullptr || candidates.back()->name == "best") {
+        throw std::invalid_argument("BestEstimation::setMethods: '" + name +
+                                    "' is unknown or is 'best' itself");
       }
     }
-    if (among.empty()) throw std::invalid_argument("BestEstimation::setMethods: no names");
-    candidates_ = std::move(among);
+    if (candidates.empty())
+      throw std::invalid_argument("BestEstimation::setMethods: the list of names is empty");
+    candidates_ = std::move(candidates);
   }
 
  protected:

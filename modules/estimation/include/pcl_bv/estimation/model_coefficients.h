@@ -59,10 +59,10 @@ inline pcl::ModelCoefficients to_model_coefficients(const Cylinder& cylinder) {
   if (cylinder.empty()) return estimation_internal::as_floats({kNan, kNan, kNan, kNan, kNan, kNan, -1});
   const Eigen::Vector3f center = c.cast<float>(), axis = cylinder.axis().cast<float>();
   const double moved = (center.cast<double>() - c).norm();
-  const double turned = 2 * (axis.cast<double>() - cylinder.axis()).norm();
-  const double grown = (cylinder.radius() + moved + turned * cylinder.half_height()) * (1 + 1e-12);
+  const double rotated = 2 * (axis.cast<double>() - cylinder.axis()).norm();
+  const double inflated_radius = (cylinder.radius() + moved + rotated * cylinder.half_height()) * (1 + 1e-12);
   return estimation_internal::as_floats(
-      {center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(), float_up(grown)});
+      {center.x(), center.y(), center.z(), axis.x(), axis.y(), axis.z(), float_up(inflated_radius)});
 }
 
 }  // namespace pcl_bv

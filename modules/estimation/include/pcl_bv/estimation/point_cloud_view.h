@@ -22,7 +22,8 @@ PointView point_view(const pcl::PointCloud<PointT>& cloud) {
 /// Throws std::out_of_range for an index outside the cloud; the message contains the index.
 template <typename PointT>
 PointView point_view(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
-  static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t), "PCL is built with another index type");
+  static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t),
+                "PCL is built with an index type other than 32-bit integers");
   return select_points(point_view(cloud), indices.data(), indices.size());
 }
 

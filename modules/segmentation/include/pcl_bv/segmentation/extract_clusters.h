@@ -97,8 +97,7 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
   /// the largest, and if the growth is not finite and >= 0, or not 0 with more than one point in
   /// setMinPoints().
   void extract(std::vector<pcl::PointIndices>& clusters) {
-    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_,
-                                   max_size_, min_points_,
+    const ClusterSettings settings{static_cast<float>(tolerance_), min_size_, max_size_, min_points_,
                                    static_cast<float>(per_metre_), oversized_};
     clusterer_.extract(view(), settings, found_, policy_);
     clusters.resize(found_.size());
@@ -110,8 +109,9 @@ class EuclideanClusterExtraction : public pcl::PCLBase<PointT> {
 
  private:
   PointView view() const {
-    static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t), "PCL is built with another index type");
-    if (!input_) throw std::logic_error("EuclideanClusterExtraction: extract() before setInputCloud()");
+    static_assert(sizeof(pcl::index_t) == sizeof(std::int32_t),
+                  "PCL is built with an index type other than 32-bit integers");
+    if (!input_) throw std::logic_error("EuclideanClusterExtraction: call setInputCloud() before extract()");
     const PointView cloud = view_records(input_->points.data(), input_->size());
     return indices_ ? select_points(cloud, indices_->data(), indices_->size()) : cloud;
   }

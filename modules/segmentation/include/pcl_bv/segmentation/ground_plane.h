@@ -35,12 +35,12 @@ struct GroundScratch {
   std::vector<Eigen::Vector3d> sample, support, lowest;
 };
 
-/// Position of the sensor of a cloud: see find_sensor() in sensor_place.h.
+/// Position of the sensor of a cloud: see find_sensor() in sensor_position.h.
 struct SensorPosition {
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< Position in the frame of the cloud, metres.
-  /// Whether the points lie around the assumed position. If not, `at` is estimated.
-  bool around = true;
-  double far_share = 0;  ///< Share of points that are 100 m or farther from `at`, 0 to 1.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< In the frame of the cloud, metres.
+  /// Whether the points lie around the assumed position. If not, `position` is estimated.
+  bool confirmed = true;
+  double far_share = 0;  ///< Share of points that are 100 m or farther from `position`, 0 to 1.
 };
 
 /// A cloud split into ground and other points. Reusing an object reuses its memory.
@@ -49,11 +49,11 @@ struct GroundSplit {
   /// Unit normal of the plane, pointing up; 0 if not found. The height of p above the plane is normal.p -
   /// offset.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double offset = 0;     ///< Metres, in the frame of the cloud.
+  double offset = 0;  ///< Metres, in the frame of the cloud.
   /// Only from GroundZones: the centre of its rings. A given position is not checked.
   SensorPosition sensor{};
   /// Only from GroundZones: no plane was found, and level ground at sensor_height was assumed.
-  bool level = false;
+  bool assumed_level = false;
   /// Indices of the ground points in the cloud (PointView::index()), in the order of the view.
   std::vector<std::int32_t> ground;
   std::vector<std::int32_t> rest;  ///< Indices of the other valid points.

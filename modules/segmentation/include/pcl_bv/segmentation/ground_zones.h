@@ -62,7 +62,7 @@ class GroundZones {
   ///
   /// Points that are not valid (is_valid()) are in neither list. If there is no plane around the sensor, as
   /// in split_ground(), but a sensor height is given, level ground at that height is assumed
-  /// (GroundSplit::level). Without a height nothing is found and all valid points are in `rest`.
+  /// (GroundSplit::assumed_level). Without a height nothing is found and all valid points are in `rest`.
   ///
   /// The same points and settings give the same bits for any number of threads. O(n). Memory of about 40
   /// bytes a point is retained for the next call, which does not allocate for a similar cloud. Throws

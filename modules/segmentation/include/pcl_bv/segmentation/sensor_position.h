@@ -13,21 +13,21 @@
 
 namespace [[gnu::visibility("default")]] pcl_bv {
 
-/// Checks whether a sensor at the position `said` may have recorded the cloud, and estimates the position
+/// Checks whether a sensor at the position `assumed` may have recorded the cloud, and estimates the position
 /// otherwise.
 ///
 /// The check uses a sample of 1024 valid points, without those at (0, 0, 0), which are rays without a return.
 /// Distances are horizontal, i.e. perpendicular to `up`, in metres. Most points of a LiDAR are near: in
 /// recorded sweeps at least 72 % are within 12.5 m of the sensor, and at most 3 % are within 12.5 m of a
-/// position 30 m away from it. So the points lie around `said` if 5 % of them are within 12.5 m of it. They
-/// also do if 5 % are within 25 m, as for a sensor that is high up or looks far ahead, and no other position
-/// has half of the points within 12.5 m. Fewer than 100 points lie around any position.
+/// position 30 m away from it. So the points lie around `assumed` if 5 % of them are within 12.5 m of it.
+/// They also do if 5 % are within 25 m, as for a sensor that is high up or looks far ahead, and no other
+/// position has half of the points within 12.5 m. Fewer than 100 points lie around any position.
 ///
-/// Returns `said` if the points lie around it. Otherwise returns the mean of the points within 12.5 m of the
-/// densest position, at the height of `said`. The same points give the same bits. O(1) for points in memory.
-/// Throws std::invalid_argument if `up` is 0 or not finite, or `said` is not finite.
-SensorPosition find_sensor(const PointView& points, const Eigen::Vector3d& up, const Eigen::Vector3d& said,
-                        GroundScratch& scratch);
+/// Returns `assumed` if the points lie around it. Otherwise returns the mean of the points within 12.5 m of
+/// the densest position, at the height of `assumed`. The same points give the same bits. O(1) for points in
+/// memory. Throws std::invalid_argument if `up` is 0 or not finite, or `assumed` is not finite.
+SensorPosition find_sensor(const PointView& points, const Eigen::Vector3d& up, const Eigen::Vector3d& assumed,
+                           GroundScratch& scratch);
 
 /// An up direction and the share of the points that are ground in it.
 struct OtherUp {

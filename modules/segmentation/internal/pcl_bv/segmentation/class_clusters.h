@@ -26,13 +26,14 @@ class ClassClusterer {
  public:
   /// Replaces `clusters` by the clusters of all classes: the largest first, among equal sizes the one with
   /// the smallest point index. Sets class_of[i] to the class of cluster i. classes[i] is the class of the
-  /// point with index i. Classes without an entry in `own` use `others`.
+  /// point with index i. Classes without an entry in `class_settings` use `defaults`.
   ///
   /// Without valid points there are no clusters. O(points * log(classes)) in addition to the clustering.
-  /// Throws as EuclideanClusterer does, and std::invalid_argument if `own` has a class twice or a point has
-  /// no entry in `classes`.
-  void extract(const PointView& points, const std::vector<std::int64_t>& classes, const ClusterSettings& others,
-               const std::vector<ClassSettings>& own, Clusters& clusters, std::vector<std::int64_t>& class_of,
+  /// Throws as EuclideanClusterer does, and std::invalid_argument if `class_settings` has a class twice or a
+  /// point has no entry in `classes`.
+  void extract(const PointView& points, const std::vector<std::int64_t>& classes,
+               const ClusterSettings& defaults, const std::vector<ClassSettings>& class_settings,
+               Clusters& clusters, std::vector<std::int64_t>& class_of,
                const ParallelPolicy& policy = Serial{});
 
  private:

@@ -25,15 +25,15 @@ struct NeighborLists {
 /// Sets found[i] to PointTree::nearest() of the i-th query point, or to index -1 and distance infinity if
 /// there is none. Resizes `found` to the number of query points. Throws std::invalid_argument unless the
 /// query points are in memory, and if max_distance is negative or NaN.
-void nearest(const PointTree& tree, const PointView& places, std::vector<Neighbor>& found,
+void nearest(const PointTree& tree, const PointView& query_points, std::vector<Neighbor>& found,
              double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
 
 /// Lists the k nearest points of each query point, ascending. Throws likewise.
-void nearest(const PointTree& tree, const PointView& places, std::size_t k, NeighborLists& found,
+void nearest(const PointTree& tree, const PointView& query_points, std::size_t k, NeighborLists& found,
              double max_distance = std::numeric_limits<double>::infinity(), const Execution& execution = {});
 
 /// Lists all points within `distance` of each query point, in ascending order of Neighbor. Throws likewise.
-void near(const PointTree& tree, const PointView& places, double distance, NeighborLists& found,
+void near(const PointTree& tree, const PointView& query_points, double distance, NeighborLists& found,
           const Execution& execution = {});
 
 /// Sets inside[i] to 1 if PointTree::any_inside() holds for volume i, else to 0. Resizes `inside` to the

@@ -48,14 +48,14 @@ bool within(const PointTree& points, const PointTree& others, const Eigen::Isome
 /// Returns whether any point is within `margin` of a volume that `pose` has moved.
 ///
 /// The distance of a near point is distance() from the moved ConvexBody. So the result is never false for a
-/// point within the margin, and it may be true for a point that is farther by the rounding that pairs.h
-/// states.
+/// point within the margin, and it may be true for a point that is farther by the rounding that
+/// pair_queries.h states.
 bool within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
             double margin = 0);
 
-/// Replaces `touched` by the indices of the volumes within `margin` of a point, ascending.
+/// Replaces `indices` by the indices of the volumes within `margin` of a point, ascending.
 void list_within(const PointTree& points, const MovingVolumes& volumes, const Eigen::Isometry3d& pose,
-                 double margin, std::vector<std::int32_t>& touched);
+                 double margin, std::vector<std::int32_t>& indices);
 
 /// Returns whether a volume of `volumes` is within `margin` of a volume of `others` that `pose` has moved.
 /// within() of their ConvexBodies decides; it is never false for two volumes within the margin.

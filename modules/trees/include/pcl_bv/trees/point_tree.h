@@ -74,26 +74,26 @@ class PointTree {
   /// Whether the tree has no points.
   bool empty() const { return tree_.count == 0; }
 
-  /// Returns the point nearest to the query point `place`, if it is within `max_distance`.
+  /// Returns the point of the tree nearest to the query point, if it is within `max_distance`.
   ///
   /// Of equally near points it returns the one with the smallest index. "Within" means that
   /// Neighbor::squared_distance is at most max_distance * max_distance, rounded. Returns nothing if
   /// is_valid() does not hold for the query point. Throws std::invalid_argument if max_distance is negative
   /// or NaN.
-  std::optional<Neighbor> nearest(const Eigen::Vector3d& place,
+  std::optional<Neighbor> nearest(const Eigen::Vector3d& point,
                                   double max_distance = std::numeric_limits<double>::infinity()) const;
 
   /// Replaces `found` by the k nearest points within `max_distance`, in ascending order of Neighbor.
   /// Otherwise as nearest().
-  void nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<Neighbor>& found,
+  void nearest(const Eigen::Vector3d& point, std::size_t k, std::vector<Neighbor>& found,
                double max_distance = std::numeric_limits<double>::infinity()) const;
 
   /// Replaces `found` by all points within `distance` of the query point, in unspecified order. Otherwise as
   /// nearest().
-  void near(const Eigen::Vector3d& place, double distance, std::vector<Neighbor>& found) const;
+  void near(const Eigen::Vector3d& point, double distance, std::vector<Neighbor>& found) const;
 
   /// Returns whether any point is within `distance` of the query point. Otherwise as nearest().
-  bool any_near(const Eigen::Vector3d& place, double distance) const;
+  bool any_near(const Eigen::Vector3d& point, double distance) const;
 
   /// Returns whether any point is inside the volume: contains() of the volume decides. False for an empty
   /// volume. frustum.h makes a Hull of a view frustum.
@@ -108,8 +108,8 @@ class PointTree {
 
   /// Returns the point nearest to the volume, if its distance is at most `max_distance`.
   ///
-  /// The distance is distance() of the point from the volume's ConvexBody (pairs.h); it is 0 inside. Of
-  /// equally near points it returns the one with the smallest index. Returns nothing for an empty volume.
+  /// The distance is distance() of the point from the volume's ConvexBody (pair_queries.h); it is 0 inside.
+  /// Of equally near points it returns the one with the smallest index. Returns nothing for an empty volume.
   /// Throws std::invalid_argument if max_distance is negative or NaN.
   std::optional<PointDistance> nearest_to(
       const AnyVolume& volume, double max_distance = std::numeric_limits<double>::infinity()) const;
@@ -147,7 +147,7 @@ class PointTree {
   PackedTree tree_;
   UsableIsa isa_ = Isa::scalar;
   std::size_t dropped_ = 0;
-  ReusedScratch kept_;
+  ReusedScratch scratch_;
 };
 
 }  // namespace pcl_bv

@@ -29,11 +29,11 @@ class PosedTree {
   PosedTree(const PointTree& tree, const Eigen::Isometry3d& pose);
 
   /// As the PointTree member functions of the same name, with arguments in the frame of the queries.
-  std::optional<Neighbor> nearest(const Eigen::Vector3d& place,
+  std::optional<Neighbor> nearest(const Eigen::Vector3d& point,
                                   double max_distance = std::numeric_limits<double>::infinity()) const;
-  void nearest(const Eigen::Vector3d& place, std::size_t k, std::vector<Neighbor>& found,
+  void nearest(const Eigen::Vector3d& point, std::size_t k, std::vector<Neighbor>& found,
                double max_distance = std::numeric_limits<double>::infinity()) const;
-  void near(const Eigen::Vector3d& place, double distance, std::vector<Neighbor>& found) const;
+  void near(const Eigen::Vector3d& point, double distance, std::vector<Neighbor>& found) const;
 
   /// As the PointTree member functions of the same name, with the volume in the frame of the queries.
   bool any_inside(const AnyVolume& volume) const;

@@ -24,7 +24,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// gives them. They are also bit by bit those of a fit of all these points, except for the methods that
 /// Partial names and the methods that begin with moments.
 ///
-/// Not thread-safe: all() also changes the object.
+/// Not thread-safe: merged() also changes the object.
 class SweepWindow {
  public:
   /// An empty window for the last `sweeps` sweeps. Throws std::invalid_argument for 0.
@@ -42,18 +42,19 @@ class SweepWindow {
 
   std::size_t capacity() const { return capacity_; }                    ///< Largest number of sweeps.
   std::size_t size() const { return oldest_.size() + newest_.size(); }  ///< Number of sweeps.
-  std::size_t points() const { return points_; }  ///< Number of points of these sweeps, valid or not.
-  std::uint64_t first() const { return first_; }  ///< Index of the first point in the window.
+  std::size_t point_count() const { return points_; }   ///< Number of points of these sweeps, valid or not.
+  std::uint64_t first_index() const { return first_; }  ///< Index of the first point in the window.
 
   /// Returns the Partial of all points in the window: fit() takes any method for which Partial::can_fit()
   /// holds. It has no points if there is no sweep. The first call after a change costs one merge, later calls
   /// nothing. The reference is valid until the window changes.
-  const Partial& all() const;
+  const Partial& merged() const;
 
  private:
   // A queue of two stacks, as a sweep cannot be taken out of a merged Partial. add() pushes to newest_ and
   // merges into newest_merged_. drop_oldest() pops from oldest_, in which each entry is merged with all that
-  // are newer. If oldest_ is empty, refill_oldest() moves all of newest_ there. So each sweep is merged twice.
+  // are newer. If oldest_ is empty, refill_oldest() moves all of newest_ there. So each sweep is merged
+  // twice.
   struct Sweep {
     Partial merged;  // in oldest_: merged with all newer sweeps in oldest_
     std::size_t points;
@@ -68,7 +69,7 @@ class SweepWindow {
   std::uint64_t first_ = 0;
   std::size_t points_ = 0;
   ScalarType scalar_ = ScalarType::float32;  // of all points in the window
-  mutable std::optional<Partial> all_;
+  mutable std::optional<Partial> merged_;
 };
 
 }  // namespace pcl_bv

@@ -100,8 +100,8 @@ class VolumeTree {
   /// Lists the volumes whose aabb() overlaps the box.
   void all_with_box_overlapping(const Aabb& box, std::vector<std::int32_t>& indices) const;
 
-  /// Lists the volumes that overlap `volume`, as overlaps() of pairs.h decides. Makes a ConvexBody of each
-  /// volume whose box overlaps.
+  /// Lists the volumes that overlap `volume`, as overlaps() of pair_queries.h decides. Makes a ConvexBody of
+  /// each volume whose box overlaps.
   void all_overlapping(const AnyVolume& volume, std::vector<std::int32_t>& indices) const;
 
   /// Returns the volume nearest to the point, if its distance() is at most `max_distance`; the smallest index

@@ -87,8 +87,8 @@ class Kdop {
   /// Returns the surface area in squared units. Both sides of a flat k-DOP count. 0 if empty.
   double surface_area() const;
 
-  /// Returns the centre of mass of the polytope; if flat, that of the polygon, segment or point. NaN if empty or
-  /// if the slabs have no point in common.
+  /// Returns the centre of mass of the polytope; if flat, that of the polygon, segment or point. NaN if empty
+  /// or if the slabs have no point in common.
   Eigen::Vector3d center() const;
 
   /// Returns a corner that is farthest along `direction` (any length). NaN if empty. Dual simplex method,
@@ -154,7 +154,9 @@ class Kdop {
 
  private:
   // The min of all slabs, then the max of all slabs.
-  const double* numbers() const { return heap_numbers_.empty() ? inline_numbers_.data() : heap_numbers_.data(); }
+  const double* numbers() const {
+    return heap_numbers_.empty() ? inline_numbers_.data() : heap_numbers_.data();
+  }
   double* numbers() { return heap_numbers_.empty() ? inline_numbers_.data() : heap_numbers_.data(); }
   void store(const SlabVector& min, const SlabVector& max);
 
@@ -164,7 +166,7 @@ class Kdop {
 
   std::shared_ptr<const KdopSet> set_;
   std::array<double, 2 * max_inline_slabs> inline_numbers_{};
-  std::vector<double> heap_numbers_;  // replaces inline_numbers_ for more than max_inline_slabs slabs, else empty
+  std::vector<double> heap_numbers_;  // used instead for more than max_inline_slabs slabs, else empty
 };
 
 /// Returns whether both have equal sets of directions and equal slabs.

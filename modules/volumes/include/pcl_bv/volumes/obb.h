@@ -121,11 +121,11 @@ class Obb {
   Obb transformed(const Eigen::Isometry3d& transform) const;
 
   /// Returns a box that encloses both boxes by exact arithmetic: the smallest of a box along the axes of this
-  /// box, one along the axes of the other box and one along the coordinate axes. The smallest has the least
-  /// volume; for equal volumes, such as 0, the least surface area. If one box encloses the other by more than
-  /// rounding errors, the result is the enclosing box, unchanged. Boxes with the same third axis, such as
-  /// upright boxes, give a box with that third axis, ordered as by upright(). Commutative. In general not the
-  /// minimum-volume box.
+  /// box, one along the axes of the other box and one along the coordinate axes. The smallest has the
+  /// smallest volume; for equal volumes, such as 0, the smallest surface area. If one box encloses the other
+  /// by more than rounding errors, the result is the enclosing box, unchanged. Boxes with the same third
+  /// axis, such as upright boxes, give a box with that third axis, ordered as by upright(). Commutative. In
+  /// general not the minimum-volume box.
   Obb merged(const Obb& other) const;
 
   /// Returns the same box with its axes in a standard order and direction, so that rounding noise does not
@@ -158,7 +158,7 @@ class Obb {
 
  private:
   double support_value_up(const Eigen::Vector3d& direction) const;  // upper bound of direction . (p - center)
-  bool certainly_contains(const Obb& other) const;                // true only if the other box is proven inside
+  bool certainly_contains(const Obb& other) const;  // true only if the other box is proven inside
 
   Eigen::Vector3d center_;
   Eigen::Matrix3d axes_;

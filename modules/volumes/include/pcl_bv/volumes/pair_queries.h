@@ -13,16 +13,16 @@
 namespace [[gnu::visibility("default")]] pcl_bv {
 
 namespace volumes_internal {
-class Shape;
-struct Placed;
+class SupportShape;
+struct PosedShape;
 }  // namespace volumes_internal
 
 /// A volume that is prepared for many overlap and distance queries, as in trees of volumes and collision
 /// loops: the corners of a k-DOP, and half-spaces relative to a point near the volume, are computed once.
 ///
-/// A body is cheap to copy. Copies and moved bodies share the prepared data, which never changes, so several
-/// threads may use them. Construction takes 0.03 to 0.2 us for most kinds, 35 us for a 26-DOP and 25 us for a
-/// hull of 100 vertices.
+/// A body is cheap to copy. Copies and transformed bodies share the prepared data, which never changes, so
+/// several threads may use them. Construction takes 0.03 to 0.2 us for most kinds, 35 us for a 26-DOP and 25
+/// us for a hull of 100 vertices.
 class ConvexBody {
  public:
   /// Makes the empty body, which overlaps nothing.
@@ -38,19 +38,19 @@ class ConvexBody {
   /// exact arithmetic on the stored matrices. It exceeds the exact result by the rounding of the coordinates
   /// and, if the matrix is not exactly a rotation, by its stretch of the radius. 1.5 us for every kind.
   ///
-  /// Rounding errors of successive moves add up. A loop should therefore move the original body each time,
-  /// not the body of the previous step.
-  ConvexBody moved(const Eigen::Isometry3d& transform) const;
+  /// Rounding errors of successive calls add up. A loop should therefore transform the original body each
+  /// time, not the body of the previous step.
+  ConvexBody transformed(const Eigen::Isometry3d& transform) const;
 
  private:
-  friend volumes_internal::Placed;
+  friend volumes_internal::PosedShape;
 
   // The body is all points within radius_ of a point origin_ + rotation_ q, for the q of the shape's core.
-  std::shared_ptr<const volumes_internal::Shape> shape_;  // null if empty
+  std::shared_ptr<const volumes_internal::SupportShape> shape_;  // null if empty
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d origin_;
   double radius_, size_;  // size_ is an upper bound of |rotation_ q|
-  bool is_rotated_;           // false: rotation_ is the identity
+  bool is_rotated_;       // false: rotation_ is the identity
 };
 
 /// Returns whether two volumes have a point in common, by the definitions of their kinds. Conservative: false

@@ -47,7 +47,7 @@ class Sphere {
   bool contains(const Eigen::Vector3d& point) const;
 
   /// Returns the limit up to which contains() accepts squared distances from the centre; -1 if empty.
-  double contained_square() const;
+  double max_squared_distance() const;
 
   double volume() const;        ///< Volume in cubed units; 0 if empty.
   double surface_area() const;  ///< Surface area in squared units; 0 if empty.

@@ -61,7 +61,8 @@ void expect_right(const Street& cloud, const GroundSplit& found) {
   EXPECT_GE(right / truth, 0.98);
 }
 
-SensorPosition place_in(const Street& cloud, const Vector3d& up = {0, 0, 1}, const Vector3d& said = {0, 0, 0}) {
+SensorPosition place_in(const Street& cloud, const Vector3d& up = {0, 0, 1},
+                        const Vector3d& said = {0, 0, 0}) {
   GroundScratch scratch;
   return find_sensor(cloud.view(), up, said, scratch);
 }
@@ -78,8 +79,8 @@ TEST(SensorPosition, AStreetHasTheSameGroundWhereverItsFrameBegins) {
         const GroundSplit found = split(other);
         expect_right(other, found);
         if (metres < 40) continue;
-        EXPECT_FALSE(found.sensor.around);
-        EXPECT_LT((found.sensor.at - origin).head<2>().norm(), 5);
+        EXPECT_FALSE(found.sensor.confirmed);
+        EXPECT_LT((found.sensor.position - origin).head<2>().norm(), 5);
       }
     }
   }
@@ -88,8 +89,8 @@ TEST(SensorPosition, AStreetHasTheSameGroundWhereverItsFrameBegins) {
 TEST(SensorPosition, IsTheOriginToTheBitWhereThePointsLieAroundIt) {
   const Street cloud = street();
   const GroundSplit found = split(cloud);
-  EXPECT_TRUE(found.sensor.around);
-  EXPECT_EQ(found.sensor.at, Vector3d(0, 0, 0));
+  EXPECT_TRUE(found.sensor.confirmed);
+  EXPECT_EQ(found.sensor.position, Vector3d(0, 0, 0));
   GroundZonesSettings settings;
   settings.sensor = Vector3d(0, 0, 0);
   EXPECT_EQ(split(cloud, settings).ground, found.ground);
@@ -98,7 +99,7 @@ TEST(SensorPosition, IsTheOriginToTheBitWhereThePointsLieAroundIt) {
 TEST(SensorPosition, ThatIsGivenIsBelieved) {
   GroundZonesSettings settings;
   settings.sensor = Vector3d(150, 0, 0);
-  EXPECT_EQ(split(street(), settings).sensor.at, Vector3d(150, 0, 0));
+  EXPECT_EQ(split(street(), settings).sensor.position, Vector3d(150, 0, 0));
 }
 
 TEST(SensorPosition, RaysWithoutAReturnAreNoPointsAroundTheOrigin) {
@@ -106,8 +107,8 @@ TEST(SensorPosition, RaysWithoutAReturnAreNoPointsAroundTheOrigin) {
   for (std::size_t i = 0; i < 40'000; ++i)
     cloud.points.emplace_back(0, 0, 0);
   const SensorPosition place = place_in(cloud);
-  EXPECT_FALSE(place.around);
-  EXPECT_NEAR(place.at.x(), 100, 5);
+  EXPECT_FALSE(place.confirmed);
+  EXPECT_NEAR(place.position.x(), 100, 5);
 }
 
 TEST(SensorPosition, ASensorThatLooksAheadHasItsPointsAroundIt) {
@@ -117,7 +118,7 @@ TEST(SensorPosition, ASensorThatLooksAheadHasItsPointsAroundIt) {
     if (p.x() > 8 && std::abs(p.y()) < p.x()) ahead.points.push_back(p);
   }
   ASSERT_GT(ahead.points.size(), 1000U);
-  EXPECT_TRUE(place_in(ahead).around);
+  EXPECT_TRUE(place_in(ahead).confirmed);
 }
 
 TEST(SensorPosition, ASensorHighUpHasItsPointsAroundIt) {  // its first ring of ground is 15 m away
@@ -127,26 +128,26 @@ TEST(SensorPosition, ASensorHighUpHasItsPointsAroundIt) {  // its first ring of 
       plain.points.emplace_back((15 + 4 * ring * ring) * std::cos(i / 286.5),
                                 (15 + 4 * ring * ring) * std::sin(i / 286.5), -4);
   }
-  EXPECT_TRUE(place_in(plain).around);
+  EXPECT_TRUE(place_in(plain).confirmed);
 }
 
 TEST(SensorPosition, FewPointsAreAroundAnyPlace) {
   Street few;
   few.points.assign(99, Vector3d(500, 0, 0));
-  EXPECT_TRUE(place_in(few).around);
+  EXPECT_TRUE(place_in(few).confirmed);
   few.points.resize(100, Vector3d(500, 0, 0));
-  EXPECT_FALSE(place_in(few).around);
-  EXPECT_TRUE(place_in(Street()).around);
+  EXPECT_FALSE(place_in(few).confirmed);
+  EXPECT_TRUE(place_in(Street()).confirmed);
 }
 
 TEST(SensorPosition, IsSoughtAcrossUp) {
   const Street cloud = street().moved([](const Vector3d& p) { return Vector3d(p.y(), 80 - p.z(), -p.x()); });
-  EXPECT_TRUE(place_in(cloud, {0, -1, 0}).around);
+  EXPECT_TRUE(place_in(cloud, {0, -1, 0}).confirmed);
   const Street aside = cloud.moved([](const Vector3d& p) { return Vector3d(p + Vector3d(0, 0, 90)); });
   const SensorPosition place = place_in(aside, {0, -1, 0});
-  EXPECT_FALSE(place.around);
-  EXPECT_NEAR(place.at.z(), 90, 5);
-  EXPECT_EQ(place.at.y(), 0);
+  EXPECT_FALSE(place.confirmed);
+  EXPECT_NEAR(place.position.z(), 90, 5);
+  EXPECT_EQ(place.position.y(), 0);
 }
 
 TEST(SensorPosition, SaysHowManyPointsAreBeyondTheRings) {
@@ -168,9 +169,9 @@ TEST(SensorPosition, ThatIsNotFiniteIsRefused) {
 TEST(SensorPosition, AHeightThatFitsNoPlaneIsToldFromOneThatDoes) {
   GroundZonesSettings settings;
   settings.sensor_height = 1.7;
-  EXPECT_FALSE(split(street(), settings).level);
+  EXPECT_FALSE(split(street(), settings).assumed_level);
   settings.sensor_height = 6;
-  EXPECT_TRUE(split(street(), settings).level);
+  EXPECT_TRUE(split(street(), settings).assumed_level);
 }
 
 TEST(SensorPosition, AHeightIsOfNoUseWhereThePlaceIsEstimated) {
@@ -178,7 +179,7 @@ TEST(SensorPosition, AHeightIsOfNoUseWhereThePlaceIsEstimated) {
   settings.sensor_height = 1.7;
   const Street high = street().moved([](const Vector3d& p) { return Vector3d(p + Vector3d(300, 0, 120)); });
   const GroundSplit found = split(high, settings);
-  EXPECT_FALSE(found.level);
+  EXPECT_FALSE(found.assumed_level);
   expect_right(high, found);
 }
 
