@@ -18,40 +18,40 @@ struct Fitted {
 };
 
 /// Fits all methods to one view. `fitted` has one element per method.
-void fit_all(const PointView& view, const std::vector<const Method*>& among, const Execution& execution,
+void fit_all(const PointView& view, const std::vector<const Method*>& methods, const Execution& execution,
              const MethodOptions& options, Fitted* fitted) {
   Supports supports;
-  const Execution shared = share_supports(view, among, execution, supports);
-  for (std::size_t m = 0; m < among.size(); ++m)
-    fitted[m].result = among[m]->fit(view, fitted[m].volume, shared, options);
+  const Execution shared = share_supports(view, methods, execution, supports);
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    fitted[m].result = methods[m]->fit(view, fitted[m].volume, shared, options);
 }
 
 py::object python_of(Fitted&& fitted, const Method* method) {
   return to_python(std::move(fitted.volume), method, fitted.result);
 }
 
-/// Returns a volume if `one` is true, otherwise a list of volumes.
-py::object python_of(Fitted* fitted, const std::vector<const Method*>& among, bool one) {
-  if (one) return python_of(std::move(*fitted), among.front());
-  py::list list(among.size());
-  for (std::size_t m = 0; m < among.size(); ++m)
-    list[m] = python_of(std::move(fitted[m]), among[m]);
+/// Returns a volume if `single` is true, otherwise a list of volumes.
+py::object python_of(Fitted* fitted, const std::vector<const Method*>& methods, bool single) {
+  if (single) return python_of(std::move(*fitted), methods.front());
+  py::list list(methods.size());
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    list[m] = python_of(std::move(fitted[m]), methods[m]);
   return list;
 }
 
-py::object fit_labelled(const PointArray& points, const std::vector<const Method*>& among, bool one,
+py::object fit_labelled(const PointArray& points, const std::vector<const Method*>& methods, bool single,
                         py::handle labels, const Execution& execution, const MethodOptions& options) {
   const LabelGroups groups(labels, points.view);
-  std::vector<Fitted> fitted(groups.size() * among.size());
+  std::vector<Fitted> fitted(groups.size() * methods.size());
   {
     const py::gil_scoped_release unlocked;
     for_each_view(groups.views(), execution, [&](std::size_t i, const Execution& own) {
-      fit_all(groups.views()[i], among, own, options, &fitted[i * among.size()]);
+      fit_all(groups.views()[i], methods, own, options, &fitted[i * methods.size()]);
     });
   }
   py::dict by_label;
   for (std::size_t i = 0; i < groups.size(); ++i)
-    by_label[py::int_(groups.label(i))] = python_of(&fitted[i * among.size()], among, one);
+    by_label[py::int_(groups.label(i))] = python_of(&fitted[i * methods.size()], methods, single);
   return by_label;
 }
 
@@ -59,26 +59,26 @@ py::object fit(py::handle points, py::handle method, py::handle labels, py::hand
                py::handle threads, py::handle isa) {
   const PointArray array = points_of(points);
   const Execution execution = execution_of(threads, isa);
-  const MethodOptions options{word<SphereGrowth>(growth, "growth"), up_argument(up)};
+  const MethodOptions options{parse_text<SphereGrowth>(growth, "growth"), up_argument(up)};
   if (PyUnicode_Check(method.ptr()) && labels.is_none() &&
       PyUnicode_CompareWithASCIIString(method.ptr(), "all") != 0) {
-    const Method* const asked = method_of(method);
+    const Method* const method_used = method_of(method);
     Fitted fitted;
     {
       const py::gil_scoped_release unlocked;
-      fitted.result = asked->fit(array.view, fitted.volume, execution, options);
+      fitted.result = method_used->fit(array.view, fitted.volume, execution, options);
     }
-    return python_of(std::move(fitted), asked);
+    return python_of(std::move(fitted), method_used);
   }
-  bool one = false;
-  const std::vector<const Method*> among = methods_of(method, one);
-  if (!labels.is_none()) return fit_labelled(array, among, one, labels, execution, options);
-  std::vector<Fitted> fitted(among.size());
+  bool single = false;
+  const std::vector<const Method*> methods = methods_of(method, single);
+  if (!labels.is_none()) return fit_labelled(array, methods, single, labels, execution, options);
+  std::vector<Fitted> fitted(methods.size());
   {
     const py::gil_scoped_release unlocked;
-    fit_all(array.view, among, execution, options, fitted.data());
+    fit_all(array.view, methods, execution, options, fitted.data());
   }
-  return python_of(fitted.data(), among, one);
+  return python_of(fitted.data(), methods, single);
 }
 
 struct VerificationObject : Verification {};

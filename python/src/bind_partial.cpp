@@ -32,21 +32,21 @@ Partial merged(const Partial& a, const Partial& b) {
 }
 
 py::object fit_partial(const Partial& partial, py::handle names, py::handle up, py::handle threads) {
-  bool one = false;
-  const std::vector<const Method*> among = methods_of(names, one);
+  bool single = false;
+  const std::vector<const Method*> methods = methods_of(names, single);
   const Execution execution = execution_of(threads, py::none());
   const MethodOptions options{SphereGrowth::deferred, up_argument(up)};
-  std::vector<AnyVolume> volumes(among.size());
-  std::vector<EstimationResult> results(among.size());
+  std::vector<AnyVolume> volumes(methods.size());
+  std::vector<EstimationResult> results(methods.size());
   {
     const py::gil_scoped_release unlocked;
-    for (std::size_t m = 0; m < among.size(); ++m)
-      results[m] = partial.fit(*among[m], volumes[m], execution, options);
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      results[m] = partial.fit(*methods[m], volumes[m], execution, options);
   }
-  if (one) return to_python(std::move(volumes[0]), among[0], results[0]);
-  py::list list(among.size());
-  for (std::size_t m = 0; m < among.size(); ++m)
-    list[m] = to_python(std::move(volumes[m]), among[m], results[m]);
+  if (single) return to_python(std::move(volumes[0]), methods[0], results[0]);
+  py::list list(methods.size());
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    list[m] = to_python(std::move(volumes[m]), methods[m], results[m]);
   return list;
 }
 
@@ -56,20 +56,20 @@ py::bytes bytes_of(const Partial& partial) {
 }
 
 Partial from_bytes(py::handle bytes) {
-  if (!PyBytes_Check(bytes.ptr())) raise_type_error("bytes", "what to_bytes() gave", bytes);
+  if (!PyBytes_Check(bytes.ptr())) raise_type_error("bytes", "the bytes of to_bytes()", bytes);
   const std::string_view content = py::reinterpret_borrow<py::bytes>(bytes);
   return Partial::from_bytes(reinterpret_cast<const std::byte*>(content.data()), content.size());
 }
 
 RegionMask make_mask(py::handle volumes, py::handle padding) {
-  const double grown = number(padding, "padding", {0, 1e100});
+  const double inflation = number(padding, "padding", {0, 1e100});
   std::vector<Region> regions;
   for (const LabelledVolume& each : volumes_of(volumes, "volumes"))
-    regions.push_back({each.volume->value, grown});
+    regions.push_back({each.volume->value, inflation});
   return RegionMask(regions);
 }
 
-py::object mark(const RegionMask& mask, py::handle points, py::handle threads) {
+py::object mask_contains(const RegionMask& mask, py::handle points, py::handle threads) {
   const PointArray array = points_of(points);
   const Execution execution = execution_of(threads, py::none());
   std::vector<std::uint8_t> inside;
@@ -77,7 +77,7 @@ py::object mark(const RegionMask& mask, py::handle points, py::handle threads) {
     const py::gil_scoped_release unlocked;
     mask.mark(array.view, inside, execution);
   }
-  return take(std::move(inside)).attr("view")("bool");
+  return array_from_vector(std::move(inside)).attr("view")("bool");
 }
 
 constexpr const char* partial_doc = R"(Partial(points=None, first=0, *, threads=1)
@@ -188,12 +188,13 @@ void bind_partial(py::module_& module) {
       .def_static("from_bytes", from_bytes, "bytes"_a, py::pos_only(), from_bytes_doc)
       .def("__len__", &Partial::size)
       .def("__repr__", [](const Partial& p) { return "Partial(of " + std::to_string(p.size()) + " points)"; })
-      .def(py::pickle(
-          [](const Partial& p) -> py::object { return bytes_of(p); },
-          [](const py::object& state) { return restore_from_state("Partial", [&] { return from_bytes(state); }); }));
+      .def(py::pickle([](const Partial& p) -> py::object { return bytes_of(p); },
+                      [](const py::object& state) {
+                        return restore_from_state("Partial", [&] { return from_bytes(state); });
+                      }));
   py::class_<RegionMask>(module, "RegionMask", mask_doc)
       .def(py::init(&make_mask), "volumes"_a, "padding"_a = 0, init_doc(mask_doc).c_str())
-      .def("contains", mark, "points"_a, py::kw_only(), "threads"_a = 1, mask_contains_doc);
+      .def("contains", mask_contains, "points"_a, py::kw_only(), "threads"_a = 1, mask_contains_doc);
 }
 
 }  // namespace pcl_bv::python

@@ -107,33 +107,35 @@ std::string csv_text(const Reported& found) {
 }
 
 void write_anything(py::handle file, py::handle what, py::handle labels) {
-  const std::filesystem::path place = path(file, "path");
-  const std::string extension = lower_case_extension(place);
-  if (extension == ".pcd") return write_cloud(place, what, labels);
-  if (!labels.is_none()) raise_value_error("labels", "only a .pcd holds them, not " + shown(file));
+  const std::filesystem::path target = path(file, "path");
+  const std::string extension = lower_case_extension(target);
+  if (extension == ".pcd") return write_cloud(target, what, labels);
+  if (!labels.is_none())
+    raise_value_error("labels", "can only be written to a .pcd file, not to " + repr_text(file));
   if (extension == ".png" || extension == ".svg") {
-    PictureObject of = py::isinstance<ResultObject>(what)
-                           ? picture_of_result(what.cast<std::shared_ptr<ResultObject>>(), {})
-                       : py::isinstance<PictureObject>(what) ? what.cast<PictureObject>()
-                                                             : PictureObject();
-    if (!of.result && !py::isinstance<PictureObject>(what)) add_volumes(volumes_of(what, "what"), of.picture);
+    PictureObject object = py::isinstance<ResultObject>(what)
+                               ? picture_of_result(what.cast<std::shared_ptr<ResultObject>>(), {})
+                           : py::isinstance<PictureObject>(what) ? what.cast<PictureObject>()
+                                                                 : PictureObject();
+    if (!object.result && !py::isinstance<PictureObject>(what))
+      add_volumes(volumes_of(what, "what"), object.picture);
     const py::gil_scoped_release unlocked;
-    return write_picture(place, of.picture);
+    return write_picture(target, object.picture);
   }
   if (extension == ".html") {
-    if (!py::isinstance<ResultObject>(what)) raise_type_error("what", "a Result, for a .html file,", what);
+    if (!py::isinstance<ResultObject>(what)) raise_type_error("what", "a Result for a .html file", what);
     const auto result = what.cast<std::shared_ptr<ResultObject>>();
-    return write_file_atomically(place, page_of_result(*result, kMaxPagePoints));
+    return write_file_atomically(target, page_of_result(*result, kMaxPagePoints));
   }
   const Reported found = reported(what);
-  if (extension == ".json" || extension == ".jsonl") return write_file_atomically(place, json_text(found));
-  if (extension == ".csv") return write_file_atomically(place, csv_text(found));
-  const std::optional<MeshFormat> format = mesh_format(place);
+  if (extension == ".json" || extension == ".jsonl") return write_file_atomically(target, json_text(found));
+  if (extension == ".csv") return write_file_atomically(target, csv_text(found));
+  const std::optional<MeshFormat> format = mesh_format(target);
   if (!format)
     raise_value_error("path",
-                 "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
+                      "'" + extension + "' is not one of .json, .csv, .ply, .vtp, .png, .svg, .html, .pcd");
   const py::gil_scoped_release unlocked;
-  write_volumes(place, found.clusters, *format);
+  write_volumes(target, found.clusters, *format);
 }
 
 constexpr const char* picture_doc =
@@ -206,11 +208,11 @@ Raises OSError if it cannot be written, ValueError for another extension.
 )";
 
 std::string repr_of_picture(const PictureObject& p) {
-  std::string said = "Picture(" + std::to_string(p.picture.width) + " x " + std::to_string(p.picture.height) +
+  std::string text = "Picture(" + std::to_string(p.picture.width) + " x " + std::to_string(p.picture.height) +
                      ", " + std::to_string(p.picture.points.count) + " points";
   if (!p.result && !p.picture.volumes.empty())
-    said += ", " + std::to_string(p.picture.volumes.size()) + " volumes";
-  return said + ')';
+    text += ", " + std::to_string(p.picture.volumes.size()) + " volumes";
+  return text + ')';
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class PipelineObject {
   std::uint64_t next_ = 0;
 };
 
-void warn_about_note(const PipelineConfig& config) {
+void warn_about_ineffective_settings(const PipelineConfig& config) {
   for (const std::string& line : config.ineffective_settings())
     warn(line);
 }
@@ -51,7 +51,7 @@ void warn_about_note(const PipelineConfig& config) {
 std::unique_ptr<PipelineObject> make_pipeline(py::handle config, py::handle preset,
                                               const py::kwargs& settings) {
   PipelineConfig read = config_of(config, preset, settings);
-  warn_about_note(read);
+  warn_about_ineffective_settings(read);
   return std::make_unique<PipelineObject>(std::move(read));
 }
 
@@ -81,7 +81,7 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
 
 void set_config(PipelineObject& self, py::handle config) {
   PipelineConfig read = config_of(config, py::none(), {});
-  warn_about_note(read);
+  warn_about_ineffective_settings(read);
   const py::gil_scoped_release unlocked;
   self.set_config(std::move(read));
 }

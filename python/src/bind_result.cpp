@@ -19,14 +19,14 @@ using namespace py::literals;
 using Shared = std::shared_ptr<ResultObject>;
 
 py::object volume_at(const ClusterObject& cluster, std::size_t method) {
-  const FrameResult& result = cluster.of->result;
+  const FrameResult& result = cluster.owner_result->result;
   return to_python(AnyVolume(result.volume(cluster.id, method)), result.methods[method],
                    result.results[cluster.id * result.methods.size() + method]);
 }
 
 py::list volumes_of_cluster(const ClusterObject& cluster) {
   py::list list;
-  const FrameResult& result = cluster.of->result;
+  const FrameResult& result = cluster.owner_result->result;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     if (result.has(cluster.id, m)) list.append(volume_at(cluster, m));
   }
@@ -35,47 +35,47 @@ py::list volumes_of_cluster(const ClusterObject& cluster) {
 
 py::object volume_by_name(const ClusterObject& cluster, py::handle name) {
   const Method* const method = method_of(name);
-  const FrameResult& result = cluster.of->result;
+  const FrameResult& result = cluster.owner_result->result;
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     if (result.methods[m] == method && result.has(cluster.id, m)) return volume_at(cluster, m);
   }
-  throw py::key_error(std::string(method->name) + " was not asked for");
+  throw py::key_error(std::string(method->name) + " is not a method of this pipeline");
 }
 
 /// Returns the indices of the cluster's points. Computes them from the labels if the pipeline has made no
 /// index list, because all valid points that passed the filter are one cluster.
 py::object indices_of(const ClusterObject& cluster) {
-  const FrameResult& result = cluster.of->result;
+  const FrameResult& result = cluster.owner_result->result;
   if (!result.clusters.indices.empty() || result.clusters.cluster_size(cluster.id) == 0)
     return view_of_part(result.clusters.indices.data() + result.clusters.offsets[cluster.id],
                         result.clusters.indices.empty() ? 0 : result.clusters.cluster_size(cluster.id),
                         py::cast(cluster));
-  const std::vector<std::uint32_t> labels = labels_of(cluster.of->frame(), result);
+  const std::vector<std::uint32_t> labels = labels_of(cluster.owner_result->frame(), result);
   std::vector<std::int32_t> numbers;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == cluster.id) numbers.push_back(static_cast<std::int32_t>(i));
   }
-  return read_only(take(std::move(numbers)));
+  return read_only(array_from_vector(std::move(numbers)));
 }
 
 py::object track_of(const ClusterObject& cluster) {
-  const auto& tracks = cluster.of->result.tracks;
+  const auto& tracks = cluster.owner_result->result.tracks;
   if (tracks.empty() || !tracks[cluster.id]) return py::none();
   return py::cast(*tracks[cluster.id]);
 }
 
 std::string repr_of_cluster(const ClusterObject& cluster) {
-  const FrameResult& result = cluster.of->result;
-  std::string said = "Cluster(id=" + std::to_string(cluster.id) +
+  const FrameResult& result = cluster.owner_result->result;
+  std::string text = "Cluster(id=" + std::to_string(cluster.id) +
                      ", points=" + std::to_string(result.clusters.cluster_size(cluster.id));
-  if (!result.class_of.empty()) said += ", class_value=" + std::to_string(result.class_of[cluster.id]);
+  if (!result.class_of.empty()) text += ", class_value=" + std::to_string(result.class_of[cluster.id]);
   if (!result.tracks.empty() && result.tracks[cluster.id])
-    said += ", track=" + std::to_string(result.tracks[cluster.id]->id);
+    text += ", track=" + std::to_string(result.tracks[cluster.id]->id);
   for (std::size_t m = 0; m < result.methods.size(); ++m) {
     if (!result.has(cluster.id, m)) continue;
-    said.append(m == 0 ? ", volumes: " : ", ").append(result.methods[m]->name);
+    text.append(m == 0 ? ", volumes: " : ", ").append(result.methods[m]->name);
   }
-  return said + ')';
+  return text + ')';
 }
 
 py::list clusters_of(const Shared& self) {
@@ -105,7 +105,7 @@ py::object labels_array(const Shared& self) {
     const py::gil_scoped_release unlocked;
     labels = labels_of(self->frame(), self->result);
   }
-  return take(std::move(labels)).attr("view")("int32");
+  return array_from_vector(std::move(labels)).attr("view")("int32");
 }
 
 std::string repr_of_result(const Shared& self) {
@@ -231,7 +231,7 @@ void bind_cluster(py::module_& module) {
   py::class_<ClusterObject>(module, "Cluster", cluster_class_doc)
       .def_readonly("id", &ClusterObject::id, "Its number in the frame: the largest is 0.")
       .def_property_readonly(
-          "points", [](const ClusterObject& c) { return c.of->result.clusters.cluster_size(c.id); },
+          "points", [](const ClusterObject& c) { return c.owner_result->result.clusters.cluster_size(c.id); },
           "Number of valid points.")
       .def_property_readonly("indices", indices_of, "int32: the numbers of its points in the frame's array.")
       .def_property_readonly("volumes", volumes_of_cluster, "Its volumes, in the order asked for.")
@@ -239,7 +239,7 @@ void bind_cluster(py::module_& module) {
       .def_property_readonly(
           "class_value",
           [](const ClusterObject& c) -> py::object {
-            const auto& classes = c.of->result.class_of;
+            const auto& classes = c.owner_result->result.class_of;
             return classes.empty() ? py::object(py::none()) : py::object(py::int_(classes[c.id]));
           },
           "Its class, where points are told apart by class; else None.")
@@ -286,8 +286,7 @@ void bind_result(py::module_& module) {
           py::kw_only(), "view"_a = "iso", "width"_a = 1600, "height"_a = 1000, result_picture_doc)
       .def(
           "page", [](const Shared& r) { return page_of_result(*r, kMaxPagePoints); }, page_doc)
-      .def("_repr_html_",
-           [](const Shared& r) { return in_a_notebook(page_of_result(*r, kMaxCellPoints)); })
+      .def("_repr_html_", [](const Shared& r) { return in_a_notebook(page_of_result(*r, kMaxCellPoints)); })
       .def("_repr_png_", [](const Shared& r) { return picture_of_result(r, {}).png(); })
       .def("__len__", [](const Shared& r) { return r->result.clusters.size(); })
       .def("__repr__", repr_of_result)

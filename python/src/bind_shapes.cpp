@@ -50,7 +50,8 @@ void property(Class& type, const char* name, std::size_t i, const char* doc) {
 /// Returns the shape of an argument, which must be of the same class.
 template <typename Shape>
 const Shape& same_shape(py::handle other) {
-  if (!py::isinstance<ShapeObject<Shape>>(other)) raise_type_error("other", "a volume of the same class", other);
+  if (!py::isinstance<ShapeObject<Shape>>(other))
+    raise_type_error("other", "a volume of the same class", other);
   return other.cast<const ShapeObject<Shape>&>().shape();
 }
 
@@ -81,11 +82,11 @@ void bind_extend(Class& type) {
         const py::array_t<double> numbers = doubles(points, "points");
         if (numbers.ndim() == 1 && numbers.size() == 0) return object_of(Shape(v.shape()));
         if (numbers.size() % 3 != 0 || numbers.ndim() > 2 || numbers.shape(numbers.ndim() - 1) != 3)
-          raise_value_error("points", "(3,) or (N, 3) numbers are wanted, not " + shown(points));
-        Shape grown = v.shape();
+          raise_value_error("points", "expected (3,) or (N, 3) numbers, got " + repr_text(points));
+        Shape extended = v.shape();
         for (py::ssize_t i = 0; i < numbers.size(); i += 3)
-          grown.extend(Eigen::Map<const Eigen::Vector3d>(numbers.data() + i));
-        return object_of(std::move(grown));
+          extended.extend(Eigen::Map<const Eigen::Vector3d>(numbers.data() + i));
+        return object_of(std::move(extended));
       },
       "points"_a, py::pos_only(), extend_doc);
 }

@@ -27,7 +27,7 @@ bool is_one_point(py::handle object) {
 /// Three numbers, which may be NaN or infinite.
 Eigen::Vector3d point_of(py::handle object) {
   const py::array_t<double> numbers = doubles(object, "points");
-  if (numbers.size() != 3) raise_value_error("points", "three numbers are wanted, not " + shown(object));
+  if (numbers.size() != 3) raise_value_error("points", "expected three numbers, got " + repr_text(object));
   return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
 }
 
@@ -39,7 +39,7 @@ py::object contains_points(Self self, py::handle points) {
     const py::gil_scoped_release unlocked;
     RegionMask({{self.value, 0}}).mark(array.view, inside);
   }
-  return take(std::move(inside)).attr("view")("bool");
+  return array_from_vector(std::move(inside)).attr("view")("bool");
 }
 
 py::object distances(Self self, py::handle points) {
@@ -53,7 +53,7 @@ py::object distances(Self self, py::handle points) {
       found[i] = distance(self.value, Eigen::Vector3d(p.x, p.y, p.z));
     }
   }
-  return take(std::move(found));
+  return array_from_vector(std::move(found));
 }
 
 py::object ray(Self self, py::handle origin, py::handle direction) {
