@@ -198,13 +198,15 @@ void bind_read(py::module_& module) {
           "stamp_ns", [](const F& f) { return f.frame.header.stamp_ns; }, "Nanoseconds.")
       .def_property_readonly(
           "recorded_ns", [](const F& f) { return f.frame.recorded_ns; },
-          "When it was recorded or sent, nanoseconds; 0 where nobody says.")
+          "When it was recorded or sent, nanoseconds; 0 if unknown.")
       .def_property_readonly(
-          "seq", [](const F& f) { return f.frame.header.seq; }, "Its number in the source.")
+          "seq", [](const F& f) { return f.frame.header.seq; }, "Its index in the source.")
       .def_property_readonly(
-          "frame_id", [](const F& f) { return f.frame.header.frame_id; }, "Of its points.")
+          "frame_id", [](const F& f) { return f.frame.header.frame_id; },
+          "The coordinate frame of its points.")
       .def_property_readonly(
-          "file", [](const F& f) { return f.frame.file; }, "Where it comes from; '' if from none.")
+          "file", [](const F& f) { return f.frame.file; },
+          "The file of the frame; '' if it is not from a file.")
       .def_property_readonly("classes", classes_of,
                              "int64, one a point, if class_field was given; else None.")
       .def_property_readonly(
@@ -212,7 +214,7 @@ void bind_read(py::module_& module) {
           [](const F& f) {
             return f.frame.pose ? py::object(array_of(Eigen::MatrixXd(f.frame.pose->matrix()))) : py::none();
           },
-          "(4, 4), of the sensor in a fixed frame; None where it is not known.")
+          "(4, 4), pose of the sensor in a fixed frame; None if unknown.")
       .def("__repr__", repr_of_frame);
   py::class_<FramesObject>(module, "Frames", frames_class_doc)
       .def("__iter__", [](const py::object& self) { return self; })

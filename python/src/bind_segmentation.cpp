@@ -269,31 +269,31 @@ void bind_clusters(py::module_& module) {
       .def_property_readonly(
           "labels",
           [](const py::object& self) { return view_of_vector(self.cast<C&>().computed_labels(), self); },
-          "(N,) int32: the number of each point's cluster, -1 for none.")
+          "(N,) int32: the index of each point's cluster; -1: none.")
       .def_property_readonly(
           "indices",
           [](const py::object& self) { return view_of_vector(self.cast<const C&>().found.indices, self); },
-          "int32: point numbers of all clusters in turn, ascending in each.")
+          "int32: point indices of all clusters, one cluster after the other, ascending within a cluster.")
       .def_property_readonly(
           "offsets",
           [](const py::object& self) { return view_of_vector(self.cast<const C&>().found.offsets, self); },
-          "Where each cluster begins in indices; one more than there are clusters.")
+          "The position in indices where each cluster begins, and the length of indices as last element.")
       .def_property_readonly(
           "classes",
           [](const py::object& self) { return view_of_vector(self.cast<const C&>().class_of, self); },
           "int64: the class of each cluster; empty without classes.")
       .def_property_readonly(
           "small_points", [](const C& c) { return c.found.small_points; },
-          "Points in clusters of fewer than min_size.")
+          "Number of points in clusters of fewer than min_size points.")
       .def_property_readonly(
           "large_points", [](const C& c) { return c.found.large_points; },
-          "Points in clusters of more than max_size.")
+          "Number of points in clusters of more than max_size points.")
       .def_property_readonly(
           "noise_points", [](const C& c) { return c.found.noise_points; },
-          "Points neither core nor near to a core point.")
+          "Number of noise points: neither core points nor within the tolerance of a core point.")
       .def_property_readonly(
           "class_points", [](const C& c) { return c.found.class_points; },
-          "Points of classes that are dropped.")
+          "Number of points of classes that are dropped.")
       .def("__len__", [](const C& c) { return c.found.size(); })
       .def("__getitem__", cluster_at)
       .def("__repr__", repr_of_clusters)
@@ -311,21 +311,21 @@ void bind_ground(py::module_& module) {
   using G = GroundObject;
   py::class_<G>(module, "Ground", ground_class_doc)
       .def_property_readonly(
-          "found", [](const G& g) { return g.split.found; }, "Whether there is a ground.")
+          "found", [](const G& g) { return g.split.found; }, "Whether a ground was found.")
       .def_property_readonly(
           "normal", [](const G& g) { return array_of(g.split.normal); },
-          "Unit, on the upper side of the plane; 0 if there is none.")
+          "Unit normal of the plane, pointing up; zero vector if no ground is found.")
       .def_property_readonly(
           "offset", [](const G& g) { return g.split.offset; },
           "The height of p above the plane is normal . p - offset.")
       .def_property_readonly(
           "ground",
           [](const py::object& self) { return view_of_vector(self.cast<const G&>().split.ground, self); },
-          "int32: numbers of the ground's points.")
+          "int32: indices of the ground's points.")
       .def_property_readonly(
           "rest",
           [](const py::object& self) { return view_of_vector(self.cast<const G&>().split.rest, self); },
-          "int32: numbers of the other finite points.")
+          "int32: indices of the other finite points.")
       .def_property_readonly("mask", mask_of, "(N,) bool: which points are ground.")
       .def(py::pickle([](const G& g) -> py::object { return state_of_ground(g); },
                       [](const py::object& state) {
