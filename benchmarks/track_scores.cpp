@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // track_scores [SEEDS [FRAMES [BEAMS [FIRST]]]]: scores of tracking cars, people, cyclists and poles of
-// synth:rural-road-sequence: FRAMES (300) frames of each of SEEDS (3) seeds from FIRST (1) on, with and without
-// poses, with unchanged and stabilised boxes.
+// synth:rural-road-sequence: FRAMES (300) frames of each of SEEDS (3) seeds from FIRST (1) on, with and
+// without poses, with unchanged and stabilised boxes.
 #include <array>
 #include <cmath>
 #include <cstdio>
