@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// ground_scores [SEEDS [FRAMES [BEAMS...]]]: the ground of synth:verges-sequence as the pipeline's zones find
-// it, every tenth frame of FRAMES (300), of the seeds 1 to SEEDS (3), for 16, 32, 64 and 128 beams or those
-// given.
+// ground_scores [SEEDS [FRAMES [BEAMS...]]]: scores of the ground that the pipeline's zones find on
+// synth:rural-road-sequence: every tenth frame of FRAMES (300), seeds 1 to SEEDS (3), for 16, 32, 64 and 128
+// beams or the given ones.
 #include <cmath>
 #include <cstdio>
 #include <exception>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// track_scores [SEEDS [FRAMES [BEAMS [FIRST]]]]: cars, people, cyclists and poles of synth:verges-sequence as
-// the pipeline follows them, FRAMES (300) frames of each of the seeds FIRST (1) and up, SEEDS (3) of them,
-// with poses and without, boxes as they are and steadied.
+// track_scores [SEEDS [FRAMES [BEAMS [FIRST]]]]: scores of tracking cars, people, cyclists and poles of
+// synth:rural-road-sequence: FRAMES (300) frames of each of SEEDS (3) seeds from FIRST (1) on, with and
+// without poses, with unchanged and stabilised boxes.
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -36,7 +36,7 @@ class ClusterVolumes : public rclcpp::Node {
       pcl_bv::fill_markers(frame, result_, shapes, lifetime_.next(frame.header.stamp_ns), shown_, *markers);
       markers_->publish(std::move(markers));
     } catch (const std::exception& error) {
-      RCLCPP_WARN(get_logger(), "a cloud is lost: %s", error.what());
+      RCLCPP_WARN(get_logger(), "cloud lost: %s", error.what());
     }
   }
 

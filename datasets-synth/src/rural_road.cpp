@@ -16,7 +16,7 @@
 #include "sweep.h"
 
 namespace pcl_bv {
-namespace verges {
+namespace rural_road {
 namespace {
 
 constexpr double kDropped = 0.015, kReflected = 1.0 / 700, kGrassProbability = 0.75;
@@ -38,7 +38,7 @@ Sensor sensor_of(std::size_t beams) {
     case 128:
       return {128, 1800, 2, 0, 2};
     default:
-      throw std::invalid_argument("verges: beams is " + std::to_string(beams) +
+      throw std::invalid_argument("rural road: beams is " + std::to_string(beams) +
                                   ", must be 16, 32, 64 or 128");
   }
 }
@@ -65,7 +65,7 @@ Vec3 ray_of(const Sensor& sensor, std::size_t row, std::size_t column) {
 
 /// Pose of the sensor in the fixed frame.
 struct Mount {
-  Vec3 place, forward, left, up;
+  Vec3 sensor_position, forward, left, up;
 
   Vec3 to_sensor(Vec3 v) const { return {dot(v, forward), dot(v, left), dot(v, up)}; }
   Vec3 to_fixed(Vec3 v) const { return v.x * forward + v.y * left + v.z * up; }
@@ -85,7 +85,7 @@ std::array<double, 3> to_array(Vec3 v) {
 }
 
 PlacedObject in_sensor_frame(const Mount& sensor, PlacedObject object) {
-  object.base = sensor.to_sensor(object.base - sensor.place);
+  object.base = sensor.to_sensor(object.base - sensor.sensor_position);
   object.forward = sensor.to_sensor(object.forward);
   object.left = sensor.to_sensor(object.left);
   object.up = sensor.to_sensor(object.up);
@@ -103,34 +103,35 @@ RuralRoadObject truth_of(const PlacedObject& seen, const PlacedRoadObject& place
           placed.yaw_rate};
 }
 
-enum class What : std::uint8_t { nothing, object, ground, grass, reflection };
+enum class ReturnKind : std::uint8_t { nothing, object, ground, grass, reflection };
 
 struct Return {
   double range = 0;
-  What what = What::nothing;
+  ReturnKind kind = ReturnKind::nothing;
 };
 
-// Adds noise, missing returns and false returns to a hit. Grass may stop a ray before the ground (`sinking`:
-// the ray's descent, metres per metre of range; above(range): the ray's height above the ground). A reflected
-// ray returns from below the ground.
+// Adds noise, missing returns and false returns to a hit. Grass may stop a ray before the ground
+// (`descent_rate`: the ray's descent, metres per metre of range; above(range): the ray's height above the
+// ground). A reflected ray returns from below the ground.
 template <typename Above>
-Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double sinking, Above above) {
+Return return_of(const Ray& ray, const Hit& hit, bool ground, double grass, double descent_rate,
+                 Above above) {
   SplitMix64 random(ray.key);
   const double noise = street_range_noise * random.normal();
-  const bool dropped = random.uniform() < std::max(kDropped, hit.loss);
+  const bool dropped = random.uniform() < std::max(kDropped, hit.loss_probability);
   const double luck = random.uniform();
   if (hit.range >= street_max_range || dropped) return {};
-  if (!ground) return {hit.range + noise, What::object};
-  if (luck < kReflected) return {hit.range * random.uniform(1.15, 1.6) + noise, What::reflection};
+  if (!ground) return {hit.range + noise, ReturnKind::object};
+  if (luck < kReflected) return {hit.range * random.uniform(1.15, 1.6) + noise, ReturnKind::reflection};
   if (grass > 0 && random.uniform() < kGrassProbability) {
     const double blade = grass * random.uniform(0.2, 1);
-    double back = std::min(blade / std::max(sinking, 0.02), 1.5);
+    double back = std::min(blade / std::max(descent_rate, 0.02), 1.5);
     // Where the ground falls towards the sensor, as in a ditch, the ray may be above the grass at this range.
     while (back > 0.01 && above(hit.range - back) > grass)
       back *= 0.5;
-    return {hit.range - back + noise, What::grass};
+    return {hit.range - back + noise, ReturnKind::grass};
   }
-  return {hit.range + noise, What::ground};
+  return {hit.range + noise, ReturnKind::ground};
 }
 
 struct Sweep {
@@ -144,31 +145,31 @@ struct Sweep {
               const std::vector<Candidate>& candidates) const {
     Hit hit;
     for (const Candidate& candidate : candidates) {
-      if (candidate.nearest >= hit.range) break;
+      if (candidate.min_range >= hit.range) break;
       cast(ray, *candidate.object, hit);
     }
     const Vec3 direction = at.to_fixed(ray.direction);
-    const double range = terrain.cast(at.place, direction);
+    const double range = terrain.cast(at.sensor_position, direction);
     const bool ground = range < hit.range;
     double grass = 0;
     if (ground) {
       hit = {range, 0, 0};
-      const Vec3 p = at.place + range * direction;
+      const Vec3 p = at.sensor_position + range * direction;
       grass = terrain.grass(p.x, p.y);
     }
     const auto above = [&](double r) {
-      const Vec3 p = at.place + r * direction;
+      const Vec3 p = at.sensor_position + r * direction;
       return p.z - terrain.height(p.x, p.y);
     };
     const Return seen = return_of(ray, hit, ground, grass, -direction.z, above);
-    if (seen.what == What::nothing) return;
+    if (seen.kind == ReturnKind::nothing) return;
     const Vec3 point = seen.range * ray.direction;
     cloud.xyz[3 * i] = static_cast<float>(point.x);
     cloud.xyz[3 * i + 1] = static_cast<float>(point.y);
     cloud.xyz[3 * i + 2] = static_cast<float>(point.z);
     cloud.object[i] = hit.object;
-    cloud.ground[i] = seen.what == What::ground;
-    cloud.vegetation[i] = seen.what == What::grass;
+    cloud.ground[i] = seen.kind == ReturnKind::ground;
+    cloud.vegetation[i] = seen.kind == ReturnKind::grass;
     if (hit.object == 0) return;
     const auto object = std::lower_bound(objects.begin(), objects.end(), hit.object,
                                          [](const PlacedObject& o, std::uint32_t id) { return o.id < id; });
@@ -193,9 +194,9 @@ struct Sweep {
 };
 
 }  // namespace
-}  // namespace verges
+}  // namespace rural_road
 
-namespace verges {
+namespace rural_road {
 namespace {
 
 /// The ground truth of a frame, and the sensor, world and objects for casting its rays.
@@ -203,7 +204,7 @@ struct Scene {
   Scene(const RuralRoadOptions& options, std::size_t frame)
       : sensor(sensor_of(options.beams)),
         seconds(static_cast<double>(frame) * street_frame_seconds),
-        along(driven(options.seed, seconds)),
+        along(driven_distance(options.seed, seconds)),
         world(options.seed, along),
         at(mount(world, sensor, along)) {
     for (const PlacedRoadObject& placed : place_road_objects(world, options.seed, seconds)) {
@@ -212,8 +213,9 @@ struct Scene {
       result.objects.push_back(truth_of(seen, placed));
       objects.push_back(std::move(seen));
     }
-    result.pose = {at.forward.x, at.left.x,  at.up.x,      at.place.x, at.forward.y, at.left.y,
-                   at.up.y,      at.place.y, at.forward.z, at.left.z,  at.up.z,      at.place.z};
+    result.pose = {at.forward.x, at.left.x, at.up.x, at.sensor_position.x,
+                   at.forward.y, at.left.y, at.up.y, at.sensor_position.y,
+                   at.forward.z, at.left.z, at.up.z, at.sensor_position.z};
   }
 
   Sensor sensor;
@@ -225,22 +227,24 @@ struct Scene {
 };
 
 }  // namespace
-}  // namespace verges
+}  // namespace rural_road
 
 RuralRoadFrame make_rural_road_frame(const RuralRoadOptions& options, std::size_t frame) {
-  verges::Scene scene(options, frame);
-  const verges::Terrain terrain(scene.world, options.seed, scene.at.place.x, scene.at.place.y);
+  rural_road::Scene scene(options, frame);
+  const rural_road::Terrain terrain(scene.world, options.seed, scene.at.sensor_position.x,
+                                    scene.at.sensor_position.y);
   scene.result.cloud =
-      verges::Sweep{scene.sensor, scene.at, terrain, scene.objects, options.seed, frame}.make();
+      rural_road::Sweep{scene.sensor, scene.at, terrain, scene.objects, options.seed, frame}.make();
   return std::move(scene.result);
 }
 
 RuralRoadFrame make_rural_road_truth(const RuralRoadOptions& options, std::size_t frame) {
-  return verges::Scene(options, frame).result;
+  return rural_road::Scene(options, frame).result;
 }
 
 double rural_road_ground_height(std::uint64_t seed, std::size_t frame, double x, double y) {
-  return verges::World(seed, verges::driven(seed, static_cast<double>(frame) * street_frame_seconds))
+  return rural_road::World(
+             seed, rural_road::driven_distance(seed, static_cast<double>(frame) * street_frame_seconds))
       .height(x, y);
 }
 

@@ -10,7 +10,7 @@
 #include "rural_road_world.h"
 #include "street_layout.h"
 
-namespace pcl_bv::verges {
+namespace pcl_bv::rural_road {
 
 struct PlacedRoadObject {
   PlacedObject object;  ///< Pose and velocity in the fixed frame.
@@ -22,8 +22,8 @@ std::vector<PlacedRoadObject> place_road_objects(const World& world, std::uint64
 
 /// Returns position and axes of an object on the road, without a model. The forward axis is along the road,
 /// or opposite if `backward`. The up axis is the ground's normal if `tilted`, otherwise vertical.
-PlacedObject on_road(const World& world, const RoadPosition& place, bool backward, bool tilted);
+PlacedObject on_road(const World& world, const RoadPosition& position, bool backward, bool tilted);
 
 inline constexpr double own_lane = -1.75;  ///< Metres left of the middle of the road.
 
-}  // namespace pcl_bv::verges
+}  // namespace pcl_bv::rural_road

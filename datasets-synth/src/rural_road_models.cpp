@@ -43,10 +43,9 @@ Model make_avenue_tree(SplitMix64& random) {
 // A bridge over the road and its ditches. y is the direction across the road.
 Model make_bridge(SplitMix64& random) {
   const double soffit = random.uniform(4.6, 5.2), half_width = random.uniform(2, 4);
-  return assemble(SynthObjectKind::bridge,
-                  {box({{-half_width, -13, soffit}, {half_width, 13, soffit + 0.9}}),
-                   box({{-half_width, -13, -1}, {half_width, -10, soffit}}),
-                   box({{-half_width, 10, -1}, {half_width, 13, soffit}})});
+  return assemble(SynthObjectKind::bridge, {box({{-half_width, -13, soffit}, {half_width, 13, soffit + 0.9}}),
+                                            box({{-half_width, -13, -1}, {half_width, -10, soffit}}),
+                                            box({{-half_width, 10, -1}, {half_width, 13, soffit}})});
 }
 
 }  // namespace pcl_bv

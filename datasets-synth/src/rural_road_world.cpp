@@ -9,29 +9,29 @@
 #include <limits>
 #include <numbers>
 
-namespace pcl_bv::verges {
+namespace pcl_bv::rural_road {
 namespace {
 
-constexpr double kBend = 60;          // metres from one bend of the road to the next
-constexpr double kCurvature = 0.045;  // 1/m: 30 degrees a second at 11.6 m/s
-constexpr double kClothoid = 4;       // metres over which the curvature of a bend rises and falls
-constexpr double kSample = 0.25;      // metres between two samples of the road
-constexpr double kRoadHalfLength = 200;    // metres of sampled road, ahead and behind
-constexpr double kStretch = 40;       // metres of road with the same Side
-constexpr double kBlend = 3;          // metres over which one Side changes to the next
-constexpr double kKerb = 4;           // metres from the middle of the road
-constexpr double kKerbHeight = 0.12;  // metres
+constexpr double kBend = 60;             // metres from one bend of the road to the next
+constexpr double kCurvature = 0.045;     // 1/m: 30 degrees a second at 11.6 m/s
+constexpr double kClothoid = 4;          // metres over which the curvature of a bend rises and falls
+constexpr double kSample = 0.25;         // metres between two samples of the road
+constexpr double kRoadHalfLength = 200;  // metres of sampled road, ahead and behind
+constexpr double kStretch = 40;          // metres of road with the same Roadside
+constexpr double kBlend = 3;             // metres over which one Roadside changes to the next
+constexpr double kKerb = 4;              // metres from the middle of the road
+constexpr double kKerbHeight = 0.12;     // metres
 constexpr double kDitchMiddle = 7, kDitchHalfWidth = 1.3;
 
-// A number uniform in [0, 1) that depends only on the seed, the purpose `what` and the index `place`.
-double number(std::uint64_t seed, std::uint64_t what, std::int64_t place) {
-  return SplitMix64({seed, what, static_cast<std::uint64_t>(place)}).uniform();
+// Returns a number uniform in [0, 1) that depends only on the seed, the purpose and the index.
+double keyed_uniform(std::uint64_t seed, std::uint64_t purpose, std::int64_t index) {
+  return SplitMix64({seed, purpose, static_cast<std::uint64_t>(index)}).uniform();
 }
 
 // Heading after a bend, radians. Headings alternate between left and right, so that the road keeps its mean
 // direction and never crosses itself.
 double heading_after(std::uint64_t seed, std::int64_t bend) {
-  const double size = 0.35 + 0.23 * number(seed, 1, bend);
+  const double size = 0.35 + 0.23 * keyed_uniform(seed, 1, bend);
   return bend % 2 == 0 ? size : -size;
 }
 
@@ -73,17 +73,17 @@ Road::Road(std::uint64_t seed, double around) {
 }
 
 Vec3 Road::at(double along) const {
-  const double place = std::clamp((along - begin_) / kSample, 0.0, static_cast<double>(samples_.size() - 2));
-  const auto i = static_cast<std::size_t>(place);
-  const double t = place - static_cast<double>(i);
+  const double index = std::clamp((along - begin_) / kSample, 0.0, static_cast<double>(samples_.size() - 2));
+  const auto i = static_cast<std::size_t>(index);
+  const double t = index - static_cast<double>(i);
   const Sample &a = samples_[i], &b = samples_[i + 1];
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0};
 }
 
 double Road::heading(double along) const {
-  const double place = std::clamp((along - begin_) / kSample, 0.0, static_cast<double>(samples_.size() - 2));
-  const auto i = static_cast<std::size_t>(place);
-  const double t = place - static_cast<double>(i);
+  const double index = std::clamp((along - begin_) / kSample, 0.0, static_cast<double>(samples_.size() - 2));
+  const auto i = static_cast<std::size_t>(index);
+  const double t = index - static_cast<double>(i);
   return samples_[i].heading + t * (samples_[i + 1].heading - samples_[i].heading);
 }
 
@@ -107,36 +107,36 @@ RoadPosition Road::road_position_of(double x, double y, double guess, int steps)
 
 // Cycles of 18 s: 4 s acceleration, 9 s at constant speed, 3 s braking, then 2 s at standstill (even cycles)
 // or at 3 m/s (odd cycles).
-double driven(std::uint64_t seed, double seconds) {
-  constexpr double kRound = 18;
-  double way = 0;
-  for (std::int64_t round = 0; kRound * static_cast<double>(round) < seconds; ++round) {
-    const double begin = kRound * static_cast<double>(round);
-    const double top = 8 + 4 * number(seed, 2, std::llround(begin));
-    const double slow = round % 2 == 0 ? 0 : 3;
-    const double before = round % 2 == 0 ? 3 : 0;
-    const double t = std::min(seconds - begin, kRound);
+double driven_distance(std::uint64_t seed, double seconds) {
+  constexpr double kCycle = 18;
+  double distance = 0;
+  for (std::int64_t cycle = 0; kCycle * static_cast<double>(cycle) < seconds; ++cycle) {
+    const double begin = kCycle * static_cast<double>(cycle);
+    const double top = 8 + 4 * keyed_uniform(seed, 2, std::llround(begin));
+    const double slow = cycle % 2 == 0 ? 0 : 3;
+    const double before = cycle % 2 == 0 ? 3 : 0;
+    const double t = std::min(seconds - begin, kCycle);
     const double up = std::min(t, 4.0), on = std::clamp(t - 4, 0.0, 9.0);
     const double down = std::clamp(t - 13, 0.0, 3.0), still = std::max(t - 16, 0.0);
-    way += (before + (top - before) * up / 8) * up + top * on + (top - (top - slow) * down / 6) * down +
-           slow * still;
+    distance += (before + (top - before) * up / 8) * up + top * on + (top - (top - slow) * down / 6) * down +
+                slow * still;
   }
-  return way;
+  return distance;
 }
 
 World::World(std::uint64_t seed, double along) : road(seed, along), seed_(seed) {
   for (std::size_t i = 0; i < phases_.size(); ++i)
-    phases_[i] = 2 * std::numbers::pi * number(seed, 7, static_cast<std::int64_t>(i));
+    phases_[i] = 2 * std::numbers::pi * keyed_uniform(seed, 7, static_cast<std::int64_t>(i));
 }
 
-Side World::roadside_at(double along, bool left) const {
+Roadside World::roadside_at(double along, bool left) const {
   const auto stretch = static_cast<std::int64_t>(std::floor(along / kStretch));
-  return static_cast<Side>(static_cast<int>(3 * number(seed_, left ? 3 : 4, stretch)));
+  return static_cast<Roadside>(static_cast<int>(3 * keyed_uniform(seed_, left ? 3 : 4, stretch)));
 }
 
-double World::side_profile(Side side, std::uint64_t key, double away) const {
-  if (side == Side::kerb) return kKerbHeight * smooth((away - kKerb) / 0.1);
-  if (side == Side::verge) return 0;
+double World::side_profile(Roadside side, std::uint64_t key, double away) const {
+  if (side == Roadside::kerb) return kKerbHeight * smooth((away - kKerb) / 0.1);
+  if (side == Roadside::verge) return 0;
   const double depth = 0.3 + 0.5 * SplitMix64(key).uniform();
   const double t = std::abs(away - kDitchMiddle) / kDitchHalfWidth;
   return t < 1 ? -0.5 * depth * (1 + std::cos(std::numbers::pi * t)) : 0;
@@ -161,10 +161,10 @@ double World::profile(double along, double left) const {
   return camber + own + blend * (last - own);
 }
 
-double World::height(double x, double y, const RoadPosition& place) const {
+double World::height(double x, double y, const RoadPosition& position) const {
   const double hills = 4.2 * std::sin(x / 36 + phases_[0]) + 1.2 * std::sin(y / 25 + phases_[1]) +
                        0.35 * std::sin((x + y) / 13 + phases_[2]);
-  return hills + profile(place.along, place.left);
+  return hills + profile(position.along, position.left);
 }
 
 double World::height(double x, double y) const {
@@ -177,18 +177,19 @@ Vec3 World::normal(double x, double y) const {
       {(height(x - d, y) - height(x + d, y)) / (2 * d), (height(x, y - d) - height(x, y + d)) / (2 * d), 1});
 }
 
-double World::roughness(const RoadPosition& place) const {
-  const double away = std::abs(place.left);
-  const bool paved = away < kKerb || (away < 8 && roadside_at(place.along, place.left > 0) == Side::kerb);
+double World::roughness(const RoadPosition& position) const {
+  const double away = std::abs(position.left);
+  const bool paved =
+      away < kKerb || (away < 8 && roadside_at(position.along, position.left > 0) == Roadside::kerb);
   return paved ? 0.003 : away < 8 ? 0.02 : 0.04;
 }
 
 // Short up to 5.5 m from the middle of the road, high in and behind ditches.
-double World::grass(const RoadPosition& place) const {
-  const double away = std::abs(place.left);
-  const Side side = roadside_at(place.along, place.left > 0);
-  if (away < kKerb + 0.2 || (away < 8 && side == Side::kerb)) return 0;
-  return away < 5.5 ? 0.06 : side == Side::ditch ? 0.22 : 0.12;
+double World::grass(const RoadPosition& position) const {
+  const double away = std::abs(position.left);
+  const Roadside side = roadside_at(position.along, position.left > 0);
+  if (away < kKerb + 0.2 || (away < 8 && side == Roadside::kerb)) return 0;
+  return away < 5.5 ? 0.06 : side == Roadside::ditch ? 0.22 : 0.12;
 }
 
 namespace {
@@ -207,18 +208,19 @@ Terrain::Terrain(const World& world, std::uint64_t seed, double x, double y)
   const double left = std::round(x_ / kCell), low = std::round(y_ / kCell);
   for (std::size_t i = 0; i < kSide; ++i) {
     const double at = x_ + kCell * static_cast<double>(i);
-    RoadPosition place{world.road.guess(at), 0};
+    RoadPosition position{world.road.guess(at), 0};
     for (std::size_t k = 0; k < kSide; ++k) {
       const double across = y_ + kCell * static_cast<double>(k);
-      place = world.road.road_position_of(at, across, place.along, 2);  // 2 steps: the guess is only 0.25 m away
+      // Two steps are enough: the guess is only 0.25 m away.
+      position = world.road.road_position_of(at, across, position.along, 2);
       const auto column =
           static_cast<std::uint64_t>(static_cast<std::int64_t>(left) + static_cast<std::int64_t>(i));
       const auto row =
           static_cast<std::uint64_t>(static_cast<std::int64_t>(low) + static_cast<std::int64_t>(k));
       SplitMix64 random({seed, column, row});
-      const double rough = world.roughness(place) * random.uniform(-1, 1);
-      heights_[i * kSide + k] = static_cast<float>(world.height(at, across, place) + rough);
-      grass_[i * kSide + k] = static_cast<float>(world.grass(place));
+      const double rough = world.roughness(position) * random.uniform(-1, 1);
+      heights_[i * kSide + k] = static_cast<float>(world.height(at, across, position) + rough);
+      grass_[i * kSide + k] = static_cast<float>(world.grass(position));
     }
   }
 }
@@ -266,4 +268,4 @@ double Terrain::cast(Vec3 origin, Vec3 direction) const {
   return under;
 }
 
-}  // namespace pcl_bv::verges
+}  // namespace pcl_bv::rural_road

@@ -12,7 +12,7 @@
 #include "pcl_bv/synth/random.h"
 #include "vec3.h"
 
-namespace pcl_bv::verges {
+namespace pcl_bv::rural_road {
 
 /// Road coordinates: distance along the road and distance left of its middle, metres.
 struct RoadPosition {
@@ -20,7 +20,7 @@ struct RoadPosition {
 };
 
 /// Profile of the roadside. Each side of the road has one profile per stretch of 40 m.
-enum class Side : std::uint8_t { kerb, ditch, verge };
+enum class Roadside : std::uint8_t { kerb, ditch, verge };
 
 /// The road's middle as a curve, sampled from 200 m before to 200 m after the distance `around`.
 class Road {
@@ -48,7 +48,7 @@ class Road {
 };
 
 /// Returns the distance that the sensor's car has driven after `seconds`, metres.
-double driven(std::uint64_t seed, double seconds);
+double driven_distance(std::uint64_t seed, double seconds);
 
 class World {
  public:
@@ -57,21 +57,21 @@ class World {
 
   Road road;
 
-  Side roadside_at(double along, bool left) const;
+  Roadside roadside_at(double along, bool left) const;
 
   /// Height of the ground without its roughness, metres.
   double height(double x, double y) const;
-  double height(double x, double y, const RoadPosition& place) const;
+  double height(double x, double y, const RoadPosition& position) const;
 
   /// Unit normal of the ground, by differences over 1.2 m.
   Vec3 normal(double x, double y) const;
 
-  double roughness(const RoadPosition& place) const;  ///< Largest deviation from height(), metres.
-  double grass(const RoadPosition& place) const;      ///< Height of the grass, metres; 0: none.
+  double roughness(const RoadPosition& position) const;  ///< Largest deviation from height(), metres.
+  double grass(const RoadPosition& position) const;      ///< Height of the grass, metres; 0: none.
 
  private:
   double profile(double along, double left) const;
-  double side_profile(Side side, std::uint64_t key, double away) const;
+  double side_profile(Roadside side, std::uint64_t key, double away) const;
 
   std::uint64_t seed_;
   std::array<double, 3> phases_{};  // phases of the hills' sine waves
@@ -96,4 +96,4 @@ class Terrain {
   std::vector<float> heights_, grass_;
 };
 
-}  // namespace pcl_bv::verges
+}  // namespace pcl_bv::rural_road

@@ -35,7 +35,7 @@ StreetObject truth_of(const PlacedObject& object) {
 void record(const Ray& ray, Hit hit, bool ground, SynthCloud& cloud, std::size_t i) {
   SplitMix64 random(ray.key);
   const double noise = street_range_noise * random.normal();
-  const bool dropped = random.uniform() < std::max(dropped_share, hit.loss);
+  const bool dropped = random.uniform() < std::max(dropped_share, hit.loss_probability);
   const bool reflected = ground && random.uniform() < reflected_share;
   if (hit.range >= street_max_range || dropped) return;
   // The sensor assumes that a mirrored ray goes straight on: the false return lies below the ground.
@@ -78,7 +78,7 @@ StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame) {
     const Ray ray{{x, y, z}, SplitMix64({options.seed, frame, i}).next()};
     Hit hit;
     for (const Candidate& candidate : candidates[i % columns]) {
-      if (candidate.nearest >= hit.range) break;
+      if (candidate.min_range >= hit.range) break;
       cast(ray, *candidate.object, hit);
     }
     const double ground = cast_ground(ray);

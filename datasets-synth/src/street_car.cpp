@@ -67,7 +67,7 @@ Part make_cabin(const CarShape& car) {
     cut(cabin, {0, left, car.taper}, {0, left * side, base});
     cut(cabin, {0, left, 1.2}, {0, left * (roof_side - 0.15), car.height});
   }
-  cabin.loss = 1.0 / 3;
+  cabin.loss_probability = 1.0 / 3;
   return cabin;
 }
 

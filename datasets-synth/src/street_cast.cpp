@@ -26,13 +26,14 @@ struct LocalRay {
   Vec3 at(double range) const { return origin + range * direction; }
 };
 
-/// Clips the span to the ranges with speed * range <= room, the part of the ray inside a half-space.
-void clip(Span& span, double speed, double room) {
+/// Clips the span to the ranges with speed * range <= distance: the part of the ray inside a half-space.
+/// `distance`: signed distance from the ray's origin to the plane, positive inside.
+void clip(Span& span, double speed, double distance) {
   if (speed > 0) {
-    span.exit = std::min(span.exit, room / speed);
+    span.exit = std::min(span.exit, distance / speed);
   } else if (speed < 0) {
-    span.enter = std::max(span.enter, room / speed);
-  } else if (room < 0) {
+    span.enter = std::max(span.enter, distance / speed);
+  } else if (distance < 0) {
     span.exit = -infinity;
   }
 }
@@ -48,10 +49,10 @@ Span clip_box(const LocalRay& ray, const Box3& box) {
   return span;
 }
 
-Span clip_planes(const LocalRay& ray, const std::vector<Plane>& planes) {
+Span clip_half_spaces(const LocalRay& ray, const std::vector<SolidHalfSpace>& half_spaces) {
   Span span;
-  for (const Plane& plane : planes) {
-    clip(span, dot(plane.normal, ray.direction), plane.offset - dot(plane.normal, ray.origin));
+  for (const SolidHalfSpace& half_space : half_spaces) {
+    clip(span, dot(half_space.normal, ray.direction), half_space.offset - dot(half_space.normal, ray.origin));
     if (span.empty()) break;
   }
   return span;
@@ -74,7 +75,8 @@ Span clip_ellipsoid(const LocalRay& ray, const Box3& bounds) {
 
 /// Returns the range at which the part stops the ray, or infinity.
 double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
-  const Span span = part.planes.empty() ? clip_ellipsoid(ray, part.bounds) : clip_planes(ray, part.planes);
+  const Span span =
+      part.half_spaces.empty() ? clip_ellipsoid(ray, part.bounds) : clip_half_spaces(ray, part.half_spaces);
   if (span.empty()) return infinity;
   if (part.free_path > 0) {
     const double depth = -part.free_path * std::log(1.0 - SplitMix64(key).uniform());
@@ -82,7 +84,7 @@ double cast_part(const LocalRay& ray, const Part& part, std::uint64_t key) {
   }
   const Vec3 entry = ray.at(span.enter);
   for (const Box3& pocket : part.pockets) {
-    if (!holds(pocket, entry)) continue;
+    if (!contains_point(pocket, entry)) continue;
     const double end = clip_box(ray, pocket).exit;
     // A pocket at the solid's edge may contain the whole chord: the ray then passes through.
     if (end >= span.exit) return infinity;
@@ -100,26 +102,26 @@ void cast(const Ray& ray, const PlacedObject& object, Hit& hit) {
   std::uint64_t key = ray.key ^ object.id;
   for (const Part& part : object.model.parts) {
     const double range = cast_part(local, part, ++key);
-    if (range < hit.range) hit = {range, object.id, part.loss};
+    if (range < hit.range) hit = {range, object.id, part.loss_probability};
   }
 }
 
 double cast_ground(const Ray& ray) {
   const Vec3 d = ray.direction;
-  const double sinking = street_slope * d.x - d.z;  // towards the ground, metres per metre of range
+  const double descent_rate = street_slope * d.x - d.z;  // towards the ground, metres per metre of range
   const auto on_road = [&d](double range) {
     return range * d.y < street_curb_left && range * d.y > street_curb_right;
   };
   double nearest = infinity;
-  if (sinking > 0) {
-    const double sidewalk = (street_sensor_height - street_curb_height) / sinking;
-    const double road = street_sensor_height / sinking;
+  if (descent_rate > 0) {
+    const double sidewalk = (street_sensor_height - street_curb_height) / descent_rate;
+    const double road = street_sensor_height / descent_rate;
     if (!on_road(sidewalk)) nearest = sidewalk;
     if (on_road(road)) nearest = std::min(nearest, road);
   }
   // The ray hits a curb face if its height at the curb's y is between road and sidewalk.
   const double curb = (d.y > 0 ? street_curb_left : street_curb_right) / d.y;
-  const double height = street_sensor_height - sinking * curb;
+  const double height = street_sensor_height - descent_rate * curb;
   if (height >= 0 && height <= street_curb_height) nearest = std::min(nearest, curb);
   return nearest;
 }

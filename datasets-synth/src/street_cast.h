@@ -21,7 +21,7 @@ struct Ray {
 struct Hit {
   double range = std::numeric_limits<double>::infinity();  ///< Metres; infinity: no hit.
   std::uint32_t object = 0;                                ///< Id of the object; 0: ground or no hit.
-  double loss = 0;                                         ///< Probability that the hit gives no return.
+  double loss_probability = 0;                             ///< Probability that the hit gives no return.
 };
 
 /// Replaces `hit` if the ray hits the object at a smaller range.

@@ -110,9 +110,9 @@ std::vector<PlacedObject> place_objects(std::uint64_t seed, std::size_t frame) {
   std::vector<PlacedObject> objects;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const double origin = rows[row].shift + (rows[row].speed - ego_speed) * seconds;
-    const double reach = street_max_range + rows[row].spacing;
-    const auto first = static_cast<std::int64_t>(std::floor((-reach - origin) / rows[row].spacing));
-    const auto last = static_cast<std::int64_t>(std::ceil((reach - origin) / rows[row].spacing));
+    const double max_distance = street_max_range + rows[row].spacing;
+    const auto first = static_cast<std::int64_t>(std::floor((-max_distance - origin) / rows[row].spacing));
+    const auto last = static_cast<std::int64_t>(std::ceil((max_distance - origin) / rows[row].spacing));
     for (std::int64_t slot = first; slot <= last; ++slot) {
       PlacedObject object = place(seed, seconds, row, slot);
       if (object.id != 0 && min_range(object) < street_max_range) objects.push_back(std::move(object));

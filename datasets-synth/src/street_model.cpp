@@ -52,7 +52,7 @@ Model make_pedestrian(SplitMix64& random) {
 Model make_lamp_post(SplitMix64& random) {
   const double height = random.uniform(5, 6.5);
   return assemble(SynthObjectKind::pole, {extrude(Axis::z, regular_polygon(12, 0.16), 0, 0.9),
-                                           extrude(Axis::z, regular_polygon(12, 0.09), 0.9, height)});
+                                          extrude(Axis::z, regular_polygon(12, 0.09), 0.9, height)});
 }
 
 Model make_sign_post(SplitMix64& random) {

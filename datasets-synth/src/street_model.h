@@ -13,7 +13,7 @@
 namespace pcl_bv {
 
 /// The half-space normal . p <= offset.
-struct Plane {
+struct SolidHalfSpace {
   Vec3 normal;
   double offset;
 };
@@ -22,10 +22,10 @@ struct Plane {
 /// `bounds`.
 struct Part {
   Box3 bounds;
-  std::vector<Plane> planes;
-  std::vector<Box3> pockets;  ///< Boxes cut out of the solid: windows, wheel arches.
-  double free_path = 0;       ///< Mean path length of a ray inside foliage, metres. 0: opaque.
-  double loss = 0;            ///< Probability that a hit gives no return (glass).
+  std::vector<SolidHalfSpace> half_spaces;
+  std::vector<Box3> pockets;    ///< Boxes cut out of the solid: windows, wheel arches.
+  double free_path = 0;         ///< Mean path length of a ray inside foliage, metres. 0: opaque.
+  double loss_probability = 0;  ///< Probability that a hit gives no return (glass).
 };
 
 struct Model {

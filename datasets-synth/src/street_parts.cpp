@@ -65,7 +65,7 @@ Part leaves(Vec3 center, Vec3 radii) {
 
 void cut(Part& part, Vec3 normal, Vec3 point) {
   const Vec3 unit = normalized(normal);
-  part.planes.push_back({unit, dot(unit, point)});
+  part.half_spaces.push_back({unit, dot(unit, point)});
 }
 
 Model assemble(SynthObjectKind kind, std::vector<Part> parts) {

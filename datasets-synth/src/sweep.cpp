@@ -59,7 +59,7 @@ std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<Place
     add_candidate(candidates, object);
   for (auto& column : candidates) {
     std::sort(column.begin(), column.end(),
-              [](const Candidate& a, const Candidate& b) { return a.nearest < b.nearest; });
+              [](const Candidate& a, const Candidate& b) { return a.min_range < b.min_range; });
   }
   return candidates;
 }

@@ -15,7 +15,7 @@ namespace pcl_bv {
 double azimuth_of(double column, std::size_t columns);
 
 struct Candidate {
-  double nearest;  ///< Lower bound on the range of the object's returns, metres.
+  double min_range;  ///< Lower bound on the range of the object's returns, metres.
   const PlacedObject* object;
 };
 

@@ -36,7 +36,7 @@ struct Box3 {
   Vec3 lo, hi;
 };
 
-inline bool holds(const Box3& box, Vec3 p) {
+inline bool contains_point(const Box3& box, Vec3 p) {
   return p.x >= box.lo.x && p.x <= box.hi.x && p.y >= box.lo.y && p.y <= box.hi.y && p.z >= box.lo.z &&
          p.z <= box.hi.z;
 }

@@ -43,10 +43,10 @@ class PagePoints {
   PagePoints(const Frame& frame, const std::vector<std::uint32_t>& labels, const Eigen::Vector3d& origin)
       : frame_(frame), labels_(labels), origin_(origin) {}
 
-  /// Adds at most `most_points` points, chosen evenly by index. Reads the cloud in chunks: it may be in a
+  /// Adds at most `max_points` points, chosen evenly by index. Reads the cloud in chunks: it may be in a
   /// file.
-  void add_all(std::size_t most_points) {
-    const std::size_t count = frame_.points.count, wanted = std::min(count, most_points);
+  void add_all(std::size_t max_points) {
+    const std::size_t count = frame_.points.count, wanted = std::min(count, max_points);
     std::size_t number = 0;
     for (std::size_t chunk = 0; chunk < chunk_count(count); ++chunk) {
       const LoadedPoints loaded = load_chunk(frame_.points, chunk);
@@ -96,10 +96,10 @@ std::string list(const Eigen::Vector3d& v) {
 }  // namespace
 
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
-                      const std::vector<std::uint32_t>& labels, std::size_t most_points) {
+                      const std::vector<std::uint32_t>& labels, std::size_t max_points) {
   const Eigen::Vector3d origin = centre_of_volumes(result);
   PagePoints points(frame, labels, origin);
-  points.add_all(most_points);
+  points.add_all(max_points);
   const std::string data =
       "<script id=\"data\" type=\"application/json\">{\"report\":" + escaped_for_script(report_json(report)) +
       ",\"origin\":" + list(origin) + ",\"shown\":" + std::to_string(points.shown) +

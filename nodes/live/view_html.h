@@ -21,6 +21,6 @@ inline constexpr std::size_t kMaxPagePoints = 500'000;
 /// Returns the page as HTML. `labels` are those of labels_of(); empty: all points belong to cluster 0.
 /// Coordinates are stored as float32 relative to the middle of all volumes, rounded to whole numbers.
 std::string view_html(const Frame& frame, const FrameResult& result, const Report& report,
-                      const std::vector<std::uint32_t>& labels, std::size_t most_points = kMaxPagePoints);
+                      const std::vector<std::uint32_t>& labels, std::size_t max_points = kMaxPagePoints);
 
 }  // namespace pcl_bv

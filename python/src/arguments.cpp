@@ -30,11 +30,11 @@ void warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
-void raise_type_error(const char* name, const std::string& wanted, py::handle value) {
-  throw py::type_error(std::string(name) + ": " + wanted + " is wanted, not " + shown(value));
+void raise_type_error(const char* name, const std::string& expected, py::handle value) {
+  throw py::type_error(std::string(name) + ": expected " + expected + ", got " + repr_text(value));
 }
 
-std::string shown(py::handle value) {
+std::string repr_text(py::handle value) {
   constexpr std::size_t longest = 60;
   const py::object repr = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
   Py_ssize_t size = 0;
@@ -43,10 +43,10 @@ std::string shown(py::handle value) {
     clear_error();
     return std::string("one of ") + Py_TYPE(value.ptr())->tp_name;
   }
-  std::string said(characters, static_cast<std::size_t>(size));
-  std::replace(said.begin(), said.end(), '\n', ' ');
-  if (said.size() > longest) said = said.substr(0, longest - 3) + "...";
-  return said;
+  std::string text(characters, static_cast<std::size_t>(size));
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  if (text.size() > longest) text = text.substr(0, longest - 3) + "...";
+  return text;
 }
 
 double number(py::handle value, const char* name, const NumberRange& range) {
@@ -80,8 +80,8 @@ std::int64_t signed_number(py::handle value, const char* name) {
   int overflow = 0;
   const long long read = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
   if (overflow != 0)
-    raise_value_error(name,
-                 shown(value) + " is not at least -9223372036854775808 and at most 9223372036854775807");
+    raise_value_error(
+        name, repr_text(value) + " is not at least -9223372036854775808 and at most 9223372036854775807");
   return read;
 }
 
@@ -90,7 +90,7 @@ std::size_t whole_number(py::handle value, const char* name, const NumberRange& 
   const std::size_t read = PyLong_AsSize_t(whole.ptr());
   if (read == static_cast<std::size_t>(-1) && PyErr_Occurred() != nullptr) {
     clear_error();
-    raise_value_error(name, shown(value) + " is not a whole number of at least 0 that fits 64 bits");
+    raise_value_error(name, repr_text(value) + " is not a whole number of at least 0 that fits 64 bits");
   }
   Setting setting{name, "", ""};
   setting.range = range;
@@ -117,15 +117,15 @@ std::filesystem::path path(py::handle value, const char* name) {
 
 Eigen::Vector3d vector3(py::handle value, const char* name) {
   const auto numbers = doubles(value, name);
-  if (numbers.size() != 3) raise_value_error(name, "three numbers are wanted, not " + shown(value));
+  if (numbers.size() != 3) raise_value_error(name, "expected three numbers, got " + repr_text(value));
   Eigen::Vector3d v(numbers.data()[0], numbers.data()[1], numbers.data()[2]);
-  if (!v.allFinite()) raise_value_error(name, shown(value) + " is not finite");
+  if (!v.allFinite()) raise_value_error(name, repr_text(value) + " is not finite");
   return v;
 }
 
 Eigen::Vector3d up_argument(py::handle value) {
   Eigen::Vector3d up =
-      PyUnicode_Check(value.ptr()) ? word<Eigen::Vector3d>(value, "up") : vector3(value, "up");
+      PyUnicode_Check(value.ptr()) ? parse_text<Eigen::Vector3d>(value, "up") : vector3(value, "up");
   const std::string problem = problem_of(Setting{"up", "", ""}, up);
   if (!problem.empty()) raise_value_error("up", problem);
   return up;
@@ -144,15 +144,15 @@ const Method* method_of(py::handle name) {
   std::string known;
   for (const Method& each : methods())
     known.append(known.empty() ? "" : ", ").append(each.name);
-  raise_value_error("method", shown(name) + " is not one of " + known + ", or all");
+  raise_value_error("method", repr_text(name) + " is not one of " + known + ", or all");
 }
 
-std::vector<const Method*> methods_of(py::handle names, bool& one) {
+std::vector<const Method*> methods_of(py::handle names, bool& single) {
   const auto is_all = [](py::handle name) {
     return PyUnicode_Check(name.ptr()) && PyUnicode_CompareWithASCIIString(name.ptr(), "all") == 0;
   };
-  one = PyUnicode_Check(names.ptr()) && !is_all(names);
-  if (one) return {method_of(names)};
+  single = PyUnicode_Check(names.ptr()) && !is_all(names);
+  if (single) return {method_of(names)};
   if (is_all(names)) return methods_of_all();
   if (!PyList_Check(names.ptr()) && !PyTuple_Check(names.ptr()))
     raise_type_error("method", "a name or a list of names", names);
@@ -164,7 +164,7 @@ std::vector<const Method*> methods_of(py::handle names, bool& one) {
       found.push_back(method_of(name));
     }
   }
-  if (found.empty()) raise_value_error("method", "the list has no names");
+  if (found.empty()) raise_value_error("method", "the list of methods is empty");
   return found;
 }
 
@@ -189,14 +189,16 @@ Execution execution_of(py::handle threads, py::handle isa) {
 Eigen::Isometry3d isometry(py::handle matrix, const char* name) {
   const auto numbers = doubles(matrix, name);
   if (numbers.ndim() != 2 || numbers.shape(0) != 4 || numbers.shape(1) != 4)
-    raise_value_error(name, "a matrix of 4 x 4 numbers is wanted, not " + shown(matrix));
+    raise_value_error(name, "expected a matrix of 4 x 4 numbers, got " + repr_text(matrix));
   const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   const Eigen::Matrix3d rotation = m.topLeftCorner<3, 3>();
-  constexpr double most = 1e-6;  // allows poses in float; transformed volumes are inflated by the deviation
+  // Allows poses in float. Transformed volumes are inflated by the deviation.
+  constexpr double max_deviation = 1e-6;
   if (!m.allFinite() || m.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || rotation.determinant() < 0 ||
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > most)
+      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > max_deviation)
     raise_value_error(
-        name, "a rotation (orthonormal to 1e-6) and a shift above 0 0 0 1 are wanted, not " + shown(matrix));
+        name, "expected a 4 x 4 rigid transform (rotation orthonormal to 1e-6, last row 0 0 0 1), got " +
+                  repr_text(matrix));
   Eigen::Isometry3d motion;
   motion.matrix() = m;
   return motion;

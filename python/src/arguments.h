@@ -20,8 +20,8 @@ namespace py = pybind11;
 /// Issues a UserWarning. Throws an exception if Python's warning filters turn warnings into errors.
 void warn(const std::string& text);
 
-/// Raises a TypeError such as "tolerance: a number is wanted, not 'near'".
-[[noreturn]] void raise_type_error(const char* name, const std::string& wanted, py::handle value);
+/// Raises a TypeError such as "tolerance: expected a number, got 'near'".
+[[noreturn]] void raise_type_error(const char* name, const std::string& expected, py::handle value);
 
 double number(py::handle value, const char* name, const NumberRange& range);
 std::size_t whole_number(py::handle value, const char* name, const NumberRange& range);
@@ -36,7 +36,7 @@ Eigen::Vector3d vector3(py::handle value, const char* name);
 /// Parses a text as the configuration does (read_text() of nodes/settings.h): the name of an enumerator or of
 /// a direction.
 template <typename T>
-T word(py::handle value, const char* name) {
+T parse_text(py::handle value, const char* name) {
   T read;
   try {
     read_text(text(value, name), read);
@@ -52,9 +52,9 @@ Eigen::Vector3d up_argument(py::handle value);
 /// The method with this name or alias.
 const Method* method_of(py::handle name);
 
-/// The methods of a name or of a list of names; "all" stands for methods_of_all(). Sets `one` to whether
-/// `names` is the name of a single method.
-std::vector<const Method*> methods_of(py::handle names, bool& one);
+/// The methods of a name or of a list of names; "all" stands for methods_of_all(). Sets `single` to
+/// whether `names` is the name of a single method.
+std::vector<const Method*> methods_of(py::handle names, bool& single);
 
 /// The policy for a number of threads. 1: the calling thread; 0: all processors.
 ParallelPolicy policy_of(py::handle threads);
@@ -65,6 +65,6 @@ Eigen::Isometry3d isometry(py::handle matrix, const char* name);
 
 /// Returns an object's text for error messages: its repr(), at most 60 characters, or its type if repr()
 /// fails.
-std::string shown(py::handle value);
+std::string repr_text(py::handle value);
 
 }  // namespace pcl_bv::python

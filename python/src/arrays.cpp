@@ -20,14 +20,14 @@ bool is_native(const py::dtype& type) {
 
 /// Advice for the error message about an array with numbers of this type; "" for none.
 std::string advice_for(const py::dtype& type) {
-  if (type.kind() == 'c') return ": give array.real";
+  if (type.kind() == 'c') return ": use array.real";
   if (type.kind() == 'f' || type.kind() == 'i' || type.kind() == 'u' || type.kind() == 'O')
-    return ": give array.astype(numpy.float64)";
+    return ": use array.astype(numpy.float64)";
   return "";
 }
 
 [[noreturn]] void refuse_numbers(const char* name, const py::dtype& type, bool from_array) {
-  throw py::type_error(std::string(name) + ": float32 or float64 is wanted, not " +
+  throw py::type_error(std::string(name) + ": expected float32 or float64, got " +
                        py::str(py::handle(type)).cast<std::string>() + (from_array ? advice_for(type) : ""));
 }
 
@@ -39,10 +39,10 @@ std::string shape_of(const py::array& array) {
 }
 
 [[noreturn]] void refuse_shape(const char* name, const py::array& array) {
-  const bool one = array.ndim() == 1 && array.shape(0) >= 3 && array.shape(0) <= 8;
+  const bool one_point = array.ndim() == 1 && array.shape(0) >= 3 && array.shape(0) <= 8;
   throw py::value_error(std::string(name) + ": the shape " + shape_of(array) +
                         " is not (N, 3 or more) or (H, W, 3 or more)" +
-                        (one ? ": for one point give [point]" : ""));
+                        (one_point ? ": for one point pass [point]" : ""));
 }
 
 /// Detects arrays with one point per column, as nuScenes' (4, N): a point usually has 3 to 12 numbers. If
@@ -53,12 +53,12 @@ void check_layout(const char* name, const py::array& array) {
                     rows = array.size() / std::max<py::ssize_t>(columns, 1);
   const py::ssize_t first = array.shape(0);
   if (columns <= 16 || columns <= first) return;
-  const std::string said = "the shape " + shape_of(array) + " is " + std::to_string(rows) + " points of " +
-                           std::to_string(columns) + " numbers: if each column is a point, give points" +
-                           (array.ndim() == 2 ? ".T" : " with x, y, z in the last axis") +
-                           ", if each row is, points[..., :3]";
-  if (columns >= 256) raise_value_error(name, said);
-  if (first >= 3 && first <= 8) warn(std::string(name) + ": " + said);
+  const std::string problem = "the shape " + shape_of(array) + " is " + std::to_string(rows) + " points of " +
+                              std::to_string(columns) + " numbers. If each column is a point, pass points" +
+                              (array.ndim() == 2 ? ".T" : " with x, y, z in the last axis") +
+                              ". If each row is a point, pass points[..., :3]";
+  if (columns >= 256) raise_value_error(name, problem);
+  if (first >= 3 && first <= 8) warn(std::string(name) + ": " + problem);
 }
 
 /// Calls numpy.asarray(). Raises a TypeError with the argument's name if that fails.
@@ -70,7 +70,7 @@ py::array as_numpy_array(py::handle object, const char* name) {
   if (!error.matches(PyExc_Exception)) throw error;  // a KeyboardInterrupt
   // numpy's reason, such as a tensor in GPU memory or rows of unequal length.
   const std::string reason = py::str(error.value()).cast<std::string>();
-  throw py::type_error(std::string(name) + ": an array is wanted, not " + shown(object) +
+  throw py::type_error(std::string(name) + ": expected an array, got " + repr_text(object) +
                        (reason.empty() ? "" : ": " + reason));
 }
 
@@ -89,7 +89,9 @@ py::array from_list(const py::array& array, py::handle object, const char* name)
   const py::int_ limit(std::int64_t{1} << 53);  // Python integers: numpy would compare in float64
   const auto value_of = [&](const char* which) { return py::int_(array.attr(which)()); };
   const bool exact = array.size() == 0 || (value_of("max") <= limit && value_of("min") >= -limit);
-  if (!exact) raise_value_error(name, "whole numbers beyond 2^53, which no float64 holds: " + shown(object));
+  if (!exact)
+    raise_value_error(name,
+                      "integers above 2^53 cannot be converted to float64 exactly: " + repr_text(object));
   return array.attr("astype")("f8");
 }
 
@@ -107,7 +109,9 @@ py::object columns_xyz(py::handle object, const char* name) {
   if (!named) return py::reinterpret_borrow<py::object>(object);
   for (const auto& axis : wanted) {
     if (!columns.contains(axis))
-      throw py::type_error(std::string(name) + ": a table without the columns x, y and z: " + shown(columns));
+      throw py::type_error(std::string(name) +
+                           ": the table must have the columns x, y and z, its columns are " +
+                           repr_text(columns));
   }
   return object[wanted];
 }
@@ -135,8 +139,8 @@ PointArray rows_of(const py::array& array) {
   const auto count = static_cast<std::size_t>(array.shape(0));
   const auto row = static_cast<std::size_t>(array.shape(1)) * size;  // bytes that belong to each point
   const py::ssize_t stride = count > 1 ? array.strides(0) : static_cast<py::ssize_t>(row);
-  const bool side_by_side = array.strides(1) == static_cast<py::ssize_t>(size);
-  if (!is_native(type) || !side_by_side || stride < static_cast<py::ssize_t>(3 * size)) return copied(array);
+  const bool adjacent = array.strides(1) == static_cast<py::ssize_t>(size);
+  if (!is_native(type) || !adjacent || stride < static_cast<py::ssize_t>(3 * size)) return copied(array);
   PointArray points{array, {}};
   if (count == 0) return points;
   points.view.data = static_cast<const std::byte*>(array.data());
@@ -160,7 +164,8 @@ Field field_of(const py::dtype& record, const char* field, const char* name) {
   const std::string upper(1, static_cast<char>(field[0] - 'a' + 'A'));
   const std::string in_record = fields.contains(field) ? field : upper;
   if (!fields.contains(in_record))
-    throw py::type_error(std::string(name) + ": records without a field '" + field + "': " + shown(record));
+    throw py::type_error(std::string(name) + ": the records lack the field '" + field +
+                         "': " + repr_text(record));
   const py::tuple found = fields[py::str(in_record)];
   return {in_record, py::dtype::from_args(found[0]), found[1].cast<py::ssize_t>()};
 }
@@ -184,10 +189,10 @@ PointArray records_of(const py::array& array, const char* name) {
   const auto count = static_cast<std::size_t>(array.shape(0));
   const py::ssize_t stride = count > 1 ? array.strides(0) : record.itemsize();
   const bool real = is_real(x.type) && is_real(y.type) && is_real(z.type);
-  const bool side_by_side = real && y.type.itemsize() == size && z.type.itemsize() == size &&
-                            y.offset == x.offset + size && z.offset == y.offset + size;
+  const bool adjacent = real && y.type.itemsize() == size && z.type.itemsize() == size &&
+                        y.offset == x.offset + size && z.offset == y.offset + size;
   const bool native = is_native(x.type) && is_native(y.type) && is_native(z.type);
-  if (is_masked(array) || !side_by_side || !native || stride < 3 * size) {
+  if (is_masked(array) || !adjacent || !native || stride < 3 * size) {
     const bool wide = !fits_float32(x.type) || !fits_float32(y.type) || !fits_float32(z.type);
     py::array xyz(wide ? py::dtype::of<double>() : py::dtype::of<float>(),
                   std::vector<py::ssize_t>{array.shape(0), 3});
@@ -239,7 +244,7 @@ PointArray points_of(py::handle object, const char* name) {
 
 py::array_t<double> doubles(py::handle object, const char* name) {
   if (is_masked(object))
-    raise_type_error(name, "an array without a mask, as array.filled(numpy.nan) gives it,", object);
+    raise_type_error(name, "an array without a mask (use array.filled(numpy.nan))", object);
   const py::array given = as_numpy_array(object, name);
   const char kind = given.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u') raise_type_error(name, "an array of numbers", object);
@@ -247,18 +252,18 @@ py::array_t<double> doubles(py::handle object, const char* name) {
 }
 
 std::vector<std::int64_t> integers(py::handle object, const char* name, std::size_t count) {
-  if (is_masked(object))
-    raise_type_error(name, "integers without a mask, as array.filled(-1) gives them,", object);
+  if (is_masked(object)) raise_type_error(name, "integers without a mask (use array.filled(-1))", object);
   const py::array given = as_numpy_array(object, name);
   const char kind = given.dtype().kind();
   if (kind != 'i' && kind != 'u' && given.size() > 0)
-    throw py::type_error(std::string(name) + ": integers are wanted, not " +
+    throw py::type_error(std::string(name) + ": expected integers, got " +
                          py::str(py::handle(given.dtype())).cast<std::string>());
-  const py::int_ most(std::numeric_limits<std::int64_t>::max());
-  if (kind == 'u' && given.itemsize() == 8 && given.size() > 0 && py::int_(given.attr("max")()) > most)
+  const py::int_ limit(std::numeric_limits<std::int64_t>::max());
+  if (kind == 'u' && given.itemsize() == 8 && given.size() > 0 && py::int_(given.attr("max")()) > limit)
     raise_value_error(name, py::str(given.attr("max")()).cast<std::string>() + " is more than 2^63 - 1");
   if (static_cast<std::size_t>(given.size()) != count)
-    raise_value_error(name, std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
+    raise_value_error(name,
+                      std::to_string(given.size()) + " values for " + std::to_string(count) + " points");
   const auto wide = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(given);
   return {wide.data(), wide.data() + wide.size()};
 }

@@ -57,7 +57,7 @@ py::array array_of(const std::vector<Eigen::Vector3d>& list);
 
 /// Returns an array that takes over the vector's memory, without a copy.
 template <typename T>
-py::array_t<T> take(std::vector<T>&& values) {
+py::array_t<T> array_from_vector(std::vector<T>&& values) {
   auto* const held = new std::vector<T>(std::move(values));
   const py::capsule owner(held, [](void* p) { delete static_cast<std::vector<T>*>(p); });
   return py::array_t<T>({held->size()}, {sizeof(T)}, held->data(), owner);

@@ -26,7 +26,7 @@ using namespace py::literals;
 /// Calls read(). If it throws IoError, raises FileNotFoundError if the file does not exist; otherwise throws
 /// the error with the file's name in its message.
 template <typename Read>
-auto reading(const std::string& name, const Read& read) {
+auto with_read_errors(const std::string& name, const Read& read) {
   try {
     return read();
   } catch (const IoError& error) {
@@ -48,25 +48,26 @@ void warn_about_note(const std::string& name, const std::string& note) {
 }
 
 RawCloud load_recorded(const std::string& name, const std::string& topic, std::size_t number,
-                       std::vector<std::string>& remarks) {
+                       std::vector<std::string>& warnings) {
   RecordedClouds clouds(name, topic);
   try {
     RawCloud cloud = clouds.load(number);
-    remarks = clouds.warnings();
+    warnings = clouds.warnings();
     return cloud;
   } catch (const IoError& error) {  // add the warnings: damage may be the reason
     std::string text = error.what();
-    for (const std::string& remark : clouds.warnings())
-      text.append("; ").append(remark);
+    for (const std::string& warning : clouds.warnings())
+      text.append("; ").append(warning);
     throw IoError(text);
   }
 }
 
-/// Sets `remarks` to the warnings about a recording.
+/// Sets `warnings` to the warnings about a recording.
 RawCloud load_cloud(const std::string& name, const std::string& topic, std::size_t number,
-                    std::size_t bin_fields, const ParallelPolicy& policy, std::vector<std::string>& remarks) {
+                    std::size_t bin_fields, const ParallelPolicy& policy,
+                    std::vector<std::string>& warnings) {
   if (name.rfind("synth:", 0) == 0) return to_raw_cloud(make_synth(parse_synth(name.substr(6))));
-  if (has_recorded_clouds(name)) return load_recorded(name, topic, number, remarks);
+  if (has_recorded_clouds(name)) return load_recorded(name, topic, number, warnings);
   check_recording_content(name);
   return read_cloud(name, policy, bin_fields);
 }
@@ -74,18 +75,18 @@ RawCloud load_cloud(const std::string& name, const std::string& topic, std::size
 py::array read_points(py::handle file, py::handle topic, py::handle number, py::handle bin_fields,
                       py::handle threads) {
   const std::string name = path(file, "path").string();
-  const std::string of = topic.is_none() ? "" : text(topic, "topic");
+  const std::string topic_name = topic.is_none() ? "" : text(topic, "topic");
   const std::size_t which = whole_number(number, "number", {0, kNoLimit});
   const std::size_t fields = whole_number(bin_fields, "bin_fields", {0, 32});
   const ParallelPolicy policy = policy_of(threads);
   std::optional<RawCloud> cloud;
-  std::vector<std::string> remarks;
-  reading(name, [&] {
+  std::vector<std::string> warnings;
+  with_read_errors(name, [&] {
     const py::gil_scoped_release unlocked;
-    cloud = load_cloud(name, of, which, fields, policy, remarks);
+    cloud = load_cloud(name, topic_name, which, fields, policy, warnings);
   });
-  for (const std::string& remark : remarks)
-    warn_about_note(name, remark);
+  for (const std::string& warning : warnings)
+    warn_about_note(name, warning);
   warn_about_note(name, cloud->note);
   return array_of_cloud(std::move(*cloud));
 }
@@ -93,7 +94,7 @@ py::array read_points(py::handle file, py::handle topic, py::handle number, py::
 py::list volumes_in(py::handle file) {
   const std::string name = path(file, "path").string();
   std::vector<AnyVolume> volumes;
-  reading(name, [&] {
+  with_read_errors(name, [&] {
     const py::gil_scoped_release unlocked;
     volumes = read_volumes(name);
   });
@@ -129,16 +130,16 @@ class FramesObject {
     for (;;) {
       Frame frame;
       Next what = Next::end;
-      std::vector<std::string> remarks;
+      std::vector<std::string> warnings;
       {
         const py::gil_scoped_release unlocked;
         const std::lock_guard lock(mutex_);
         if (source_) what = source_->next(frame, std::chrono::milliseconds(100));
-        if (source_) remarks = source_->take_warnings();
+        if (source_) warnings = source_->take_warnings();
         if (what == Next::end) source_.reset();
       }
-      for (const std::string& remark : remarks)
-        warn_about_note(name_, remark);
+      for (const std::string& warning : warnings)
+        warn_about_note(name_, warning);
       if (what == Next::frame) return frame;
       if (what == Next::end) return {};
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -168,7 +169,7 @@ std::unique_ptr<FramesObject> open_frames(py::handle source, py::handle topic, p
   const bool recorded = source_kind(name).times == FrameTimes::messages;
   options.own_stamps = times == "name" || (times == "auto" && recorded && rate.is_none());
   std::unique_ptr<FramesObject> frames;
-  reading(name, [&] {
+  with_read_errors(name, [&] {
     const py::gil_scoped_release unlocked;
     frames = std::make_unique<FramesObject>(name, options);
   });
@@ -197,13 +198,15 @@ void bind_read(py::module_& module) {
           "stamp_ns", [](const F& f) { return f.frame.header.stamp_ns; }, "Nanoseconds.")
       .def_property_readonly(
           "recorded_ns", [](const F& f) { return f.frame.recorded_ns; },
-          "When it was recorded or sent, nanoseconds; 0 where nobody says.")
+          "When it was recorded or sent, nanoseconds; 0 if unknown.")
       .def_property_readonly(
-          "seq", [](const F& f) { return f.frame.header.seq; }, "Its number in the source.")
+          "seq", [](const F& f) { return f.frame.header.seq; }, "Its index in the source.")
       .def_property_readonly(
-          "frame_id", [](const F& f) { return f.frame.header.frame_id; }, "Of its points.")
+          "frame_id", [](const F& f) { return f.frame.header.frame_id; },
+          "The coordinate frame of its points.")
       .def_property_readonly(
-          "file", [](const F& f) { return f.frame.file; }, "Where it comes from; '' if from none.")
+          "file", [](const F& f) { return f.frame.file; },
+          "The file of the frame; '' if it is not from a file.")
       .def_property_readonly("classes", classes_of,
                              "int64, one a point, if class_field was given; else None.")
       .def_property_readonly(
@@ -211,7 +214,7 @@ void bind_read(py::module_& module) {
           [](const F& f) {
             return f.frame.pose ? py::object(array_of(Eigen::MatrixXd(f.frame.pose->matrix()))) : py::none();
           },
-          "(4, 4), of the sensor in a fixed frame; None where it is not known.")
+          "(4, 4), pose of the sensor in a fixed frame; None if unknown.")
       .def("__repr__", repr_of_frame);
   py::class_<FramesObject>(module, "Frames", frames_class_doc)
       .def("__iter__", [](const py::object& self) { return self; })

@@ -32,33 +32,34 @@ std::string quoted(const std::string& text) {
 constexpr int max_depth = 16;                // settings nest 4 deep; a list that contains itself never ends
 constexpr std::size_t max_values = 100'000;  // 16 nested lists that each hold the next twice: 2^16 values
 
-struct Walk {
+/// Counters of yaml_of(), for the limits above.
+struct YamlCounters {
   int depth = 0;
   std::size_t values = 0;
 };
 
-std::string yaml_of(py::handle value, const std::string& key, Walk& walk);
+std::string yaml_of(py::handle value, const std::string& key, YamlCounters& counters);
 
 template <typename Sequence>
-std::string yaml_list(const Sequence& list, const std::string& key, Walk& walk) {
+std::string yaml_list(const Sequence& list, const std::string& key, YamlCounters& counters) {
   std::string yaml;
   for (const py::handle element : list)
-    yaml.append(yaml.empty() ? "" : ", ").append(yaml_of(element, key, walk));
+    yaml.append(yaml.empty() ? "" : ", ").append(yaml_of(element, key, counters));
   return '[' + yaml + ']';
 }
 
-std::string yaml_map(const py::dict& map, const std::string& prefix, Walk& walk) {
+std::string yaml_map(const py::dict& map, const std::string& prefix, YamlCounters& counters) {
   std::string yaml;
   for (const auto& [name, value] : map) {
-    if (!PyUnicode_Check(name.ptr())) raise_type_error(kConfigName, "a key, a text,", name);
+    if (!PyUnicode_Check(name.ptr())) raise_type_error(kConfigName, "a text as key", name);
     const auto key = name.cast<std::string>();
     yaml.append(yaml.empty() ? "" : ", ").append(quoted(key)).append(": ");
-    yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key, walk);
+    yaml += yaml_of(value, prefix.empty() ? key : prefix + '.' + key, counters);
   }
   return '{' + yaml + '}';
 }
 
-std::string yaml_of_any(py::handle value, const std::string& key, Walk& walk) {
+std::string yaml_of_any(py::handle value, const std::string& key, YamlCounters& counters) {
   if (value.is_none()) return "null";
   if (PyBool_Check(value.ptr())) return value.ptr() == Py_True ? "true" : "false";
   if (PyUnicode_Check(value.ptr())) return quoted(value.cast<std::string>());
@@ -69,22 +70,25 @@ std::string yaml_of_any(py::handle value, const std::string& key, Walk& walk) {
            : text == "nan"                 ? ".nan"
                                            : text;
   }
-  if (py::isinstance<py::dict>(value)) return yaml_map(py::reinterpret_borrow<py::dict>(value), key, walk);
-  if (py::isinstance<py::list>(value)) return yaml_list(py::reinterpret_borrow<py::list>(value), key, walk);
-  if (py::isinstance<py::tuple>(value)) return yaml_list(py::reinterpret_borrow<py::tuple>(value), key, walk);
+  if (py::isinstance<py::dict>(value))
+    return yaml_map(py::reinterpret_borrow<py::dict>(value), key, counters);
+  if (py::isinstance<py::list>(value))
+    return yaml_list(py::reinterpret_borrow<py::list>(value), key, counters);
+  if (py::isinstance<py::tuple>(value))
+    return yaml_list(py::reinterpret_borrow<py::tuple>(value), key, counters);
   if (py::hasattr(value, "tolist"))
-    return yaml_of(value.attr("tolist")(), key, walk);  // numpy arrays and scalars
+    return yaml_of(value.attr("tolist")(), key, counters);  // numpy arrays and scalars
   if (py::hasattr(value, "__fspath__")) return quoted(path(value, key.c_str()).string());
   raise_type_error(key.c_str(), "a number, a text, a list or a dict", value);
 }
 
-std::string yaml_of(py::handle value, const std::string& key, Walk& walk) {
-  if (++walk.depth > max_depth)
+std::string yaml_of(py::handle value, const std::string& key, YamlCounters& counters) {
+  if (++counters.depth > max_depth)
     raise_value_error(key.c_str(), "nested more than " + std::to_string(max_depth) + " deep");
-  if (++walk.values > max_values)
+  if (++counters.values > max_values)
     raise_value_error(key.c_str(), "more than " + std::to_string(max_values) + " values");
-  std::string yaml = yaml_of_any(value, key, walk);
-  --walk.depth;
+  std::string yaml = yaml_of_any(value, key, counters);
+  --counters.depth;
   return yaml;
 }
 
@@ -103,7 +107,8 @@ class RegionVolumes {
         py::dict region = each.attr("copy")();
         for (const LabelledVolume& one : volumes_of(region.attr("pop")("volumes"), "filter.regions: volumes"))
           volumes_.back().push_back(one.volume->value);
-        if (volumes_.back().empty()) raise_value_error("filter.regions", "a region with an empty list of volumes");
+        if (volumes_.back().empty())
+          raise_value_error("filter.regions", "a region must have at least one volume");
         region["file"] = "volumes";
         regions.append(region);
       } else {
@@ -134,16 +139,17 @@ class RegionVolumes {
 StreamConfig read_dict(const py::dict& settings, const StreamConfig& defaults) {
   try {
     RegionVolumes regions(settings);
-    Walk walk;
-    StreamConfig config = parse_stream_config(yaml_map(regions.settings(), "", walk), kConfigName, defaults);
+    YamlCounters counters;
+    StreamConfig config =
+        parse_stream_config(yaml_map(regions.settings(), "", counters), kConfigName, defaults);
     regions.put_into(config.pipeline.filter.regions);
     return config;
   } catch (const ConfigError& error) {
-    std::string said = error.what();
+    std::string text = error.what();
     for (const std::string& prefix : {std::string(kConfigName) + ": ", std::string("line 1: ")}) {
-      if (said.rfind(prefix, 0) == 0) said.erase(0, prefix.size());
+      if (text.rfind(prefix, 0) == 0) text.erase(0, prefix.size());
     }
-    throw py::value_error(said);
+    throw py::value_error(text);
   }
 }
 
@@ -152,7 +158,8 @@ StreamConfig read_config(py::handle config, const StreamConfig& defaults) {
   if (py::isinstance<py::dict>(config)) return read_dict(py::reinterpret_borrow<py::dict>(config), defaults);
   if (PyUnicode_Check(config.ptr())) {
     const auto text = config.cast<std::string>();
-    if (text.find_first_of("\n:{") != std::string::npos) return parse_stream_config(text, kConfigName, defaults);
+    if (text.find_first_of("\n:{") != std::string::npos)
+      return parse_stream_config(text, kConfigName, defaults);
   } else if (!py::hasattr(config, "__fspath__")) {
     raise_type_error("config", "a dict, YAML or a path", config);
   }
@@ -197,35 +204,35 @@ py::object python_value(const std::optional<T>& value) {
 py::object python_value(const std::vector<RegionConfig>& regions) {
   py::list list;
   for (const RegionConfig& region : regions) {
-    py::dict said;
+    py::dict entry;
     if (region.volumes.empty()) {
-      said["file"] = region.file.string();
+      entry["file"] = region.file.string();
     } else {
       py::list volumes;
       for (const AnyVolume& volume : region.volumes)
         volumes.append(to_python(AnyVolume(volume)));
-      said["volumes"] = volumes;
+      entry["volumes"] = volumes;
     }
-    said["keep"] = region.keep;
-    said["padding"] = region.padding;
-    list.append(said);
+    entry["keep"] = region.keep;
+    entry["padding"] = region.padding;
+    list.append(entry);
   }
   return list;
 }
 py::object python_value(const std::vector<ClassConfig>& classes) {
   py::list list;
   for (const ClassConfig& own : classes) {
-    py::dict said;
-    const auto say = [&](const char* key, const auto& value) {
-      if (value) said[key] = python_value(*value);
+    py::dict entry;
+    const auto add = [&](const char* key, const auto& value) {
+      if (value) entry[key] = python_value(*value);
     };
-    said["value"] = own.value;
-    said["drop"] = own.drop;
-    say("tolerance", own.tolerance);
-    say("min_size", own.min_size);
-    say("max_size", own.max_size);
-    if (!own.volumes.empty()) said["volumes"] = python_value(own.volumes);
-    list.append(said);
+    entry["value"] = own.value;
+    entry["drop"] = own.drop;
+    add("tolerance", own.tolerance);
+    add("min_size", own.min_size);
+    add("max_size", own.max_size);
+    if (!own.volumes.empty()) entry["volumes"] = python_value(own.volumes);
+    list.append(entry);
   }
   return list;
 }
@@ -279,9 +286,10 @@ std::string settings_text() {
   std::string text;
   const PipelineConfig defaults;
   visit_pipeline(defaults, [&](const Setting& setting, const auto& value) {
-    std::string said = to_text(value);
-    if (said == "null" || said.empty()) said = setting.unset.empty() ? "none" : std::string(setting.unset);
-    text.append("    ").append(setting.key).append(" = ").append(said);
+    std::string default_text = to_text(value);
+    if (default_text == "null" || default_text.empty())
+      default_text = setting.unset.empty() ? "none" : std::string(setting.unset);
+    text.append("    ").append(setting.key).append(" = ").append(default_text);
     if (!setting.unit.empty()) text.append(" [").append(setting.unit).append("]");
     text.append(range_text(setting, value)).append("\n        ").append(setting.help).append("\n");
   });

@@ -27,7 +27,7 @@ struct PictureObject {
 };
 
 /// Returns the live view's page with a result, as HTML.
-std::string page_of_result(const ResultObject& result, std::size_t most_points);
+std::string page_of_result(const ResultObject& result, std::size_t max_points);
 
 PictureObject picture_of_result(const std::shared_ptr<const ResultObject>& result, const PictureSize& size);
 

@@ -19,7 +19,7 @@ double real(py::handle value, const char* name) {
 /// them.
 Eigen::Vector3d three_numbers(py::handle value, const char* name) {
   const py::array_t<double> numbers = doubles(value, name);
-  if (numbers.size() != 3) raise_value_error(name, "three numbers are wanted, not " + shown(value));
+  if (numbers.size() != 3) raise_value_error(name, "expected three numbers, got " + repr_text(value));
   return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
 }
 
@@ -27,7 +27,7 @@ Eigen::Vector3d three_numbers(py::handle value, const char* name) {
 py::array_t<double> table(py::handle value, const char* name, py::ssize_t columns) {
   py::array_t<double> numbers = doubles(value, name);
   if (numbers.size() > 0 && (numbers.ndim() != 2 || numbers.shape(1) != columns))
-    raise_value_error(name, "(n, " + std::to_string(columns) + ") numbers are wanted, not " + shown(value));
+    raise_value_error(name, "expected (n, " + std::to_string(columns) + ") numbers, got " + repr_text(value));
   return numbers;
 }
 
@@ -42,7 +42,7 @@ std::vector<Eigen::Vector3d> vectors(py::handle value, const char* name) {
 /// The axes are the rows of the argument and the columns of the returned matrix.
 Eigen::Matrix3d axes(py::handle value) {
   const std::vector<Eigen::Vector3d> rows = vectors(value, "axes");
-  if (rows.size() != 3) raise_value_error("axes", "(3, 3) numbers are wanted, not " + shown(value));
+  if (rows.size() != 3) raise_value_error("axes", "expected (3, 3) numbers, got " + repr_text(value));
   Eigen::Matrix3d m;
   m << rows[0], rows[1], rows[2];
   return m;
@@ -50,7 +50,8 @@ Eigen::Matrix3d axes(py::handle value) {
 
 SlabVector slabs(py::handle value, const char* name) {
   const py::array_t<double> numbers = doubles(value, name);
-  if (numbers.size() > static_cast<py::ssize_t>(KdopSet::max_size)) raise_value_error(name, "more than 49 slabs");
+  if (numbers.size() > static_cast<py::ssize_t>(KdopSet::max_size))
+    raise_value_error(name, "more than 49 slabs");
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
 }
 

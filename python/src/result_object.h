@@ -26,7 +26,7 @@ struct ResultObject {
 
 /// A cluster of a result, which it keeps alive.
 struct ClusterObject {
-  std::shared_ptr<const ResultObject> of;
+  std::shared_ptr<const ResultObject> owner_result;
   std::size_t id = 0;
 };
 

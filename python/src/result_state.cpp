@@ -73,23 +73,23 @@ py::list volumes(const FrameResult& result) {
   return list;
 }
 
-/// Throws if the numbers of an unpickled result contradict each other.
+/// Throws if the members of an unpickled result are inconsistent.
 void require_consistent(const FrameResult& result, std::size_t points) {
   const Clusters& c = result.clusters;
   const auto in_cloud = [&](const std::vector<std::int32_t>& list) {
     return std::all_of(list.begin(), list.end(),
                        [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < points; });
   };
-  const bool sound = result.points == points && !c.offsets.empty() && c.offsets.front() == 0 &&
-                     (c.size() <= 1 || !c.indices.empty() || c.offsets.back() == 0) &&
-                     std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
-                     (c.indices.empty() || c.offsets.back() == c.indices.size()) &&
-                     c.offsets.back() <= points && in_cloud(c.indices) && in_cloud(result.passed_filter) &&
-                     in_cloud(result.ground.ground) && in_cloud(result.ground.rest) &&
-                     (result.tracks.empty() || result.tracks.size() == c.size()) &&
-                     (result.class_of.empty() || result.class_of.size() == c.size()) &&
-                     result.volumes.size() == c.size() * result.methods.size();
-  if (!sound) throw py::value_error("its numbers contradict each other");
+  const bool consistent = result.points == points && !c.offsets.empty() && c.offsets.front() == 0 &&
+                          (c.size() <= 1 || !c.indices.empty() || c.offsets.back() == 0) &&
+                          std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
+                          (c.indices.empty() || c.offsets.back() == c.indices.size()) &&
+                          c.offsets.back() <= points && in_cloud(c.indices) && in_cloud(result.passed_filter) &&
+                          in_cloud(result.ground.ground) && in_cloud(result.ground.rest) &&
+                          (result.tracks.empty() || result.tracks.size() == c.size()) &&
+                          (result.class_of.empty() || result.class_of.size() == c.size()) &&
+                          result.volumes.size() == c.size() * result.methods.size();
+  if (!consistent) throw py::value_error("the state is inconsistent");
 }
 
 void take_volumes(const py::list& state, FrameResult& result) {
@@ -145,7 +145,7 @@ py::dict state_of_result(const std::shared_ptr<ResultObject>& self) {
 }
 
 std::shared_ptr<ResultObject> result_of_state(py::handle given) {
-  if (!py::isinstance<py::dict>(given)) throw py::value_error("it is no dict");
+  if (!py::isinstance<py::dict>(given)) throw py::value_error("the state is not a dict");
   const auto state = py::reinterpret_borrow<py::dict>(given);
   auto self = std::make_shared<ResultObject>();
   FrameResult& r = self->result;
@@ -155,7 +155,7 @@ std::shared_ptr<ResultObject> result_of_state(py::handle given) {
                   clusters = tuple_of_state(state["clusters"], 3);
   r.header = {header[0].cast<std::uint64_t>(), header[1].cast<std::int64_t>(), header[2].cast<std::string>(),
               header[3].cast<std::uint64_t>()};
-  if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("its settings are no dict");
+  if (!py::isinstance<py::dict>(state["config"])) throw py::value_error("the settings are not a dict");
   r.config = std::make_shared<PipelineConfig>(config_of(state["config"], py::none(), {}));
   r.points = self->points.view.count;
   r.counts = counts(tuple_of_state(state["counts"], 8));

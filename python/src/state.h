@@ -8,11 +8,11 @@
 
 namespace pcl_bv::python {
 
-/// Returns make(), which constructs an object from a state. Turns any error into a ValueError, "Sphere: a
-/// state that is none of its own", except MemoryError and KeyboardInterrupt.
+/// Returns make(), which constructs an object from a state. Turns any error except MemoryError and
+/// KeyboardInterrupt into a ValueError such as "Sphere: invalid pickled state".
 template <typename Make>
 auto restore_from_state(const std::string& name, const Make& make) {
-  const std::string what = name + ": a state that is none of its own";
+  const std::string what = name + ": invalid pickled state";
   try {
     return make();
   } catch (const py::error_already_set& error) {
@@ -31,15 +31,16 @@ auto restore_from_state(const std::string& name, const Make& make) {
 
 /// Returns the elements of a tuple. Throws py::value_error if `state` is not a tuple of `count` elements.
 inline py::tuple tuple_of_state(py::handle state, std::size_t count) {
-  if (!py::isinstance<py::tuple>(state)) throw py::value_error("it is no tuple");
+  if (!py::isinstance<py::tuple>(state)) throw py::value_error("the state is not a tuple");
   auto parts = py::reinterpret_borrow<py::tuple>(state);
-  if (parts.size() != count) throw py::value_error("it has not " + std::to_string(count) + " parts");
+  if (parts.size() != count)
+    throw py::value_error("the state does not have " + std::to_string(count) + " parts");
   return parts;
 }
 
 /// Returns a number of points. Accepts only a Python int, not an array with one element.
 inline std::size_t points_of_state(py::handle part) {
-  if (PyLong_Check(part.ptr()) == 0) throw py::value_error("its number of points is no whole number");
+  if (PyLong_Check(part.ptr()) == 0) throw py::value_error("the number of points is not an integer");
   return whole_number(part, "points", {0, std::numeric_limits<std::int32_t>::max()});
 }
 

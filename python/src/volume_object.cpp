@@ -19,19 +19,20 @@ std::string_view interned_text(const std::string& text) {
   return *texts->insert(text).first;
 }
 
-void append(std::string& said, const char* name, double value) {
+void append(std::string& text, const char* name, double value) {
   char digits[40];
   std::snprintf(digits, sizeof digits, "%.6g", value);
-  said.append(said.empty() ? "" : ", ").append(name).append("=").append(digits);
+  text.append(text.empty() ? "" : ", ").append(name).append("=").append(digits);
 }
 
-void append(std::string& said, const char* name, const Eigen::Vector3d& v) {
+void append(std::string& text, const char* name, const Eigen::Vector3d& v) {
   char digits[100];
   std::snprintf(digits, sizeof digits, "[%.6g, %.6g, %.6g]", v.x(), v.y(), v.z());
-  said.append(said.empty() ? "" : ", ").append(name).append("=").append(digits);
+  text.append(text.empty() ? "" : ", ").append(name).append("=").append(digits);
 }
 
-struct Said {
+/// Appends the parameters of a shape to a repr().
+struct ReprText {
   std::string text{};
 
   void operator()(const Aabb& box) {
@@ -186,20 +187,20 @@ void set_fit_state(py::handle given, VolumeObject& volume) {
 std::string repr_of(const VolumeObject& volume) {
   std::string name(shape_name(volume.value));
   name[0] = static_cast<char>(name[0] - 'a' + 'A');
-  Said said;
+  ReprText repr;
   if (empty(volume.value)) {
-    said.text = "empty";
+    repr.text = "empty";
   } else {
-    std::visit(said, volume.value);
+    std::visit(repr, volume.value);
   }
   if (volume.method != nullptr) {
-    said.text.append(", method='").append(volume.method->name).append("'");
-    said.text.append(", used=").append(std::to_string(volume.fit.used));
-    if (volume.fit.dropped > 0) said.text.append(", dropped=").append(std::to_string(volume.fit.dropped));
+    repr.text.append(", method='").append(volume.method->name).append("'");
+    repr.text.append(", used=").append(std::to_string(volume.fit.used));
+    if (volume.fit.dropped > 0) repr.text.append(", dropped=").append(std::to_string(volume.fit.dropped));
     if (volume.fit.status != EstimationStatus::ok)
-      said.text.append(", status='").append(status_name(volume.fit.status)).append("'");
+      repr.text.append(", status='").append(status_name(volume.fit.status)).append("'");
   }
-  return name + '(' + said.text + ')';
+  return name + '(' + repr.text + ')';
 }
 
 }  // namespace pcl_bv::python

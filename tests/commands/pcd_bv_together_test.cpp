@@ -168,7 +168,7 @@ TEST_F(PcdBvTogether, LeavesOutAnInputThatFailsAndNamesIt) {
 
   const Result nothing = together("aabb", {file("x.pcd", "no cloud"), at("not there.pcd")});
   EXPECT_EQ(nothing.status, 1);
-  EXPECT_EQ(nothing.json()["error"], "none of the inputs could be read");
+  EXPECT_EQ(nothing.json()["error"], "no input could be read");
 }
 
 TEST_F(PcdBvTogether, RefusesWhatNeedsOneCloudInMemory) {

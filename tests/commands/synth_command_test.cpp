@@ -115,9 +115,9 @@ TEST_F(SynthCommand, WritesASequenceIntoAFolderThatItMakes) {
   }
 }
 
-TEST_F(SynthCommand, WritesTheVergesWithTheirPosesAndTruth) {
+TEST_F(SynthCommand, WritesTheRuralRoadWithPosesAndTruth) {
   const fs::path road = path("road");
-  const Outcome outcome = run("verges-sequence-16:3:7 " + road.string());
+  const Outcome outcome = run("rural-road-sequence-16:3:7 " + road.string());
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
   EXPECT_EQ(std::distance(fs::directory_iterator(road), fs::directory_iterator{}), 5);
@@ -168,8 +168,8 @@ TEST_F(SynthCommand, WrongUseIsStatusTwoAndWritesNothing) {
   const std::string file = path("a.pcd").string();
   for (const std::string& arguments :
        {std::string(), std::string("box"), "cube " + file, "box:0 " + file, "paper-4010:5 " + file,
-        "street-sequence:0 " + file, "verges-sequence-17 " + file, "verges-sequence:0 " + file,
-        "verges:7 " + file, "box " + file + " more", "--unknown box " + file}) {
+        "street-sequence:0 " + file, "rural-road-sequence-17 " + file, "rural-road-sequence:0 " + file,
+        "rural-road:7 " + file, "box " + file + " more", "--unknown box " + file}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2);
@@ -185,7 +185,7 @@ TEST_F(SynthCommand, HelpNamesTheScenesAndShowsExamples) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, HasSubstr("paper-327323"));
   EXPECT_THAT(outcome.out, HasSubstr("synth street-sequence"));
-  EXPECT_THAT(outcome.out, HasSubstr("synth verges-sequence-16"));
+  EXPECT_THAT(outcome.out, HasSubstr("synth rural-road-sequence-16"));
 }
 
 }  // namespace

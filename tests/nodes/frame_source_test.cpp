@@ -241,8 +241,8 @@ TEST(SynthSource, GivesTheFramesOfTheSequence) {
   EXPECT_FALSE(next(*source, frame));
 }
 
-TEST(SynthSource, GivesTheRoadWithVergesAsManyBeamsSeeItAndItsPoses) {
-  const auto source = open_source("synth:verges-sequence-16:2:7");
+TEST(SynthSource, GivesTheRuralRoadOfSoManyBeamsAndItsPoses) {
+  const auto source = open_source("synth:rural-road-sequence-16:2:7");
   for (std::size_t i = 0; i < 2; ++i) {
     Frame frame;
     ASSERT_TRUE(next(*source, frame));
@@ -255,15 +255,15 @@ TEST(SynthSource, GivesTheRoadWithVergesAsManyBeamsSeeItAndItsPoses) {
     for (Eigen::Index k = 0; k < 12; ++k)
       EXPECT_EQ((*frame.pose)(k / 4, k % 4), made.pose[static_cast<std::size_t>(k)]);
   }
-  EXPECT_THROW(open_source("synth:verges-sequence-17"), std::invalid_argument);
+  EXPECT_THROW(open_source("synth:rural-road-sequence-17"), std::invalid_argument);
 }
 
-TEST_F(FolderSource, GivesPosesInPlaceOfTheVergesOwn) {
+TEST_F(FolderSource, GivesPosesInsteadOfThoseOfTheRuralRoad) {
   write("poses.txt", "1 0 0 5 0 1 0 6 0 0 1 7\n");
   ReplayOptions options;
   options.poses = path_ / "poses.txt";
   Frame frame;
-  ASSERT_TRUE(next(*open_source("synth:verges-sequence-16:1", options), frame));
+  ASSERT_TRUE(next(*open_source("synth:rural-road-sequence-16:1", options), frame));
   ASSERT_TRUE(frame.pose);
   EXPECT_EQ(frame.pose->translation(), Eigen::Vector3d(5, 6, 7));
 }
@@ -329,7 +329,7 @@ TEST(SourceKinds, AreListedForUsers) {
             "A folder of clouds, one file\nor a recording (.mcap, .bag, .db3 or its folder)\nor packets of a "
             "Velodyne (.pcap, .pcapng)\nor dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)\nor "
             "synth:street-sequence[:FRAMES[:SEED]]\n"
-            "or synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]");
+            "or synth:rural-road-sequence[-BEAMS][:FRAMES[:SEED]]");
 }
 
 }  // namespace

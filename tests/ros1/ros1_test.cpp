@@ -191,7 +191,7 @@ TEST_F(Ros1, CountsHostileCloudsAndLives) {
     const auto all = markers.all();
     return !all.empty() && all.back()->markers.size() == 1;
   })) << running->errors();
-  EXPECT_THAT(running->errors(), HasSubstr("/cluster_volumes: a cloud is lost: "));
+  EXPECT_THAT(running->errors(), HasSubstr("/cluster_volumes: cloud lost: "));
   const auto lost = [&] {
     const auto all = diagnostics.all();
     if (all.empty()) return -1;

@@ -179,7 +179,7 @@ Status process_tiles(const Job& job, const Options& options, FramePipeline& pipe
   }
   Status status = report_excluded_inputs(*job.tiles);
   for (;;) {
-    if (job.tiles->included_count() == 0) throw IoError("none of the inputs could be read");
+    if (job.tiles->included_count() == 0) throw IoError("no input could be read");
     try {
       status = worse(status, process(job, options, pipeline, outcome));
       report_notes(*job.tiles);

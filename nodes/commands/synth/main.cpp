@@ -32,20 +32,20 @@ std::string footer() {
          "fields object (0: none) and ground (1: ground) say what each point is. A sequence is written as\n"
          "OUT/0000000000.pcd, OUT/0000000001.pcd, ... at ten sweeps a second. Same NAME:POINTS:SEED, same "
          "points.\n\n"
-         "verges is a road over hills with grass, ditches, bridges and traffic, from a vehicle that turns "
-         "and\n"
-         "brakes, seen by 64 beams (verges-16, -32 and -128: by so many). Its points also have the fields\n"
-         "vegetation (1: grass) and class (0: none, 1 car, 2 pedestrian, 3 pole, 4 house, 5 wall, 6 hedge,\n"
-         "7 tree, 8 cyclist, 9 bridge). Its sequences, of 100 sweeps, also give OUT/poses.txt (for "
-         "bv_stream\n"
-         "--poses) and OUT/truth.jsonl: a line for each sweep, with boxes and velocities of all objects.\n\n"
+         "rural-road is a road over hills with grass, ditches, bridges and traffic. The sensor has 64 beams\n"
+         "(rural-road-16, -32, -128: 16, 32, 128 beams) and is on a car that turns and brakes. The points\n"
+         "also have the fields vegetation (1: grass) and class (0: none, 1 car, 2 pedestrian, 3 pole,\n"
+         "4 house, 5 wall, 6 hedge, 7 tree, 8 cyclist, 9 bridge). Its sequences, of 100 sweeps, also give\n"
+         "OUT/poses.txt (for bv_stream --poses) and OUT/truth.jsonl: a line for each sweep, with boxes and\n"
+         "velocities of all objects.\n\n"
          "Examples:\n"
          "  synth street street.pcd                  128000 rays, seed 1\n"
          "  synth street:256000:7 street.pcd         4000 azimuths, seed 7\n"
          "  synth paper-4010 frog.pcd                as many points as the paper's frog\n"
          "  synth street-sequence sweeps             22 sweeps in the folder sweeps\n"
          "  synth street-sequence:100:7 sweeps       100 sweeps, seed 7\n"
-         "  synth verges-sequence-16:300:2 road      300 sweeps by 16 beams, seed 2, with poses and truth\n\n"
+         "  synth rural-road-sequence-16:300:2 road  300 sweeps with 16 beams, seed 2, with poses and "
+         "truth\n\n"
          "Exit status: 0 done, 1 output not written, 2 wrong use.\n";
 }
 
@@ -111,9 +111,9 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
 int run(int argc, char** argv) {
   CommandLine line("synth", "Synthetic point clouds with ground truth, as .pcd files.", footer());
   std::string scene, output;
-  line.option(
-      "SCENE", scene, "",
-      "NAME[:POINTS[:SEED]], street-sequence[:FRAMES[:SEED]] or\nverges-sequence[-BEAMS][:FRAMES[:SEED]]");
+  line.option("SCENE", scene, "",
+              "NAME[:POINTS[:SEED]], street-sequence[:FRAMES[:SEED]] "
+              "or\nrural-road-sequence[-BEAMS][:FRAMES[:SEED]]");
   line.option("OUT", output, "", "The .pcd file or, for a sequence, the folder");
   if (const auto text = line.parse(argc, argv)) return print_text(*text);
   if (!line.given("OUT")) throw UsageError("no SCENE or no OUT; synth --help lists the options");

@@ -67,7 +67,8 @@ void to_bytes(const ddsi_serdata* sample, std::size_t offset, std::size_t size, 
   std::memcpy(to, cdr(sample).bytes.get() + offset, size);
 }
 
-ddsi_serdata* to_bytes_ref(const ddsi_serdata* sample, std::size_t offset, std::size_t size, ddsrt_iovec_t* ref) {
+ddsi_serdata* to_bytes_ref(const ddsi_serdata* sample, std::size_t offset, std::size_t size,
+                           ddsrt_iovec_t* ref) {
   ref->iov_base = cdr(sample).bytes.get() + offset;
   ref->iov_len = static_cast<ddsrt_iov_len_t>(size);
   return ddsi_serdata_ref(sample);
@@ -162,12 +163,12 @@ const ddsi_sertype_ops& type_operations() {
 }  // namespace
 
 CdrSample* make_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, std::size_t size) {
-  const std::size_t room = (size + 3) / 4 * 4;
+  const std::size_t capacity = (size + 3) / 4 * 4;
   auto sample = std::unique_ptr<CdrSample>(new (std::nothrow) CdrSample());
   if (sample == nullptr) return nullptr;
-  sample->bytes.reset(new (std::nothrow) std::byte[std::max<std::size_t>(room, 4)]);
+  sample->bytes.reset(new (std::nothrow) std::byte[std::max<std::size_t>(capacity, 4)]);
   if (sample->bytes == nullptr) return nullptr;
-  std::memset(sample->bytes.get() + size, 0, std::max<std::size_t>(room, 4) - size);
+  std::memset(sample->bytes.get() + size, 0, std::max<std::size_t>(capacity, 4) - size);
   sample->size = size;
   ddsi_serdata_init(sample.get(), type, kind);
   return sample.release();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Creation of the module's receivers and carriers.
+// Creation of the module's receivers and senders.
 #pragma once
 
 #include <memory>

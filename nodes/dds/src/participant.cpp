@@ -43,7 +43,7 @@ std::string peers_of(const std::string& text) {
     const std::size_t end = std::min(text.find(';', begin), text.size());
     const std::string peer = text.substr(begin, end - begin);
     if (peer.find_first_of("<>&\"' ") != std::string::npos)
-      throw std::invalid_argument("ROS_STATIC_PEERS: " + in_quotes(peer) + " is no address");
+      throw std::invalid_argument("ROS_STATIC_PEERS: " + in_quotes(peer) + " is not an address");
     if (!peer.empty()) peers += "<Peer Address=\"" + peer + "\"/>";
     begin = end + 1;
   }
@@ -53,7 +53,7 @@ std::string peers_of(const std::string& text) {
 // Cyclone DDS's configuration from the environment variables that rmw_cyclonedds also reads. Discovery of
 // given peers probes the ports of the first 32 participants, because the loopback interface usually has no
 // multicast.
-std::string profile() {
+std::string cyclone_config() {
   const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
   for (const char* known : {"", "SUBNET", "SYSTEM_DEFAULT", "LOCALHOST", "OFF"}) {
     if (range == known) break;
@@ -61,11 +61,11 @@ std::string profile() {
       throw std::invalid_argument("ROS_AUTOMATIC_DISCOVERY_RANGE: " + in_quotes(range) +
                                   " is not SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT");
   }
-  const bool here = range == "LOCALHOST" || environment("ROS_LOCALHOST_ONLY") == "1";
+  const bool loopback_only = range == "LOCALHOST" || environment("ROS_LOCALHOST_ONLY") == "1";
   std::string peers = range == "SYSTEM_DEFAULT" ? "" : peers_of(environment("ROS_STATIC_PEERS"));
-  if (here) peers += "<Peer Address=\"127.0.0.1\"/>";
+  if (loopback_only) peers += "<Peer Address=\"127.0.0.1\"/>";
   std::string general = "<MaxMessageSize>65500B</MaxMessageSize>";
-  if (here) general += "<Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>";
+  if (loopback_only) general += "<Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>";
   if (range == "OFF") general += "<AllowMulticast>false</AllowMulticast>";
   std::string discovery;
   if (!peers.empty() && range != "OFF") {
@@ -132,7 +132,7 @@ Participant::Participant() {
   const dds_domainid_t id = domain_of_environment();
   const std::string what = "DDS domain " + std::to_string(id);
   if (environment("CYCLONEDDS_URI").empty()) {
-    const dds_entity_t domain = dds_create_domain(id, profile().c_str());
+    const dds_entity_t domain = dds_create_domain(id, cyclone_config().c_str());
     // If this process has created the domain before, its configuration stays in force.
     if (domain != DDS_RETCODE_PRECONDITION_NOT_MET) {
       if (domain < 0) throw IoError(what + ": " + dds_strretcode(domain) + log_.last());
@@ -170,7 +170,8 @@ std::string dds_topic(const std::string& topic) {
   for (std::size_t begin = 0; begin <= name.size();) {
     const std::size_t end = std::min(name.find('/', begin), name.size());
     if (!is_word(name.substr(begin, end - begin)))
-      throw std::invalid_argument(in_quotes(topic) + " is no name of a topic, as /points or /lidar/points");
+      throw std::invalid_argument(in_quotes(topic) +
+                                  " is not a valid topic name (examples: /points, /lidar/points)");
     begin = end + 1;
   }
   return "rt/" + std::string(name);

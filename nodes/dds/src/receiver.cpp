@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr long kMinReceiveBuffer = 8 << 20;
 
-struct Loan {
+struct Unref {
   void operator()(ddsi_serdata* sample) const { ddsi_serdata_unref(sample); }
 };
 
@@ -33,11 +33,11 @@ Qos reader_qos() {
 // Returns a warning if Linux limits a socket's receive buffer (rmem_max) to less than kMinReceiveBuffer,
 // otherwise "".
 std::string receive_buffer_warning() {
-  long most = kMinReceiveBuffer;
-  std::ifstream("/proc/sys/net/core/rmem_max") >> most;
-  if (most >= kMinReceiveBuffer) return "";
-  return "the kernel's receive buffers are small (" + std::to_string(most) +
-         " bytes), large clouds may be lost: sudo sysctl -w net.core.rmem_max=" +
+  long limit = kMinReceiveBuffer;
+  std::ifstream("/proc/sys/net/core/rmem_max") >> limit;
+  if (limit >= kMinReceiveBuffer) return "";
+  return "the kernel limits socket receive buffers to " + std::to_string(limit) +
+         " bytes: large clouds may be lost. Fix: sudo sysctl -w net.core.rmem_max=" +
          std::to_string(kMinReceiveBuffer);
 }
 
@@ -55,11 +55,12 @@ class Receiver final : public MessageReceiver {
             topic),
         waitset_(dds_create_waitset(participant_->get()), topic) {
     dds_waitset_attach(waitset_.get(), read_condition_.get(), 0);
-    if (std::string remark = receive_buffer_warning(); !remark.empty()) pending_warnings_.push_back(std::move(remark));
+    if (std::string warning = receive_buffer_warning(); !warning.empty())
+      pending_warnings_.push_back(std::move(warning));
   }
 
-  bool next(ReceivedMessage& message, std::chrono::milliseconds patience) override {
-    const Clock::time_point until = Clock::now() + patience;
+  bool next(ReceivedMessage& message, std::chrono::milliseconds timeout) override {
+    const Clock::time_point until = Clock::now() + timeout;
     do {
       if (take(message)) return true;
       const auto left = std::max(until - Clock::now(), Clock::duration(0));
@@ -83,7 +84,7 @@ class Receiver final : public MessageReceiver {
       ddsi_serdata* sample = nullptr;
       dds_sample_info_t info;
       if (dds_takecdr(reader_.get(), &sample, 1, &info, DDS_ANY_STATE) <= 0) return false;
-      std::shared_ptr<ddsi_serdata> owner(sample, Loan());
+      std::shared_ptr<ddsi_serdata> owner(sample, Unref());
       if (!info.valid_data) continue;  // a writer has left
       const CdrSample& cdr = *static_cast<const CdrSample*>(sample);
       message = {cdr.bytes.get(), cdr.size, std::move(owner), info.source_timestamp};
@@ -95,8 +96,8 @@ class Receiver final : public MessageReceiver {
   void report_losses(std::vector<std::string>& all) {
     dds_sample_lost_status_t lost{};
     if (dds_get_sample_lost_status(reader_.get(), &lost) < 0 || lost.total_count_change == 0) return;
-    all.push_back(std::to_string(lost.total_count_change) + " lost on the way, " +
-                  std::to_string(lost.total_count) + " so far");
+    all.push_back(std::to_string(lost.total_count_change) + " messages lost, " +
+                  std::to_string(lost.total_count) + " in total");
   }
 
   // Reports publishers on this topic with another type or with incompatible QoS.
@@ -109,14 +110,14 @@ class Receiver final : public MessageReceiver {
       const auto& writer = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
       if (!infos[i].valid_data || name_ != writer.topic_name || type_ == writer.type_name) continue;
       if (mismatched_types_.insert(writer.type_name).second)
-        all.push_back("published as " + ros_type(writer.type_name) + ", which is not read: only " +
-                      ros_type(type_) + " is");
+        all.push_back("published as " + ros_type(writer.type_name) + ": publisher ignored, expected " +
+                      ros_type(type_));
     }
     if (count > 0) dds_return_loan(publications_.get(), samples, count);
     dds_requested_incompatible_qos_status_t refused{};
     dds_get_requested_incompatible_qos_status(reader_.get(), &refused);
     if (refused.total_count_change > 0)
-      all.push_back(std::to_string(refused.total_count_change) + " publishers with QoS that do not fit");
+      all.push_back(std::to_string(refused.total_count_change) + " publishers with incompatible QoS");
   }
 
   std::string type_, name_;

@@ -16,23 +16,26 @@
 namespace pcl_bv::dds {
 namespace {
 
-constexpr dds_duration_t kPollInterval = DDS_MSECS(10);
+constexpr dds_duration_t kMaxBlockingTime = DDS_MSECS(10);
 
 // RIHS01 hash of a type's definition (REP 2011), by which rosbag2 and `ros2 topic info` of Iron and later
 // identify the type. Hashes of the definitions of Humble and later. Empty for other types.
 std::string_view hash_of(const std::string& type) {
   static const std::map<std::string_view, std::string_view> hashes{
       {"sensor_msgs/msg/PointCloud2", "9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"},
-      {"visualization_msgs/msg/MarkerArray", "86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf"},
-      {"vision_msgs/msg/Detection3DArray", "793f5eab9595ac1c0da07873cc859db42eae51f0ee76056db8562515d830e018"},
-      {"diagnostic_msgs/msg/DiagnosticArray", "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"}};
+      {"visualization_msgs/msg/MarkerArray",
+       "86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf"},
+      {"vision_msgs/msg/Detection3DArray",
+       "793f5eab9595ac1c0da07873cc859db42eae51f0ee76056db8562515d830e018"},
+      {"diagnostic_msgs/msg/DiagnosticArray",
+       "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"}};
   const auto found = hashes.find(type);
   return found == hashes.end() ? std::string_view() : found->second;
 }
 
 Qos writer_qos(const std::string& type) {
   Qos qos = make_qos();
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kPollInterval);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlockingTime);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 5);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   if (const std::string_view hash = hash_of(type); !hash.empty()) {
@@ -42,7 +45,7 @@ Qos writer_qos(const std::string& type) {
   return qos;
 }
 
-class Carrier final : public MessageSender {
+class Sender final : public MessageSender {
  public:
   std::size_t add_topic(const MessageTopic& added) override {
     const auto& [name, type, encoding] = added;
@@ -62,7 +65,8 @@ class Carrier final : public MessageSender {
 
   void send(std::size_t topic, std::int64_t, const std::vector<std::byte>& cdr) override {
     Topic& to = topics_.at(topic);
-    if (cdr.size() < 4 || cdr.size() > UINT32_MAX - 4) throw std::invalid_argument(to.name + ": no message of CDR");
+    if (cdr.size() < 4 || cdr.size() > UINT32_MAX - 4)
+      throw std::invalid_argument(to.name + ": not a valid CDR message (4 bytes to 4 GiB)");
     const std::size_t padding = (4 - cdr.size() % 4) % 4;
     CdrSample* const sample = make_sample(to.type, SDK_DATA, cdr.size() + padding);
     if (sample == nullptr) throw std::bad_alloc();
@@ -72,7 +76,7 @@ class Carrier final : public MessageSender {
     sample->timestamp.v = dds_time();
     const dds_return_t status = dds_writecdr(to.writer.get(), sample);
     if (status == DDS_RETCODE_TIMEOUT) {
-      ++to.late;
+      ++to.timed_out;
     } else if (status != DDS_RETCODE_OK) {
       throw IoError(to.name + ": " + dds_strretcode(status));
     }
@@ -81,9 +85,9 @@ class Carrier final : public MessageSender {
   std::vector<std::string> take_warnings() override {
     std::vector<std::string> all = participant_->take_log();
     for (Topic& topic : topics_) {
-      if (topic.late > 0)
-        all.push_back(topic.name + ": " + std::to_string(std::exchange(topic.late, 0)) +
-                      " messages not taken by a reader within 10 ms");
+      if (topic.timed_out > 0)
+        all.push_back(topic.name + ": " + std::to_string(std::exchange(topic.timed_out, 0)) +
+                      " messages dropped: a reader blocked the writer for more than 10 ms");
     }
     return all;
   }
@@ -100,8 +104,8 @@ class Carrier final : public MessageSender {
   struct Topic {
     std::string name;
     const ddsi_sertype* type;
-    Entity topic, writer;  // the writer is destroyed before its topic
-    std::uint64_t late = 0;
+    Entity topic, writer;         // the writer is destroyed before its topic
+    std::uint64_t timed_out = 0;  // writes since the last call of take_warnings()
   };
 
   std::shared_ptr<Participant> participant_ = Participant::shared();
@@ -111,7 +115,7 @@ class Carrier final : public MessageSender {
 }  // namespace
 
 std::unique_ptr<MessageSender> make_sender() {
-  return std::make_unique<Carrier>();
+  return std::make_unique<Sender>();
 }
 
 }  // namespace pcl_bv::dds

@@ -37,7 +37,7 @@ export class Batch {
   // `colour`: packed by packColour().
   line(a, b, colour) {
     if ((this.lines + 1) * LINE_CORNERS * LINE_BYTES > this.lineBytes.byteLength) {
-      this.lineBytes = grown(this.lineBytes);
+      this.lineBytes = enlarged(this.lineBytes);
       this.renewViews();
     }
     const words = LINE_BYTES / 4;
@@ -51,7 +51,7 @@ export class Batch {
   // Returns the index of the vertex, for triangle().
   vertex(p, normal, colour) {
     if ((this.vertices + 1) * VERTEX_BYTES > this.vertexBytes.byteLength) {
-      this.vertexBytes = grown(this.vertexBytes);
+      this.vertexBytes = enlarged(this.vertexBytes);
       this.renewViews();
     }
     const at = (this.vertices * VERTEX_BYTES) / 4;
@@ -80,7 +80,7 @@ export class Batch {
   }
 }
 
-function grown(buffer) {
+function enlarged(buffer) {
   const larger = new ArrayBuffer(2 * buffer.byteLength);
   new Uint8Array(larger).set(new Uint8Array(buffer));
   return larger;

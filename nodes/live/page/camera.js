@@ -3,7 +3,7 @@
 
 // A camera that orbits a target. Angles are in radians, lengths in metres, coordinates relative to the
 // scene's origin.
-import { across, add, along, dot, multiply, norm, quantile, scale, sub, transform } from "./vectors.js";
+import { add, dot, multiply, norm, orthogonalTo, pointAlong, quantile, scale, sub, transform } from "./vectors.js";
 
 const FIELD_OF_VIEW = (45 * Math.PI) / 180;
 const VIEWS = { top: [-90, 90], front: [-90, 0], side: [0, 0], iso: [-125, 32] }; // yaw and pitch, degrees
@@ -21,7 +21,7 @@ export class Camera {
 
   setUp(up) {
     this.up = scale(up, 1 / (norm(up) || 1));
-    this.level = across(this.up);
+    this.level = orthogonalTo(this.up);
   }
 
   look(view) {
@@ -40,7 +40,7 @@ export class Camera {
   }
 
   eye() {
-    return along(this.target, this.axes().back, this.distance);
+    return pointAlong(this.target, this.axes().back, this.distance);
   }
 
   // The matrix from scene coordinates to clip coordinates.
@@ -95,7 +95,8 @@ export class Camera {
     const next = Math.min(1e7, Math.max(0.01, this.distance * factor));
     const { right, upward } = this.axes();
     const step = this.pixelSize() * (1 - next / this.distance);
-    this.target = along(along(this.target, right, (px - this.width / 2) * step), upward, (this.height / 2 - py) * step);
+    const shifted = pointAlong(this.target, right, (px - this.width / 2) * step);
+    this.target = pointAlong(shifted, upward, (this.height / 2 - py) * step);
     this.distance = next;
   }
 

@@ -23,12 +23,12 @@ function exposeForTests(page) {
     pick(px, py) { return page.keyAt(px - corner().left, py - corner().top); },
     get state() {
       const { mode, theme, faces, labels, arrows, grid, following, pointSize, hidden } = page.view;
-      const { paused, place, frames } = page.history;
+      const { paused, shownIndex, frames } = page.history;
       return {
-        mode, theme, faces, labels, arrows, grid, following, pointSize, hidden: [...hidden], paused, place,
-        kept: frames.length, seq: page.frame?.report.seq ?? null, notDrawn: page.notDrawn, dropped: page.plots.dropped,
-        rate: page.plots.rate(), error: byId("error").textContent, panel: !byId("side").hidden,
-        objects: page.objects.length, lines: page.batch.lines,
+        mode, theme, faces, labels, arrows, grid, following, pointSize, hidden: [...hidden], paused, shownIndex,
+        stored: frames.length, seq: page.frame?.report.seq ?? null, notDrawn: page.notDrawn,
+        dropped: page.plots.dropped, rate: page.plots.rate(), error: byId("error").textContent,
+        panel: !byId("side").hidden, objects: page.objects.length, lines: page.batch.lines,
       };
     },
   };

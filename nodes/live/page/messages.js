@@ -56,7 +56,9 @@ export function readPointCloud2(view) {
   const has = (name, offset, type) => fields.get(name)?.offset === offset && fields.get(name)?.type === type;
   const known = ["x", "y", "z"].every((name, k) => has(name, 4 * k, FLOAT32)) && has("label", 12, UINT32);
   if (bigEndian || !known) throw new Error("points have other fields than x, y, z and label");
-  if (stride < 16 || stride % 4 !== 0 || count * stride > bytes.length) throw new Error("points are fewer than announced");
+  if (stride < 16 || stride % 4 !== 0 || count * stride > bytes.length) {
+    throw new Error("the cloud has fewer points than its header states");
+  }
   return { bytes, count, stride, intensity: has("intensity", 16, FLOAT32), origin: [0, 0, 0] };
 }
 
@@ -91,11 +93,11 @@ export function readFrame(view) {
   return { report, stamp: /"stamp_ns":\s*(-?\d+)/.exec(text)?.[1] ?? "", points: null, size: text.length };
 }
 
-// Returns a sample of at most `most` points, evenly spaced by index, each [x, y, z, intensity]. Skips points
+// Returns a sample of at most `max` points, evenly spaced by index, each [x, y, z, intensity]. Skips points
 // that are not finite.
-export function samplePoints({ bytes, count, stride, intensity }, most) {
+export function samplePoints({ bytes, count, stride, intensity }, max) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const step = Math.max(1, Math.ceil(count / most));
+  const step = Math.max(1, Math.ceil(count / max));
   const sample = [];
   for (let i = 0; i < count; i += step) {
     const at = i * stride;

@@ -7,7 +7,7 @@ import { cssColour } from "./palette.js";
 import { keyOf, speedOf } from "./scene.js";
 import { centerOf, isDrawable, sizeOf } from "./shapes.js";
 
-const MOST_ROWS = 200;
+const MAX_ROWS = 200;
 
 // `pick(key)` is called when a row of the list is clicked.
 export class ObjectPanel {
@@ -43,7 +43,7 @@ export class ObjectPanel {
   // Reuses the row elements from frame to frame, so that clicks on them work and the focus stays.
   showList(clusters, objects, picked) {
     const colours = new Map(objects.map((object) => [object.cluster, cssColour(object.colour)]));
-    const shown = [...clusters].sort(byTrack).slice(0, MOST_ROWS);
+    const shown = [...clusters].sort(byTrack).slice(0, MAX_ROWS);
     const rows = shown.map((cluster) => {
       const key = keyOf(cluster);
       const row = this.rows.get(key) ?? newRow(key);
@@ -57,8 +57,8 @@ export class ObjectPanel {
       body.replaceChildren(...rows);
       if (rows.includes(focused)) focused.focus({ preventScroll: true });
     }
-    byId("object-more").hidden = clusters.length <= MOST_ROWS;
-    byId("object-more").textContent = `${clusters.length - MOST_ROWS} more`;
+    byId("object-more").hidden = clusters.length <= MAX_ROWS;
+    byId("object-more").textContent = `${clusters.length - MAX_ROWS} more`;
   }
 }
 

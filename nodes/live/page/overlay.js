@@ -8,7 +8,7 @@ import { dot } from "./vectors.js";
 
 const FONT = "12px system-ui, sans-serif";
 const LINE_HEIGHT = 15;
-const MOST_LABELS = 300;
+const MAX_LABELS = 300;
 const RAMP_PIXELS = 180;
 
 export class Overlay {
@@ -51,7 +51,7 @@ export class Overlay {
     const matrix = camera.matrix();
     const rank = ({ cluster }) => (keyOf(cluster) === view.picked ? 1e12 : cluster.moving ? 1e9 : 0) + cluster.points;
     const taken = [];
-    for (const object of [...objects].sort((a, b) => rank(b) - rank(a)).slice(0, MOST_LABELS)) {
+    for (const object of [...objects].sort((a, b) => rank(b) - rank(a)).slice(0, MAX_LABELS)) {
       const text = labelOf(object.cluster);
       const at = text === "" ? null : camera.project(object.top, matrix);
       if (!at) continue;

@@ -26,7 +26,7 @@ import { View } from "./view.js";
 const SAMPLE = 4096; // points from which the view and the colour ranges are computed
 const PICK_PIXELS = 3;
 const PLOT_MS = 200; // plots are drawn five times a second
-const MOST_OBJECTS = 1 << 20; // maximum number of objects with a colour for their points
+const MAX_OBJECTS = 1 << 20; // maximum number of objects with a colour for their points
 const NARROW = 900; // page width in pixels up to which the side panel starts closed
 
 export class Page {
@@ -98,7 +98,7 @@ export class Page {
     this.connection = new Connection(`${scheme}://${location.host}/`, {
       frame: (frame) => this.arrived(frame),
       opened: () => this.opened(),
-      lost: () => say("banner", "connection lost, trying again"),
+      lost: () => say("banner", "connection lost, reconnecting"),
       status: (level, message) => {
         if (level < 2 || !this.settings.refuse(message)) notice(message);
       },
@@ -193,7 +193,7 @@ export class Page {
     const { mode, theme } = this.view;
     const colours = [];
     for (const cluster of clusters) {
-      if (cluster.id < MOST_OBJECTS) colours[cluster.id] = objectColour(cluster, mode, theme);
+      if (cluster.id < MAX_OBJECTS) colours[cluster.id] = objectColour(cluster, mode, theme);
     }
     this.renderer.setObjectColours(Array.from(colours, (colour) => colour ?? [0.5, 0.5, 0.5]));
     this.objects = buildVolumes(this.batch, this.frame.report, this.view, this.origin, this.camera.up);
@@ -205,10 +205,10 @@ export class Page {
   // The first frame determines the origin, the view and the colour ranges.
   takeFirst() {
     const { points, report, origin } = this.frame;
-    const places = points
+    const positions = points
       ? samplePoints(points, SAMPLE).map((p) => add(p, points.origin))
       : report.clusters.flatMap(({ volumes }) => volumes.filter(isDrawable).map(centerOf));
-    const middle = [0, 1, 2].map((k) => quantile(places.map((p) => p[k]).sort((a, b) => a - b), 0.5));
+    const middle = [0, 1, 2].map((k) => quantile(positions.map((p) => p[k]).sort((a, b) => a - b), 0.5));
     this.origin = origin ?? originNear(middle);
     this.fit();
   }

@@ -11,13 +11,13 @@ function throughPlanes(planes, direction, pad) {
   let [entry, exit] = [-Infinity, Infinity];
   for (const { n, d } of planes) {
     const slope = dot(n, direction);
-    const room = d + pad;
+    const distance = d + pad;
     if (Math.abs(slope) < 1e-12) {
-      if (room < 0) return null;
+      if (distance < 0) return null;
     } else if (slope < 0) {
-      entry = Math.max(entry, room / slope);
+      entry = Math.max(entry, distance / slope);
     } else {
-      exit = Math.min(exit, room / slope);
+      exit = Math.min(exit, distance / slope);
     }
   }
   return entry <= exit ? [entry, exit] : null;
@@ -36,19 +36,19 @@ function throughSphere(center, radius, direction) {
 
 function throughEllipsoid(center, axes, radii, direction) {
   const inside = (p) => axes.map((axis, k) => dot(axis, p) / radii[k]);
-  const [way, start] = [inside(direction), inside(scale(center, -1))];
-  return quadratic(dot(way, way), dot(way, start), dot(start, start) - 1);
+  const [step, start] = [inside(direction), inside(scale(center, -1))];
+  return quadratic(dot(step, step), dot(step, start), dot(start, start) - 1);
 }
 
 // Intersects a ray with an infinite cylinder. A ray parallel to the axis is completely inside or outside.
 function throughTube(center, axis, radius, direction) {
-  const [way, start] = [cross(direction, axis), cross(scale(center, -1), axis)];
-  const room = dot(start, start) - radius * radius;
-  if (dot(way, way) < 1e-18) return room <= 0 ? [-Infinity, Infinity] : null;
-  return quadratic(dot(way, way), dot(way, start), room);
+  const [step, start] = [cross(direction, axis), cross(scale(center, -1), axis)];
+  const excess = dot(start, start) - radius * radius;
+  if (dot(step, step) < 1e-18) return excess <= 0 ? [-Infinity, Infinity] : null;
+  return quadratic(dot(step, step), dot(step, start), excess);
 }
 
-const slab = (n, least, most) => [{ n, d: most }, { n: scale(n, -1), d: -least }];
+const slab = (n, min, max) => [{ n, d: max }, { n: scale(n, -1), d: -min }];
 
 function both(a, b) {
   if (!a || !b) return null;
@@ -70,38 +70,39 @@ function throughCylinder(center, axis, radius, half, direction, pad) {
 
 // Tests by shape. Arguments: volume, start of the ray in absolute coordinates, direction of the ray, pad.
 const TESTS = {
-  aabb: (v, from, way, pad) =>
+  aabb: (v, from, direction, pad) =>
     throughPlanes([0, 1, 2].flatMap((k) => {
       const axis = [0, 0, 0];
       axis[k] = 1;
       return slab(axis, v.min[k] - from[k], v.max[k] - from[k]);
-    }), way, pad),
-  obb: (v, from, way, pad) =>
+    }), direction, pad),
+  obb: (v, from, direction, pad) =>
     throughPlanes(v.axes.flatMap((axis, k) => {
       const middle = dot(axis, sub(v.center, from));
       return slab(axis, middle - v.half_extents[k], middle + v.half_extents[k]);
-    }), way, pad),
-  kdop: (v, from, way, pad) =>
+    }), direction, pad),
+  kdop: (v, from, direction, pad) =>
     throughPlanes(v.directions.flatMap((n, i) => {
       const [length, shift] = [norm(n), dot(n, from)];
       return slab(scale(n, 1 / length), (v.min[i] - shift) / length, (v.max[i] - shift) / length);
-    }), way, pad),
-  hull: (v, from, way, pad) =>
+    }), direction, pad),
+  hull: (v, from, direction, pad) =>
     throughPlanes(v.planes.map((p) => {
       const length = norm(p) || 1;
       return { n: scale(p, 1 / length), d: (p[3] - dot(p, from)) / length };
-    }), way, pad),
-  sphere: (v, from, way, pad) => throughSphere(sub(v.center, from), v.radius + pad, way),
-  ellipsoid: (v, from, way, pad) => throughEllipsoid(sub(v.center, from), v.axes, v.radii.map((r) => r + pad), way),
-  cylinder: (v, from, way, pad) =>
-    throughCylinder(sub(v.center, from), unit(v.axis), v.radius, v.half_height, way, pad),
-  capsule: (v, from, way, pad) => {
+    }), direction, pad),
+  sphere: (v, from, direction, pad) => throughSphere(sub(v.center, from), v.radius + pad, direction),
+  ellipsoid: (v, from, direction, pad) =>
+    throughEllipsoid(sub(v.center, from), v.axes, v.radii.map((r) => r + pad), direction),
+  cylinder: (v, from, direction, pad) =>
+    throughCylinder(sub(v.center, from), unit(v.axis), v.radius, v.half_height, direction, pad),
+  capsule: (v, from, direction, pad) => {
     const [a, b] = [sub(v.a, from), sub(v.b, from)];
-    const ends = [throughSphere(a, v.radius + pad, way), throughSphere(b, v.radius + pad, way)];
+    const ends = [throughSphere(a, v.radius + pad, direction), throughSphere(b, v.radius + pad, direction)];
     const axis = unit(sub(b, a));
     if (norm(axis) === 0) return ends[0];
     const half = norm(sub(b, a)) / 2;
-    return union([...ends, throughCylinder(scale(add(a, b), 0.5), axis, v.radius, half, way, pad)]);
+    return union([...ends, throughCylinder(scale(add(a, b), 0.5), axis, v.radius, half, direction, pad)]);
   },
 };
 

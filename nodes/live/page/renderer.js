@@ -24,12 +24,12 @@ class Program {
       const logs = gl.getAttachedShaders(this.id).map((shader) => gl.getShaderInfoLog(shader));
       throw new Error(`a shader does not compile: ${[...logs, gl.getProgramInfoLog(this.id)].join(" ")}`);
     }
-    this.places = new Map();
+    this.locations = new Map();
   }
 
-  place(name) {
-    if (!this.places.has(name)) this.places.set(name, this.gl.getUniformLocation(this.id, name));
-    return this.places.get(name);
+  uniformLocation(name) {
+    if (!this.locations.has(name)) this.locations.set(name, this.gl.getUniformLocation(this.id, name));
+    return this.locations.get(name);
   }
 }
 
@@ -171,15 +171,15 @@ export class Renderer {
     const program = this.pointProgram;
     const theme = THEMES[look.theme];
     gl.useProgram(program.id);
-    gl.uniformMatrix4fv(program.place("matrix"), false, matrix);
-    gl.uniform3fv(program.place("shift"), this.points.origin.map((x, k) => x - look.origin[k]));
-    gl.uniform3fv(program.place("up"), camera.up);
-    gl.uniform2fv(program.place("range"), look.range);
-    gl.uniform3fv(program.place("ramp"), theme.ramp);
-    gl.uniform3fv(program.place("plain"), theme.plain);
-    gl.uniform1i(program.place("mode"), { height: 1, intensity: 2 }[look.mode] ?? 0);
-    gl.uniform1i(program.place("objects"), this.objects);
-    gl.uniform1f(program.place("size"), look.pointSize);
+    gl.uniformMatrix4fv(program.uniformLocation("matrix"), false, matrix);
+    gl.uniform3fv(program.uniformLocation("shift"), this.points.origin.map((x, k) => x - look.origin[k]));
+    gl.uniform3fv(program.uniformLocation("up"), camera.up);
+    gl.uniform2fv(program.uniformLocation("range"), look.range);
+    gl.uniform3fv(program.uniformLocation("ramp"), theme.ramp);
+    gl.uniform3fv(program.uniformLocation("plain"), theme.plain);
+    gl.uniform1i(program.uniformLocation("mode"), { height: 1, intensity: 2 }[look.mode] ?? 0);
+    gl.uniform1i(program.uniformLocation("objects"), this.objects);
+    gl.uniform1f(program.uniformLocation("size"), look.pointSize);
     gl.bindTexture(gl.TEXTURE_2D, this.colours);
     gl.bindVertexArray(this.pointArray);
     gl.drawArrays(gl.POINTS, 0, this.points.count);
@@ -189,9 +189,9 @@ export class Renderer {
     const gl = this.gl;
     if (layer.lines === 0) return;
     gl.useProgram(this.lineProgram.id);
-    gl.uniformMatrix4fv(this.lineProgram.place("matrix"), false, matrix);
-    gl.uniform2f(this.lineProgram.place("viewport"), this.canvas.width, this.canvas.height);
-    gl.uniform1f(this.lineProgram.place("width"), width);
+    gl.uniformMatrix4fv(this.lineProgram.uniformLocation("matrix"), false, matrix);
+    gl.uniform2f(this.lineProgram.uniformLocation("viewport"), this.canvas.width, this.canvas.height);
+    gl.uniform1f(this.lineProgram.uniformLocation("width"), width);
     gl.bindVertexArray(layer.lineArray);
     gl.drawElements(gl.TRIANGLES, 6 * layer.lines, gl.UNSIGNED_INT, 0);
   }
@@ -200,8 +200,8 @@ export class Renderer {
     const gl = this.gl;
     if (this.volumes.indices === 0) return;
     gl.useProgram(this.faceProgram.id);
-    gl.uniformMatrix4fv(this.faceProgram.place("matrix"), false, matrix);
-    gl.uniform3fv(this.faceProgram.place("eye"), camera.eye());
+    gl.uniformMatrix4fv(this.faceProgram.uniformLocation("matrix"), false, matrix);
+    gl.uniform3fv(this.faceProgram.uniformLocation("eye"), camera.eye());
     gl.bindVertexArray(this.volumes.faceArray);
     gl.drawElements(gl.TRIANGLES, this.volumes.indices, gl.UNSIGNED_INT, 0);
   }

@@ -3,7 +3,7 @@
 
 // Draws round volumes as meshes. A mesh of 20 x 40 quads deviates from a sphere by 0.3 % of its radius. The
 // lines have a smaller deviation.
-import { across, add, cross, scale, sub, unit } from "./vectors.js";
+import { add, cross, orthogonalTo, scale, sub, unit } from "./vectors.js";
 
 const STACKS = 20;
 const SLICES = 40;
@@ -74,7 +74,7 @@ export function drawEllipsoid(batch, center, [u, v, w], paint) {
 }
 
 export function drawCylinder(batch, low, high, radius, axis, paint) {
-  const [u, v] = across(axis).map((side) => scale(side, radius));
+  const [u, v] = orthogonalTo(axis).map((side) => scale(side, radius));
   arc(batch, low, u, v, paint.line);
   arc(batch, high, u, v, paint.line);
   sides(batch, low, high, u, v, paint);
@@ -96,7 +96,8 @@ function sides(batch, low, high, u, v, paint) {
 
 export function drawCapsule(batch, a, b, radius, paint) {
   const axis = unit(sub(b, a));
-  const [u, v] = across(axis[0] === 0 && axis[1] === 0 && axis[2] === 0 ? [0, 0, 1] : axis).map((side) => scale(side, radius));
+  const isPoint = axis[0] === 0 && axis[1] === 0 && axis[2] === 0;
+  const [u, v] = orthogonalTo(isPoint ? [0, 0, 1] : axis).map((side) => scale(side, radius));
   const w = scale(unit(cross(u, v)), radius);
   for (const end of [a, b]) arc(batch, end, u, v, paint.line);
   for (const side of [u, v]) {

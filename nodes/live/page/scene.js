@@ -6,7 +6,7 @@
 import { LINE_BYTES, LINE_CORNERS, packColour } from "./batch.js";
 import { objectColour, THEMES } from "./palette.js";
 import { centerOf, drawVolume, isDrawable } from "./shapes.js";
-import { add, along, cross, dot, norm, scale, sub, unit } from "./vectors.js";
+import { add, cross, dot, norm, pointAlong, scale, sub, unit } from "./vectors.js";
 
 const FACE_ALPHA = 0.13;
 const GRID_LINES = 20; // on each side of the centre
@@ -72,7 +72,7 @@ function boundOfLines(batch, first, up) {
     }
   }
   const center = scale(add(low, high), 0.5);
-  return { low, high, center, top: along(center, up, topmost - dot(center, up)) };
+  return { low, high, center, top: pointAlong(center, up, topmost - dot(center, up)) };
 }
 
 // Draws the distance moved in one second as an arrow.
@@ -83,10 +83,10 @@ function drawArrow(batch, { cluster, center }, colour, up) {
   const direction = unit(cluster.velocity);
   const side = unit(cross(up, direction));
   const head = Math.min(0.6, 0.35 * speed);
-  const back = along(tip, direction, -head);
+  const back = pointAlong(tip, direction, -head);
   batch.line(center, tip, colour);
-  batch.line(tip, along(back, side, 0.5 * head), colour);
-  batch.line(tip, along(back, side, -0.5 * head), colour);
+  batch.line(tip, pointAlong(back, side, 0.5 * head), colour);
+  batch.line(tip, pointAlong(back, side, -0.5 * head), colour);
 }
 
 // Builds a square grid around `center`. The spacing is 1, 2 or 5 times a power of ten, in metres. Lines fade
@@ -96,15 +96,15 @@ export function buildGrid(batch, center, radius, camera, theme) {
   const step = niceStep(radius / 8);
   const [e1, e2] = camera.level;
   const snap = (axis) => step * Math.round(dot(center, axis) / step);
-  const middle = along(along(scale(camera.up, dot(center, camera.up)), e1, snap(e1)), e2, snap(e2));
+  const middle = pointAlong(pointAlong(scale(camera.up, dot(center, camera.up)), e1, snap(e1)), e2, snap(e2));
   for (let k = -GRID_LINES; k <= GRID_LINES; ++k) {
     for (let j = -GRID_LINES; j < GRID_LINES; j += GRID_PIECE) {
       const fade = 1 - Math.hypot(k, j + GRID_PIECE / 2) / GRID_LINES;
       if (fade <= 0) continue;
       const colour = packColour(THEMES[theme].grid, 0.28 * fade);
       for (const [a, b] of [[e1, e2], [e2, e1]]) {
-        const from = along(along(middle, a, k * step), b, j * step);
-        batch.line(from, along(from, b, GRID_PIECE * step), colour);
+        const from = pointAlong(pointAlong(middle, a, k * step), b, j * step);
+        batch.line(from, pointAlong(from, b, GRID_PIECE * step), colour);
       }
     }
   }

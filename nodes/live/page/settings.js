@@ -14,8 +14,8 @@ export class Settings {
   constructor(send) {
     this.send = send;
     this.fields = new Map(); // key -> {setting, input, note}
-    this.asked = new Map(); // id of a pending request -> key
-    this.lastAsked = { key: null, at: 0 };
+    this.pendingKeys = new Map(); // id of a pending request -> key
+    this.lastChange = { key: null, at: 0 };
     this.requests = 0;
   }
 
@@ -31,7 +31,7 @@ export class Settings {
 
   show(settings) {
     this.fields.clear();
-    this.asked.clear();
+    this.pendingKeys.clear();
     const groups = new Map();
     for (const setting of settings) {
       const [group] = setting.key.split(".");
@@ -62,15 +62,15 @@ export class Settings {
     const { setting, input, note } = this.fields.get(key);
     note.textContent = "";
     const id = `set ${++this.requests}`;
-    this.asked.set(id, key);
-    this.lastAsked = { key, at: performance.now() };
+    this.pendingKeys.set(id, key);
+    this.lastChange = { key, at: performance.now() };
     this.send({ op: "setParameters", parameters: [{ name: key, value: valueOf(setting, input) }], id });
   }
 
   // Shows the values in force that the server sends, either as the answer to a request or after a change by
   // any client. Only an answer overwrites a field that has the focus.
   receive(parameters, id) {
-    this.asked.delete(id);
+    this.pendingKeys.delete(id);
     for (const { name, value } of parameters) {
       const field = this.fields.get(name);
       if (field && !(field.input === document.activeElement && id === undefined)) write(field, value);
@@ -80,8 +80,8 @@ export class Settings {
   // Shows the reason of a refusal at the field of the pending or the last change. Returns false if there is
   // none.
   refuse(reason) {
-    const isRecent = performance.now() - this.lastAsked.at < ANSWER_MS;
-    const key = [...this.asked.values()][0] ?? (isRecent ? this.lastAsked.key : null);
+    const isRecent = performance.now() - this.lastChange.at < ANSWER_MS;
+    const key = [...this.pendingKeys.values()][0] ?? (isRecent ? this.lastChange.key : null);
     if (!this.fields.has(key)) return false;
     this.fields.get(key).note.textContent = reason;
     return true;

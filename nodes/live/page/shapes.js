@@ -7,13 +7,13 @@
 // (UTM) lose no precision.
 import { boundOfSlabs, polytope } from "./convex.js";
 import { drawCapsule, drawCylinder, drawEllipsoid } from "./round.js";
-import { add, along, cross, dot, norm, scale, sub, unit } from "./vectors.js";
+import { add, cross, dot, norm, pointAlong, scale, sub, unit } from "./vectors.js";
 
 const CUBE_FACES = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
 
 function drawBox(batch, center, halfAxes, paint) {
   const corners = Array.from({ length: 8 }, (_, bits) =>
-    halfAxes.reduce((at, axis, k) => along(at, axis, (bits >> k) & 1 ? 1 : -1), center));
+    halfAxes.reduce((at, axis, k) => pointAlong(at, axis, (bits >> k) & 1 ? 1 : -1), center));
   for (let bits = 0; bits < 8; ++bits) {
     for (let k = 0; k < 3; ++k) {
       if (!((bits >> k) & 1)) batch.line(corners[bits], corners[bits | (1 << k)], paint.line);
@@ -32,11 +32,11 @@ function drawBox(batch, center, halfAxes, paint) {
 function drawPolygons(batch, faces, paint) {
   const before = batch.lines;
   const corners = faces.flatMap((face) => face.corners);
-  const least = 1e-6 * corners.reduce((most, p) => Math.max(most, norm(sub(p, corners[0]))), 0);
+  const minLength = 1e-6 * corners.reduce((max, p) => Math.max(max, norm(sub(p, corners[0]))), 0);
   for (const { n, corners: around } of faces) {
     around.forEach((corner, k) => {
       const next = around[(k + 1) % around.length];
-      if (norm(sub(next, corner)) > least) batch.line(corner, next, paint.line);
+      if (norm(sub(next, corner)) > minLength) batch.line(corner, next, paint.line);
     });
     if (paint.face && around.length > 2) batch.polygon(around, n, paint.face);
   }
@@ -99,8 +99,8 @@ function flatOutline(at) {
   const n = unit(cross(axis, sub(c, a)));
   const side = cross(n, axis);
   const middle = scale(at.reduce(add), 1 / at.length);
-  const turn = (p) => Math.atan2(dot(sub(p, middle), side), dot(sub(p, middle), axis));
-  return [{ n, corners: [...at].sort((p, q) => turn(p) - turn(q)) }];
+  const angle = (p) => Math.atan2(dot(sub(p, middle), side), dot(sub(p, middle), axis));
+  return [{ n, corners: [...at].sort((p, q) => angle(p) - angle(q)) }];
 }
 
 const meters = (x) => Number(x.toPrecision(4)).toString();
@@ -145,7 +145,8 @@ export const SHAPES = {
     draw: (batch, v, o, paint) => {
       const center = sub(v.center, o);
       const axis = unit(v.axis);
-      drawCylinder(batch, along(center, axis, -v.half_height), along(center, axis, v.half_height), v.radius, axis, paint);
+      const [low, high] = [-1, 1].map((end) => pointAlong(center, axis, end * v.half_height));
+      drawCylinder(batch, low, high, v.radius, axis, paint);
     },
   },
   capsule: {

@@ -8,7 +8,8 @@ export const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 export const scale = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const norm = (a) => Math.hypot(a[0], a[1], a[2]);
-export const along = (a, direction, t) => add(a, scale(direction, t));
+// Returns the point at parameter t of the line through `a`.
+export const pointAlong = (a, direction, t) => add(a, scale(direction, t));
 
 export function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -22,7 +23,7 @@ export function unit(a) {
 
 // Returns two unit vectors orthogonal to `axis` and to each other. For +z they are x and y, so that a view
 // from the top has x to the right.
-export function across(axis) {
+export function orthogonalTo(axis) {
   const w = unit(axis);
   const hint = Math.abs(w[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
   const u = unit(sub(hint, scale(w, dot(hint, w))));

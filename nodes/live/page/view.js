@@ -109,8 +109,8 @@ export class View {
   }
 
   resizePoints(by) {
-    const place = POINT_SIZES.indexOf(this.pointSize) + by;
-    this.pointSize = POINT_SIZES[Math.min(POINT_SIZES.length - 1, Math.max(0, place))];
+    const index = POINT_SIZES.indexOf(this.pointSize) + by;
+    this.pointSize = POINT_SIZES[Math.min(POINT_SIZES.length - 1, Math.max(0, index))];
     this.changed("view");
   }
 

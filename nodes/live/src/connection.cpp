@@ -14,7 +14,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using Error = boost::system::error_code;
 
-constexpr std::chrono::seconds kPollInterval{10};
+constexpr std::chrono::seconds kHttpTimeout{10};  // for reading the request, and for writing the reply
 
 // Content security policy: the page loads no other resources and connects only to its own server.
 constexpr const char* kContentSecurityPolicy =
@@ -36,7 +36,7 @@ Connection::~Connection() {
 void Connection::start() {
   Error ignored;
   stream_.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
-  stream_.expires_after(kPollInterval);
+  stream_.expires_after(kHttpTimeout);
   http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](const Error& error, std::size_t) {
     if (!error) self->on_request();
   });
@@ -44,8 +44,8 @@ void Connection::start() {
 
 void Connection::on_request() {
   const HttpRequest& request = parser_.get();
-  if (const std::string why = refusal(request); !why.empty()) {
-    hub_.remark("refused: " + why);
+  if (const std::string why = refusal_reason(request); !why.empty()) {
+    hub_.add_warning("refused: " + why);
     Response response(http::status::forbidden, request.version(), why + '\n');
     response.set(http::field::content_type, "text/plain; charset=utf-8");
     return reply(std::move(response));
@@ -54,7 +54,7 @@ void Connection::on_request() {
   reply(answer(request));
 }
 
-std::string Connection::refusal(const HttpRequest& request) const {
+std::string Connection::refusal_reason(const HttpRequest& request) const {
   const auto text = [&](http::field field) { return std::string(request[field]); };
   const std::string host = text(http::field::host), origin = text(http::field::origin);
   if (!is_server_host(host, server_)) return "the host '" + host.substr(0, 100) + "' is not this one";
@@ -92,7 +92,7 @@ Connection::Response Connection::answer(const HttpRequest& request) const {
     return response;
   }
   if (request.target() == "/settings") return text(http::status::ok, hub_.description(), "application/json");
-  return text(http::status::not_found, "there are / and /settings\n", "text/plain");
+  return text(http::status::not_found, "not found: this server has / and /settings only\n", "text/plain");
 }
 
 void Connection::reply(Response response) {
@@ -101,7 +101,7 @@ void Connection::reply(Response response) {
   response.prepare_payload();
   if (parser_.get().method() == http::verb::head) response.body().clear();  // the header Content-Length stays
   response_ = std::make_shared<Response>(std::move(response));
-  stream_.expires_after(kPollInterval);
+  stream_.expires_after(kHttpTimeout);
   http::async_write(stream_, *response_, [self = shared_from_this()](Error error, std::size_t) {
     self->stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, error);
   });

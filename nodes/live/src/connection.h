@@ -27,7 +27,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
   void on_request();
-  std::string refusal(const HttpRequest& request) const;
+  std::string refusal_reason(const HttpRequest& request) const;
   void upgrade(const HttpRequest& request);
   Response answer(const HttpRequest& request) const;
   void reply(Response response);

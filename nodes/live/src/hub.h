@@ -28,10 +28,10 @@ struct Channel {
   std::atomic<int> readers{0};
 };
 
-/// Allows at most `most` units per second.
+/// Allows at most `limit` units per second.
 class RateLimit {
  public:
-  explicit RateLimit(std::size_t most) : most_(most) {}
+  explicit RateLimit(std::size_t limit) : limit_(limit) {}
   bool allows(std::size_t more) {
     const auto now = std::chrono::steady_clock::now();
     if (now - second_ > std::chrono::seconds(1)) {
@@ -39,20 +39,20 @@ class RateLimit {
       used_ = 0;
     }
     used_ += more;
-    return used_ <= most_;
+    return used_ <= limit_;
   }
 
  private:
-  std::size_t most_, used_ = 0;
+  std::size_t limit_, used_ = 0;
   std::chrono::steady_clock::time_point second_{};
 };
 
 /// Used only by the server's thread, except where a member function says otherwise.
 class Hub {
  public:
-  static constexpr std::size_t kMaxChangesPerSecond =
-      50;                                          ///< Of settings, by all viewers together; up to 1 ms each.
-  static constexpr std::size_t kMaxStoredWarnings = 10;  ///< Maximum number of warnings stored for take_warnings().
+  /// Changes of settings by all viewers together. A change takes up to 1 ms.
+  static constexpr std::size_t kMaxChangesPerSecond = 50;
+  static constexpr std::size_t kMaxStoredWarnings = 10;  ///< Stored for take_warnings().
 
   explicit Hub(std::string session) : session_(std::move(session)) {}
 
@@ -81,7 +81,7 @@ class Hub {
   void finish();
 
   /// Stores a warning for take_warnings(), unless it equals the previous one. Any thread may call these two.
-  void remark(const std::string& line);
+  void add_warning(const std::string& line);
   std::vector<std::string> take_warnings();
 
   const std::vector<std::shared_ptr<Channel>>& channels() const { return channels_; }
@@ -100,7 +100,7 @@ class Hub {
   std::uint64_t skipped_notices_ = 0;
   RateLimit changes_{kMaxChangesPerSecond};
   std::mutex mutex_;
-  std::vector<std::string> remarks_;
+  std::vector<std::string> warnings_;
   std::string last_warning_;
 };
 

@@ -36,7 +36,8 @@ struct LimitExceeded {
 
 const FromClient& list_of(const FromClient& request, const char* key) {
   const FromClient& list = request.at(key);
-  if (list.size() > kMaxNames) throw LimitExceeded{"a request names at most 100 things"};
+  if (list.size() > kMaxNames)
+    throw LimitExceeded{"a request may name at most 100 settings, channels or subscriptions"};
   return list;
 }
 
@@ -86,7 +87,7 @@ Request request_of(const FromClient& request) {
   if (op == "setParameters") return set_parameters(request);
   if (op == "subscribeParameterUpdates") return WatchParameters{true};
   if (op == "unsubscribeParameterUpdates") return WatchParameters{false};
-  return Unknown{in_quotes(op) + " is not supported here"};
+  return InvalidRequest{in_quotes(op) + " is not supported here"};
 }
 
 }  // namespace
@@ -150,30 +151,30 @@ std::string parameter_values(const std::string& settings, const std::vector<std:
 }
 
 MessageHeader message_header(std::uint32_t subscription, std::int64_t stamp_ns) {
-  MessageHeader head{1};
+  MessageHeader header{1};
   for (std::size_t i = 0; i < 4; ++i)
-    head[1 + i] = static_cast<unsigned char>(subscription >> (8 * i));
+    header[1 + i] = static_cast<unsigned char>(subscription >> (8 * i));
   for (std::size_t i = 0; i < 8; ++i)
-    head[5 + i] = static_cast<unsigned char>(static_cast<std::uint64_t>(stamp_ns) >> (8 * i));
-  return head;
+    header[5 + i] = static_cast<unsigned char>(static_cast<std::uint64_t>(stamp_ns) >> (8 * i));
+  return header;
 }
 
 std::string time_message(std::int64_t stamp_ns) {
-  const MessageHeader head = message_header(0, stamp_ns);
-  return '\2' + std::string(head.begin() + 5, head.end());
+  const MessageHeader header = message_header(0, stamp_ns);
+  return '\2' + std::string(header.begin() + 5, header.end());
 }
 
 Request parse_request(const std::string& text) {
   try {
     const FromClient request = read_json(text);
-    if (!request.is_object()) return Unknown{"a request is an object of JSON"};
+    if (!request.is_object()) return InvalidRequest{"a request must be a JSON object"};
     return request_of(request);
   } catch (const IoError& error) {
-    return Unknown{std::string("a request is an object of JSON: ") + error.what()};
+    return InvalidRequest{std::string("a request must be a JSON object: ") + error.what()};
   } catch (const LimitExceeded& error) {
-    return Unknown{error.why};
+    return InvalidRequest{error.why};
   } catch (const FromClient::exception&) {
-    return Unknown{"a request lacks a field, or has one of another type"};
+    return InvalidRequest{"a request lacks a field or has a field of the wrong type"};
   }
 }
 

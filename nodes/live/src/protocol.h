@@ -60,10 +60,11 @@ struct WatchParameters {
   bool watch = true;
 };
 /// An invalid or unsupported request.
-struct Unknown {
+struct InvalidRequest {
   std::string why;
 };
-using Request = std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, Unknown>;
+using Request =
+    std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, InvalidRequest>;
 
 /// Limits on a request and on its parts that an answer repeats, so that no answer is much longer than the
 /// settings' values.
@@ -71,7 +72,7 @@ inline constexpr std::size_t kMaxNames = 100;     ///< Settings, channels or sub
 inline constexpr std::size_t kMaxIdLength = 200;  ///< Bytes.
 inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status message.
 
-/// Parses any text. Invalid requests and requests over the limits give Unknown.
+/// Parses any text. Invalid requests and requests over the limits give InvalidRequest.
 Request parse_request(const std::string& text);
 
 }  // namespace pcl_bv::live

@@ -35,12 +35,12 @@ std::thread thread_without_signals(Run&& run) {
 
 }  // namespace
 
-Server::Server(const std::string& place) : address_(parse_address(place)), hub_(now_as_text()) {
+Server::Server(const std::string& address) : address_(parse_address(address)), hub_(now_as_text()) {
   try {
     listen();
   } catch (const boost::system::system_error& error) {
     const bool of_system = error.code().category() == boost::system::system_category();
-    throw IoError(of_system ? system_reason(error.code().value()) : "there is no host of this name");
+    throw IoError(of_system ? system_reason(error.code().value()) : "host name not found");
   }
   accept();
   thread_ = thread_without_signals([this] {
@@ -63,8 +63,9 @@ void Server::listen() {
   acceptor_.listen();
   const bool six = endpoint.address().is_v6();
   const std::string host = address_.host;
-  hub_.remark("http://" + (six && host.find(':') != std::string::npos ? '[' + host + ']' : host) + ':' +
-              std::to_string(acceptor_.local_endpoint().port()) + "/ shows it");
+  hub_.add_warning("viewer page: http://" +
+                   (six && host.find(':') != std::string::npos ? '[' + host + ']' : host) + ':' +
+                   std::to_string(acceptor_.local_endpoint().port()) + "/");
 }
 
 void Server::accept() {
@@ -100,14 +101,14 @@ bool Server::has_subscribers(std::size_t topic) const {
 
 void Server::send(std::size_t topic, std::int64_t stamp_ns, const std::vector<std::byte>& message) {
   if (!has_subscribers(topic)) return;
-  if (waiting_bytes_ > 0 && waiting_bytes_ + message.size() > Viewer::kMaxQueuedBytes) {
+  if (queued_bytes_ > 0 && queued_bytes_ + message.size() > Viewer::kMaxQueuedBytes) {
     ++lost_;
     return;
   }
-  waiting_bytes_ += message.size();
+  queued_bytes_ += message.size();
   const Bytes copy = std::make_shared<const std::vector<std::byte>>(message);
   post_to_server_thread([this, topic, stamp_ns, copy] {
-    waiting_bytes_ -= copy->size();
+    queued_bytes_ -= copy->size();
     if (const std::uint64_t lost = lost_.exchange(0); lost > 0)
       hub_.notice(std::to_string(lost) + " messages were dropped: the server was busy");
     hub_.publish(topic, stamp_ns, copy);

@@ -31,7 +31,7 @@ void Viewer::start(const HttpRequest& request, const std::string& subprotocol) {
 
 void Viewer::read() {
   ws_.async_read(buffer_, [self = shared_from_this()](const Error& error, std::size_t) {
-    if (error) return self->end();
+    if (error) return self->drop_connection();
     self->on_request();
     self->buffer_.consume(self->buffer_.size());
     if (!self->closing_) self->read();
@@ -41,31 +41,31 @@ void Viewer::read() {
 void Viewer::on_request() {
   if (!requests_.allows(1) || !request_bytes_.allows(buffer_.size()))
     return close(websocket::close_code::policy_error);
-  if (!ws_.got_text()) return tell(status(Level::error, "clients cannot publish here"));
+  if (!ws_.got_text()) return queue_text(status(Level::error, "clients cannot publish here"));
   hub_.handle(*this, parse_request(boost::beast::buffers_to_string(buffer_.data())));
 }
 
-void Viewer::tell(const std::string& text) {
-  if (queued_answers_ >= kMaxQueuedAnswers) return end();
-  put({text, nullptr, true, true});
+void Viewer::queue_text(const std::string& text) {
+  if (queued_answers_ >= kMaxQueuedAnswers) return drop_connection();
+  enqueue({text, nullptr, true, true});
 }
 
 void Viewer::send(std::size_t channel, std::int64_t stamp_ns, const Bytes& message) {
   const auto found = subscriptions_.find(channel);
   if (found == subscriptions_.end()) return;
-  const MessageHeader head = message_header(found->second, stamp_ns);
-  put({std::string(head.begin(), head.end()), message, false, false});
+  const MessageHeader header = message_header(found->second, stamp_ns);
+  enqueue({std::string(header.begin(), header.end()), message, false, false});
 }
 
 void Viewer::send_time(std::int64_t stamp_ns) {
-  if (!subscriptions_.empty()) put({time_message(stamp_ns), nullptr, false, false});
+  if (!subscriptions_.empty()) enqueue({time_message(stamp_ns), nullptr, false, false});
 }
 
 void Viewer::subscribe(std::uint32_t subscription, std::size_t channel) {
   if (channel >= hub_.channels().size())
-    return tell(status(Level::error, "there is no channel " + std::to_string(channel)));
+    return queue_text(status(Level::error, "there is no channel " + std::to_string(channel)));
   if (!subscriptions_.emplace(channel, subscription).second)
-    return tell(status(Level::error, "channel " + std::to_string(channel) + " is subscribed already"));
+    return queue_text(status(Level::error, "channel " + std::to_string(channel) + " is subscribed already"));
   hub_.channels()[channel]->readers += counted_as_reader_;
 }
 
@@ -76,10 +76,10 @@ void Viewer::unsubscribe(std::uint32_t subscription) {
     subscriptions_.erase(it);
     return;
   }
-  tell(status(Level::error, "there is no subscription " + std::to_string(subscription)));
+  queue_text(status(Level::error, "there is no subscription " + std::to_string(subscription)));
 }
 
-void Viewer::put(Outgoing outgoing) {
+void Viewer::enqueue(Outgoing outgoing) {
   if (!open_ || closing_) return;
   if (!outgoing.is_answer && queued_bytes_ + outgoing.size() > kMaxQueuedBytes) drop_queued_messages();
   queued_bytes_ += outgoing.size();
@@ -120,14 +120,14 @@ void Viewer::write() {
 
 void Viewer::on_written(const Error& error) {
   writing_ = false;
-  if (error) return end();
+  if (error) return drop_connection();
   queued_bytes_ -= send_queue_.front().size();
   queued_answers_ -= send_queue_.front().is_answer;
   send_queue_.pop_front();
   count_as_reader(true);
   if (dropped_ > 0) {
-    tell(status(Level::warning, std::to_string(std::exchange(dropped_, 0)) +
-                                    " messages were dropped: this client reads too slowly"));
+    queue_text(status(Level::warning, std::to_string(std::exchange(dropped_, 0)) +
+                                          " messages were dropped: this client reads too slowly"));
   }
   if (send_queue_.empty() && finishing_) return close(websocket::close_code::going_away);
   write();
@@ -140,11 +140,11 @@ void Viewer::finish() {
 
 void Viewer::close(websocket::close_code code) {
   if (std::exchange(closing_, true)) return;
-  ws_.async_close(code, [self = shared_from_this()](const Error&) { self->end(); });
+  ws_.async_close(code, [self = shared_from_this()](const Error&) { self->drop_connection(); });
 }
 
 // Pending asynchronous operations end with an error and release their references to the viewer.
-void Viewer::end() {
+void Viewer::drop_connection() {
   if (!std::exchange(open_, false)) return;
   closing_ = true;
   count_as_reader(false);

@@ -21,8 +21,7 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 class Viewer : public std::enable_shared_from_this<Viewer> {
  public:
   static constexpr std::size_t kMaxViewers = 32;
-  static constexpr std::size_t kMaxQueuedBytes = std::size_t{32}
-                                                   << 20;  ///< In the queue: 16 clouds of 2 MB.
+  static constexpr std::size_t kMaxQueuedBytes = std::size_t{32} << 20;  ///< 16 clouds of 2 MB.
   static constexpr std::size_t kMaxQueuedAnswers = 256;
   /// Limits on a client's requests: parsing the requests of one second delays other clients by some
   /// milliseconds. A request with 30 settings has 2 kB.
@@ -35,7 +34,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void start(const HttpRequest& request, const std::string& subprotocol);
 
   /// Queues a text that is never dropped. A client with kMaxQueuedAnswers unread texts is disconnected.
-  void tell(const std::string& text);
+  void queue_text(const std::string& text);
 
   /// Queues a message if the client has subscribed to its channel. If the queue would exceed
   /// kMaxQueuedBytes, the messages in the queue are dropped first, and the client is not counted as a
@@ -62,13 +61,13 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
 
   void read();
   void on_request();
-  void put(Outgoing outgoing);
+  void enqueue(Outgoing outgoing);
   void drop_queued_messages();
   void count_as_reader(bool reads);
   void write();
   void on_written(const boost::system::error_code& error);
   void close(boost::beast::websocket::close_code code);
-  void end();
+  void drop_connection();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> ws_;
   Hub& hub_;
@@ -77,7 +76,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   std::size_t queued_bytes_ = 0, queued_answers_ = 0;
   std::uint64_t dropped_ = 0;
   bool writing_ = false, open_ = false, finishing_ = false, closing_ = false, watches_settings_ = false;
-  bool counted_as_reader_ = true;                                  // in `readers` of the subscribed channels
+  bool counted_as_reader_ = true;                       // in `readers` of the subscribed channels
   std::map<std::size_t, std::uint32_t> subscriptions_;  // channel id -> subscription id
   RateLimit requests_{kMaxRequestsPerSecond}, request_bytes_{kMaxRequestBytesPerSecond};
 };

@@ -22,7 +22,7 @@ std::size_t size_of_input(const Job& job) {
 
 // Returns the rank of each job. In order of descending file size, each job goes to the rank that has the
 // fewest bytes so far.
-std::vector<std::size_t> deal(const std::vector<Job>& jobs, std::size_t ranks) {
+std::vector<std::size_t> assign_ranks(const std::vector<Job>& jobs, std::size_t ranks) {
   std::vector<std::size_t> sizes, order(jobs.size()), owner(jobs.size()), load(ranks);
   for (const Job& job : jobs)
     sizes.push_back(size_of_input(job));
@@ -40,7 +40,7 @@ std::vector<std::size_t> deal(const std::vector<Job>& jobs, std::size_t ranks) {
 std::vector<std::size_t> broadcast_owners(Ranks& ranks, const std::vector<Job>& jobs) {
   std::ostringstream text;
   if (ranks.first()) {
-    for (const std::size_t owner : deal(jobs, ranks.size()))
+    for (const std::size_t owner : assign_ranks(jobs, ranks.size()))
       text << owner << ' ';
   }
   std::istringstream in(ranks.broadcast(text.str()));
@@ -88,7 +88,7 @@ void take(const std::string& message, OrderedResults& order) {
 }  // namespace
 
 Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
-                     InterruptAction& interrupted) {
+                    InterruptAction& interrupted) {
   const std::vector<std::size_t> owners = broadcast_owners(ranks, jobs);
   FramePipeline pipeline(options.pipeline);
   if (!ranks.first()) {

@@ -37,6 +37,6 @@ class InterruptAction {
 /// the fewest bytes so far. The first rank writes the results in the order of the jobs and returns the status
 /// of the run; the other ranks return Status::done.
 Status process_jobs(Ranks& ranks, const std::vector<Job>& jobs, const Options& options,
-                     InterruptAction& interrupted);
+                    InterruptAction& interrupted);
 
 }  // namespace pcl_bv

@@ -22,7 +22,7 @@ struct TileFailure {
 
 /// Calls work(), which reads tiles. Returns the failure if a tile cannot be read.
 template <typename Work>
-std::optional<TileFailure> attempt(const Work& work) {
+std::optional<TileFailure> run_and_catch(const Work& work) {
   try {
     work();
     return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<TileFailure> attempt(const Work& work) {
 }
 
 /// Collective call: returns the failure of the lowest rank that has one, the same on all ranks.
-std::optional<TileFailure> agreed(Ranks& ranks, const std::optional<TileFailure>& own);
+std::optional<TileFailure> first_failure(Ranks& ranks, const std::optional<TileFailure>& own);
 
 /// Collective call: returns the headers of all tiles. Each rank reads its share of the tiles.
 std::vector<TileHeader> describe_tiles(Ranks& ranks, const std::vector<Job>& jobs);

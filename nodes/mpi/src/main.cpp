@@ -37,7 +37,7 @@ bool run_on_all_ranks(Ranks& ranks, const std::function<void()>& work) {
         print_message(complaint);
     }
   }
-  for (const std::string& each : ranks.all(problem)) {
+  for (const std::string& each : ranks.all_gather(problem)) {
     if (each.empty()) continue;
     if (ranks.first()) report_problem(each);
     return false;
@@ -81,21 +81,22 @@ Status process_merged(Ranks& ranks, const Job& job, const Options& options, Inte
 }
 
 int run(Ranks& ranks, int argc, char** argv, InterruptAction& interrupted) {
-  std::variant<Options, std::string> asked;
+  std::variant<Options, std::string> parsed;
   std::vector<Job> inputs, jobs;
-  const bool understood = run_on_all_ranks(ranks, [&] {
-    asked = parse_options(argc, argv, PcdBvCommand::mpi);
-    const auto* const options = std::get_if<Options>(&asked);
+  const bool valid = run_on_all_ranks(ranks, [&] {
+    parsed = parse_options(argc, argv, PcdBvCommand::ranks);
+    const auto* const options = std::get_if<Options>(&parsed);
     if (options == nullptr) return;
     check_options_for_ranks(*options);
     inputs = list_inputs(*options);
   });
-  if (!understood) return static_cast<int>(Status::misuse);
-  if (const auto* text = std::get_if<std::string>(&asked)) return ranks.first() ? print_text(*text) : 0;
-  Options options = std::get<Options>(asked);
+  if (!valid) return static_cast<int>(Status::misuse);
+  if (const auto* text = std::get_if<std::string>(&parsed)) return ranks.first() ? print_text(*text) : 0;
+  Options options = std::get<Options>(parsed);
   if (!options.threads_given) options.pipeline.threads = 1;  // usually there is one rank per processor
   if (ranks.broadcast(names_of(inputs)) != names_of(inputs))
-    throw IoError("sees other inputs than rank 0: all ranks need the same files at the same paths");
+    throw IoError(
+        "the list of inputs differs from that of rank 0: all ranks need the same files at the same paths");
   std::shared_ptr<Tiles> tiles;
   if (options.tiled)
     tiles = std::make_shared<Tiles>(inputs, describe_tiles(ranks, inputs),

@@ -27,8 +27,8 @@ namespace {
 
 using Failure = std::optional<TileFailure>;
 
-// A query of the smallest-sphere solver (FarthestQuery), as bytes in a message.
-struct Question {
+// A query of the smallest-sphere solver (FarthestQuery), sent as bytes.
+struct QueryMessage {
   DistanceCenter center;
   double limit;
 };
@@ -62,15 +62,16 @@ class Attempt {
   Failure run();
   Report report() const;  ///< On the first rank only.
   std::size_t rounds() const { return rounds_; }
-  double worked() const { return worked_; }  ///< CPU time of this rank without waiting for others, seconds.
+  /// CPU time of this rank without waiting for other ranks, seconds.
+  double cpu_seconds() const { return cpu_seconds_; }
 
  private:
-  /// Runs a part of a step that needs no other rank, and adds its CPU time to worked().
+  /// Runs a part of a step that needs no other rank, and adds its CPU time to cpu_seconds().
   template <typename Work>
   Failure work(const Work& own) {
     const double begin = processor_seconds();
-    Failure failure = attempt(own);
-    worked_ += processor_seconds() - begin;
+    Failure failure = run_and_catch(own);
+    cpu_seconds_ += processor_seconds() - begin;
     return failure;
   }
 
@@ -80,7 +81,7 @@ class Attempt {
   Failure fit();
   Failure fit_in_rounds(Fitted& fitted);
   Failure check();
-  bool answer(const Question& question, Failure& failure, OctantPoints& found);
+  bool run_query(const QueryMessage& query, Failure& failure, OctantPoints& found);
 
   /// Returns the rank that fits the method to all points, or nothing if the method does not need all points.
   std::optional<std::size_t> owner(std::size_t method) const {
@@ -100,7 +101,7 @@ class Attempt {
   std::vector<Fitted> fitted_;
   std::vector<std::size_t> outside_;
   std::size_t rounds_ = 0;
-  double worked_ = 0;
+  double cpu_seconds_ = 0;
 };
 
 // The origin is the middle of the box of all points, rounded to whole numbers. The box is exact, so the
@@ -114,16 +115,16 @@ Failure Attempt::find_origin() {
     fit_aabb(all.slice(range_.first, range_.second - range_.first), box, execution_);
   });
   constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> ends(6, none);
+  std::vector<double> bounds(6, none);
   for (int k = 0; k < 3 && !box.empty(); ++k) {
-    ends[static_cast<std::size_t>(k)] = box.min()[k];
-    ends[3 + static_cast<std::size_t>(k)] = -box.max()[k];
+    bounds[static_cast<std::size_t>(k)] = box.min()[k];
+    bounds[3 + static_cast<std::size_t>(k)] = -box.max()[k];
   }
-  ends = ranks_.least(ends);
-  const Eigen::Vector3d low(ends[0], ends[1], ends[2]), high(-ends[3], -ends[4], -ends[5]);
+  bounds = ranks_.min_over_ranks(bounds);
+  const Eigen::Vector3d low(bounds[0], bounds[1], bounds[2]), high(-bounds[3], -bounds[4], -bounds[5]);
   origin_ =
-      ends[0] == none ? Eigen::Vector3d::Zero() : Eigen::Vector3d(Aabb(low, high).center().array().round());
-  return agreed(ranks_, failure);
+      bounds[0] == none ? Eigen::Vector3d::Zero() : Eigen::Vector3d(Aabb(low, high).center().array().round());
+  return first_failure(ranks_, failure);
 }
 
 Failure Attempt::read_own_points() {
@@ -139,7 +140,7 @@ Failure Attempt::read_own_points() {
           methods_[i]->fit(all->view(), fitted_[i].volume, execution_, method_options(options_));
     }
   });
-  return agreed(ranks_, failure);
+  return first_failure(ranks_, failure);
 }
 
 // Merges along a binary tree of the ranks, without MPI_Reduce, which needs parts of equal length.
@@ -174,43 +175,44 @@ Failure Attempt::fit() {
   return std::nullopt;
 }
 
-bool Attempt::answer(const Question& question, Failure& failure, OctantPoints& found) {
+// Returns whether all ranks have answered the query.
+bool Attempt::run_query(const QueryMessage& query, Failure& failure, OctantPoints& found) {
   OctantPoints own;
   const Failure now =
-      attempt([&] { answer_farthest(points_->view(), question.center, question.limit, own, execution_); });
+      run_and_catch([&] { answer_farthest(points_->view(), query.center, query.limit, own, execution_); });
   if (now) failure = now;
-  return !ranks_.farthest(own, now.has_value(), found);
+  return !ranks_.merge_farthest(own, now.has_value(), found);
 }
 
 // The solver runs on the first rank and broadcasts its queries. Each rank answers for its own points. An
-// empty query ends the rounds.
+// empty message ends the rounds.
 Failure Attempt::fit_in_rounds(Fitted& fitted) {
   Failure failure;
   OctantPoints found;
   if (ranks_.first()) {
-    const auto ask = [&](const DistanceCenter& center, double limit, OctantPoints& farthest) {
-      const Question question{center, limit};
-      ranks_.broadcast(std::string(reinterpret_cast<const char*>(&question), sizeof question));
-      if (!answer(question, failure, farthest)) throw QueryFailed();
+    const auto query_all_ranks = [&](const DistanceCenter& center, double limit, OctantPoints& farthest) {
+      const QueryMessage query{center, limit};
+      ranks_.broadcast(std::string(reinterpret_cast<const char*>(&query), sizeof query));
+      if (!run_query(query, failure, farthest)) throw QueryFailed();
       return std::any_of(farthest.begin(), farthest.end(),
                          [](const FarPoint& p) { return p.squared_distance >= 0; });
     };
     try {
       SphereCertificate certificate;
-      fitted.result =
-          merged_.partial.fit_smallest_sphere(fitted.volume.emplace<Sphere>(), certificate, ask, execution_);
+      fitted.result = merged_.partial.fit_smallest_sphere(fitted.volume.emplace<Sphere>(), certificate,
+                                                          query_all_ranks, execution_);
       rounds_ += static_cast<std::size_t>(certificate.passes);
     } catch (const QueryFailed&) {
     }
     ranks_.broadcast("");
   } else {
-    for (std::string asked = ranks_.broadcast(""); !asked.empty(); asked = ranks_.broadcast("")) {
-      Question question;
-      std::memcpy(&question, asked.data(), sizeof question);
-      answer(question, failure, found);
+    for (std::string bytes = ranks_.broadcast(""); !bytes.empty(); bytes = ranks_.broadcast("")) {
+      QueryMessage query;
+      std::memcpy(&query, bytes.data(), sizeof query);
+      run_query(query, failure, found);
     }
   }
-  if (Failure agreed_on = agreed(ranks_, failure)) return agreed_on;
+  if (Failure first = first_failure(ranks_, failure)) return first;
   fitted = fitted_from(ranks_.broadcast(ranks_.first() ? bytes_of(fitted) : ""));
   return std::nullopt;
 }
@@ -222,7 +224,7 @@ Failure Attempt::check() {
     tiles_.require_unchanged();
   });
   outside_ = ranks_.sum(outside_);
-  return agreed(ranks_, failure);
+  return first_failure(ranks_, failure);
 }
 
 Failure Attempt::run() {
@@ -248,18 +250,19 @@ Report Attempt::report() const {
 
 /// Prints the cost of the run (--timings): CPU time and messages of all ranks together, and the maximum
 /// memory of a rank.
-void print_costs(Ranks& ranks, double seconds, double worked, std::size_t rounds) {
+void print_costs(Ranks& ranks, double seconds, double cpu_seconds, std::size_t rounds) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const std::vector<std::size_t> sums =
-      ranks.sum({static_cast<std::size_t>(worked * 1e6), ranks.messages_sent(), ranks.bytes_sent()});
-  const double memory = -ranks.least({-static_cast<double>(usage.ru_maxrss)}).front();
+      ranks.sum({static_cast<std::size_t>(cpu_seconds * 1e6), ranks.messages_sent(), ranks.bytes_sent()});
+  const double memory = -ranks.min_over_ranks({-static_cast<double>(usage.ru_maxrss)}).front();
   if (!ranks.first()) return;
   char text[240];
-  std::snprintf(text, sizeof text,
-                "%zu ranks: %.3f s, %.3f s of work, %zu rounds, %zu messages of %zu bytes in all, "
-                "at most %.0f KiB a rank",
-                ranks.size(), seconds, static_cast<double>(sums[0]) / 1e6, rounds, sums[1], sums[2], memory);
+  std::snprintf(
+      text, sizeof text,
+      "%zu ranks: %.3f s wall time, %.3f s CPU time, %zu query rounds, %zu messages with %zu bytes in "
+      "total, maximum memory of a rank %.0f KiB",
+      ranks.size(), seconds, static_cast<double>(sums[0]) / 1e6, rounds, sums[1], sums[2], memory);
   print_message(text);
 }
 
@@ -270,7 +273,7 @@ Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& re
   Status status = Status::done;
   if (ranks.first()) status = report_excluded_inputs(tiles);
   for (;;) {
-    if (tiles.included_count() == 0) throw IoError("none of the inputs could be read");
+    if (tiles.included_count() == 0) throw IoError("no input could be read");
     Attempt now(ranks, tiles, options);
     if (Failure failure = now.run()) {
       if (ranks.first()) report_problem(tiles.jobs()[failure->tile].input + ": " + failure->reason);
@@ -279,7 +282,7 @@ Status fit_merged(Ranks& ranks, Tiles& tiles, const Options& options, Report& re
       continue;
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    if (options.timings) print_costs(ranks, seconds.count(), now.worked(), now.rounds());
+    if (options.timings) print_costs(ranks, seconds.count(), now.cpu_seconds(), now.rounds());
     if (!ranks.first()) return status;
     report_notes(tiles);
     report = now.report();

@@ -35,16 +35,16 @@ class Ranks {
   std::string broadcast(const std::string& text, std::size_t from = 0);
 
   /// Returns the texts of all ranks, by rank.
-  std::vector<std::string> all(const std::string& text);
+  std::vector<std::string> all_gather(const std::string& text);
 
   /// Returns the element-wise sums over all ranks.
   std::vector<std::size_t> sum(std::vector<std::size_t> numbers);
 
   /// Returns the element-wise minima over all ranks.
-  std::vector<double> least(std::vector<double> numbers);
+  std::vector<double> min_over_ranks(std::vector<double> numbers);
 
   /// Sets `of_all` to the farthest points of all ranks. Returns whether any rank has `failed`.
-  bool farthest(const OctantPoints& own, bool failed, OctantPoints& of_all);
+  bool merge_farthest(const OctantPoints& own, bool failed, OctantPoints& of_all);
 
   // Messages from one rank to another.
 
@@ -55,8 +55,10 @@ class Ranks {
   /// nothing.
   std::optional<std::string> receive_any(bool wait);
 
-  std::size_t bytes_sent() const { return bytes_sent_; }        ///< By send(), broadcast() and farthest().
-  std::size_t messages_sent() const { return messages_sent_; }  ///< By send(), broadcast() and farthest().
+  // Sent by send(), broadcast() and merge_farthest().
+
+  std::size_t bytes_sent() const { return bytes_sent_; }
+  std::size_t messages_sent() const { return messages_sent_; }
 
  private:
   std::size_t rank_ = 0, size_ = 1, bytes_sent_ = 0, messages_sent_ = 0;

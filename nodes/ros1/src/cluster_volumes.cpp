@@ -42,7 +42,7 @@ StreamRunner::Callbacks ClusterVolumes::callbacks() {
   calls.on_result = [this](const Frame& frame, const FrameResult& result) { publish(frame, result); };
   calls.on_lost = [this](const Frame&, Loss loss, const std::string& reason) {
     health_.count_lost();
-    if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": a cloud is lost: " << reason);
+    if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": cloud lost: " << reason);
   };
   calls.on_silence = [this](double seconds) {
     if (subscribed_) ROS_WARN_STREAM(name_ << ": no cloud for " << seconds << " s");

@@ -18,7 +18,7 @@ namespace {
 // `config`.
 YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
   constexpr int max_depth = 16;  // settings nest 4 deep
-  if (depth > max_depth) throw ConfigError("parameters are nested more than 16 deep");
+  if (depth > max_depth) throw ConfigError("parameters have more than 16 levels");
   using Value = XmlRpc::XmlRpcValue;
   YAML::Node node;
   switch (value.getType()) {
@@ -41,7 +41,8 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
         node[key] = yaml_of(inner, depth + 1);
       return node;
     default:
-      throw ConfigError("a parameter is neither a number, a text, a list nor a group of others");
+      throw ConfigError(
+          "a parameter has a type that is not supported (supported: number, text, bool, list, map)");
   }
 }
 

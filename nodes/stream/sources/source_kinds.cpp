@@ -118,7 +118,7 @@ std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptio
 const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds = [] {
     std::vector<SourceKind> all{
-      {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:verges-sequence[-BEAMS][:FRAMES[:SEED]]",
+      {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:rural-road-sequence[-BEAMS][:FRAMES[:SEED]]",
        FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
       {"dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)", FrameTimes::live,
        [](const std::string& name) { return name.starts_with(kDds); }, open_dds},

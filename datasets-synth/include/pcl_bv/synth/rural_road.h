@@ -55,7 +55,7 @@ struct RuralRoadObject {
 struct RuralRoadFrame {
   SynthCloud cloud;
   std::vector<RuralRoadObject> objects;  ///< The objects nearer than street_max_range, by ascending id.
-  std::array<double, 12> pose{};      ///< Pose of the sensor in the fixed frame: 3 x 4 matrix, row-major.
+  std::array<double, 12> pose{};         ///< Pose of the sensor in the fixed frame: 3 x 4 matrix, row-major.
 };
 
 /// Returns the sweep at time frame * street_frame_seconds, taken at one instant. Frames are independent of
@@ -64,8 +64,8 @@ struct RuralRoadFrame {
 /// 64 beams.
 RuralRoadFrame make_rural_road_frame(const RuralRoadOptions& options, std::size_t frame);
 
-/// Returns the objects and the pose of make_rural_road_frame(), with an empty cloud. O(frame), below 1 ms for the
-/// first few thousand frames.
+/// Returns the objects and the pose of make_rural_road_frame(), with an empty cloud. O(frame), below 1 ms for
+/// the first few thousand frames.
 RuralRoadFrame make_rural_road_truth(const RuralRoadOptions& options, std::size_t frame);
 
 /// Returns the height of the ground at (x, y) in the fixed frame, metres, without the roughness (up to 4 cm).

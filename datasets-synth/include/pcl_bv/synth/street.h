@@ -43,7 +43,7 @@ struct StreetOptions {
   std::size_t beams = street_beams;
 };
 
-/// Kinds of objects. Only the rural road (verges.h) has cyclists and bridges.
+/// Kinds of objects. Only the rural road (rural_road.h) has cyclists and bridges.
 enum class SynthObjectKind : std::uint8_t { car, pedestrian, pole, house, wall, hedge, tree, cyclist, bridge };
 
 /// Returns the name of a kind: "car", "pedestrian", ...

@@ -27,8 +27,8 @@ struct SynthSpec {
 ///
 /// - `street` 128000 (street.h);
 /// - `sphere`, `box`, `gauss`, `surface` 100000 (shapes.h);
-/// - `verges` 128000, `verges-16` 28800, `verges-32` 57600, `verges-128` 230400: frame 0 of the rural road
-///   (verges.h) for a sensor with 64, 16, 32 or 128 beams;
+/// - `rural-road` 128000, `rural-road-16` 28800, `rural-road-32` 57600, `rural-road-128` 230400: frame 0 of
+///   the rural road (rural_road.h) for a sensor with 64, 16, 32 or 128 beams;
 /// - `paper-4010`, `paper-7260`, `paper-30892`, `paper-32875`, `paper-48485`, `paper-100722`, `paper-327323`:
 ///   the given number of points on a bumpy closed surface (make_surface with the number of points as its
 ///   shape). They replace the meshes of Table 1 of Karlsson, Winberg and Larsson 2010.
@@ -36,8 +36,10 @@ struct SynthSpec {
 /// POINTS is 1 to 2000000000. For `street` POINTS is the number of rays, rounded to the nearest multiple of
 /// 64 (half-way cases round up), at least 64. SEED is any unsigned 64-bit number, default 1.
 ///
+/// `verges`, the old name of `rural-road`, is still accepted, also in `verges-16`, `verges-sequence-16`, ...
+///
 /// Throws std::invalid_argument for any other text. The message gives the value and the allowed values. The
-/// scenes `paper-*` and `verges*` have a fixed size: other POINTS throw.
+/// scenes `paper-*` and `rural-road*` have a fixed size: other POINTS throw.
 SynthSpec parse_synth(std::string_view text);
 
 /// Generates the scene. Throws std::invalid_argument for a name that parse_synth does not know.
@@ -46,16 +48,16 @@ SynthCloud make_synth(const SynthSpec& spec);
 /// Returns the names that parse_synth knows, comma-separated, for help texts.
 std::string synth_names();
 
-/// A sequence of sweeps of the rural road, frame 0 to frames - 1 (verges.h).
+/// A sequence of sweeps of the rural road, frame 0 to frames - 1 (rural_road.h).
 struct RuralRoadSequenceSpec {
   std::size_t frames = 100;
   RuralRoadOptions options;
 };
 
-/// Returns whether the text begins with `verges-sequence`.
+/// Returns whether the text begins with `rural-road-sequence` or its old name `verges-sequence`.
 bool is_rural_road_sequence(std::string_view text);
 
-/// Parses `verges-sequence[-BEAMS][:FRAMES[:SEED]]`. BEAMS is 16, 32, 64 (default) or 128, FRAMES is 1 to
+/// Parses `rural-road-sequence[-BEAMS][:FRAMES[:SEED]]`. BEAMS is 16, 32, 64 (default) or 128, FRAMES is 1 to
 /// 1000000 (default 100). Throws std::invalid_argument like parse_synth.
 RuralRoadSequenceSpec parse_rural_road_sequence(std::string_view text);
 

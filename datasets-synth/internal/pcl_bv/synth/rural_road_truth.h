@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ground truth of sweeps of the rural road (verges.h) as lines of text.
+// The ground truth of sweeps of the rural road (rural_road.h) as lines of text.
 #pragma once
 
 #include <cstddef>

@@ -87,23 +87,23 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   int nearestKSearch(const PointT& point, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override {
     const FloatEnvironment environment;
-    std::vector<Neighbor>& found = room();
-    if (k > 0) tree_.nearest(place(point), static_cast<std::size_t>(k), found);
-    return answer(found, k_indices, k_sqr_distances);
+    std::vector<Neighbor>& found = result_buffer();
+    if (k > 0) tree_.nearest(point_vector(point), static_cast<std::size_t>(k), found);
+    return copy_result(found, k_indices, k_sqr_distances);
   }
 
   int nearestKSearch(const PointCloud& cloud, pcl::index_t index, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override {
-    const PointT* const point = find(cloud, index);
+    const PointT* const point = point_at(cloud, index);
     return point != nullptr ? nearestKSearch(*point, k, k_indices, k_sqr_distances)
-                            : answer({}, k_indices, k_sqr_distances);
+                            : copy_result({}, k_indices, k_sqr_distances);
   }
 
   int nearestKSearch(pcl::index_t index, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override {
-    const PointT* const point = find(index);
+    const PointT* const point = point_at(index);
     return point != nullptr ? nearestKSearch(*point, k, k_indices, k_sqr_distances)
-                            : answer({}, k_indices, k_sqr_distances);
+                            : copy_result({}, k_indices, k_sqr_distances);
   }
 
   /// Finds all points nearer than the radius or, if max_nn is not 0, the max_nn nearest of them. Returns
@@ -111,62 +111,62 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   int radiusSearch(const PointT& point, double radius, pcl::Indices& k_indices,
                    std::vector<float>& k_sqr_distances, unsigned int max_nn = 0) const override {
     const FloatEnvironment environment;
-    std::vector<Neighbor>& found = room();
+    std::vector<Neighbor>& found = result_buffer();
     if (radius > 0) {
       const bool all = max_nn == 0 || max_nn >= tree_.size();
       if (all)
-        tree_.near(place(point), radius, found);
+        tree_.near(point_vector(point), radius, found);
       else
-        tree_.nearest(place(point), max_nn, found, radius);
+        tree_.nearest(point_vector(point), max_nn, found, radius);
       const double limit = radius * radius;  // rounded as in the tree, which includes the sphere
       found.erase(std::remove_if(found.begin(), found.end(),
                                  [limit](const Neighbor& one) { return !(one.squared_distance < limit); }),
                   found.end());
       if (all && this->sorted_results_) std::sort(found.begin(), found.end());
     }
-    return answer(found, k_indices, k_sqr_distances);
+    return copy_result(found, k_indices, k_sqr_distances);
   }
 
   int radiusSearch(const PointCloud& cloud, pcl::index_t index, double radius, pcl::Indices& k_indices,
                    std::vector<float>& k_sqr_distances, unsigned int max_nn = 0) const override {
-    const PointT* const point = find(cloud, index);
+    const PointT* const point = point_at(cloud, index);
     return point != nullptr ? radiusSearch(*point, radius, k_indices, k_sqr_distances, max_nn)
-                            : answer({}, k_indices, k_sqr_distances);
+                            : copy_result({}, k_indices, k_sqr_distances);
   }
 
   int radiusSearch(pcl::index_t index, double radius, pcl::Indices& k_indices,
                    std::vector<float>& k_sqr_distances, unsigned int max_nn = 0) const override {
-    const PointT* const point = find(index);
+    const PointT* const point = point_at(index);
     return point != nullptr ? radiusSearch(*point, radius, k_indices, k_sqr_distances, max_nn)
-                            : answer({}, k_indices, k_sqr_distances);
+                            : copy_result({}, k_indices, k_sqr_distances);
   }
 
  private:
   // Returns an empty buffer that the thread reuses: allocating one for each query takes as long as a short
   // query.
-  static std::vector<Neighbor>& room() {
+  static std::vector<Neighbor>& result_buffer() {
     static thread_local std::vector<Neighbor> found;
     found.clear();
     return found;
   }
 
-  static Eigen::Vector3d place(const PointT& point) { return {point.x, point.y, point.z}; }
+  static Eigen::Vector3d point_vector(const PointT& point) { return {point.x, point.y, point.z}; }
 
-  static const PointT* find(const PointCloud& cloud, pcl::index_t index) {
+  static const PointT* point_at(const PointCloud& cloud, pcl::index_t index) {
     const auto i = static_cast<std::size_t>(index);
     return index >= 0 && i < cloud.size() ? &cloud.points[i] : nullptr;
   }
 
   // As in PCL, `index` is a position in the index list if setInputCloud() was given one.
-  const PointT* find(pcl::index_t index) const {
+  const PointT* point_at(pcl::index_t index) const {
     if (!this->input_) return nullptr;
-    if (!this->indices_) return find(*this->input_, index);
+    if (!this->indices_) return point_at(*this->input_, index);
     const auto i = static_cast<std::size_t>(index);
-    return index >= 0 && i < this->indices_->size() ? find(*this->input_, (*this->indices_)[i]) : nullptr;
+    return index >= 0 && i < this->indices_->size() ? point_at(*this->input_, (*this->indices_)[i]) : nullptr;
   }
 
-  static int answer(const std::vector<Neighbor>& found, pcl::Indices& indices,
-                    std::vector<float>& sqr_distances) {
+  static int copy_result(const std::vector<Neighbor>& found, pcl::Indices& indices,
+                         std::vector<float>& sqr_distances) {
     indices.resize(found.size());
     sqr_distances.resize(found.size());
     for (std::size_t i = 0; i < found.size(); ++i) {

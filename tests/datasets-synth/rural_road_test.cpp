@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The road with verges: its labels are right, what moves moves as it says, and it is as hard as it claims.
+// The rural road: its labels are right, moving objects move as stated, and it is as hard as it claims.
 #include "pcl_bv/synth/rural_road.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array<std::size_t, 4> sensors{16, 32, 64, 128};
 
-const RuralRoadFrame& verges_sweep(std::size_t beams, std::uint64_t seed, std::size_t frame) {
+const RuralRoadFrame& rural_road_sweep(std::size_t beams, std::uint64_t seed, std::size_t frame) {
   static std::map<std::array<std::uint64_t, 3>, RuralRoadFrame> sweeps;
   const auto [sweep, added] = sweeps.try_emplace({beams, seed, frame});
   if (added) sweep->second = make_rural_road_frame({seed, beams}, frame);
@@ -63,10 +63,10 @@ bool may_move(SynthObjectKind kind) {
          kind == SynthObjectKind::pedestrian;
 }
 
-TEST(Verges, ReturnsLieInTheBoxOfTheirObjectAndBearItsKind) {
+TEST(RuralRoad, ReturnsLieInTheBoxOfTheirObjectAndBearItsKind) {
   for (const std::size_t beams : sensors) {
     SCOPED_TRACE(beams);
-    const RuralRoadFrame& frame = verges_sweep(beams, 1, 40);
+    const RuralRoadFrame& frame = rural_road_sweep(beams, 1, 40);
     std::size_t checked = 0;
     for (std::size_t i = 0; i < frame.cloud.size(); ++i) {
       const std::uint32_t id = frame.cloud.object[i];
@@ -88,10 +88,10 @@ TEST(Verges, ReturnsLieInTheBoxOfTheirObjectAndBearItsKind) {
   }
 }
 
-TEST(Verges, APointHasOneLabelAndAllThreeOccur) {
+TEST(RuralRoad, APointHasOneLabelAndAllThreeOccur) {
   for (const std::size_t beams : sensors) {
     SCOPED_TRACE(beams);
-    const SynthCloud& cloud = verges_sweep(beams, 1, 40).cloud;
+    const SynthCloud& cloud = rural_road_sweep(beams, 1, 40).cloud;
     ASSERT_EQ(cloud.height, beams);
     std::array<std::size_t, 4> counts{};
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -112,10 +112,10 @@ TEST(Verges, APointHasOneLabelAndAllThreeOccur) {
   }
 }
 
-TEST(Verges, GroundPointsLieOnTheGroundAndGrassStandsOnIt) {
+TEST(RuralRoad, GroundPointsLieOnTheGroundAndGrassStandsOnIt) {
   for (const std::size_t beams : sensors) {
     SCOPED_TRACE(beams);
-    const RuralRoadFrame& frame = verges_sweep(beams, 2, 25);
+    const RuralRoadFrame& frame = rural_road_sweep(beams, 2, 25);
     std::size_t grown = 0, checked = 0;
     double grass = 0;
     for (std::size_t i = 0; i < frame.cloud.size(); i += 97) {
@@ -140,7 +140,7 @@ TEST(Verges, GroundPointsLieOnTheGroundAndGrassStandsOnIt) {
   }
 }
 
-TEST(Verges, VelocitiesAreTheDifferencesOfCentersInTheFixedFrame) {
+TEST(RuralRoad, VelocitiesAreTheDifferencesOfCentersInTheFixedFrame) {
   for (const std::uint64_t seed : street_seeds) {
     SCOPED_TRACE(seed);
     std::size_t moving = 0;
@@ -168,7 +168,7 @@ TEST(Verges, VelocitiesAreTheDifferencesOfCentersInTheFixedFrame) {
   }
 }
 
-TEST(Verges, YawRatesAreTheDifferencesOfHeadings) {
+TEST(RuralRoad, YawRatesAreTheDifferencesOfHeadings) {
   for (const std::uint64_t seed : street_seeds) {
     SCOPED_TRACE(seed);
     double largest = 0;
@@ -190,9 +190,9 @@ TEST(Verges, YawRatesAreTheDifferencesOfHeadings) {
   }
 }
 
-TEST(Verges, SameArgumentsSameBitsAndOtherSeedsOtherRoads) {
+TEST(RuralRoad, SameArgumentsSameBitsAndOtherSeedsOtherRoads) {
   const RuralRoadFrame again = make_rural_road_frame({1, 16}, 40);
-  const RuralRoadFrame& first = verges_sweep(16, 1, 40);
+  const RuralRoadFrame& first = rural_road_sweep(16, 1, 40);
   EXPECT_EQ(again.cloud.xyz, first.cloud.xyz);
   EXPECT_EQ(again.cloud.object, first.cloud.object);
   EXPECT_EQ(again.cloud.ground, first.cloud.ground);
@@ -206,7 +206,7 @@ TEST(Verges, SameArgumentsSameBitsAndOtherSeedsOtherRoads) {
   EXPECT_NE(make_rural_road_frame({2, 16}, 40).pose, first.pose);
 }
 
-TEST(Verges, StandingThingsStayWhereTheyAreInEveryFrameThatSeesThem) {
+TEST(RuralRoad, StandingThingsStayWhereTheyAreInEveryFrameThatSeesThem) {
   for (const std::uint64_t seed : street_seeds) {
     SCOPED_TRACE(seed);
     std::map<std::uint32_t, Vector> places;
@@ -224,16 +224,16 @@ TEST(Verges, StandingThingsStayWhereTheyAreInEveryFrameThatSeesThem) {
   }
 }
 
-TEST(Verges, PosesAreRigidAndTiltedAsTheSensorIsMounted) {
+TEST(RuralRoad, PosesAreRigidAndTiltedAsTheSensorIsMounted) {
   const std::map<std::size_t, std::array<double, 3>> mounts{// height, nose down, to a side; metres, degrees
                                                             {16, {1.2, 0, 0}},
                                                             {32, {2.4, 5, 0}},
                                                             {64, {1.73, 0, 0}},
                                                             {128, {2, 0, 2}}};
-  const std::array<double, 12> level = verges_sweep(16, 1, 40).pose;
+  const std::array<double, 12> level = rural_road_sweep(16, 1, 40).pose;
   for (const std::size_t beams : sensors) {
     SCOPED_TRACE(beams);
-    const auto& pose = verges_sweep(beams, 1, 40).pose;
+    const auto& pose = rural_road_sweep(beams, 1, 40).pose;
     const Vector x{pose[0], pose[4], pose[8]}, y{pose[1], pose[5], pose[9]}, z{pose[2], pose[6], pose[10]};
     for (const Vector& axis : {x, y, z})
       EXPECT_NEAR(dot(axis, axis), 1, 1e-12);
@@ -253,7 +253,7 @@ TEST(Verges, PosesAreRigidAndTiltedAsTheSensorIsMounted) {
   }
 }
 
-TEST(Verges, TheVehicleClimbsTurnsAndStandsWithinThreeHundredFrames) {
+TEST(RuralRoad, TheVehicleClimbsTurnsAndStandsWithinThreeHundredFrames) {
   double sharpest = 0;
   for (const std::uint64_t seed : street_seeds) {
     SCOPED_TRACE(seed);
@@ -286,11 +286,11 @@ TEST(Verges, TheVehicleClimbsTurnsAndStandsWithinThreeHundredFrames) {
   EXPECT_GE(sharpest, 25);  // where it is fast: not on every road
 }
 
-TEST(Verges, EveryKindOfThingIsSeenSomewhere) {
+TEST(RuralRoad, EveryKindOfThingIsSeenSomewhere) {
   std::array<std::size_t, 9> returns{};
   for (const std::uint64_t seed : street_seeds) {
     for (const std::size_t at : {0U, 40U, 100U, 160U, 220U}) {
-      for (const std::uint32_t kind : verges_sweep(64, seed, at).cloud.kind)
+      for (const std::uint32_t kind : rural_road_sweep(64, seed, at).cloud.kind)
         if (kind != 0) ++returns.at(kind - 1);
     }
   }
@@ -298,7 +298,7 @@ TEST(Verges, EveryKindOfThingIsSeenSomewhere) {
     EXPECT_GT(returns[kind], 300U) << name_of(static_cast<SynthObjectKind>(kind));
 }
 
-TEST(Verges, NobodyStandsWhereTheSensorDrives) {
+TEST(RuralRoad, NobodyStandsWhereTheSensorDrives) {
   for (const std::uint64_t seed : street_seeds) {
     SCOPED_TRACE(seed);
     for (std::size_t at = 0; at < 300; at += 10) {
@@ -316,9 +316,9 @@ TEST(Verges, NobodyStandsWhereTheSensorDrives) {
   }
 }
 
-TEST(Verges, TheTruthAloneIsThatOfTheFrame) {
+TEST(RuralRoad, TheTruthAloneIsThatOfTheFrame) {
   for (const std::size_t beams : sensors) {
-    const RuralRoadFrame& frame = verges_sweep(beams, 1, 40);
+    const RuralRoadFrame& frame = rural_road_sweep(beams, 1, 40);
     const RuralRoadFrame truth = make_rural_road_truth({1, beams}, 40);
     EXPECT_EQ(truth.pose, frame.pose);
     EXPECT_EQ(truth.cloud.size(), 0U);
@@ -331,7 +331,7 @@ TEST(Verges, TheTruthAloneIsThatOfTheFrame) {
   }
 }
 
-TEST(Verges, OtherNumbersOfBeamsAreRefusedWithTheNumberAndWhatIsAllowed) {
+TEST(RuralRoad, OtherNumbersOfBeamsAreRefusedWithTheNumberAndWhatIsAllowed) {
   for (const std::size_t beams : {0U, 15U, 40U, 256U}) {
     try {
       make_rural_road_frame({1, beams}, 0);
