@@ -7,9 +7,12 @@ namespace pcl_bv {
 namespace {
 
 ClusterSettings settings_of(const ClusterConfig& config) {
-  return {
-      static_cast<float>(config.tolerance),           config.effective_min_size(), config.max_size, config.min_points,
-      static_cast<float>(config.tolerance_per_metre), config.oversized};
+  return {static_cast<float>(config.tolerance),
+          config.effective_min_size(),
+          config.max_size,
+          config.min_points,
+          static_cast<float>(config.tolerance_per_metre),
+          config.oversized};
 }
 
 ClassSettings settings_of(const ClassConfig& config, const ClusterSettings& defaults) {

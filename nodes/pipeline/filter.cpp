@@ -59,7 +59,8 @@ PointFilter::PointFilter(const FilterConfig& config, UsableIsa isa)
       isa_(isa) {}
 
 bool PointFilter::keeps_all() const {
-  return min2_ == 0 && max2_ == std::numeric_limits<double>::infinity() && !has_own_box_ && !dropped_ && !cropped_;
+  return min2_ == 0 && max2_ == std::numeric_limits<double>::infinity() && !has_own_box_ && !dropped_ &&
+         !cropped_;
 }
 
 // Calls take(i, valid, kept) for each point. `kept` depends on the distance and the box of the own vehicle,

@@ -160,7 +160,8 @@ Picture picture_of(const Frame& frame, const FrameResult& result, const std::vec
   picture.up = result.config->ground.up;
   for (const Method* method : result.methods)
     picture.methods.emplace_back(method->name);
-  picture.points = ground ? subset(frame.points, result.ground.rest) : result.points_after_filter(frame.points);
+  picture.points =
+      ground ? subset(frame.points, result.ground.rest) : result.points_after_filter(frame.points);
   if (clusters) picture.labels = labels.data();
   for (std::size_t id = 0; id < result.clusters.size(); ++id) {
     std::string label = clusters ? std::to_string(id) : "";  // shown at the first volume that is not empty

@@ -57,8 +57,8 @@ std::string no_ground(const Found& f) {
   if (text.empty() || f.result.counts.ground > 0) return text;
   if (const auto other = f.other_up()) {
     const std::string tried = "try ground.up";
-    text.insert(text.find(tried) + tried.size(),
-                ' ' + format_up(other->up) + " (" + percent(other->share) + " of the points would be ground)");
+    text.insert(text.find(tried) + tried.size(), ' ' + format_up(other->up) + " (" + percent(other->share) +
+                                                     " of the points would be ground)");
   }
   return text;
 }
@@ -98,7 +98,8 @@ std::string origin_elsewhere(const Found& f) {
 std::string far_points(const Found& f) {
   if (!f.zones() || f.result.sensor.far_share < kMinFarShare) return {};
   return percent(f.result.sensor.far_share) + " of the points are 100 m or more from " +
-         text_of(f.result.sensor.position) + ", the centre of ground zones: the ground there is a rough estimate";
+         text_of(f.result.sensor.position) +
+         ", the centre of ground zones: the ground there is a rough estimate";
 }
 
 std::string level_ground(const Found& f) {

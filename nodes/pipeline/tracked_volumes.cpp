@@ -29,7 +29,7 @@ Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& poi
 }  // namespace
 
 void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config,
-                               std::size_t cluster, const PointView& points, FrameResult& result) {
+                                  std::size_t cluster, const PointView& points, FrameResult& result) {
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
   if (filters_.capacity() < first + methods) filters_.reserve(4 * (first + methods));
   if (filters_.size() < first + methods) filters_.resize(first + methods);

@@ -46,7 +46,7 @@ class TrackedVolumes {
 
  private:
   void filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config, std::size_t cluster,
-                 const PointView& points, FrameResult& result);
+                    const PointView& points, FrameResult& result);
 
   Tracker tracker_;
   TrackClock clock_;

@@ -59,7 +59,7 @@ struct ReceivedMessage {
   const std::byte* data = nullptr;  ///< Plain CDR with its encapsulation header.
   std::size_t size = 0;
   std::shared_ptr<const void> owner;  ///< Keeps the bytes alive.
-  std::int64_t sent_ns = 0;  ///< Time of sending, nanoseconds of the sender's system clock.
+  std::int64_t sent_ns = 0;           ///< Time of sending, nanoseconds of the sender's system clock.
 };
 
 /// Receives the messages of one topic. Called by one thread.

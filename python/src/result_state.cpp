@@ -80,15 +80,15 @@ void require_consistent(const FrameResult& result, std::size_t points) {
     return std::all_of(list.begin(), list.end(),
                        [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < points; });
   };
-  const bool consistent = result.points == points && !c.offsets.empty() && c.offsets.front() == 0 &&
-                          (c.size() <= 1 || !c.indices.empty() || c.offsets.back() == 0) &&
-                          std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
-                          (c.indices.empty() || c.offsets.back() == c.indices.size()) &&
-                          c.offsets.back() <= points && in_cloud(c.indices) && in_cloud(result.passed_filter) &&
-                          in_cloud(result.ground.ground) && in_cloud(result.ground.rest) &&
-                          (result.tracks.empty() || result.tracks.size() == c.size()) &&
-                          (result.class_of.empty() || result.class_of.size() == c.size()) &&
-                          result.volumes.size() == c.size() * result.methods.size();
+  const bool consistent =
+      result.points == points && !c.offsets.empty() && c.offsets.front() == 0 &&
+      (c.size() <= 1 || !c.indices.empty() || c.offsets.back() == 0) &&
+      std::is_sorted(c.offsets.begin(), c.offsets.end()) &&
+      (c.indices.empty() || c.offsets.back() == c.indices.size()) && c.offsets.back() <= points &&
+      in_cloud(c.indices) && in_cloud(result.passed_filter) && in_cloud(result.ground.ground) &&
+      in_cloud(result.ground.rest) && (result.tracks.empty() || result.tracks.size() == c.size()) &&
+      (result.class_of.empty() || result.class_of.size() == c.size()) &&
+      result.volumes.size() == c.size() * result.methods.size();
   if (!consistent) throw py::value_error("the state is inconsistent");
 }
 

@@ -101,7 +101,7 @@ TEST_F(TilesTest, SharesCoverTheCloudOnceAndBeginWhereChunksAndFilesDo) {
       EXPECT_LE(share.first, share.second);
       EXPECT_LE(share.second - share.first, 500'000 / count + 150'000);
       end = share.second;
-      if (end == 300'000 || end == 500'000) continue;     // the text file, and the cloud, end there
+      if (end == 300'000 || end == 500'000) continue;  // the text file, and the cloud, end there
       if (end > 300'000) {
         EXPECT_GE(end, 450'000);  // no share ends within the text file
       }

@@ -81,7 +81,8 @@ TEST(LocalHull, HasTheVerticesOfBruteForce) {
   }
 }
 
-// No point that is no candidate may be above a triangle of the closed surface. Returns the number of such points.
+// No point that is no candidate may be above a triangle of the closed surface. Returns the number of such
+// points.
 template <typename T>
 std::size_t expect_points_inside(const TestCloud<T>& cloud) {
   SCOPED_TRACE(cloud.name);

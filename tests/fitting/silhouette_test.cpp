@@ -121,7 +121,8 @@ TEST(Silhouette, OfACubeFromACornerIsMadeOfSixEdges) {
   const Solid shape = solid(cube);
   const Silhouette silhouette(shape.vertices, shape.triangles);
   Silhouette::Projection projection;
-  const Eigen::Vector3d u = Eigen::Vector3d(1, -1, 0).normalized(), v = Eigen::Vector3d(1, 1, -2).normalized();
+  const Eigen::Vector3d u = Eigen::Vector3d(1, -1, 0).normalized(),
+                        v = Eigen::Vector3d(1, 1, -2).normalized();
   EXPECT_EQ(silhouette.project(u, v, projection).size(), 6U);
   EXPECT_EQ(projection.rim.size(), 6U);
 }

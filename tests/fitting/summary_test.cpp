@@ -173,7 +173,7 @@ TEST(Summary, TinyDoublesAreScaledByAPowerOfTwoAndNothingElse) {
     if (i % 3 != 2) scaled.xyz[i] *= summary.covariance_scale;
   EXPECT_EQ(summary.supports.dropped, 2U);
   const CloudSummary expected = summarize(scaled.view());
-  EXPECT_EQ(expected.scale, 1);
+  EXPECT_EQ(expected.covariance_scale, 1);
   EXPECT_EQ(summary.covariance, expected.covariance);
   EXPECT_GT(summary.covariance(0, 0), 0);
   EXPECT_EQ(summary.centroid.x(), expected.centroid.x() / summary.covariance_scale);

@@ -51,8 +51,8 @@ class Mpi : public Tiled {
     return run(arguments, surroundings);
   }
 
-  /// Kills this rank once it has worked a while: it would for a minute and more. The other ranks have ten seconds
-  /// instead of one to say that they end: on a busy machine they take longer than one.
+  /// Kills this rank once it has worked a while: it would for a minute and more. The other ranks have ten
+  /// seconds instead of one to say that they end: on a busy machine they take longer than one.
   Result ranks_of_which_one_is_killed(int rank, std::vector<std::string> arguments) const {
     setenv("OMPI_MCA_odls_base_sigkill_timeout", "10", 1);
     Surroundings surroundings;

@@ -124,7 +124,8 @@ TEST_F(FrameSinks, LinesAreWholeAfterEachFrameAndSayWhatIsLost) {
   EXPECT_THAT(read("a.csv"),
               testing::EndsWith("\n3,0,17,0,2,aabb,1.25,2,3,0.5,0,0,,,,,,0,3,-2,0,1.25,2,3,0.5,,,,\n"));
   csv->write_lost(found.frame, "dropped, it seems");
-  EXPECT_THAT(read("a.csv"), testing::EndsWith("\n3,0,,,,\"error: dropped, it seems\",,,,,,,,,,,,,,,,,,,,,,,\n"));
+  EXPECT_THAT(read("a.csv"),
+              testing::EndsWith("\n3,0,,,,\"error: dropped, it seems\",,,,,,,,,,,,,,,,,,,,,,,\n"));
   const std::string heading = read("a.csv").substr(0, read("a.csv").find('\n'));
   EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 5 + 12 + 7 + 4);
   jsonl->write(found.frame, found.result);

@@ -41,7 +41,8 @@ Bytes cloud_at(std::int32_t seconds, const std::vector<float>& xyz) {
   cloud.header.stamp.sec = seconds;
   cloud.header.frame_id = "lidar";
   for (const char* name : {"x", "y", "z"})
-    cloud.fields.push_back({name, static_cast<std::uint32_t>(4 * cloud.fields.size()), msg::PointField::FLOAT32, 1});
+    cloud.fields.push_back(
+        {name, static_cast<std::uint32_t>(4 * cloud.fields.size()), msg::PointField::FLOAT32, 1});
   cloud.point_step = 12;
   cloud.width = static_cast<std::uint32_t>(xyz.size() / 3);
   cloud.row_step = 12 * cloud.width;
@@ -65,7 +66,8 @@ TEST(MessageSource, GivesTheCloudWhereItLies) {
   ASSERT_EQ(frame.points.count, 2U);
   const auto* const bytes = static_cast<const Bytes*>(frame.owner.get());
   EXPECT_GE(static_cast<const void*>(frame.points.data), static_cast<const void*>(bytes->data()));
-  EXPECT_LT(static_cast<const void*>(frame.points.data), static_cast<const void*>(bytes->data() + bytes->size()));
+  EXPECT_LT(static_cast<const void*>(frame.points.data),
+            static_cast<const void*>(bytes->data() + bytes->size()));
   EXPECT_NE(frame.taken, std::chrono::steady_clock::time_point());
   EXPECT_EQ(source->next(frame, 0ms), Next::timeout);
   EXPECT_THAT(source->take_warnings(), testing::ElementsAre("3 lost on the way"));
@@ -106,7 +108,8 @@ TEST_F(MessageSourceWithPoses, TakesThemByTimeOnly) {
     options.poses = path_ / name;
     return options;
   };
-  const auto source = vector_source({cloud_at(5, {1, 2, 3})}, with_poses("tum", "4.9 0 0 0 0 0 0 1\n5.1 2 0 0 0 0 0 1\n"));
+  const auto source =
+      vector_source({cloud_at(5, {1, 2, 3})}, with_poses("tum", "4.9 0 0 0 0 0 0 1\n5.1 2 0 0 0 0 0 1\n"));
   Frame frame;
   ASSERT_EQ(source->next(frame, 0ms), Next::frame);
   ASSERT_TRUE(frame.pose);

@@ -33,11 +33,12 @@ TEST(WithoutEffect, AreSmoothAndGrowWithoutTracksOrUprightBoxes) {
               ElementsAre("track.smooth: has no effect without track.enabled",
                           "track.grow: has no effect without track.enabled"));
   for (const char* volumes : {"obb", "obb-pca", "obb-dito14", "aabb", "dop26, sphere"})
-    EXPECT_THAT(ineffective_settings(std::string("volumes: [") + volumes + "]\ntrack: {enabled: true, grow: true}"),
-                ElementsAre("track.grow: has no effect without an upright box, obb-yaw or obb-lshape"));
+    EXPECT_THAT(
+        ineffective_settings(std::string("volumes: [") + volumes + "]\ntrack: {enabled: true, grow: true}"),
+        ElementsAre("track.grow: has no effect without an upright box, obb-yaw or obb-lshape"));
   for (const char* volumes : {"", "obb-yaw", "aabb, obb-lshape"})
     EXPECT_THAT(ineffective_settings(std::string("volumes: [") + volumes +
-                               "]\ntrack: {enabled: true, smooth: true, grow: true}"),
+                                     "]\ntrack: {enabled: true, smooth: true, grow: true}"),
                 IsEmpty());
 }
 
@@ -52,15 +53,17 @@ TEST(WithoutEffect, AreTheGrowthOfNoSphereAndTheRuleForNothingOversized) {
 }
 
 TEST(WithoutEffect, AreSettingsOfTheGroundWhereNoneIsRemoved) {
-  EXPECT_THAT(ineffective_settings("ground: {method: none, sensor_height: 1, distance: 0.1, max_slope_degrees: 5}"),
-              ElementsAre("ground.sensor_height: has no effect without ground.method",
-                          "ground.distance: has no effect without ground.method",
-                          "ground.max_slope_degrees: has no effect without ground.method"));
+  EXPECT_THAT(
+      ineffective_settings("ground: {method: none, sensor_height: 1, distance: 0.1, max_slope_degrees: 5}"),
+      ElementsAre("ground.sensor_height: has no effect without ground.method",
+                  "ground.distance: has no effect without ground.method",
+                  "ground.max_slope_degrees: has no effect without ground.method"));
   EXPECT_THAT(ineffective_settings("ground: {method: none, sensor: [1, 2, 3]}"),
               ElementsAre("ground.sensor: has no effect without ground.method zones"));
   EXPECT_THAT(ineffective_settings("ground: {method: plane, sensor: [1, 2, 3], sensor_height: 1}"),
               ElementsAre("ground.sensor: has no effect without ground.method zones"));
-  EXPECT_THAT(ineffective_settings("ground: {method: zones, sensor: [1, 2, 3], sensor_height: 1}"), IsEmpty());
+  EXPECT_THAT(ineffective_settings("ground: {method: zones, sensor: [1, 2, 3], sensor_height: 1}"),
+              IsEmpty());
 }
 
 }  // namespace

@@ -131,7 +131,8 @@ TEST(SpinningThreads, WorkForWhoeverCallsAndSleepAfterwards) {
     for (int i = 0; i < 50; ++i) {
       const SpinningThreads awake(Threads{4});
       for_each_chunk(Threads{3}, 6, [&](std::size_t) { ++calls; });
-      if (i % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));  // longer than they stay awake
+      if (i % 10 == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(3));  // longer than they stay awake
     }
   };
   {

@@ -182,7 +182,10 @@ TEST(SlabBounds, ContainWhatIsInsideAndRefuseWhatIsOutsideOfAnySlabByMoreThanRou
     for (std::size_t i = 0; i < 13; ++i) {
       const Vector3d d(kCubeDirections[i][0], kCubeDirections[i][1], kCubeDirections[i][2]);
       const double up = Expansion().add_dot(d, p).up(), down = Expansion().add_dot(d, p).down();
-      const double doubt = i < 3 ? 0 : 8 * kUnitRoundoff * taxicab3(p);  // the sum's own rounding and the 4 kUnitRoundoff asked for
+      const double doubt =
+          i < 3
+              ? 0
+              : 8 * kUnitRoundoff * taxicab3(p);  // the sum's own rounding and the 4 kUnitRoundoff asked for
       ASSERT_TRUE(slab(i, -kInfinity, up).contains(p)) << i;
       ASSERT_TRUE(slab(i, down, kInfinity).contains(p)) << i;
       ASSERT_FALSE(slab(i, -kInfinity, next_down(down - doubt)).contains(p)) << i;

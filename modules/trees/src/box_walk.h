@@ -45,7 +45,8 @@ void visit_nearest_first(const BoxLevels& boxes, std::size_t level, std::size_t 
   };
   std::array<Child, kTreeWidth> children;
   const auto of_boxes = bounds(boxes.first[level] + group);
-  const std::size_t first = group * kTreeWidth, count = std::min(kTreeWidth, boxes.child_counts[level] - first);
+  const std::size_t first = group * kTreeWidth,
+                    count = std::min(kTreeWidth, boxes.child_counts[level] - first);
   const double largest = std::min<double>(limit(), std::numeric_limits<double>::max());
   std::size_t entered = 0;
   for (std::size_t k = 0; k < count; ++k) {

@@ -114,8 +114,8 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
   if (line.given("--stamps") && t.stamps != "rate" && t.stamps != "name")
     reject_value("--stamps", t.stamps, "is not rate or name");
   replay.own_stamps = line.given("--stamps")
-                         ? t.stamps == "name"
-                         : times == FrameTimes::messages || (recorded && times == FrameTimes::names);
+                          ? t.stamps == "name"
+                          : times == FrameTimes::messages || (recorded && times == FrameTimes::names);
   replay.topic = t.topic;
   if (line.given("--topic") && times != FrameTimes::messages)
     throw UsageError("--topic: only useful with a recording");

@@ -121,7 +121,8 @@ class Reader {
   // Waits until the frame is processed or the next one is due. Reading the next file would take a core and
   // caches from the processing, which a live sensor does not do.
   void leave_the_worker_alone(Clock::time_point until) {
-    while (wanted() && Clock::now() < until && !runner_.wait_idle(std::min(until, Clock::now() + kPollInterval)))
+    while (wanted() && Clock::now() < until &&
+           !runner_.wait_idle(std::min(until, Clock::now() + kPollInterval)))
       ;
   }
 

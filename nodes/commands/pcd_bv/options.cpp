@@ -154,7 +154,8 @@ ShareOption parse_share(const std::string& text) {
   return share;
 }
 
-void reject_combinations(const CommandLine& line, const char* option, std::initializer_list<const char*> others) {
+void reject_combinations(const CommandLine& line, const char* option,
+                         std::initializer_list<const char*> others) {
   for (const char* other : others) {
     if (line.given(other)) throw UsageError(std::string(option) + ": cannot be combined with " + other);
   }
@@ -178,9 +179,10 @@ void reject_for_tiled_cloud(const CommandLine& line, const Options& options) {
   reject_combinations(line, option, {"--image", "--view-html", "--check", "--info"});
   if (options.merge)
     reject_combinations(line, option,
-                {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
-                 "--bin-fields", "--topic"});
-  if (options.partial) reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
+                        {"--together", "--part", "--origin", "--range", "--drop-inside", "--keep-inside",
+                         "--bin-fields", "--topic"});
+  if (options.partial)
+    reject_combinations(line, "--partial", {"--format", "--output", "--mesh", "--timings"});
   if (options.partial && !options.merge)
     reject(options.origin.requested && !options.origin.at, "--origin auto: each share would have its own");
   for (const Method* method : config.methods()) {

@@ -41,8 +41,8 @@ struct Options {
   OutputFormat format = OutputFormat::text;
   std::optional<std::filesystem::path> output, labels, mesh, image, view_html;
   ViewFrom view = ViewFrom::iso;
-  bool tiled = false;     ///< All inputs are one cloud; also set by --partial without --merge.
-  bool merge = false;     ///< Inputs are files of partial results.
+  bool tiled = false;  ///< All inputs are one cloud; also set by --partial without --merge.
+  bool merge = false;  ///< Inputs are files of partial results.
   std::optional<std::filesystem::path> partial;  ///< File for partial results; then no volumes are written.
   ShareOption share;                             ///< The share of points that the partial results cover.
   bool threads_given = false;                    ///< Whether --threads was given.

@@ -25,7 +25,7 @@ namespace pcl_bv {
 struct TileHeader {
   std::size_t points = 0;
   ScalarType scalar = ScalarType::float32;
-  bool random_access = false;            ///< Parts can be read by position (CloudHeader); not if small.
+  bool random_access = false;          ///< Parts can be read by position (CloudHeader); not if small.
   std::optional<std::string> error{};  ///< Why it is excluded; then it has no points.
   std::string note{};                  ///< As in RawCloud, as far as the header tells.
 };

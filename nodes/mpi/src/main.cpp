@@ -84,7 +84,7 @@ int run(Ranks& ranks, int argc, char** argv, InterruptAction& interrupted) {
   std::variant<Options, std::string> parsed;
   std::vector<Job> inputs, jobs;
   const bool valid = run_on_all_ranks(ranks, [&] {
-    parsed = parse_options(argc, argv, PcdBvCommand::ranks);
+    parsed = parse_options(argc, argv, PcdBvCommand::mpi);
     const auto* const options = std::get_if<Options>(&parsed);
     if (options == nullptr) return;
     check_options_for_ranks(*options);

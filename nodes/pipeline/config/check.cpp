@@ -64,8 +64,8 @@ void check_combinations(const PipelineConfig& c, std::vector<ConfigProblem>& pro
   if (c.cluster.class_field && c.cluster.tolerance == 0)
     add("cluster.class_field", "needs a cluster.tolerance above 0: with 0, all points are one object");
   if (c.cluster.effective_min_size() > c.cluster.max_size) {
-    add("cluster.max_size",
-        to_text(c.cluster.max_size) + " is below cluster.min_size, " + to_text(c.cluster.effective_min_size()));
+    add("cluster.max_size", to_text(c.cluster.max_size) + " is below cluster.min_size, " +
+                                to_text(c.cluster.effective_min_size()));
   }
   check_classes(c.cluster, problems);
 }

@@ -241,7 +241,7 @@ void read_text(std::string_view text, std::size_t& value);
 void read_text(std::string_view text, Eigen::Vector3d& direction);
 void read_text(std::string_view text, std::string& name);
 void read_text(std::string_view text,
-               std::vector<std::string>& names);  ///< `all` means methods_of_all().
+               std::vector<std::string>& names);                            ///< `all` means methods_of_all().
 void read_text(std::string_view text, std::vector<RegionConfig>& regions);  ///< One with this file name.
 void read_text(std::string_view text, std::vector<ClassConfig>& classes);   ///< One with this value.
 void read_text(std::string_view text, GroundMethod& method);

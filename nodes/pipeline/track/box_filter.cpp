@@ -13,12 +13,12 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kVoteDecay = 0.9;         // decay of the votes for the front, per frame
-constexpr double kVoteLead = 2;            // votes by which another front must lead
-constexpr double kMovingDecay = 0.5;    // decay of the mean yaw per frame, if the object moves
-constexpr double kStaticDecay = 0.97;  // decay of the mean yaw per frame, if it is static
-constexpr double kMaxGrowth = 0.15;          // metres per frame; largest growth of a size
-constexpr std::size_t kFreeDetections = 5;        // first detections, whose sizes may grow by any step
+constexpr double kVoteDecay = 0.9;          // decay of the votes for the front, per frame
+constexpr double kVoteLead = 2;             // votes by which another front must lead
+constexpr double kMovingDecay = 0.5;        // decay of the mean yaw per frame, if the object moves
+constexpr double kStaticDecay = 0.97;       // decay of the mean yaw per frame, if it is static
+constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
+constexpr std::size_t kFreeDetections = 5;  // first detections, whose sizes may grow by any step
 
 // Rotates axes 0 and 1 about axis 2 by quarters of a turn: axis 1 becomes axis 0, and so on.
 Eigen::Matrix3d rotated_by_quarters(const Eigen::Matrix3d& axes, int quarters) {

@@ -9,9 +9,9 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kMaxShift = 4;     // metres per frame: 40 m/s at 10 Hz
+constexpr double kMaxShift = 4;      // metres per frame: 40 m/s at 10 Hz
 constexpr double kAgreement = 0.35;  // metres; centres of partial views jump by decimetres
-constexpr double kMaxSize = 6;   // metres; the centre of a longer wall depends on where its view ends
+constexpr double kMaxSize = 6;       // metres; the centre of a longer wall depends on where its view ends
 constexpr std::size_t kMinPairs = 6;
 constexpr double kBin = 0.5;
 constexpr int kBins = 17;  // 2 kMaxShift / kBin + 1

@@ -9,11 +9,12 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kWindow = 0.55;               // seconds; the window that is evaluated
-constexpr double kSpacing = 0.09;              // seconds between stored measurements
-constexpr double kMinTime = 0.15;              // seconds; shortest time that allows a decision
-constexpr double kMinShift = 0.3;                // metres; smallest displacement of a moving object
-constexpr double kStartSpeed = 0.7, kStopSpeed = 0.5;  // m/s; moving starts above kStartSpeed and ends below kStopSpeed
+constexpr double kWindow = 0.55;   // seconds; the window that is evaluated
+constexpr double kSpacing = 0.09;  // seconds between stored measurements
+constexpr double kMinTime = 0.15;  // seconds; shortest time that allows a decision
+constexpr double kMinShift = 0.3;  // metres; smallest displacement of a moving object
+constexpr double kStartSpeed = 0.7,
+                 kStopSpeed = 0.5;  // m/s; moving starts above kStartSpeed and ends below kStopSpeed
 // Smallest dot product of the velocities of both halves, relative to the larger of their squares.
 constexpr double kMinAlignment = 0.25;
 

@@ -10,10 +10,10 @@ namespace pcl_bv {
 namespace {
 
 constexpr double kFaceVariance = 0.1 * 0.1;  // m^2; variance of a measured face
-constexpr double kFirstSpeed = 8;             // m/s; standard deviation of an unknown velocity
-constexpr double kManoeuvre = 0.3;            // m^2/s^3; noise of the acceleration: 1.7 m/s^2 for 0.1 s
-constexpr double kTurnNoise = 0.1;              // 1/s; the same per squared speed: 57 degrees/s for 0.1 s
-constexpr double kMaxSpeed = 60;               // m/s; limit of the speed
+constexpr double kFirstSpeed = 8;            // m/s; standard deviation of an unknown velocity
+constexpr double kManoeuvre = 0.3;           // m^2/s^3; noise of the acceleration: 1.7 m/s^2 for 0.1 s
+constexpr double kTurnNoise = 0.1;           // 1/s; the same per squared speed: 57 degrees/s for 0.1 s
+constexpr double kMaxSpeed = 60;             // m/s; limit of the speed
 constexpr double kMinStep = 0.03;            // seconds; smallest step that gives a first velocity
 
 // Returns the variances along the axes after a rotation: the diagonal of R diag(v) R^T.

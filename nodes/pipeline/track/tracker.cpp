@@ -16,7 +16,7 @@
 namespace pcl_bv {
 namespace {
 
-constexpr double kGateCost = 16;         // four standard deviations, squared
+constexpr double kGateCost = 16;                   // four standard deviations, squared
 constexpr std::size_t kOccludedFramesPerMiss = 4;  // occluded frames that count as one missed frame
 constexpr std::size_t kSplitDetections = 5;        // detections in a row that prove a split
 

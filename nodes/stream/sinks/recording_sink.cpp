@@ -59,7 +59,8 @@ std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkDescription& description)
 }  // namespace
 
 std::vector<SinkKind> recording_sinks() {
-  return {{"mcap", "FILE[,points]", "", open_mcap_sink}, {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink}};
+  return {{"mcap", "FILE[,points]", "", open_mcap_sink},
+          {"rosbag2", "FOLDER[,points]", "", open_rosbag2_sink}};
 }
 
 }  // namespace pcl_bv

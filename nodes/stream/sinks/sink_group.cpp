@@ -40,7 +40,7 @@ void remove_empty_folders(const fs::path& path, const fs::path& outermost) {
 
 struct SinkGroup::Member {
   std::string name;
-  std::unique_ptr<FrameSink> sink;  // null after it was given up
+  std::unique_ptr<FrameSink> sink;   // null after it was given up
   std::uint64_t missing_frames = 0;  // number of frames that were not written
   std::string last_problem;
   mutable std::mutex mutex;

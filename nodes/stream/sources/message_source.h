@@ -18,7 +18,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 /// every frame. Of `options`, only class_field, frame_id and poses by time (TUM) are used.
 /// FrameSource::next() throws FrameError for a message that is not a PointCloud2. This function throws
 /// IoError if the poses cannot be read or are not by time, and std::invalid_argument if `receiver` is null.
-std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver> receiver, const std::string& name,
-                                                 const ReplayOptions& options = {});
+std::unique_ptr<FrameSource> make_message_source(std::unique_ptr<MessageReceiver> receiver,
+                                                 const std::string& name, const ReplayOptions& options = {});
 
 }  // namespace pcl_bv

@@ -39,8 +39,8 @@ std::int64_t stamp_of(const ParsedTime& time);
 /// The stamps of all names of a folder, read in one format.
 struct NameTimes {
   std::vector<std::int64_t> stamps;  ///< Nanoseconds; -1 for a name without a time.
-  bool sort = false;     ///< The order of the names is not that of their times: sort by time.
-  std::string warning{};  ///< Warning that the times do not ascend; usually empty.
+  bool sort = false;                 ///< The order of the names is not that of their times: sort by time.
+  std::string warning{};             ///< Warning that the times do not ascend; usually empty.
 };
 
 /// Returns the stamps of names given in their natural order, in the format whose times ascend, if there is

@@ -99,9 +99,9 @@ struct RecordedClouds::State {
   std::unique_ptr<RecordingReader> reader;
   std::unique_ptr<VelodyneReader> packets;  // used instead of `reader` for a packet capture
   std::size_t topic = 0;
-  std::size_t next = 0;  // number of the next cloud in the file
-  std::map<std::size_t, std::function<RawCloud()>> skipped;      // by number: the cloud, or its error
-  std::string note;                                              // of the last cloud that was read
+  std::size_t next = 0;                                      // number of the next cloud in the file
+  std::map<std::size_t, std::function<RawCloud()>> skipped;  // by number: the cloud, or its error
+  std::string note;                                          // of the last cloud that was read
   std::map<std::size_t, std::string> notes;  // by number: notes that differ from the one before
   std::vector<std::string> taken;            // warnings that take_warnings() has returned
   mutable std::mutex mutex;

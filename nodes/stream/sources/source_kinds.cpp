@@ -118,12 +118,12 @@ std::unique_ptr<FrameSource> open_dds(const std::string& name, const ReplayOptio
 const std::vector<SourceKind>& source_kinds() {
   static const std::vector<SourceKind> kinds = [] {
     std::vector<SourceKind> all{
-      {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:rural-road-sequence[-BEAMS][:FRAMES[:SEED]]",
-       FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
-      {"dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)", FrameTimes::live,
-       [](const std::string& name) { return name.starts_with(kDds); }, open_dds},
-      {"A folder of clouds, one file", FrameTimes::names, [](const std::string&) { return true; },
-       open_folder}};
+        {"synth:street-sequence[:FRAMES[:SEED]]\nor synth:rural-road-sequence[-BEAMS][:FRAMES[:SEED]]",
+         FrameTimes::none, [](const std::string& name) { return name.starts_with(kSynth); }, open_synth},
+        {"dds:TOPIC of ROS 2 (sensor_msgs/msg/PointCloud2)", FrameTimes::live,
+         [](const std::string& name) { return name.starts_with(kDds); }, open_dds},
+        {"A folder of clouds, one file", FrameTimes::names, [](const std::string&) { return true; },
+         open_folder}};
     const std::vector<SourceKind> recordings = recording_kinds();
     all.insert(all.end() - 1, recordings.begin(), recordings.end());
     return all;

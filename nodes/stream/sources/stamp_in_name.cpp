@@ -70,7 +70,8 @@ bool are_unpadded(const Times& times) {
 // number.
 bool are_frame_numbers(const Times& times) {
   for (std::size_t i = 1; i < times.size(); ++i) {
-    if (!times[i].may_be_frame_number || times[i].seconds != times[0].seconds || !times[i - 1].may_be_frame_number ||
+    if (!times[i].may_be_frame_number || times[i].seconds != times[0].seconds ||
+        !times[i - 1].may_be_frame_number ||
         std::stoll(times[i].fraction) != std::stoll(times[i - 1].fraction) + 1)
       return false;
   }

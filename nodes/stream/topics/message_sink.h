@@ -25,6 +25,7 @@ struct MessageTopics {
 /// Humble and later), the messages enabled in `topics`, and "/diagnostics" once per second of stream time. A
 /// frame without a frame_id gets "lidar", since viewers need one. Throws std::invalid_argument if `carrier`
 /// is null.
-std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageSender> carrier, const MessageTopics& topics = {});
+std::unique_ptr<FrameSink> make_message_sink(std::unique_ptr<MessageSender> carrier,
+                                             const MessageTopics& topics = {});
 
 }  // namespace pcl_bv

@@ -44,7 +44,17 @@ struct StreetOptions {
 };
 
 /// Kinds of objects. Only the rural road (rural_road.h) has cyclists and bridges.
-enum class SynthObjectKind : std::uint8_t { car, pedestrian, pole, house, wall, hedge, tree, cyclist, bridge };
+enum class SynthObjectKind : std::uint8_t {
+  car,
+  pedestrian,
+  pole,
+  house,
+  wall,
+  hedge,
+  tree,
+  cyclist,
+  bridge
+};
 
 /// Returns the name of a kind: "car", "pedestrian", ...
 std::string_view name_of(SynthObjectKind kind);

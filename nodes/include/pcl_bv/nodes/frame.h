@@ -68,7 +68,8 @@ inline std::optional<Eigen::Vector3d> stored_sensor_position(const Eigen::Vector
   return is_place ? std::optional(noted) : std::nullopt;
 }
 
-/// Returns the sensor position of VIEWPOINT of a .pcd file in the frame of the points, as stored_sensor_position().
+/// Returns the sensor position of VIEWPOINT of a .pcd file in the frame of the points, as
+/// stored_sensor_position().
 inline std::optional<Eigen::Vector3d> sensor_of(const RawCloud& cloud) {
   return stored_sensor_position({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
 }

@@ -27,7 +27,7 @@ class FrameWarnings {
  private:
   std::shared_ptr<const PipelineConfig> config_;
   std::uint32_t returned_ = 0;  // kinds already returned, one bit each
-  bool searched_ = false;   // another up direction was searched because of little ground
+  bool searched_ = false;       // another up direction was searched because of little ground
 };
 
 }  // namespace pcl_bv

@@ -24,7 +24,7 @@ namespace [[gnu::visibility("default")]] pcl_bv {
 struct RegionConfig {
   std::filesystem::path file;  ///< Read by read_volumes() if `volumes` is empty.
   bool keep = false;           ///< true: drop points outside all such regions; false: drop points inside.
-  double padding = 0;  ///< Inflation of the volumes in every direction, metres (trees/region_mask.h).
+  double padding = 0;          ///< Inflation of the volumes in every direction, metres (trees/region_mask.h).
   std::vector<AnyVolume> volumes{};
 };
 

@@ -35,8 +35,8 @@ struct VolumeShape {
   };
   Kind kind = Kind::lines;
   std::array<double, 3> position{};
-  std::array<double, 4> orientation{0, 0, 0, 1};  ///< x, y, z, w.
-  std::array<double, 3> size{};                   ///< Full lengths along its axes; 1 for lines.
+  std::array<double, 4> orientation{0, 0, 0, 1};   ///< x, y, z, w.
+  std::array<double, 3> size{};                    ///< Full lengths along its axes; 1 for lines.
   std::vector<std::array<double, 3>> line_points;  ///< Two points per line, in the frame of the points.
 };
 
